@@ -1,0 +1,29 @@
+# Third-party libraries, as imported targets. script/bootstrap installs the Debian packages they come from.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+pkg_check_modules(gmpxx REQUIRED IMPORTED_TARGET gmpxx)
+pkg_check_modules(mpfr REQUIRED IMPORTED_TARGET mpfr)
+pkg_check_modules(ginac REQUIRED IMPORTED_TARGET ginac)
+pkg_check_modules(cln REQUIRED IMPORTED_TARGET cln)
+pkg_check_modules(cairomm REQUIRED IMPORTED_TARGET cairomm-1.16)
+find_package(yaml-cpp REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(TBB REQUIRED)
+
+# FLINT 2.9 ships neither a CMake package nor a pkg-config file.
+find_path(FLINT_INCLUDE_DIR flint/fmpz_mpoly_factor.h REQUIRED)
+find_library(FLINT_LIBRARY flint REQUIRED)
+add_library(flint INTERFACE IMPORTED)
+target_include_directories(flint SYSTEM INTERFACE "${FLINT_INCLUDE_DIR}")
+target_link_libraries(flint INTERFACE "${FLINT_LIBRARY}" PkgConfig::mpfr)
+
+# CGAL is header-only; its CMake package sets flags we do not want, so only the headers are used.
+find_path(CGAL_INCLUDE_DIR CGAL/Arr_algebraic_segment_traits_2.h REQUIRED)
+find_path(BOOST_INCLUDE_DIR boost/version.hpp REQUIRED)
+add_library(cgal INTERFACE IMPORTED)
+target_include_directories(cgal SYSTEM INTERFACE "${CGAL_INCLUDE_DIR}" "${BOOST_INCLUDE_DIR}")
+target_compile_definitions(cgal INTERFACE CGAL_USE_CORE=1 CGAL_USE_GMP=1 CGAL_USE_MPFR=1 CGAL_NDEBUG=1)
+target_link_libraries(cgal INTERFACE PkgConfig::mpfr PkgConfig::gmpxx)

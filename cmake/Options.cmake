@@ -1,0 +1,41 @@
+# What a build can choose, and the flags every target of this project is compiled with.
+option(CLEARLOCI_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(CLEARLOCI_BUILD_BENCHMARKS "Build the benchmarks" OFF)
+option(CLEARLOCI_WARNINGS_AS_ERRORS "Treat warnings in this project's code as errors" OFF)
+set(CLEARLOCI_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(CLEARLOCI_CCACHE ccache)
+if(CLEARLOCI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CLEARLOCI_CCACHE}")
+endif()
+
+if(CLEARLOCI_SANITIZE)
+  add_compile_options(-fsanitize=${CLEARLOCI_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  add_link_options(-fsanitize=${CLEARLOCI_SANITIZE})
+endif()
+
+# clearloci_folder(<folder> [sources...]): the folder's static library clearloci_<folder>, alias clearloci::<folder>.
+function(clearloci_folder folder)
+  add_library(clearloci_${folder} STATIC ${ARGN})
+  add_library(clearloci::${folder} ALIAS clearloci_${folder})
+  set_target_properties(clearloci_${folder} PROPERTIES EXPORT_NAME ${folder})
+  target_include_directories(clearloci_${folder} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/clearloci>)
+  target_compile_features(clearloci_${folder} PUBLIC cxx_std_20)
+  clearloci_warnings(clearloci_${folder})
+endfunction()
+
+function(clearloci_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<BOOL:${CLEARLOCI_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()
