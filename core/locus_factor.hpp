@@ -1,0 +1,52 @@
+// What symbolic/ hands to loci/: factors of Cramer determinants over the root tower, each with its cause and the
+// reactions that vanish with it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/polynomial.hpp"
+#include "core/root_tower.hpp"
+
+namespace clearloci::core {
+
+/// What can vanish. `f`: both force components of a revolute joint; `M`: an actuator's couple.
+enum class Quantity { f, M, fx, fy };
+
+std::string to_string(Quantity quantity);
+
+/// A reaction that vanishes on a factor. `multiplicity`: how often the factor divides its numerator.
+struct Vanishing {
+  std::string joint;
+  Quantity quantity = Quantity::f;
+  int multiplicity = 1;
+
+  bool operator==(const Vanishing&) const = default;
+};
+
+enum class FactorRole { reaction, margin, direct_singularity, workspace_boundary };
+
+/// One factor of a numerator, of |A|, or of a Qj.
+struct LocusFactor {
+  FactorRole role = FactorRole::reaction;
+  std::string expression;            ///< over the points' coordinates: "x - xB2"
+  std::string cause;                 ///< "link PB2 parallel to the load"; empty where it has no such reading
+  std::vector<Vanishing> vanishing;  ///< components (fx, fy, M) that vanish with it; margins: the quantity held
+  Polynomial sheet;                  ///< in (x, y, s1...sm), multilinear in the roots; zero exactly where the factor is
+  std::vector<Polynomial> implicit;  ///< irreducible over Z in (x, y): together they contain its zeros in every mode
+};
+
+/// Everything needed to trace: no mechanism any more, only curves.
+struct LocusProblem {
+  RootTower tower;
+  std::vector<Rational> lower;  ///< box, one per coordinate
+  std::vector<Rational> upper;
+  std::vector<WorkingMode> modes;     ///< the modes to trace
+  std::vector<LocusFactor> factors;   ///< reactions, margins, |A| and every Qj
+  std::vector<Quantity> quantities;   ///< kinds of reaction loci wanted: f (from fx and fy), M, fx, fy
+  std::vector<std::string> joints;    ///< joints wanted
+  double tolerance = 1e-5;            ///< chord deviation, m
+};
+
+}  // namespace clearloci::core

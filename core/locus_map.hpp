@@ -1,0 +1,108 @@
+// What loci/ hands to report/ and to the user: the traced discontinuity loci (results.md, loci.json).
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/locus_factor.hpp"
+
+namespace clearloci::core {
+
+using Point2 = std::array<double, 2>;
+using Polyline = std::vector<Point2>;
+
+/// Gravest first; a curve takes the gravest kind of what vanishes on it.
+enum class LocusKind { contact_loss, backlash, component, margin, direct_singularity, workspace_boundary };
+
+/// "contact-loss", "backlash", ... as written in loci.json.
+std::string to_string(LocusKind kind);
+
+/// Where an arc ends. `none`: the arc is closed.
+enum class ArcEnd { none, boundary, direct_singularity, box, crossing };
+
+std::string to_string(ArcEnd end);
+
+struct Arc {
+  bool closed = false;  ///< a closed arc repeats its first point at the end
+  std::array<ArcEnd, 2> ends = {ArcEnd::none, ArcEnd::none};
+  double length = 0;  ///< m
+  Polyline points;
+};
+
+/// a x + b y + c = 0, coprime integers.
+struct LineForm {
+  Rational a, b, c;
+};
+
+/// Centre exact; radius^2 exact, `radius` exact where radius^2 is the square of a rational.
+struct CircleForm {
+  std::array<Rational, 2> centre;
+  Rational radius_squared;
+  std::optional<Rational> radius;
+};
+
+/// A non-circular conic a x^2 + b x y + c y^2 + d x + e y + f = 0.
+struct ConicForm {
+  std::string type;                       ///< "ellipse", "hyperbola", "parabola"
+  std::array<Rational, 6> coefficients;   ///< a, b, c, d, e, f
+  std::optional<Point2> centre;           ///< absent for a parabola
+  std::optional<std::array<double, 2>> semi_axes;  ///< ellipse, hyperbola: along `angle` and across
+  double angle = 0;                       ///< rad, of the first axis
+};
+
+using ClosedForm = std::variant<std::monostate, LineForm, CircleForm, ConicForm>;
+
+/// The closed form of an irreducible polynomial in (x, y), if it is a line or a conic with real points.
+ClosedForm recognise_closed_form(const Polynomial& implicit);
+
+/// One curve: an irreducible polynomial, in one working mode, with everything that vanishes on it there.
+struct LocusCurve {
+  std::string id;  ///< "c1"
+  LocusKind kind = LocusKind::contact_loss;
+  std::vector<Vanishing> vanishing;
+  std::string factor;     ///< LocusFactor::expression
+  std::string cause;      ///< LocusFactor::cause
+  Polynomial implicit;    ///< in (x, y), primitive over Z
+  ClosedForm closed_form;
+  WorkingMode mode;
+  bool certified = false;
+  std::vector<Arc> arcs;
+};
+
+struct IsolatedPoint {
+  LocusKind kind = LocusKind::contact_loss;
+  std::vector<Vanishing> vanishing;
+  std::vector<double> at;  ///< one value a coordinate
+  WorkingMode mode;
+  bool certified = false;
+};
+
+/// The workspace of one mode inside the box: rings to be filled by the even-odd rule.
+struct WorkspaceRegion {
+  WorkingMode mode;
+  std::vector<Polyline> rings;
+};
+
+struct LocusMap {
+  std::string mechanism;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name, exact value ("1/2")
+  RootTower tower;                                              ///< names of coordinates and of the modes' points
+  std::vector<Rational> lower, upper;                           ///< box
+  double tolerance = 0;
+  bool complete = true;
+  std::vector<std::string> notes;  ///< degenerate mathematics worth a sentence, e.g. a reaction that is zero everywhere
+  std::vector<LocusCurve> curves;
+  std::vector<IsolatedPoint> isolated_points;
+  std::vector<WorkspaceRegion> workspace;
+  std::vector<std::pair<std::string, double>> timing;  ///< stage, s
+};
+
+/// {"B1": "right", "B2": "left"} in the order of the tower.
+std::vector<std::pair<std::string, std::string>> describe_mode(const RootTower& tower, const WorkingMode& mode);
+
+}  // namespace clearloci::core

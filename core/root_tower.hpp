@@ -1,0 +1,43 @@
+// The configuration over the workspace as a tower of square roots (method.md section 1):
+//     K = Q(x, y)[s1, ..., sm],   sj^2 = Qj(x, y, s1, ..., s_{j-1})
+// A point on a sheet of the tower is a pose; the signs of the roots are the working mode.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/polynomial.hpp"
+
+namespace clearloci::core {
+
+/// What choosing the other sign of a root means.
+enum class RootRole {
+  working_mode,  ///< the other assembly of a dyad or slider: both signs are postures
+  length,        ///< a distance: always the positive root
+};
+
+/// One root s = +-sqrt(square). `point` is the constructed point that it places ("B1").
+struct Root {
+  std::string name;   ///< "s1"
+  std::string point;  ///< constructed point, e.g. "B1"
+  RootRole role = RootRole::working_mode;
+  Polynomial square;  ///< in (coordinates..., s1...sm), where only earlier roots occur; a positive multiple of Q_j
+};
+
+struct RootTower {
+  std::vector<std::string> coordinates;  ///< names of the free coordinates, e.g. {"x", "y"}
+  std::vector<Root> roots;
+  /// Squared distances that the construction divides by (the D of method.md section 1, cleared of denominators),
+  /// in (coordinates..., s1...sm): >= 0 everywhere; where one vanishes the construction is undefined.
+  std::vector<Polynomial> denominators;
+
+  int variables() const { return static_cast<int>(coordinates.size() + roots.size()); }
+};
+
+/// Sign of every root of the tower, +1 (left, ahead) or -1 (right, behind); +1 for roots of role `length`.
+using WorkingMode = std::vector<int>;
+
+/// Every combination of signs of the `working_mode` roots, the given mode first.
+std::vector<WorkingMode> all_working_modes(const RootTower& tower, const WorkingMode& first);
+
+}  // namespace clearloci::core
