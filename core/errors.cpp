@@ -23,10 +23,9 @@ InputError::InputError(SourcePosition position, std::string problem, std::string
       problem_(std::move(problem)),
       mend_(std::move(mend)) {}
 
-void ensure(bool promise, std::string_view what, std::source_location place) {
+void ensure(bool promise, std::string_view what, const char* file, int line) {
   if (promise) return;
-  throw std::logic_error(std::string(place.file_name()) + ":" + std::to_string(place.line()) + ": " +
-                         place.function_name() + ": broken promise: " + std::string(what));
+  throw std::logic_error(std::string(file) + ":" + std::to_string(line) + ": broken promise: " + std::string(what));
 }
 
 }  // namespace clearloci::core

@@ -2,7 +2,6 @@
 // `ensure`, and degenerate mathematics is a value that the caller receives.
 #pragma once
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -37,7 +36,8 @@ class LimitReached : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A promise of our own code, checked in every build: throws std::logic_error naming the place.
-void ensure(bool promise, std::string_view what, std::source_location place = std::source_location::current());
+/// A promise of our own code, checked in every build: throws std::logic_error naming the place, which the defaults fill
+/// in (std::source_location is not to be had with Clang 14).
+void ensure(bool promise, std::string_view what, const char* file = __builtin_FILE(), int line = __builtin_LINE());
 
 }  // namespace clearloci::core
