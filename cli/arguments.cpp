@@ -1,0 +1,166 @@
+#include "cli/arguments.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "core/errors.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/read.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+/// A wrong option has no line and column; its name stands where the file's would.
+[[noreturn]] void refuse(const std::string& option, const std::string& problem, const std::string& mend) {
+  throw core::InputError({.file = option}, problem, mend);
+}
+
+std::vector<std::string> dyad_names(const mechanism::Mechanism& mechanism) {
+  std::vector<std::string> names;
+  for (const mechanism::PointIndex point : mechanism::dyad_points(mechanism))
+    names.push_back(mechanism.points[static_cast<std::size_t>(point)].name);
+  return names;
+}
+
+std::optional<int> whole_number(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
+  command.add_option("MODEL", arguments.model, "The mechanism file (YAML)")->required();
+  command.add_option("--set", arguments.overrides, "Override a parameter of the file: name=value (repeatable)")
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", arguments.output, "Folder for the files that are written");
+  command.add_flag("--quiet", arguments.quiet, "No table, no progress bar");
+  command.add_flag("--json", arguments.json, "The result as JSON on standard output instead of the table");
+}
+
+mechanism::Mechanism read_model(const CommonArguments& arguments) {
+  std::vector<mechanism::Override> overrides;
+  for (const std::string& word : arguments.overrides) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
+      refuse("--set", fmt::format("'{}' is not name=value", word), "write e.g. --set L=0.4");
+    overrides.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+  }
+  return mechanism::read_mechanism(arguments.model, overrides);
+}
+
+std::filesystem::path output_folder(const CommonArguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  return std::filesystem::path("out") / std::filesystem::path(arguments.model).stem();
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  constexpr const char* blanks = " \t";
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const std::size_t first = word.find_first_not_of(blanks);
+    words.push_back(first == std::string::npos ? "" : word.substr(first, word.find_last_not_of(blanks) - first + 1));
+    begin = end + 1;
+  }
+  return words;
+}
+
+std::vector<core::Quantity> parse_quantities(const std::string& text) {
+  constexpr std::array all = {core::Quantity::f, core::Quantity::M, core::Quantity::fx, core::Quantity::fy};
+  std::vector<core::Quantity> quantities;
+  for (const std::string& word : split(text)) {
+    const auto* const found =
+        std::find_if(all.begin(), all.end(), [&](core::Quantity quantity) { return to_string(quantity) == word; });
+    if (found == all.end())
+      refuse("--quantity", fmt::format("unknown quantity '{}'", word), "choose from f, M, fx, fy");
+    if (std::find(quantities.begin(), quantities.end(), *found) == quantities.end()) quantities.push_back(*found);
+  }
+  return quantities;
+}
+
+DyadSides parse_working_mode(const std::string& text, const mechanism::Mechanism& mechanism) {
+  const std::vector<std::string> names = dyad_names(mechanism);
+  const std::vector<std::string> words = split(text);
+  if (names.empty())
+    refuse("--working-mode", "the mechanism has no dyad, so there is one working mode only", "leave the option out");
+  const std::string mend = fmt::format("give left or right for each of {} ({}), or all", fmt::join(names, ","),
+                                       names.size() == 1 ? "1 dyad" : fmt::format("{} dyads", names.size()));
+  if (words.size() != names.size())
+    refuse("--working-mode", fmt::format("'{}' has {} side{}", text, words.size(), words.size() == 1 ? "" : "s"), mend);
+  DyadSides sides;
+  for (const std::string& word : words) {
+    if (word != "left" && word != "right") refuse("--working-mode", fmt::format("'{}' is not a side", word), mend);
+    sides.push_back(word == "left" ? 1 : -1);
+  }
+  return sides;
+}
+
+core::Rational parse_number(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism) {
+  const std::string mend = "give a number such as 0.25 or 1/4, or an expression in the file's parameters";
+  try {
+    return mechanism::value_of(mechanism::parse_expression(text, {.file = option}), mechanism);
+  } catch (const std::domain_error& error) {
+    refuse(option, fmt::format("'{}': {}", text, error.what()), mend);
+  } catch (const std::out_of_range& error) {
+    refuse(option, fmt::format("'{}': {}", text, error.what()), mend);
+  }
+}
+
+core::Rational parse_positive(const std::string& text, const std::string& option,
+                              const mechanism::Mechanism& mechanism) {
+  core::Rational value = parse_number(text, option, mechanism);
+  if (value <= 0) refuse(option, fmt::format("{} is not above zero", text), "give a positive number");
+  return value;
+}
+
+std::vector<core::Rational> parse_pose(const std::string& text, const mechanism::Mechanism& mechanism) {
+  const std::vector<std::string> words = split(text);
+  if (words.size() != mechanism.coordinates.size()) {
+    std::vector<std::string> names;
+    for (const mechanism::Coordinate& coordinate : mechanism.coordinates) names.push_back(coordinate.name);
+    refuse("--at", fmt::format("'{}' has {} value{}", text, words.size(), words.size() == 1 ? "" : "s"),
+           fmt::format("give one for each of the {} free coordinate{}: {}", names.size(), names.size() == 1 ? "" : "s",
+                       fmt::join(names, ",")));
+  }
+  std::vector<core::Rational> pose;
+  for (const std::string& word : words) pose.push_back(parse_number(word, "--at", mechanism));
+  return pose;
+}
+
+std::pair<int, int> parse_grid(const std::string& text) {
+  constexpr int most = 20000;  // 20000^2 cells are the edge of what a machine of today holds
+  const std::vector<std::string> words = split(text, 'x');
+  if (words.size() == 2) {
+    const std::optional<int> columns = whole_number(words[0]);
+    const std::optional<int> rows = whole_number(words[1]);
+    if (columns && rows && *columns >= 1 && *rows >= 1 && *columns <= most && *rows <= most) return {*columns, *rows};
+  }
+  refuse("--grid", fmt::format("'{}' is not a grid", text),
+         fmt::format("give cells along x and y, each from 1 to {}, e.g. --grid 400x400", most));
+}
+
+std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism) {
+  std::vector<std::string> known;
+  for (const mechanism::Joint& joint : mechanism.joints) known.push_back(joint.name);
+  std::vector<std::string> joints;
+  for (const std::string& word : words)
+    for (const std::string& name : split(word)) {
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        refuse("--joint", fmt::format("the mechanism has no joint '{}'", name),
+               fmt::format("choose from {}", fmt::join(known, ", ")));
+      if (std::find(joints.begin(), joints.end(), name) == joints.end()) joints.push_back(name);
+    }
+  return joints;
+}
+
+}  // namespace clearloci::cli

@@ -1,0 +1,59 @@
+// From the words of the command line to values. Whatever is wrong with them is a core::InputError that names the
+// option, or a CLI::ParseError.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/pipeline.hpp"
+#include "core/rational.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::cli {
+
+/// What every command takes.
+struct CommonArguments {
+  std::string model;
+  std::vector<std::string> overrides;  ///< "name=value"
+  std::string output;                  ///< folder; empty: not given
+  bool quiet = false;
+  bool json = false;
+};
+
+void add_common_arguments(CLI::App& command, CommonArguments& arguments);
+
+/// The mechanism file with its overrides.
+mechanism::Mechanism read_model(const CommonArguments& arguments);
+
+/// `-o DIR`, or ./out/<file name without its ending>.
+std::filesystem::path output_folder(const CommonArguments& arguments);
+
+/// The words between the commas, without the blanks around them.
+std::vector<std::string> split(const std::string& text, char separator = ',');
+
+/// "f,M,fx,fy".
+std::vector<core::Quantity> parse_quantities(const std::string& text);
+
+/// "left,right": the side of every dyad of the mechanism.
+DyadSides parse_working_mode(const std::string& text, const mechanism::Mechanism& mechanism);
+
+/// A number by the rules of the mechanism file ("0.25", "1/4", "2*L"), exact. `option` is named in errors.
+core::Rational parse_number(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism);
+
+/// parse_number, and more than zero.
+core::Rational parse_positive(const std::string& text, const std::string& option,
+                              const mechanism::Mechanism& mechanism);
+
+/// "0.25,-0.7": one number a free coordinate.
+std::vector<core::Rational> parse_pose(const std::string& text, const mechanism::Mechanism& mechanism);
+
+/// "400x400": cells along each coordinate.
+std::pair<int, int> parse_grid(const std::string& text);
+
+/// `options.joints`, each of which may list several after commas; checked against the mechanism.
+std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism);
+
+}  // namespace clearloci::cli

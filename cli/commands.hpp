@@ -1,0 +1,20 @@
+// The commands of the program, each in its own source: it adds its options to the command line and gives back what
+// runs it. Exit statuses are those of the program (program.hpp).
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+
+namespace clearloci::cli {
+
+struct Command {
+  CLI::App* app = nullptr;   ///< owned by the program's App
+  std::function<int()> run;  ///< returns the exit status
+};
+
+Command add_loci_command(CLI::App& program);
+Command add_equations_command(CLI::App& program);
+Command add_validate_command(CLI::App& program);
+Command add_pose_command(CLI::App& program);
+
+}  // namespace clearloci::cli

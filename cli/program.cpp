@@ -1,0 +1,89 @@
+#include "cli/program.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "core/errors.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+/// One line on standard error, whatever the message holds.
+void complain(std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  fmt::print(stderr, "clearloci: {}\n", message);
+}
+
+std::string help_call(const CLI::App& program) {
+  for (const CLI::App* command : program.get_subcommands()) return "see clearloci " + command->get_name() + " --help";
+  return "see clearloci --help";
+}
+
+/// A word in the command's place that is none: said here, since CLI11 would only say that a command is missing.
+void check_command_word(const std::vector<Command>& commands, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.app->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  throw core::InputError({}, fmt::format("unknown command '{}'", argv[1]),
+                         fmt::format("the commands are {}", fmt::join(names, ", ")));
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  CLI::App program("Discontinuity loci of parallel mechanisms with joint clearances.", "clearloci");
+  program.set_version_flag("--version", "clearloci " CLEARLOCI_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Example: clearloci loci examples/five_bar.yaml\n"
+      "Exit status: 0 done; 1 a check said no; 2 the input or the call is wrong; 3 a time limit was reached;\n"
+      "70 an error of the program itself.");
+  const std::vector<Command> commands = {add_loci_command(program), add_equations_command(program),
+                                         add_validate_command(program), add_pose_command(program)};
+  try {
+    check_command_word(commands, argc, argv);
+    program.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return program.exit(request);
+  } catch (const CLI::ParseError& error) {
+    throw core::InputError({}, error.what(), help_call(program));
+  }
+  for (const Command& command : commands)
+    if (command.app->parsed()) return command.run();
+  return exit_wrong_input;
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  try {
+    const int status = parse_and_run(argc, argv);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    complain("standard output cannot be written; is the disk full?");
+    return exit_wrong_input;
+  } catch (const core::InputError& error) {
+    complain(error.what());
+    return exit_wrong_input;
+  } catch (const core::LimitReached& limit) {
+    complain(limit.what());
+    return exit_limit_reached;
+  } catch (const std::bad_alloc&) {
+    complain("internal error: out of memory");
+    return exit_internal_error;
+  } catch (const std::exception& error) {
+    complain(fmt::format("internal error: {}; please report it with the mechanism file", error.what()));
+    return exit_internal_error;
+  }
+}
+
+}  // namespace clearloci::cli
