@@ -1,0 +1,27 @@
+# Installs the package into a folder of its own, builds the outside project against it and runs it.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "${command}\nended with ${status}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+set(flags "")
+if(SANITIZE)
+  set(flags "-fsanitize=${SANITIZE}")
+endif()
+
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
+run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${SOURCE}" -B "${WORK}/build"
+  -D "CMAKE_PREFIX_PATH=${WORK}/prefix" -D "CMAKE_CXX_COMPILER=${COMPILER}"
+  -D "CMAKE_BUILD_TYPE=${BUILD_TYPE}" -D "CMAKE_CXX_FLAGS=${flags}")
+run("${CMAKE_COMMAND}" --build "${WORK}/build")
+run("${WORK}/build/loci_of" "${MODEL}")
+if(NOT output MATCHES "[1-9][0-9]* curves")
+  message(FATAL_ERROR "the outside program printed:\n${output}")
+endif()
+run("${WORK}/prefix/bin/clearloci" --version)
+message(STATUS "${output}")
