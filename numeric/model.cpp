@@ -1,0 +1,248 @@
+#include "numeric/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/errors.hpp"
+
+namespace clearloci::numeric {
+
+namespace {
+
+using mechanism::Mechanism;
+
+class ModelBuilder {
+ public:
+  explicit ModelBuilder(const Mechanism& m) : m_(m) {
+    for (const auto& parameter : m.parameters) {
+      names_[parameter.name] = tape_.compile(core::Expression::number(parameter.value), lookup());
+    }
+    int input = 0;
+    for (const auto& coordinate : m.coordinates) names_[coordinate.name] = tape_.input(input++);
+    for (const int dyad : mechanism::dyad_points(m)) sign_of_[dyad] = tape_.input(input++);
+  }
+
+  NumericModel build() {
+    NumericModel model;
+    model.mechanism = m_;
+    model.unknowns = mechanism::unknowns(m_);
+    model.dyads = mechanism::dyad_points(m_);
+    for (const auto& c : m_.coordinates) model.box.push_back({core::to_double(c.lower), core::to_double(c.upper)});
+    for (std::size_t i = 0; i < m_.points.size(); ++i) points_.push_back(place(static_cast<int>(i)));
+    model.points = points_;
+    model.loads = loads();
+    model.posture_size = tape_.size();
+    model.elimination = eliminate(tape_, equations(model));
+    model.tape = tape_.tape();
+    return model;
+  }
+
+ private:
+  using Pair = std::array<Register, 2>;
+
+  std::function<Register(const std::string&)> lookup() {
+    return [this](const std::string& name) {
+      const auto found = names_.find(name);
+      core::ensure(found != names_.end(), "an expression of a mechanism uses no unknown name");
+      return found->second;
+    };
+  }
+
+  Register compile(const core::Expression& e) { return tape_.compile(e, lookup()); }
+  Pair point(int index) const { return points_[static_cast<std::size_t>(index)]; }
+  Pair minus(Pair p, Pair q) { return {tape_.subtract(p[0], q[0]), tape_.subtract(p[1], q[1])}; }
+  Register squared_length(Pair v) { return tape_.add(tape_.square(v[0]), tape_.square(v[1])); }
+
+  /// origin + along u + left J u,  J = [[0, -1], [1, 0]].
+  Pair offset(Pair origin, Pair u, Register along, Register left) {
+    auto& t = tape_;
+    return {t.add(origin[0], t.subtract(t.multiply(along, u[0]), t.multiply(left, u[1]))),
+            t.add(origin[1], t.add(t.multiply(along, u[1]), t.multiply(left, u[0])))};
+  }
+
+  Pair place(int index) {
+    const auto& form = m_.points[static_cast<std::size_t>(index)].form;
+    if (const auto* e = std::get_if<mechanism::ExplicitPoint>(&form)) {
+      const Register x = compile(e->coordinates.at(0));
+      return {x, compile(e->coordinates.at(1))};
+    }
+    if (const auto* d = std::get_if<mechanism::DyadPoint>(&form)) return dyad(*d, sign_of_.at(index));
+    if (const auto* o = std::get_if<mechanism::OffsetPoint>(&form)) {
+      const Pair r = minus(point(o->second), point(o->first));
+      const Register length = tape_.sqrt(squared_length(r));
+      const Register along = compile(o->along);
+      return offset(point(o->first), {tape_.divide(r[0], length), tape_.divide(r[1], length)}, along, compile(o->left));
+    }
+    const auto& mean = std::get<mechanism::MeanPoint>(form);
+    const Pair p = point(mean.first), q = point(mean.second);
+    const Register half = tape_.constant(0.5);
+    return {tape_.multiply(half, tape_.add(p[0], q[0])), tape_.multiply(half, tape_.add(p[1], q[1]))};
+  }
+
+  /// method.md section 1:  B = A + (k (P - A) ± s J (P - A)) / (2 D),  s² = Q = 4 a² D - k², written here as
+  /// Q = ((a + b)² - D)(D - (a - b)²), which loses no digits at either end of the reach.
+  Pair dyad(const mechanism::DyadPoint& form, Register sign) {
+    auto& t = tape_;
+    const Pair r = minus(point(form.to), point(form.from));
+    const Register a = compile(form.from_length), b = compile(form.to_length);
+    const Register D = squared_length(r);
+    const Register sum = t.add(a, b), difference = t.subtract(a, b);
+    const Register Q = t.multiply(t.subtract(t.square(sum), D), t.subtract(D, t.square(difference)));
+    const Register k = t.add(t.multiply(sum, difference), D);
+    const Register s = t.multiply(sign, t.sqrt(Q));
+    const Register twice_D = t.add(D, D);
+    return offset(point(form.from), r, t.divide(k, twice_D), t.divide(s, twice_D));
+  }
+
+  std::vector<LoadRegisters> loads() {
+    std::vector<LoadRegisters> all;
+    const Register zero = tape_.constant(0.0);
+    for (const auto& load : m_.loads) {
+      LoadRegisters l{load.link, load.at, zero, zero, compile(load.couple), false};
+      if (!load.force.empty()) {
+        l.fx = compile(load.force.at(0));
+        l.fy = compile(load.force.at(1));
+      } else {
+        l.at.reset();
+      }
+      all.push_back(l);
+    }
+    if (m_.gravity.empty()) return all;
+    const Pair g = {compile(m_.gravity.at(0)), compile(m_.gravity.at(1))};
+    for (std::size_t i = 0; i < m_.links.size(); ++i) {
+      const Register mass = compile(m_.links[i].mass);
+      if (tape_.is_exactly(mass, 0)) continue;
+      all.push_back({static_cast<int>(i), m_.links[i].centre_of_mass, tape_.multiply(mass, g[0]),
+                     tape_.multiply(mass, g[1]), zero, true});
+    }
+    return all;
+  }
+
+  /// Moment about the end-effector point of a force at p: its factors of fx and fy, (-(y - yE), x - xE).
+  Pair lever(int p) {
+    const Pair r = minus(point(p), point(m_.end_effector_point));
+    return {tape_.negate(r[1]), r[0]};
+  }
+
+  /// The augmented equations [A | -w_e] of method.md section 2, sparse.
+  SparseEquations equations(const NumericModel& model) {
+    auto& t = tape_;
+    SparseEquations e;
+    e.unknowns = static_cast<int>(model.unknowns.size());
+    e.rows.resize(3 * m_.links.size());
+    const auto accumulate = [&](int link, int row, int column, Register value) {
+      auto& entries = e.rows[static_cast<std::size_t>(3 * link + row)];
+      const auto [place, fresh] = entries.try_emplace(column, value);
+      if (!fresh) place->second = t.add(place->second, value);
+      if (t.is_exactly(place->second, 0)) entries.erase(place);
+    };
+    for (int column = 0; column < e.unknowns; ++column) {
+      const auto& unknown = model.unknowns[static_cast<std::size_t>(column)];
+      const auto& joint = m_.joints[static_cast<std::size_t>(unknown.joint)];
+      const Register one = t.constant(1.0);
+      const Register moment =
+          unknown.component == 2 ? one : lever(joint.at)[static_cast<std::size_t>(unknown.component)];
+      for (const bool receives : {true, false}) {
+        const int link = receives ? joint.to : joint.from;
+        if (link == mechanism::ground) continue;
+        const auto signed_value = [&](Register r) { return receives ? r : t.negate(r); };
+        if (unknown.component != 2) accumulate(link, unknown.component, column, signed_value(one));
+        accumulate(link, 2, column, signed_value(moment));
+      }
+    }
+    for (const auto& load : model.loads) {
+      Register moment = load.couple;
+      if (load.at) {
+        const Pair arm = lever(*load.at);
+        moment = t.add(moment, t.add(t.multiply(arm[0], load.fx), t.multiply(arm[1], load.fy)));
+      }
+      accumulate(load.link, 0, e.unknowns, t.negate(load.fx));
+      accumulate(load.link, 1, e.unknowns, t.negate(load.fy));
+      accumulate(load.link, 2, e.unknowns, t.negate(moment));
+    }
+    return e;
+  }
+
+  const Mechanism& m_;
+  TapeBuilder tape_;
+  std::map<std::string, Register> names_;
+  std::map<int, Register> sign_of_;
+  std::vector<Pair> points_;
+};
+
+}  // namespace
+
+NumericModel compile(const Mechanism& m) {
+  const auto refuse = [&](const std::string& problem, const std::string& mend) {
+    throw core::InputError({m.file, 0, 0}, problem, mend);
+  };
+  if (m.space != mechanism::Space::planar) refuse("the mechanism is spatial", "only planar mechanisms are solved");
+  const std::size_t rows = 3 * m.links.size(), columns = mechanism::unknowns(m).size();
+  if (rows != columns) {
+    refuse(std::to_string(rows) + " equations for " + std::to_string(columns) + " unknowns",
+           columns > rows ? "remove a joint or an actuator" : "add a joint or an actuator");
+  }
+  return ModelBuilder(m).build();
+}
+
+Posture posture(const NumericModel& model, std::span<const double> pose, std::span<const int> mode) {
+  core::ensure(pose.size() == model.box.size(), "a pose has one value for each free coordinate");
+  core::ensure(mode.size() == model.dyads.size(), "a working mode has one sign for each dyad");
+  std::vector<double> inputs(pose.begin(), pose.end());
+  inputs.insert(inputs.end(), mode.begin(), mode.end());
+  std::vector<double> registers(static_cast<std::size_t>(model.posture_size));
+  run<double, 1>(model.tape, 0, model.posture_size, inputs.data(), registers.data());
+
+  const auto at = [&](Register r) { return registers[static_cast<std::size_t>(r)]; };
+  Posture result;
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    const auto& [x, y] = model.points[i];
+    result.points.push_back({at(x), at(y)});
+    const bool placed = std::isfinite(at(x)) && std::isfinite(at(y));
+    if (!placed && !result.unreachable) result.unreachable = static_cast<int>(i);
+  }
+  for (const auto& load : model.loads) {
+    const Point2 place = load.at ? result.points[static_cast<std::size_t>(*load.at)] : Point2{};
+    result.loads.push_back({load.link, place, {at(load.fx), at(load.fy)}, at(load.couple), load.weight});
+  }
+  return result;
+}
+
+double typical_length(const NumericModel& model, const Posture& p) {
+  std::vector<double> lengths;
+  for (const auto& link : model.mechanism.links) {
+    if (link.points.size() < 2) continue;
+    const auto& a = p.points[static_cast<std::size_t>(link.points[0])];
+    const auto& b = p.points[static_cast<std::size_t>(link.points[1])];
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    if (std::isfinite(length) && length > 0) lengths.push_back(length);
+  }
+  if (lengths.empty()) return 1;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+std::vector<int> dyad_signs(const NumericModel& model, const core::RootTower& tower, const core::WorkingMode& mode) {
+  if (tower.roots.empty()) {
+    core::ensure(mode.size() == model.dyads.size(), "a working mode has one sign for each dyad");
+    return mode;
+  }
+  core::ensure(mode.size() == tower.roots.size(), "a working mode has one sign for each root of its tower");
+  std::vector<int> signs;
+  for (const int dyad : model.dyads) {
+    const auto& name = model.mechanism.points[static_cast<std::size_t>(dyad)].name;
+    const auto root = std::find_if(tower.roots.begin(), tower.roots.end(), [&](const core::Root& r) {
+      return r.point == name && r.role == core::RootRole::working_mode;
+    });
+    if (root == tower.roots.end()) {
+      throw core::InputError({model.mechanism.file, 0, 0}, "the loci know no working mode of point " + name,
+                             "trace the loci of the same mechanism");
+    }
+    signs.push_back(mode[static_cast<std::size_t>(root - tower.roots.begin())]);
+  }
+  return signs;
+}
+
+}  // namespace clearloci::numeric

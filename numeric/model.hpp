@@ -1,0 +1,74 @@
+// A mechanism compiled to floating point, and its posture at a pose (method.md section 1). This folder never looks at
+// the symbolic derivation or the traced curves: it is their independent witness.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/locus_map.hpp"
+#include "mechanism/mechanism.hpp"
+#include "numeric/elimination.hpp"
+#include "numeric/tape.hpp"
+
+namespace clearloci::numeric {
+
+using core::Point2;
+
+/// An external force or couple as registers of the tape. `weight`: from gravity, not from the file's loads.
+struct LoadRegisters {
+  mechanism::LinkIndex link = 0;
+  std::optional<mechanism::PointIndex> at;  ///< absent: a pure couple
+  Register fx = 0, fy = 0, couple = 0;
+  bool weight = false;
+};
+
+struct NumericModel {
+  mechanism::Mechanism mechanism;
+  std::vector<mechanism::Unknown> unknowns;     ///< columns of A
+  std::vector<mechanism::PointIndex> dyads;     ///< the working mode has a sign for each
+  std::vector<std::array<double, 2>> box;       ///< lower, upper of each free coordinate, m or rad
+  Tape tape;                                    ///< inputs: free coordinates, then the signs of the working mode
+  int posture_size = 0;                         ///< instructions that compute points and loads; the rest serve reactions
+  std::vector<std::array<Register, 2>> points;  ///< of every point
+  std::vector<LoadRegisters> loads;             ///< the file's loads in order, then the weights
+  Elimination elimination;
+
+  int inputs() const { return static_cast<int>(box.size() + dyads.size()); }
+};
+
+/// Requires: a planar mechanism with as many unknowns as equations. Throws core::InputError otherwise.
+NumericModel compile(const mechanism::Mechanism& mechanism);
+
+/// A force (N) and couple (N m, counter-clockwise) applied to a link from outside the mechanism.
+struct AppliedLoad {
+  mechanism::LinkIndex link = 0;
+  Point2 at{};
+  Point2 force{};
+  double couple = 0;
+  bool weight = false;
+};
+
+/// Every point and load at one pose. Coordinates in m, in the ground's frame.
+struct Posture {
+  std::vector<Point2> points;                          ///< as mechanism.points; NaN from the unreachable one on
+  std::vector<AppliedLoad> loads;                      ///< as NumericModel::loads
+  std::optional<mechanism::PointIndex> unreachable;    ///< the first point that cannot be placed
+
+  bool reachable() const { return !unreachable; }
+};
+
+/// `pose`: one value a free coordinate; `mode`: +1 (left) or -1 (right) a dyad. A pose on the workspace boundary is
+/// reachable; one where a dyad's two base points coincide is not, for its apex is then undefined.
+Posture posture(const NumericModel& model, std::span<const double> pose, std::span<const int> mode);
+
+/// |P - E| etc. are lengths: the median length of the links, m; a scale for tolerances and pictures.
+double typical_length(const NumericModel& model, const Posture& posture);
+
+/// Signs of the model's dyads in a traced mode: entries of `length` roots are dropped, the rest matched by point name.
+/// Throws core::InputError if the tower lacks one of the dyads.
+std::vector<int> dyad_signs(const NumericModel& model, const core::RootTower& tower, const core::WorkingMode& mode);
+
+}  // namespace clearloci::numeric

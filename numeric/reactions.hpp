@@ -1,0 +1,63 @@
+// Newton-Euler equations in floating point (paper (9), (10), (13); method.md section 2):
+//     A w_J = -w_e        (kinetostatic: no inertial loads)
+// Rows: fx (N), fy (N), moment about the end-effector point (N m) of every link in the file's order. Columns: unknowns in
+// the order of mechanism::unknowns. A reaction is what `from` exerts on `to`: + in the rows of `to`, - in those of `from`.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "numeric/model.hpp"
+
+namespace clearloci::numeric {
+
+/// A, 3 links × unknowns. Requires a reachable posture, here and below.
+Eigen::MatrixXd newton_euler_matrix(const NumericModel& model, const Posture& posture);
+
+/// -w_e: forces, couples and weights, negated.
+Eigen::VectorXd load_column(const NumericModel& model, const Posture& posture);
+
+struct Reactions {
+  Eigen::VectorXd values;  ///< N, N m, in the order of the unknowns; infinite or NaN where |A| = 0
+  double determinant = 0;  ///< |A|
+  double condition = 0;    ///< 2-norm condition number of A as it stands, in SI units (moment rows not scaled)
+  double residual = 0;     ///< max |A w + w_e| / (|A| |w| + |w_e|), rows' greatest: a few unit roundoffs when balanced
+};
+
+/// By LU with partial pivoting of the full matrix: the plain route.
+Reactions solve_reactions(const NumericModel& model, const Posture& posture);
+
+/// Reactions of many poses by the route of elimination.hpp. Arrays of `poses` values, one an unknown, unknown after
+/// unknown; NaN at unreachable poses.
+struct ReactionField {
+  std::size_t poses = 0;
+  int unknowns = 0;
+  std::vector<double> numerators;    ///< N_k = w_k |A|
+  std::vector<double> determinants;  ///< |A|; NaN exactly at unreachable poses
+
+  std::span<const double> numerator(int unknown) const {
+    return {numerators.data() + static_cast<std::size_t>(unknown) * poses, poses};
+  }
+  double reaction(int unknown, std::size_t pose) const { return numerator(unknown)[pose] / determinants[pose]; }
+  bool reachable(std::size_t pose) const { return determinants[pose] == determinants[pose]; }
+};
+
+/// `poses`: pose after pose, one value a free coordinate. One thread.
+void reaction_field(const NumericModel& model, std::span<const double> poses, std::span<const int> mode,
+                    ReactionField& field);
+
+/// Numerators of one pose with a proven bound on their rounding errors.
+struct BoundedNumerators {
+  bool reachable = false;
+  std::vector<Bounded> values;  ///< N_k
+  Bounded determinant;          ///< |A|
+};
+
+BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const double> pose,
+                                     std::span<const int> mode);
+
+/// Whether every point can be placed.
+bool reachable(const NumericModel& model, std::span<const double> pose, std::span<const int> mode);
+
+}  // namespace clearloci::numeric
