@@ -102,4 +102,33 @@ core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociReque
   return map;
 }
 
+std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,
+                                                        const symbolic::Selection& selection) {
+  const std::vector<mechanism::Joint>& joints = mechanism.joints;
+  const bool any_clearance =
+      std::any_of(joints.begin(), joints.end(), [](const mechanism::Joint& joint) { return joint.clearance; });
+  const std::vector<std::string>& named = selection.joints;
+  std::vector<numeric::TracedReaction> reactions;
+  for (const mechanism::Joint& joint : joints) {
+    const bool wanted = named.empty() ? joint.clearance.has_value() || !any_clearance
+                                      : std::find(named.begin(), named.end(), joint.name) != named.end();
+    if (!wanted) continue;
+    reactions.push_back({joint.name, core::Quantity::fx});
+    reactions.push_back({joint.name, core::Quantity::fy});
+    if (joint.actuated) reactions.push_back({joint.name, core::Quantity::M});
+  }
+  return reactions;
+}
+
+LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
+                             const numeric::GridSpec& grid) {
+  request.selection.quantities = {core::Quantity::f, core::Quantity::M, core::Quantity::fx, core::Quantity::fy};
+  core::LocusMap map = trace_loci(mechanism, request);
+  if (!map.complete)
+    throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
+  numeric::ValidationReport report =
+      numeric::validate(mechanism, map, grid, selected_reactions(mechanism, request.selection));
+  return {std::move(map), std::move(report)};
+}
+
 }  // namespace clearloci

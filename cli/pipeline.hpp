@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
-#include "core/sketch.hpp"
 #include "loci/trace.hpp"
 #include "mechanism/read.hpp"
+#include "numeric/validate.hpp"
+#include "report/write_loci.hpp"
 #include "symbolic/locus_problem.hpp"
 
 namespace clearloci {
@@ -34,7 +35,23 @@ struct LociRequest {
 /// vanishes in every pose, an unknown joint, a working mode of the wrong length.
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
 
-/// The mechanism in a sample posture of every working mode of the map, in the map's order of modes; for pictures.
-std::vector<core::Sketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map);
+/// The scalar reactions (fx, fy, and M where actuated) of the joints that a selection means, in the file's order.
+/// `selection.joints` empty: every joint with a clearance, or all where none has one.
+std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,
+                                                        const symbolic::Selection& selection);
+
+struct LociValidation {
+  core::LocusMap map;
+  numeric::ValidationReport report;
+};
+
+/// Traces every scalar reaction of the request's joints and holds the arcs against reactions solved numerically.
+/// Throws core::LimitReached where the request's deadline comes before the arcs are complete.
+LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
+                             const numeric::GridSpec& grid = {});
+
+/// The mechanism in a sample posture of every working mode of the map, for its pictures. Empty where the free
+/// coordinates are not the place of the end effector's point, for a posture then has no place in the picture.
+std::vector<report::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map);
 
 }  // namespace clearloci

@@ -10,9 +10,15 @@ install(TARGETS ${folder_targets} clearloci_library EXPORT clearlociTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS clearloci RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+# Headers that say they are private to their folder stay at home (tests/laws/include_rules holds them to it).
 foreach(folder IN LISTS folders)
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/clearloci"
-    FILES_MATCHING PATTERN "*.hpp")
+  file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.hpp")
+  foreach(header IN LISTS headers)
+    file(STRINGS "${header}" private REGEX "^// ?.*Private to ")
+    if(NOT private)
+      install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/clearloci/${folder}")
+    endif()
+  endforeach()
 endforeach()
 install(FILES "${PROJECT_SOURCE_DIR}/cli/pipeline.hpp" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/clearloci/cli")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"

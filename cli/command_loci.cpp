@@ -1,0 +1,82 @@
+// clearloci loci: the main job. Traces the discontinuity loci, writes their files and prints their table.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/commands.hpp"
+#include "cli/loci_arguments.hpp"
+#include "cli/program.hpp"
+#include "cli/progress.hpp"
+#include "core/errors.hpp"
+#include "report/loci_json.hpp"
+#include "report/loci_table.hpp"
+#include "report/write_loci.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+struct Arguments {
+  CommonArguments common;
+  LociArguments loci;
+  std::string formats = "svg,png,csv";
+};
+
+/// loci.json is always among them.
+std::set<report::FileFormat> parse_formats(const std::string& text) {
+  std::set<report::FileFormat> formats = {report::FileFormat::json};
+  for (const std::string& word : split(text)) {
+    const std::optional<report::FileFormat> format = report::file_format(word);
+    if (!format)
+      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
+                             fmt::format("choose from {}", fmt::join(report::file_format_names(), ", ")));
+    formats.insert(*format);
+  }
+  return formats;
+}
+
+int run(const Arguments& arguments) {
+  const std::set<report::FileFormat> formats = parse_formats(arguments.formats);
+  const mechanism::Mechanism mechanism = read_model(arguments.common);
+  Progress progress(arguments.common.quiet);
+  const core::LocusMap map = trace_loci(mechanism, loci_request(arguments.loci, mechanism, progress));
+  progress.clear();
+
+  const std::filesystem::path folder = output_folder(arguments.common);
+  const std::vector<std::filesystem::path> files =
+      report::write_loci(map, sample_sketches(mechanism, map), folder, formats);
+  if (arguments.common.json) {
+    fmt::print("{}", report::json_text(report::loci_object(map)));
+  } else if (!arguments.common.quiet) {
+    fmt::print("{}\n", report::loci_table(map));
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+    fmt::print("Written to {}: {}\n", folder.string(), fmt::join(names, ", "));
+  }
+  if (map.complete) return exit_done;
+  throw core::LimitReached(
+      fmt::format("the time limit was reached; what is known is in {}, marked incomplete", folder.string()));
+}
+
+}  // namespace
+
+Command add_loci_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("loci", "Trace the discontinuity loci and write them as pictures and files");
+  const auto arguments = std::make_shared<Arguments>();
+  add_common_arguments(*app, arguments->common);
+  add_tracing_arguments(*app, arguments->loci);
+  add_locus_arguments(*app, arguments->loci);
+  app->add_option(
+         "--export", arguments->formats,
+         fmt::format("Files besides loci.json, several after commas: {}", fmt::join(report::file_format_names(), ", ")))
+      ->capture_default_str();
+  app->footer(
+      "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"
+      "The files go to ./out/<name of MODEL>, or to the folder of -o.");
+  return {app, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace clearloci::cli

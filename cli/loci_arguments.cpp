@@ -1,0 +1,70 @@
+#include "cli/loci_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "core/errors.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+loci::Engine parse_engine(const std::string& word) {
+  if (word == "automatic") return loci::Engine::automatic;
+  if (word == "exact") return loci::Engine::exact;
+  if (word == "adaptive") return loci::Engine::adaptive;
+  throw core::InputError({.file = "--engine"}, fmt::format("unknown engine '{}'", word),
+                         "choose from automatic, exact, adaptive");
+}
+
+}  // namespace
+
+void add_tracing_arguments(CLI::App& command, LociArguments& arguments) {
+  command
+      .add_option("--joint", arguments.joints,
+                  "A joint whose reactions count (repeatable; default: all with a clearance, or all)")
+      ->allow_extra_args(false);
+  command.add_option("--working-mode", arguments.working_mode,
+                     "left or right for every dyad, e.g. right,left, or all (default: the file's)");
+  command
+      .add_option("--engine", arguments.engine, "automatic, exact (arrangement of curves) or adaptive (subdivision)")
+      ->capture_default_str();
+  command.add_option("--time-limit", arguments.time_limit,
+                     "Seconds; when they are over, what is known is written and the exit status is 3");
+}
+
+void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
+  command.add_option("--quantity", arguments.quantities, "What vanishes: f, M, fx, fy, several after commas")
+      ->capture_default_str();
+  command.add_option("--min-force", arguments.min_force, "N: also the curves on which a contact force has this value");
+  command.add_option("--min-couple", arguments.min_couple, "N m: also the curves on which a couple has this value");
+  command.add_option("--tolerance", arguments.tolerance, "Largest distance of a chord from its curve, m")
+      ->capture_default_str();
+}
+
+LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress) {
+  LociRequest request;
+  request.selection.joints = parse_joints(arguments.joints, mechanism);
+  request.selection.quantities = parse_quantities(arguments.quantities);
+  if (!arguments.min_force.empty())
+    request.selection.min_force = parse_positive(arguments.min_force, "--min-force", mechanism);
+  if (!arguments.min_couple.empty())
+    request.selection.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism);
+  request.tolerance = core::to_double(parse_positive(arguments.tolerance, "--tolerance", mechanism));
+  if (arguments.working_mode == "all")
+    request.all_working_modes = true;
+  else if (!arguments.working_mode.empty())
+    request.working_modes = {parse_working_mode(arguments.working_mode, mechanism)};
+  request.engine = parse_engine(arguments.engine);
+  if (!arguments.time_limit.empty()) {
+    const double seconds = core::to_double(parse_positive(arguments.time_limit, "--time-limit", mechanism));
+    constexpr double century = 3e9;  // beyond, the clock's ticks would overflow
+    if (seconds < century)
+      request.deadline = arguments.started + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                 std::chrono::duration<double>(seconds));
+  }
+  request.progress = [&progress](double fraction, std::string_view stage) { progress.show(fraction, stage); };
+  return request;
+}
+
+}  // namespace clearloci::cli

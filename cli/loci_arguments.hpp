@@ -1,0 +1,32 @@
+// The options of the commands that trace loci, and the request they make.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments.hpp"
+#include "cli/progress.hpp"
+
+namespace clearloci::cli {
+
+struct LociArguments {
+  std::vector<std::string> joints;
+  std::string quantities = "f,M";
+  std::string min_force, min_couple, tolerance = "1e-5", working_mode, time_limit;
+  std::string engine = "automatic";
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+};
+
+/// --joint, --working-mode, --engine, --time-limit.
+void add_tracing_arguments(CLI::App& command, LociArguments& arguments);
+
+/// --quantity, --min-force, --min-couple, --tolerance.
+void add_locus_arguments(CLI::App& command, LociArguments& arguments);
+
+/// `progress` must outlive the request.
+LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress);
+
+}  // namespace clearloci::cli
