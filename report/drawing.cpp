@@ -1,0 +1,239 @@
+#include "report/drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "report/mechanism_drawing.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using core::Point2;
+using Context = Cairo::RefPtr<Cairo::Context>;
+
+constexpr Colour ink{0.13, 0.13, 0.13};
+constexpr Colour frame{0.45, 0.45, 0.45};
+constexpr Colour workspace_fill{0.925, 0.941, 0.957};
+constexpr Colour grid{0.86, 0.86, 0.86};
+
+void trace_path(const Context& context, const Layout& layout, const core::Polyline& points) {
+  for (const auto& point : points) {
+    const Point2 at = layout.page(point);
+    context->line_to(at[0], at[1]);
+  }
+}
+
+void apply(const Context& context, const Stroke& stroke) {
+  using Cap = Cairo::Context::LineCap;
+  set_colour(context, stroke.colour);
+  context->set_line_width(stroke.width);
+  context->set_line_cap(stroke.round ? Cap::ROUND : Cap::BUTT);
+  context->set_line_join(Cairo::Context::LineJoin::ROUND);
+  if (stroke.dash.empty()) {
+    context->unset_dash();
+  } else {
+    context->set_dash(stroke.dash, 0);
+  }
+}
+
+void draw_workspace(const Context& context, const Subject& subject, const Layout& layout) {
+  for (const auto& region : subject.map->workspace) {
+    if (region.mode != subject.mode) continue;
+    for (const auto& ring : region.rings) {
+      context->begin_new_sub_path();
+      trace_path(context, layout, ring);
+      context->close_path();
+    }
+    context->set_fill_rule(Cairo::Context::FillRule::EVEN_ODD);
+    set_colour(context, workspace_fill);
+    context->fill();
+    context->set_fill_rule(Cairo::Context::FillRule::WINDING);
+  }
+}
+
+/// Lines at the ticks, and the searched box where the plot shows more than that.
+void draw_grid(const Context& context, const Layout& layout) {
+  context->unset_dash();
+  context->set_line_width(0.4);
+  set_colour(context, grid, 0.8);
+  for (const auto& tick : layout.x_ticks) {
+    context->move_to(tick.at, layout.plot.y);
+    context->line_to(tick.at, layout.plot.bottom());
+  }
+  for (const auto& tick : layout.y_ticks) {
+    context->move_to(layout.plot.x, tick.at);
+    context->line_to(layout.plot.right(), tick.at);
+  }
+  context->stroke();
+  const Point2 low = layout.page(layout.search_low), high = layout.page(layout.search_high);
+  context->rectangle(low[0], high[1], high[0] - low[0], low[1] - high[1]);
+  set_colour(context, frame, 0.6);
+  context->set_line_width(0.5);
+  context->set_dash(std::vector<double>{1.5, 2}, 0);
+  context->stroke();
+  context->unset_dash();
+}
+
+void draw_curve(const Context& context, const Layout& layout, const core::LocusCurve& curve) {
+  for (const auto& arc : curve.arcs) {
+    context->begin_new_sub_path();
+    trace_path(context, layout, arc.points);
+    if (arc.closed) context->close_path();
+  }
+  context->stroke();
+}
+
+void trace_marker(const Context& context, const Point2& at, MarkerShape shape, double size) {
+  const auto polygon = [&](const std::vector<Point2>& corners) {
+    for (const auto& corner : corners) context->line_to(at[0] + size * corner[0], at[1] + size * corner[1]);
+    context->close_path();
+  };
+  switch (shape) {
+    case MarkerShape::circle:
+      context->arc(at[0], at[1], size, 0, 2 * std::numbers::pi);
+      break;
+    case MarkerShape::square:
+      polygon({{-0.88, -0.88}, {0.88, -0.88}, {0.88, 0.88}, {-0.88, 0.88}});
+      break;
+    case MarkerShape::diamond:
+      polygon({{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}});
+      break;
+    case MarkerShape::triangle:
+      polygon({{0, -1.25}, {1.1, 0.75}, {-1.1, 0.75}});
+      break;
+  }
+}
+
+/// A ring of the marker's colour on white with a dot at the point itself.
+void draw_marker(const Context& context, const Point2& at, const Marker& marker) {
+  context->unset_dash();
+  context->set_line_width(1.5);
+  trace_marker(context, at, marker.shape, 4.6);
+  set_colour(context, {1, 1, 1}, 0.9);
+  context->fill_preserve();
+  set_colour(context, marker.colour);
+  context->stroke();
+  context->arc(at[0], at[1], 1.4, 0, 2 * std::numbers::pi);
+  set_colour(context, ink);
+  context->fill();
+}
+
+/// Thin lines first, what matters most last.
+void draw_loci(const Context& context, const Subject& subject, const Layout& layout) {
+  for (auto group = subject.groups.curves.rbegin(); group != subject.groups.curves.rend(); ++group) {
+    apply(context, group->stroke);
+    for (const auto* curve : group->curves) draw_curve(context, layout, *curve);
+  }
+}
+
+void draw_isolated_points(const Context& context, const Subject& subject, const Layout& layout) {
+  for (const auto& group : subject.groups.points) {
+    for (const auto* point : group.points) {
+      const Point2 at = {point->at[0], point->at.size() > 1 ? point->at[1] : 0};
+      draw_marker(context, layout.page(at), group.marker);
+    }
+  }
+}
+
+void draw_axes(const Context& context, const Layout& layout) {
+  constexpr double tick_length = 4;
+  const Box& plot = layout.plot;
+  context->unset_dash();
+  context->set_line_cap(Cairo::Context::LineCap::BUTT);
+  context->set_line_join(Cairo::Context::LineJoin::MITER);
+  context->set_line_width(0.8);
+  set_colour(context, frame);
+  context->rectangle(plot.x, plot.y, plot.width, plot.height);
+  for (const auto& tick : layout.x_ticks) {
+    context->move_to(tick.at, plot.bottom());
+    context->line_to(tick.at, plot.bottom() + tick_length);
+  }
+  for (const auto& tick : layout.y_ticks) {
+    context->move_to(plot.x, tick.at);
+    context->line_to(plot.x - tick_length, tick.at);
+  }
+  context->stroke();
+
+  set_colour(context, ink);
+  for (const auto& tick : layout.x_ticks) {
+    write_text(context, tick.label, tick.at, plot.bottom() + tick_length + 10, tick_font, Align::centre);
+  }
+  for (const auto& tick : layout.y_ticks) {
+    write_text(context, tick.label, plot.x - tick_length - 3.5, tick.at + 3.1, tick_font, Align::right);
+  }
+  write_text(context, layout.x_label, plot.x + plot.width / 2, plot.bottom() + tick_length + 25, label_font,
+             Align::centre);
+  if (layout.y_label.empty()) return;
+  context->save();
+  context->translate(layout.y_label_x, plot.y + plot.height / 2);
+  context->rotate(-std::numbers::pi / 2);
+  write_text(context, layout.y_label, 0, 0, label_font, Align::centre);
+  context->restore();
+}
+
+void draw_sample(const Context& context, const LegendEntry& entry) {
+  const double x = entry.box.x, y = entry.box.y + legend_line_height / 2, end = x + legend_sample_width;
+  switch (entry.sample) {
+    case SampleKind::curve:
+      apply(context, entry.stroke);
+      context->move_to(x + entry.stroke.width / 2, y);
+      context->line_to(end - entry.stroke.width / 2, y);
+      context->stroke();
+      break;
+    case SampleKind::point:
+      draw_marker(context, {(x + end) / 2, y}, entry.marker);
+      break;
+    case SampleKind::workspace:
+      context->rectangle(x, y - 4.5, legend_sample_width, 9);
+      set_colour(context, workspace_fill);
+      context->fill();
+      break;
+    case SampleKind::mechanism:
+      draw_mechanism_sample(context, x, y, legend_sample_width);
+      break;
+    case SampleKind::load:
+      draw_load_arrow(context, {x + 2, y}, {end - 2, y});
+      break;
+    case SampleKind::remark:
+      break;
+  }
+}
+
+void draw_legend(const Context& context, const Layout& layout) {
+  for (const auto& entry : layout.legend) {
+    draw_sample(context, entry);
+    set_colour(context, ink);
+    double baseline = entry.box.y + 0.5 * legend_line_height + 0.36 * legend_font.size;
+    for (const auto& line : entry.lines) {
+      write_text(context, line, entry.box.x + legend_sample_width + legend_sample_gap, baseline, legend_font);
+      baseline += legend_line_height;
+    }
+  }
+}
+
+}  // namespace
+
+void draw(const Context& context, const Subject& subject, const Layout& layout) {
+  set_colour(context, {1, 1, 1});
+  context->rectangle(0, 0, layout.width, layout.height);
+  context->fill();
+
+  context->save();
+  context->rectangle(layout.plot.x, layout.plot.y, layout.plot.width, layout.plot.height);
+  context->clip();
+  draw_workspace(context, subject, layout);
+  draw_grid(context, layout);
+  draw_loci(context, subject, layout);
+  if (subject.sketch != nullptr) draw_mechanism(context, layout, *subject.sketch);
+  draw_isolated_points(context, subject, layout);
+  if (subject.sketch != nullptr) draw_loads(context, layout, *subject.sketch);
+  context->restore();
+
+  draw_axes(context, layout);
+  set_colour(context, ink);
+  for (const auto& line : layout.title) write_text(context, line.text, line.x, line.y, line.font);
+  draw_legend(context, layout);
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,14 @@
+// Files that are whole or not there.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace clearloci::report {
+
+/// Writes `bytes` to `path`: into a temporary name in the same folder, which then takes the place of `path`. A reader
+/// sees the old file or the new one, never a part; after a failure no temporary is left. Missing folders are made.
+/// Throws core::InputError, naming the path and the system's reason, where that is not possible.
+void write_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace clearloci::report

@@ -1,0 +1,62 @@
+// Loci that are drawn alike, and how.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/locus_map.hpp"
+
+namespace clearloci::report {
+
+struct Colour {
+  double red = 0, green = 0, blue = 0;
+};
+
+/// Lengths in points.
+struct Stroke {
+  Colour colour;
+  double width = 1;
+  std::vector<double> dash;  ///< on, off, ...; empty: solid
+  bool round = false;        ///< round caps: dashes of length 0 are dots
+};
+
+enum class MarkerShape { circle, square, diamond, triangle };
+
+struct Marker {
+  MarkerShape shape = MarkerShape::circle;
+  Colour colour;
+};
+
+/// Curves of one kind on which the same reactions vanish for the same reason; all direct singularities; the whole
+/// workspace boundary.
+struct CurveGroup {
+  core::LocusKind kind = core::LocusKind::contact_loss;
+  std::vector<core::Vanishing> vanishing;
+  std::string reason;  ///< the cause, or the factor where it has no reading
+  std::string label;   ///< for the legend
+  Stroke stroke;
+  int number = 0;  ///< running number among the groups of reaction loci, which chooses the colour
+  std::vector<const core::LocusCurve*> curves;
+};
+
+struct PointGroup {
+  core::LocusKind kind = core::LocusKind::contact_loss;
+  std::vector<core::Vanishing> vanishing;
+  std::string label;
+  Marker marker;
+  std::vector<const core::IsolatedPoint*> points;
+};
+
+/// Groups of the whole map, so that a locus looks the same in the pictures of all modes. Gravest kind first.
+struct Groups {
+  std::vector<CurveGroup> curves;
+  std::vector<PointGroup> points;
+};
+
+/// The groups point into `map`, which must outlive them.
+Groups group_loci(const core::LocusMap& map);
+
+/// The groups with the members of one mode alone; groups without any are left out.
+Groups groups_of_mode(const Groups& groups, const core::WorkingMode& mode);
+
+}  // namespace clearloci::report

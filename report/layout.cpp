@@ -1,0 +1,199 @@
+#include "report/layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+constexpr double page_margin = 12;
+constexpr double longest_side = 400;   // of the plot
+constexpr double shortest_side = 130;  // a long thin box still gets a plot to look at
+constexpr double legend_column = 200;
+constexpr double legend_gap = 18;  // between plot and legend
+constexpr double entry_gap = 5.5;  // between two entries
+constexpr Font title_font{13, true, false};
+constexpr Font subtitle_font{9.5, false, false};
+
+/// The searched box and, where it does not get lost in it, the mechanism, with a margin around both.
+void choose_view(const Subject& subject, Layout& layout) {
+  const core::LocusMap& map = *subject.map;
+  const bool planar = map.lower.size() > 1;
+  for (int i = 0; i < 2; ++i) {
+    layout.search_low[i] = i == 0 || planar ? core::to_double(map.lower[i]) : -0.1;
+    layout.search_high[i] = i == 0 || planar ? core::to_double(map.upper[i]) : 0.1;
+  }
+  layout.low = layout.search_low;
+  layout.high = layout.search_high;
+  if (subject.sketch != nullptr && planar) {
+    core::Point2 low = layout.low, high = layout.high;
+    for (const auto& joint : subject.sketch->joints) {
+      for (int i = 0; i < 2; ++i) {
+        low[i] = std::min(low[i], joint.at[i]);
+        high[i] = std::max(high[i], joint.at[i]);
+      }
+    }
+    const double searched = std::max(layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]);
+    constexpr double tolerable_growth = 3;
+    if (std::max(high[0] - low[0], high[1] - low[1]) <= tolerable_growth * searched) {
+      layout.low = low;
+      layout.high = high;
+    }
+  }
+  const double margin = 0.03 * std::max(layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]);
+  const double side = std::max(layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]) + 2 * margin;
+  for (int i = 0; i < 2; ++i) {
+    const double missing = side * shortest_side / longest_side - (layout.high[i] - layout.low[i] + 2 * margin);
+    layout.low[i] -= margin + std::max(0.0, missing / 2);
+    layout.high[i] += margin + std::max(0.0, missing / 2);
+  }
+  layout.scale = longest_side / side;
+  layout.plot.width = (layout.high[0] - layout.low[0]) * layout.scale;
+  layout.plot.height = (layout.high[1] - layout.low[1]) * layout.scale;
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is no less than `least`.
+double nice_step(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= least * (1 - 1e-9)) return factor * power;
+  }
+  return 10 * power;
+}
+
+/// Tick values as texts of equal precision, `at` still in metres. The minus sign is the typographic one.
+std::vector<Tick> ticks(double low, double high, double least_step) {
+  const double step = nice_step(least_step);
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  std::vector<Tick> result;
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) {
+    std::string label = fmt::format("{:.{}f}", std::abs(k * step), decimals);
+    if (k < 0) label = "\u2212" + label;
+    result.push_back({k * step, std::move(label)});
+  }
+  return result;
+}
+
+void choose_axes(const Subject& subject, Layout& layout) {
+  const auto& names = subject.map->tower.coordinates;
+  layout.x_label = printable(names[0]) + " (m)";
+  layout.x_ticks = ticks(layout.low[0], layout.high[0], 52 / layout.scale);
+  if (names.size() < 2) return;
+  layout.y_label = printable(names[1]) + " (m)";
+  layout.y_ticks = ticks(layout.low[1], layout.high[1], 42 / layout.scale);
+}
+
+std::vector<LegendEntry> legend_entries(const Subject& subject) {
+  std::vector<LegendEntry> entries;
+  const auto add = [&](SampleKind sample, const std::string& label) -> LegendEntry& {
+    entries.push_back({.sample = sample, .stroke = {}, .marker = {}, .lines = {label}, .box = {}});
+    return entries.back();
+  };
+  for (const auto& group : subject.groups.curves) add(SampleKind::curve, group.label).stroke = group.stroke;
+  for (const auto& group : subject.groups.points) add(SampleKind::point, group.label).marker = group.marker;
+  const auto& regions = subject.map->workspace;
+  if (std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
+    add(SampleKind::workspace, "workspace of this working mode");
+  }
+  if (subject.sketch != nullptr) {
+    const auto& joints = subject.sketch->joints;
+    const bool actuated = std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.actuated; });
+    add(SampleKind::mechanism,
+        actuated ? "mechanism in a sample posture; actuated joints filled" : "mechanism in a sample posture");
+    if (!subject.sketch->loads.empty()) add(SampleKind::load, "load");
+  }
+  if (!subject.map->complete) add(SampleKind::remark, "Incomplete: the work was stopped at its time limit.");
+  return entries;
+}
+
+/// Wraps the labels to `columns` columns of `width` each and stacks the entries from (x, y); returns the lower end.
+double place_legend(std::vector<LegendEntry>& entries, double x, double y, double width, int columns) {
+  const Measure measure = measure_in(legend_font);
+  double total = 0;
+  for (auto& entry : entries) {
+    entry.lines = wrap(entry.lines.front(), width - legend_sample_width - legend_sample_gap, measure);
+    entry.box.width = width;
+    entry.box.height = legend_line_height * static_cast<double>(entry.lines.size());
+    total += entry.box.height + entry_gap;
+  }
+  // Columns are filled one after the other; each takes entries until it has its share of the height.
+  double top = y, lower_end = y, filled = 0;
+  int column = 0;
+  for (auto& entry : entries) {
+    if (column + 1 < columns && filled >= total * (column + 1) / columns - entry_gap) {
+      ++column;
+      top = y;
+    }
+    entry.box.x = x + column * (width + legend_gap);
+    entry.box.y = top;
+    top += entry.box.height + entry_gap;
+    filled += entry.box.height + entry_gap;
+    lower_end = std::max(lower_end, entry.box.bottom());
+  }
+  return lower_end;
+}
+
+/// Title lines wrapped to `width`; returns the height they take.
+double place_title(const Subject& subject, Layout& layout, double width) {
+  double y = page_margin;
+  const auto add = [&](const std::string& text, const Font& font, double line_height) {
+    if (text.empty()) return;
+    for (const auto& line : wrap(text, width, measure_in(font))) {
+      y += line_height;
+      layout.title.push_back({line, font, 0, y - 0.25 * line_height});
+    }
+  };
+  add(printable(subject.map->mechanism), title_font, 17);
+  const std::string mode = mode_words(subject.map->tower, subject.mode);
+  add(printable(mode.empty() ? "" : "Working mode: " + mode), subtitle_font, 13);
+  return y + 8;
+}
+
+double widest_label(const std::vector<Tick>& axis) {
+  const Measure measure = measure_in(tick_font);
+  double width = 0;
+  for (const auto& tick : axis) width = std::max(width, measure(tick.label));
+  return width;
+}
+
+}  // namespace
+
+Layout lay_out(const Subject& subject) {
+  Layout layout;
+  choose_view(subject, layout);
+  choose_axes(subject, layout);
+  layout.legend = legend_entries(subject);
+
+  const double left = page_margin + (layout.y_ticks.empty() ? 0 : 16 + widest_label(layout.y_ticks) + 8);
+  constexpr double below_plot = 34;  // tick labels and axis label
+  layout.plot.x = left;
+  layout.y_label_x = page_margin + 10;
+
+  const bool beside = layout.plot.width <= 1.3 * layout.plot.height;
+  const double least_width = left + std::max(layout.plot.width, 2 * legend_column + legend_gap);
+  layout.width =
+      (beside ? layout.plot.right() + legend_gap + legend_column : std::max(layout.plot.right(), least_width)) +
+      page_margin;
+  layout.plot.y = place_title(subject, layout, layout.width - left - page_margin);
+  for (auto& line : layout.title) line.x = left;
+  const double plot_end = layout.plot.bottom() + below_plot;
+  if (beside) {
+    const double end = place_legend(layout.legend, layout.plot.right() + legend_gap, layout.plot.y, legend_column, 1);
+    layout.height = std::max(plot_end, end + page_margin);
+  } else {
+    const double column = (layout.width - left - page_margin - legend_gap) / 2;
+    const double end = place_legend(layout.legend, left, plot_end + 8, column, 2);
+    layout.height = end + page_margin;
+  }
+  for (auto& tick : layout.x_ticks) tick.at = layout.page({tick.at, 0})[0];
+  for (auto& tick : layout.y_ticks) tick.at = layout.page({0, tick.at})[1];
+  layout.width = std::ceil(layout.width);
+  layout.height = std::ceil(layout.height);
+  return layout;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,78 @@
+// Where everything of a picture stands, decided before anything is drawn. Lengths in points (1/72 inch), y down.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/locus_map.hpp"
+#include "core/sketch.hpp"
+#include "report/groups.hpp"
+#include "report/typesetting.hpp"
+
+namespace clearloci::report {
+
+struct Box {
+  double x = 0, y = 0, width = 0, height = 0;
+
+  double right() const { return x + width; }
+  double bottom() const { return y + height; }
+};
+
+/// What a legend entry shows a sample of.
+enum class SampleKind { curve, point, workspace, mechanism, load, remark };
+
+struct LegendEntry {
+  SampleKind sample = SampleKind::curve;
+  Stroke stroke;                   ///< of a curve
+  Marker marker;                   ///< of a point
+  std::vector<std::string> lines;  ///< the label, wrapped
+  Box box;                         ///< sample and label
+};
+
+struct Tick {
+  double at = 0;  ///< page coordinate along the axis
+  std::string label;
+};
+
+struct TitleLine {
+  std::string text;
+  Font font;
+  double x = 0, y = 0;  ///< left end of the baseline
+};
+
+/// One picture: the loci of one working mode. Axes have one scale, y points up.
+struct Layout {
+  double width = 0, height = 0;
+  Box plot;
+  core::Point2 low{}, high{};                ///< what the plot shows, m
+  core::Point2 search_low{}, search_high{};  ///< the box that was searched, m
+  double scale = 1;                          ///< pt/m
+  std::vector<Tick> x_ticks, y_ticks;
+  std::string x_label, y_label;
+  double y_label_x = 0;  ///< baseline of the upright y label
+  std::vector<TitleLine> title;
+  std::vector<LegendEntry> legend;
+
+  core::Point2 page(const core::Point2& point) const {
+    return {plot.x + (point[0] - low[0]) * scale, plot.bottom() - (point[1] - low[1]) * scale};
+  }
+};
+
+/// What a picture shows. The pointers outlive it; `sketch` may be null.
+struct Subject {
+  const core::LocusMap* map = nullptr;
+  core::WorkingMode mode;
+  Groups groups;  ///< of this mode
+  const core::Sketch* sketch = nullptr;
+};
+
+Layout lay_out(const Subject& subject);
+
+inline constexpr double legend_sample_width = 32;   ///< pt
+inline constexpr double legend_sample_gap = 8;      ///< pt, between a sample and its label
+inline constexpr double legend_line_height = 11.5;  ///< pt
+inline constexpr Font legend_font{8.5, false, false};
+inline constexpr Font tick_font{8.5, false, false};
+inline constexpr Font label_font{9.5, false, true};
+
+}  // namespace clearloci::report

@@ -1,0 +1,157 @@
+#include "report/loci_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json exact(const core::Rational& value) { return core::to_string(value); }
+
+Json closed_form_object(const core::ClosedForm& form) {
+  if (const auto* line = std::get_if<core::LineForm>(&form)) {
+    return {{"line", {{"a", exact(line->a)}, {"b", exact(line->b)}, {"c", exact(line->c)}}}};
+  }
+  if (const auto* circle = std::get_if<core::CircleForm>(&form)) {
+    Json body;
+    body["centre"] = Json::array({exact(circle->centre[0]), exact(circle->centre[1])});
+    if (circle->radius) {
+      body["radius"] = exact(*circle->radius);
+    } else {
+      body["radius"] = std::sqrt(core::to_double(circle->radius_squared));
+      body["radius_squared"] = exact(circle->radius_squared);
+    }
+    return {{"circle", std::move(body)}};
+  }
+  if (const auto* conic = std::get_if<core::ConicForm>(&form)) {
+    Json body;
+    body["type"] = conic->type;
+    for (const auto& coefficient : conic->coefficients) body["coefficients"].push_back(exact(coefficient));
+    if (conic->centre) body["centre"] = *conic->centre;
+    if (conic->semi_axes) body["semi_axes"] = *conic->semi_axes;
+    if (conic->semi_axes) body["angle"] = conic->angle;
+    return {{"conic", std::move(body)}};
+  }
+  return nullptr;
+}
+
+Json arc_object(const core::Arc& arc) {
+  Json body;
+  body["closed"] = arc.closed;
+  body["ends"] = arc.closed ? Json::array() : Json::array({core::to_string(arc.ends[0]), core::to_string(arc.ends[1])});
+  body["length"] = arc.length;
+  body["points"] = arc.points;
+  return body;
+}
+
+Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
+  Json body;
+  body["id"] = curve.id;
+  body["kind"] = core::to_string(curve.kind);
+  body["vanishing"] = vanishing_array(curve.vanishing);
+  body["factor"] = printable(curve.factor);
+  body["cause"] = printable(curve.cause);
+  body["implicit"] = {{"polynomial", core::to_string(curve.implicit, map.tower.coordinates)},
+                      {"degree", core::total_degree(curve.implicit)}};
+  body["closed_form"] = closed_form_object(curve.closed_form);
+  body["working_mode"] = mode_object(map.tower, curve.mode);
+  body["certified"] = curve.certified;
+  body["arcs"] = Json::array();
+  for (const auto& arc : curve.arcs) body["arcs"].push_back(arc_object(arc));
+  return body;
+}
+
+Json isolated_point_object(const core::LocusMap& map, const core::IsolatedPoint& point) {
+  return {{"kind", core::to_string(point.kind)},
+          {"vanishing", vanishing_array(point.vanishing)},
+          {"at", point.at},
+          {"certified", point.certified},
+          {"working_mode", mode_object(map.tower, point.mode)}};
+}
+
+Json box_array(const core::LocusMap& map) {
+  Json box = Json::array();
+  for (std::size_t i = 0; i < map.lower.size(); ++i) {
+    box.push_back({core::to_double(map.lower[i]), core::to_double(map.upper[i])});
+  }
+  return box;
+}
+
+bool holds_object(const Json& value) {
+  return value.is_object() || (value.is_array() && std::any_of(value.begin(), value.end(), holds_object));
+}
+
+void print(const Json& value, int depth, std::string& out) {
+  const bool object = value.is_object();
+  if (value.empty() || !holds_object(value)) {
+    out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return;
+  }
+  const std::string indent(static_cast<std::size_t>(2 * depth + 2), ' ');
+  out += object ? "{\n" : "[\n";
+  bool first = true;
+  for (auto it = value.begin(); it != value.end(); ++it) {
+    if (!first) out += ",\n";
+    first = false;
+    out += indent;
+    if (object) out += Json(it.key()).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+    print(*it, depth + 1, out);
+  }
+  out += "\n" + indent.substr(2) + (object ? "}" : "]");
+}
+
+}  // namespace
+
+Json mode_object(const core::RootTower& tower, const core::WorkingMode& mode) {
+  Json body = Json::object();
+  for (const auto& [point, side] : core::describe_mode(tower, mode)) body[printable(point)] = side;
+  return body;
+}
+
+Json vanishing_array(const std::vector<core::Vanishing>& vanishing) {
+  Json reactions = Json::array();
+  for (const auto& one : vanishing) {
+    Json body = {{"joint", printable(one.joint)}, {"quantity", core::to_string(one.quantity)}};
+    if (one.multiplicity > 1) body["multiplicity"] = one.multiplicity;
+    reactions.push_back(std::move(body));
+  }
+  return reactions;
+}
+
+Json loci_object(const core::LocusMap& map) {
+  Json root;
+  root["format"] = 1;
+  root["mechanism"] = printable(map.mechanism);
+  root["parameters"] = Json::object();
+  for (const auto& [name, value] : map.parameters) root["parameters"][printable(name)] = value;
+  root["coordinates"] = map.tower.coordinates;
+  root["box"] = box_array(map);
+  root["tolerance"] = map.tolerance;
+  root["complete"] = map.complete;
+  root["curves"] = Json::array();
+  for (const auto& curve : map.curves) root["curves"].push_back(curve_object(map, curve));
+  root["isolated_points"] = Json::array();
+  for (const auto& point : map.isolated_points) root["isolated_points"].push_back(isolated_point_object(map, point));
+  root["workspace"] = Json::array();
+  for (const auto& region : map.workspace) {
+    root["workspace"].push_back({{"working_mode", mode_object(map.tower, region.mode)}, {"rings", region.rings}});
+  }
+  root["notes"] = Json::array();
+  for (const auto& note : map.notes) root["notes"].push_back(printable(note));
+  root["timing"] = Json::object();
+  for (const auto& [stage, seconds] : map.timing) root["timing"][stage] = seconds;
+  return root;
+}
+
+std::string json_text(const Json& value) {
+  std::string out;
+  print(value, 0, out);
+  return out + "\n";
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,160 @@
+#include "report/loci_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "report/wording.hpp"
+#include "report/wrap.hpp"
+
+namespace clearloci::report {
+namespace {
+
+constexpr int table_width = 120;
+
+struct Column {
+  std::string heading;
+  int widest = 0;  ///< cells are wrapped to this
+  bool right = false;
+};
+
+using Row = std::vector<std::string>;
+
+std::string padded(const std::string& text, int width, bool right) {
+  const std::string space(static_cast<std::size_t>(std::max(0, width - columns(text))), ' ');
+  return right ? space + text : text + space;
+}
+
+/// Columns as wide as their cells need, at most `widest`, two spaces apart, below a rule.
+std::string format_rows(const std::vector<Column>& heading, const std::vector<Row>& rows) {
+  const auto measure = [](std::string_view text) { return static_cast<double>(columns(text)); };
+  std::vector<int> widths;
+  std::vector<std::vector<std::vector<std::string>>> cells(rows.size());
+  for (std::size_t c = 0; c < heading.size(); ++c) {
+    int width = columns(heading[c].heading);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      cells[r].push_back(wrap(rows[r][c], heading[c].widest, measure));
+      for (const auto& line : cells[r].back()) width = std::max(width, columns(line));
+    }
+    widths.push_back(width);
+  }
+  std::string out;
+  const auto add_line = [&](const auto& text_of) {
+    std::string line;
+    for (std::size_t c = 0; c < heading.size(); ++c) {
+      line += (c == 0 ? "  " : "  ") + padded(text_of(c), widths[c], heading[c].right);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+  };
+  const auto rule = [&](std::size_t c) {
+    std::string line;
+    for (int i = 0; i < widths[c]; ++i) line += "─";
+    return line;
+  };
+  add_line([&](std::size_t c) { return heading[c].heading; });
+  add_line(rule);
+  for (const auto& row : cells) {
+    std::size_t height = 0;
+    for (const auto& cell : row) height = std::max(height, cell.size());
+    for (std::size_t i = 0; i < height; ++i) {
+      add_line([&](std::size_t c) { return i < row[c].size() ? row[c][i] : std::string(); });
+    }
+  }
+  return out;
+}
+
+/// "f: A1, B1, P; M: A1".
+std::string what_vanishes(const std::vector<core::Vanishing>& vanishing) {
+  constexpr std::array quantities = {core::Quantity::f, core::Quantity::M, core::Quantity::fx, core::Quantity::fy};
+  std::string text;
+  for (const auto quantity : quantities) {
+    std::string joints;
+    for (const auto& one : vanishing) {
+      if (one.quantity == quantity) joints += (joints.empty() ? "" : ", ") + printable(one.joint);
+    }
+    if (!joints.empty()) text += (text.empty() ? "" : "; ") + core::to_string(quantity) + ": " + joints;
+  }
+  return text;
+}
+
+std::string where(const core::LocusCurve& curve) {
+  if (!curve.cause.empty()) return printable(curve.cause);
+  constexpr int readable = 60;  // a longer factor would fill the screen; `equations` prints it whole
+  if (columns(curve.factor) <= readable) return printable(curve.factor);
+  return "factor without a short form";
+}
+
+double total_length(const core::LocusCurve& curve) {
+  double length = 0;
+  for (const auto& arc : curve.arcs) length += arc.length;
+  return length;
+}
+
+std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
+  const std::vector<Column> heading = {{"curve", 8},      {"kind", 18},         {"vanishing", 20},
+                                       {"where", 30},     {"deg.", 4, true},    {"closed form", 24},
+                                       {"arcs", 4, true}, {"length/m", 8, true}};
+  std::vector<Row> rows;
+  for (const auto& curve : map.curves) {
+    if (curve.mode != mode) continue;
+    rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind),
+                    what_vanishes(curve.vanishing), where(curve), std::to_string(core::total_degree(curve.implicit)),
+                    closed_form_words(curve.closed_form, map.tower.coordinates), std::to_string(curve.arcs.size()),
+                    fmt::format("{:.4f}", total_length(curve))});
+  }
+  if (rows.empty()) return "  no curves\n";
+  return format_rows(heading, rows);
+}
+
+std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
+  std::vector<Column> heading = {{"point", 8}, {"kind", 18}, {"vanishing", 40}};
+  for (const auto& name : map.tower.coordinates) heading.push_back({printable(name) + "/m", 14, true});
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
+    const auto& point = map.isolated_points[i];
+    if (point.mode != mode) continue;
+    Row row = {"p" + std::to_string(i + 1) + (point.certified ? "" : "*"), kind_words(point.kind),
+               what_vanishes(point.vanishing)};
+    for (const double value : point.at) row.push_back(fmt::format("{:.9f}", value));
+    rows.push_back(std::move(row));
+  }
+  return rows.empty() ? "" : "\n  isolated points\n" + format_rows(heading, rows);
+}
+
+std::string notes(const core::LocusMap& map) {
+  const auto measure = [](std::string_view text) { return static_cast<double>(columns(text)); };
+  std::vector<std::string> sentences = map.notes;
+  const auto uncertain = [](const auto& one) { return !one.certified; };
+  if (std::any_of(map.curves.begin(), map.curves.end(), uncertain) ||
+      std::any_of(map.isolated_points.begin(), map.isolated_points.end(), uncertain)) {
+    sentences.push_back("*: traced, but its topology is not certified.");
+  }
+  if (!map.complete) sentences.push_back("Incomplete: the work was stopped at its time limit.");
+  std::string out;
+  for (const auto& sentence : sentences) {
+    const auto lines = wrap(printable(sentence), table_width - 4, measure);
+    for (std::size_t i = 0; i < lines.size(); ++i) out += (i == 0 ? "  " : "    ") + lines[i] + "\n";
+  }
+  return out.empty() ? "" : "\n" + out;
+}
+
+}  // namespace
+
+std::string loci_table(const core::LocusMap& map) {
+  std::string out = printable(map.mechanism);
+  const std::string parameters = printable(parameter_words(map));
+  if (!parameters.empty()) out += "\n  " + parameters;
+  out += "\n";
+  std::vector<core::WorkingMode> modes = modes_of(map);
+  if (modes.empty()) out += "\n  no curves\n";
+  for (const auto& mode : modes) {
+    const std::string words = printable(mode_words(map.tower, mode));
+    out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";
+    out += curve_rows(map, mode) + point_rows(map, mode);
+  }
+  return out + notes(map);
+}
+
+}  // namespace clearloci::report

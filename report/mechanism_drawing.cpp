@@ -1,0 +1,240 @@
+#include "report/mechanism_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using core::Point2;
+using Context = Cairo::RefPtr<Cairo::Context>;
+
+constexpr Colour outline{0.20, 0.24, 0.30};
+constexpr Colour link_fill{0.62, 0.68, 0.76};
+constexpr Colour load_colour{0.55, 0.05, 0.10};
+constexpr double bar_width = 8;
+constexpr double pin_radius = 3.4;
+constexpr double longest_arrow = 46;
+constexpr Font name_font{9, true, false};
+constexpr Font load_font{8.5, true, false};
+
+constexpr double full_turn = 2 * std::numbers::pi;
+
+/// A rounded bar: the stroke of `path` in the outline's colour, then a narrower one in the fill's.
+void draw_bar(const Context& context, const std::vector<Point2>& path) {
+  context->set_line_cap(Cairo::Context::LineCap::ROUND);
+  context->set_line_join(Cairo::Context::LineJoin::ROUND);
+  context->unset_dash();
+  const auto stroke = [&](double width, const Colour& colour, double opacity) {
+    for (const auto& point : path) context->line_to(point[0], point[1]);
+    context->set_line_width(width);
+    set_colour(context, colour, opacity);
+    context->stroke();
+  };
+  stroke(bar_width, outline, 0.55);
+  stroke(bar_width - 1.4, link_fill, 0.85);
+}
+
+void draw_pin(const Context& context, const Point2& at, bool actuated) {
+  context->unset_dash();
+  const auto disc = [&](double radius, const Colour& colour) {
+    context->arc(at[0], at[1], radius, 0, full_turn);
+    set_colour(context, colour);
+    context->fill();
+  };
+  if (actuated) {
+    disc(pin_radius + 2.6, outline);
+    disc(pin_radius + 1.6, {1, 1, 1});
+    disc(pin_radius, outline);
+  } else {
+    disc(pin_radius, outline);
+    disc(pin_radius - 1.1, {1, 1, 1});
+  }
+}
+
+/// The bracket of a fixed joint: a triangle on a hatched line.
+void draw_ground(const Context& context, const Point2& at) {
+  constexpr double half = 9, height = 13, hatch = 4.5;
+  context->unset_dash();
+  context->set_line_cap(Cairo::Context::LineCap::BUTT);
+  context->set_line_width(0.9);
+  context->move_to(at[0], at[1]);
+  context->line_to(at[0] - 0.75 * half, at[1] + height);
+  context->line_to(at[0] + 0.75 * half, at[1] + height);
+  context->close_path();
+  set_colour(context, {1, 1, 1}, 0.85);
+  context->fill_preserve();
+  set_colour(context, outline);
+  context->stroke();
+  context->move_to(at[0] - 1.25 * half, at[1] + height);
+  context->line_to(at[0] + 1.25 * half, at[1] + height);
+  for (double x = -1.25 * half + hatch; x <= 1.25 * half + 0.01; x += hatch) {
+    context->move_to(at[0] + x, at[1] + height);
+    context->line_to(at[0] + x - hatch, at[1] + height + hatch);
+  }
+  context->stroke();
+}
+
+/// Where a joint's name stands: away from the links that meet there, and from the bracket of a fixed joint.
+Point2 name_direction(const core::Sketch& sketch, const core::SketchJoint& joint) {
+  Point2 sum = {0, 0};
+  const auto add = [&](double dx, double dy) {
+    const double length = std::hypot(dx, dy);
+    if (length < 1e-12) return;
+    sum[0] -= dx / length;
+    sum[1] -= dy / length;
+  };
+  for (const auto& link : sketch.links) {
+    const bool here = std::find(link.points.begin(), link.points.end(), joint.at) != link.points.end();
+    for (const auto& point : link.points) {
+      if (here) add(point[0] - joint.at[0], point[1] - joint.at[1]);
+    }
+  }
+  for (const auto& load : sketch.loads) {
+    if (load.at == joint.at) add(load.force[0], load.force[1]);
+  }
+  if (joint.on_ground) return {sum[0] < 0 ? -0.85 : 0.85, 0.5};
+  const double length = std::hypot(sum[0], sum[1]);
+  return length < 0.2 ? Point2{0.8, 0.6} : Point2{sum[0] / length, sum[1] / length};
+}
+
+void write_joint_name(const Context& context, const Layout& layout, const core::Sketch& sketch,
+                      const core::SketchJoint& joint) {
+  const Point2 at = layout.page(joint.at), direction = name_direction(sketch, joint);
+  const std::string name = printable(joint.name);
+  const double distance = joint.actuated ? 11 : 9, width = text_width(name, name_font);
+  const double x = at[0] + direction[0] * (distance + width / 2 * std::abs(direction[0]));
+  const double y = at[1] - direction[1] * (distance + 2) + 0.36 * name_font.size;
+  write_over_lines(context, name, x, y, name_font, outline, Align::centre);
+}
+
+void draw_couple(const Context& context, const Layout& layout, const core::SketchLoad& load) {
+  constexpr double radius = 15, start = 0.6, end = 5.2;  // rad on the page, where y points down
+  const Point2 at = layout.page(load.at);
+  const bool counter_clockwise = load.couple > 0;
+  const double tip = counter_clockwise ? -end : end, side = counter_clockwise ? -1 : 1;
+  set_colour(context, load_colour);
+  context->unset_dash();
+  context->set_line_width(1.6);
+  if (counter_clockwise) {
+    context->arc_negative(at[0], at[1], radius, -start, -end);
+  } else {
+    context->arc(at[0], at[1], radius, start, end);
+  }
+  context->stroke();
+  const Point2 head = {at[0] + radius * std::cos(tip), at[1] + radius * std::sin(tip)};
+  const Point2 along = {-side * std::sin(tip), side * std::cos(tip)};
+  draw_load_arrow(context, {head[0] - 0.5 * along[0], head[1] - 0.5 * along[1]},
+                  {head[0] + 7 * along[0], head[1] + 7 * along[1]});
+  write_over_lines(context, short_number(std::abs(load.couple), 4) + " N m", at[0], at[1] + radius + 12, load_font,
+                   load_colour, Align::centre);
+}
+
+/// The arrow starts at the point of application, or ends there where it would leave the plot.
+void draw_force(const Context& context, const Layout& layout, const core::SketchLoad& load, double largest) {
+  const double size = std::hypot(load.force[0], load.force[1]);
+  const double length = std::max(0.45, size / largest) * longest_arrow;
+  const Point2 unit = {load.force[0] / size, -load.force[1] / size}, at = layout.page(load.at);
+  constexpr double clear_of_pin = pin_radius + 2.5, room = 14;
+  Point2 tail = {at[0] + clear_of_pin * unit[0], at[1] + clear_of_pin * unit[1]};
+  Point2 tip = {tail[0] + length * unit[0], tail[1] + length * unit[1]};
+  const Box& plot = layout.plot;
+  const bool leaves =
+      tip[0] < plot.x + 4 || tip[0] > plot.right() - 4 || tip[1] < plot.y + room || tip[1] > plot.bottom() - 4;
+  if (leaves) {
+    tip = {at[0] - clear_of_pin * unit[0], at[1] - clear_of_pin * unit[1]};
+    tail = {tip[0] - length * unit[0], tip[1] - length * unit[1]};
+  }
+  draw_load_arrow(context, tail, tip);
+  const Point2 free_end = leaves ? tail : tip;
+  const std::string words = short_number(size, 4) + " N";
+  // Beside the arrow's free end, on the side where the plot has more room.
+  const bool to_right = free_end[0] + text_width(words, load_font) + 10 < plot.right();
+  const bool steep = std::abs(unit[1]) > 0.7;
+  write_over_lines(context, words, free_end[0] + (steep ? (to_right ? 7 : -7) : 0), free_end[1] + (steep ? 1 : -8),
+                   load_font, load_colour, steep ? (to_right ? Align::left : Align::right) : Align::centre);
+}
+
+}  // namespace
+
+void set_colour(const Context& context, const Colour& colour, double opacity) {
+  context->set_source_rgba(colour.red, colour.green, colour.blue, opacity);
+}
+
+void write_over_lines(const Context& context, const std::string& text, double x, double y, const Font& font,
+                      const Colour& colour, Align align) {
+  const double shift = align == Align::left ? 0 : text_width(text, font) * (align == Align::centre ? 0.5 : 1);
+  choose_font(context, font);
+  context->unset_dash();
+  context->move_to(x - shift, y);
+  context->text_path(text);
+  set_colour(context, {1, 1, 1}, 0.8);
+  context->set_line_width(3);
+  context->set_line_join(Cairo::Context::LineJoin::ROUND);
+  context->stroke();
+  set_colour(context, colour);
+  write_text(context, text, x - shift, y, font);
+}
+
+void draw_load_arrow(const Context& context, const Point2& tail, const Point2& tip) {
+  constexpr double head = 8, half = 3.1;
+  const double length = std::hypot(tip[0] - tail[0], tip[1] - tail[1]);
+  const Point2 unit = {(tip[0] - tail[0]) / length, (tip[1] - tail[1]) / length};
+  const Point2 neck = {tip[0] - head * unit[0], tip[1] - head * unit[1]};
+  set_colour(context, load_colour);
+  context->unset_dash();
+  context->set_line_cap(Cairo::Context::LineCap::BUTT);
+  context->set_line_width(1.8);
+  if (length > head) {
+    context->move_to(tail[0], tail[1]);
+    context->line_to(neck[0] + unit[0], neck[1] + unit[1]);
+    context->stroke();
+  }
+  context->move_to(tip[0], tip[1]);
+  context->line_to(neck[0] - half * unit[1], neck[1] + half * unit[0]);
+  context->line_to(neck[0] + half * unit[1], neck[1] - half * unit[0]);
+  context->close_path();
+  context->fill();
+}
+
+void draw_mechanism(const Context& context, const Layout& layout, const core::Sketch& sketch) {
+  for (const auto& joint : sketch.joints) {
+    if (joint.on_ground) draw_ground(context, layout.page(joint.at));
+  }
+  for (const auto& link : sketch.links) {
+    std::vector<Point2> path;
+    for (const auto& point : link.points) path.push_back(layout.page(point));
+    // A link of three points or more is a plate: its outline closes.
+    if (path.size() > 2) path.push_back(path.front());
+    draw_bar(context, path);
+  }
+  for (const auto& joint : sketch.joints) draw_pin(context, layout.page(joint.at), joint.actuated);
+  for (const auto& joint : sketch.joints) write_joint_name(context, layout, sketch, joint);
+}
+
+void draw_loads(const Context& context, const Layout& layout, const core::Sketch& sketch) {
+  double largest = 0;
+  for (const auto& load : sketch.loads) largest = std::max(largest, std::hypot(load.force[0], load.force[1]));
+  for (const auto& load : sketch.loads) {
+    if (load.force != Point2{0, 0}) draw_force(context, layout, load, largest);
+    if (load.couple != 0) draw_couple(context, layout, load);
+  }
+  const double gravity = std::hypot(sketch.gravity[0], sketch.gravity[1]);
+  if (gravity == 0) return;
+  const Point2 centre = {layout.plot.right() - 22, layout.plot.y + 24};
+  const Point2 half = {13 * sketch.gravity[0] / gravity, -13 * sketch.gravity[1] / gravity};
+  draw_load_arrow(context, {centre[0] - half[0], centre[1] - half[1]}, {centre[0] + half[0], centre[1] + half[1]});
+  write_over_lines(context, "g", centre[0] - 8, centre[1] + 3, {9, false, true}, load_colour, Align::right);
+}
+
+void draw_mechanism_sample(const Context& context, double x, double y, double width) {
+  const Point2 left = {x + 7, y}, right = {x + width - 6, y};
+  draw_bar(context, {left, right});
+  draw_pin(context, left, true);
+  draw_pin(context, right, false);
+}
+
+}  // namespace clearloci::report

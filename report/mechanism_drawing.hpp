@@ -1,0 +1,28 @@
+// The mechanism over its workspace: links as bars, joints as pins, the ground hatched, loads as arrows.
+#pragma once
+
+#include <cairomm/context.h>
+
+#include "report/layout.hpp"
+
+namespace clearloci::report {
+
+/// Links, ground, joints with their names. Drawn under the names of nothing else, so that loci stay readable.
+void draw_mechanism(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
+
+/// Forces as arrows with their size in N, couples as turning arrows with theirs in N m, gravity in the plot's corner.
+void draw_loads(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
+
+/// A bar with a pin and an actuated pin, for the legend: from (x, y) over `width`.
+void draw_mechanism_sample(const Cairo::RefPtr<Cairo::Context>& context, double x, double y, double width);
+
+/// An arrow from `tail` to `tip` in the colour of loads.
+void draw_load_arrow(const Cairo::RefPtr<Cairo::Context>& context, const core::Point2& tail, const core::Point2& tip);
+
+/// Text on a white halo, so that it can be read over lines.
+void write_over_lines(const Cairo::RefPtr<Cairo::Context>& context, const std::string& text, double x, double y,
+                      const Font& font, const Colour& colour, Align align);
+
+void set_colour(const Cairo::RefPtr<Cairo::Context>& context, const Colour& colour, double opacity = 1);
+
+}  // namespace clearloci::report

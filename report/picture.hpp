@@ -1,0 +1,24 @@
+// Pictures of discontinuity loci: one drawing, in SVG, PDF or PNG.
+#pragma once
+
+#include <string>
+
+#include "core/locus_map.hpp"
+#include "core/sketch.hpp"
+
+namespace clearloci::report {
+
+enum class PictureFormat { svg, pdf, png };
+
+/// The loci of one working mode as the bytes of a file: workspace shaded, one colour and dash pattern a reason, direct
+/// singularities dash-dotted in black, the boundary thin and grey, isolated points as ringed markers, and, where given,
+/// the mechanism in the posture of `sketch` with its loads. Axes have one scale; the legend names joints. `sketch`
+/// belongs to the plane of the free coordinates: leave it out where these are not the platform point's x and y.
+/// The same map gives the same bytes. PNG has 2 pixels a point.
+std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
+                    PictureFormat format);
+
+/// The legend's labels, unwrapped, in order: also the description inside the SVG.
+std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode);
+
+}  // namespace clearloci::report

@@ -1,0 +1,86 @@
+#include "report/svg_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string_view>
+
+namespace clearloci::report {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// "12.345678" as "12.346"; zeros at the end go.
+std::string rounded(const std::string& number) {
+  std::string text = fmt::format("{:.3f}", std::strtod(number.c_str(), nullptr));
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+/// Every number of more than 3 decimals. Cairo's SVG holds no text of ours, so whatever looks like one is one.
+std::string round_numbers(const std::string& svg) {
+  std::string out;
+  out.reserve(svg.size());
+  for (std::size_t i = 0; i < svg.size();) {
+    if (!is_digit(svg[i])) {
+      out += svg[i++];
+      continue;
+    }
+    std::size_t end = i, decimals = 0;
+    while (end < svg.size() && is_digit(svg[end])) ++end;
+    if (end < svg.size() && svg[end] == '.') {
+      for (++end; end < svg.size() && is_digit(svg[end]); ++end) ++decimals;
+    }
+    out += decimals > 3 ? rounded(svg.substr(i, end - i)) : svg.substr(i, end - i);
+    i = end;
+  }
+  return out;
+}
+
+/// Removes ` id="surface..."`, which nothing refers to.
+void drop_surface_identifier(std::string& svg) {
+  constexpr std::string_view start = " id=\"surface";
+  for (std::size_t at = svg.find(start); at != std::string::npos; at = svg.find(start, at)) {
+    svg.erase(at, svg.find('"', at + start.size()) + 1 - at);
+  }
+}
+
+}  // namespace
+
+std::string escape_xml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&apos;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string finish_svg(const std::string& svg, const std::string& title, const std::string& description) {
+  std::string out = round_numbers(svg);
+  drop_surface_identifier(out);
+  const std::size_t root = out.find("<svg "), end = out.find(">\n", root);
+  out.insert(end + 2, "<title>" + escape_xml(title) + "</title>\n<desc>" + escape_xml(description) + "</desc>\n");
+  out.insert(end, " role=\"img\"");
+  return out;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,33 @@
+// Text on a Cairo surface: one family, measured the same way for every kind of surface.
+#pragma once
+
+#include <cairomm/context.h>
+
+#include <string>
+
+#include "report/wrap.hpp"
+
+namespace clearloci::report {
+
+struct Font {
+  double size = 9;  ///< pt
+  bool bold = false;
+  bool italic = false;
+};
+
+enum class Align { left, centre, right };
+
+/// Sets the font on a context. Metrics are not rounded to pixels, so that SVG, PDF and PNG break lines alike.
+void choose_font(const Cairo::RefPtr<Cairo::Context>& context, const Font& font);
+
+/// Advance of `text` in points.
+double text_width(const std::string& text, const Font& font);
+
+/// text_width as wrap() wants it.
+Measure measure_in(const Font& font);
+
+/// Writes `text` with its baseline at y and its left end, middle or right end at x, in the current colour.
+void write_text(const Cairo::RefPtr<Cairo::Context>& context, const std::string& text, double x, double y,
+                const Font& font, Align align = Align::left);
+
+}  // namespace clearloci::report

@@ -1,0 +1,167 @@
+#include "report/wording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearloci::report {
+namespace {
+
+std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
+  return fmt::format("{}", fmt::join(parts, separator));
+}
+
+std::vector<std::string> joints_of(std::span<const core::Vanishing> vanishing, core::Quantity quantity) {
+  std::vector<std::string> joints;
+  for (const auto& one : vanishing) {
+    if (one.quantity == quantity) joints.push_back(one.joint);
+  }
+  return joints;
+}
+
+/// "√(69/100)", or "1/2" where the square root is exact.
+std::string radius_words(const core::CircleForm& circle) {
+  if (circle.radius) return core::to_string(*circle.radius);
+  const std::string square = core::to_string(circle.radius_squared);
+  return square.find('/') == std::string::npos ? "√" + square : "√(" + square + ")";
+}
+
+/// a x + b y + c as a text; zero terms are left out.
+std::string linear_words(const core::LineForm& line, std::span<const std::string> coordinates) {
+  const auto term = [](const core::Rational& factor, const std::string& symbol, bool first) {
+    if (factor == 0) return std::string();
+    const core::Rational size = abs(factor);
+    const std::string number = core::to_string(size);
+    const std::string body = symbol.empty() ? number : size == 1 ? symbol : number + " " + symbol;
+    return (first ? (factor < 0 ? "-" : "") : (factor < 0 ? " - " : " + ")) + body;
+  };
+  std::string text = term(line.a, coordinates[0], true);
+  text += term(line.b, coordinates[1], text.empty());
+  text += term(line.c, "", text.empty());
+  return text;
+}
+
+/// Length of the well-formed UTF-8 sequence at the start of `text`, 0 for an ill-formed one.
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return 1;
+  const std::size_t length = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  }
+  // Overlong forms, surrogates and what lies beyond U+10FFFF show in the second byte.
+  const bool ill = (byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xED && byte(1) > 0x9F) ||
+                   (byte(0) == 0xF0 && byte(1) < 0x90) || (byte(0) == 0xF4 && byte(1) > 0x8F);
+  return ill ? 0 : length;
+}
+
+}  // namespace
+
+std::string reaction_name(const core::Vanishing& vanishing) {
+  return core::to_string(vanishing.quantity) + "_" + vanishing.joint;
+}
+
+std::string reaction_names(std::span<const core::Vanishing> vanishing) {
+  std::vector<std::string> names;
+  for (const auto& one : vanishing) names.push_back(reaction_name(one));
+  return joined(names, " ");
+}
+
+std::string kind_words(core::LocusKind kind) {
+  std::string words = core::to_string(kind);
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return words;
+}
+
+std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing) {
+  const bool margin = kind == core::LocusKind::margin;
+  const std::vector<std::pair<core::Quantity, std::string>> wordings = {
+      {core::Quantity::f, margin ? "contact force at its minimum" : "contact lost"},
+      {core::Quantity::M, margin ? "couple at its minimum" : "backlash"},
+      {core::Quantity::fx, "fx = 0"},
+      {core::Quantity::fy, "fy = 0"}};
+  std::vector<std::string> parts;
+  for (const auto& [quantity, words] : wordings) {
+    const auto joints = joints_of(vanishing, quantity);
+    if (!joints.empty()) parts.push_back(words + ": " + joined(joints, ", "));
+  }
+  return joined(parts, "; ");
+}
+
+std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates) {
+  if (const auto* line = std::get_if<core::LineForm>(&form)) {
+    return "line " + linear_words(*line, coordinates) + " = 0";
+  }
+  if (const auto* circle = std::get_if<core::CircleForm>(&form)) {
+    return "circle centre (" + core::to_string(circle->centre[0]) + ", " + core::to_string(circle->centre[1]) +
+           "), radius " + radius_words(*circle);
+  }
+  if (const auto* conic = std::get_if<core::ConicForm>(&form)) {
+    std::string words = conic->type;
+    if (conic->centre) {
+      words += " centre (" + short_number((*conic->centre)[0], 6) + ", " + short_number((*conic->centre)[1], 6) + ")";
+    }
+    if (conic->semi_axes) {
+      words +=
+          ", semi-axes " + short_number((*conic->semi_axes)[0], 6) + ", " + short_number((*conic->semi_axes)[1], 6);
+    }
+    return words;
+  }
+  return "";
+}
+
+std::string mode_words(const core::RootTower& tower, const core::WorkingMode& mode) {
+  std::vector<std::string> parts;
+  for (const auto& [point, side] : core::describe_mode(tower, mode)) parts.push_back(point + " " + side);
+  return joined(parts, ", ");
+}
+
+std::string mode_slug(const core::RootTower& tower, const core::WorkingMode& mode) {
+  std::vector<std::string> parts;
+  for (const auto& [point, side] : core::describe_mode(tower, mode)) parts.push_back(side);
+  return joined(parts, "-");
+}
+
+std::string parameter_words(const core::LocusMap& map) {
+  std::vector<std::string> parts;
+  for (const auto& [name, value] : map.parameters) parts.push_back(name + " = " + value);
+  return joined(parts, ", ");
+}
+
+std::vector<core::WorkingMode> modes_of(const core::LocusMap& map) {
+  std::vector<core::WorkingMode> modes;
+  const auto add = [&](const core::WorkingMode& mode) {
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+  };
+  for (const auto& region : map.workspace) add(region.mode);
+  for (const auto& curve : map.curves) add(curve.mode);
+  for (const auto& point : map.isolated_points) add(point.mode);
+  return modes;
+}
+
+std::string short_number(double value, int digits) {
+  const std::string text = fmt::format("{:.{}g}", value, digits);
+  return text == "-0" ? "0" : text;
+}
+
+std::string exact_number(double value) { return value == 0 ? "0" : fmt::format("{}", value); }
+
+std::string printable(std::string_view text) {
+  std::string clean;
+  while (!text.empty()) {
+    const std::size_t length = sequence_length(text);
+    const bool control = length == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F);
+    clean += length == 0 || control ? std::string_view("\xEF\xBF\xBD") : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return clean;
+}
+
+int columns(std::string_view text) {
+  return static_cast<int>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+}  // namespace clearloci::report

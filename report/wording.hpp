@@ -1,0 +1,53 @@
+// The words in which tables, legends and file names speak of loci.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/locus_map.hpp"
+
+namespace clearloci::report {
+
+/// "f_A1", "M_A1", "fx_A1".
+std::string reaction_name(const core::Vanishing& vanishing);
+
+/// "f_A1 f_B1 M_A1".
+std::string reaction_names(std::span<const core::Vanishing> vanishing);
+
+/// "contact loss", "direct singularity", ...: to_string(kind) as words.
+std::string kind_words(core::LocusKind kind);
+
+/// "contact lost: A1, B1, P; backlash: A1"; empty where nothing vanishes.
+std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing);
+
+/// "circle centre (1/2, -1/2), radius 1/2", "line 2 x - 1 = 0"; empty without a closed form.
+std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates);
+
+/// "B1 right, B2 left"; empty for a mechanism without a choice.
+std::string mode_words(const core::RootTower& tower, const core::WorkingMode& mode);
+
+/// "right-left": the mode as a part of a file's name.
+std::string mode_slug(const core::RootTower& tower, const core::WorkingMode& mode);
+
+/// "L = 1/2, d = 1/2".
+std::string parameter_words(const core::LocusMap& map);
+
+/// The modes of the map's curves, points and regions, each once, in order of appearance.
+std::vector<core::WorkingMode> modes_of(const core::LocusMap& map);
+
+/// The shortest decimal of at most `digits` significant digits: "0.785", "1e-05", "-2". No "-0".
+std::string short_number(double value, int digits);
+
+/// The shortest decimal that reads back as the same double.
+std::string exact_number(double value);
+
+/// The text with every ill-formed UTF-8 sequence and every control character replaced by U+FFFD: what a user calls a
+/// mechanism must not break a file.
+std::string printable(std::string_view text);
+
+/// Code points of `text`, the number of columns it takes in a terminal (wide scripts aside).
+int columns(std::string_view text);
+
+}  // namespace clearloci::report
