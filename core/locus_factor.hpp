@@ -25,7 +25,8 @@ struct Vanishing {
   bool operator==(const Vanishing&) const = default;
 };
 
-enum class FactorRole { reaction, margin, direct_singularity, workspace_boundary };
+/// `construction`: a squared distance that the closure divides by; a point where the mode may change.
+enum class FactorRole { reaction, margin, direct_singularity, workspace_boundary, construction };
 
 /// One factor of a numerator, of |A|, or of a Qj.
 struct LocusFactor {
@@ -34,7 +35,9 @@ struct LocusFactor {
   std::string cause;                 ///< "link PB2 parallel to the load"; empty where it has no such reading
   std::vector<Vanishing> vanishing;  ///< components (fx, fy, M) that vanish with it; margins: the quantity held
   Polynomial sheet;                  ///< in (x, y, s1...sm), multilinear in the roots; zero exactly where the factor is
-  std::vector<Polynomial> implicit;  ///< irreducible over Z in (x, y): together they contain its zeros in every mode
+  /// Irreducible over Z in (x, y): together they contain its zeros in every mode. Empty where its curves are not
+  /// wanted and it only takes part in isolated points.
+  std::vector<Polynomial> implicit;
 };
 
 /// Everything needed to trace: no mechanism any more, only curves.
@@ -46,6 +49,8 @@ struct LocusProblem {
   std::vector<LocusFactor> factors;   ///< reactions, margins, |A| and every Qj
   std::vector<Quantity> quantities;   ///< kinds of reaction loci wanted: f (from fx and fy), M, fx, fy
   std::vector<std::string> joints;    ///< joints wanted
+  std::vector<std::string> joint_order;  ///< every joint, in the file's order
+  std::vector<Vanishing> always_zero;    ///< components that vanish in every pose
   double tolerance = 1e-5;            ///< chord deviation, m
 };
 

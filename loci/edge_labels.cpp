@@ -1,0 +1,130 @@
+#include "loci/edge_labels.hpp"
+
+#include <algorithm>
+
+namespace clearloci::loci {
+namespace {
+
+using core::FactorRole;
+using core::LocusKind;
+using core::LocusProblem;
+using core::Quantity;
+using core::Vanishing;
+
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+/// Sums the multiplicities of components that several factors make vanish.
+void merge(std::vector<Vanishing>& components, const std::vector<Vanishing>& more) {
+  for (const Vanishing& v : more) {
+    const auto known = std::find_if(components.begin(), components.end(), [&](const Vanishing& w) {
+      return w.joint == v.joint && w.quantity == v.quantity;
+    });
+    if (known == components.end()) components.push_back(v);
+    else known->multiplicity += v.multiplicity;
+  }
+}
+
+void append(std::string& list, const std::string& item) {
+  if (item.empty()) return;
+  if (!list.empty()) list += "; ";
+  list += item;
+}
+
+}  // namespace
+
+LocusKind gravest_kind(const std::vector<Vanishing>& vanishing) {
+  LocusKind kind = LocusKind::component;
+  for (const Vanishing& v : vanishing) {
+    if (v.quantity == Quantity::f) kind = std::min(kind, LocusKind::contact_loss);
+    if (v.quantity == Quantity::M) kind = std::min(kind, LocusKind::backlash);
+  }
+  return kind;
+}
+
+std::vector<Vanishing> wanted_vanishing(const LocusProblem& problem, const std::vector<Vanishing>& components) {
+  const auto multiplicity = [&](const std::string& joint, Quantity quantity) {
+    for (const Vanishing& v : components) {
+      if (v.joint == joint && v.quantity == quantity) return v.multiplicity;
+    }
+    return 0;
+  };
+  const auto always = [&](const std::string& joint, Quantity quantity) {
+    return std::any_of(problem.always_zero.begin(), problem.always_zero.end(),
+                       [&](const Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
+  };
+  const auto wanted = [&](Quantity quantity) {
+    return std::find(problem.quantities.begin(), problem.quantities.end(), quantity) != problem.quantities.end();
+  };
+  std::vector<Vanishing> forces, couples, single;
+  bool any = false;
+  const auto take = [&](std::vector<Vanishing>& list, const std::string& joint, Quantity quantity, int times) {
+    list.push_back({joint, quantity, times});
+    any = any || (wanted(quantity) && contains(problem.joints, joint));
+  };
+  for (const std::string& joint : problem.joint_order) {
+    const int x = multiplicity(joint, Quantity::fx), y = multiplicity(joint, Quantity::fy);
+    const bool zero_x = x > 0 || always(joint, Quantity::fx), zero_y = y > 0 || always(joint, Quantity::fy);
+    if (zero_x && zero_y && x + y > 0) take(forces, joint, Quantity::f, x == 0 ? y : y == 0 ? x : std::min(x, y));
+    // Components are named where they vanish alone, or more often than the force they belong to.
+    const bool together = zero_x && zero_y && (x == y || x == 0 || y == 0);
+    if (x > 0 && !together && wanted(Quantity::fx)) take(single, joint, Quantity::fx, x);
+    if (y > 0 && !together && wanted(Quantity::fy)) take(single, joint, Quantity::fy, y);
+    if (const int m = multiplicity(joint, Quantity::M); m > 0) take(couples, joint, Quantity::M, m);
+  }
+  if (!any) return {};
+  forces.insert(forces.end(), couples.begin(), couples.end());
+  forces.insert(forces.end(), single.begin(), single.end());
+  return forces;
+}
+
+std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::WorkingMode& mode,
+                                    const CurveArrangement& arrangement,
+                                    const std::vector<std::vector<int>>& curves_of_factor, SheetSigns& signs,
+                                    const std::vector<int>& sheet_of_factor) {
+  std::vector<EdgeInMode> result(arrangement.edges().size());
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    EdgeInMode& edge = result[e];
+    const int index = static_cast<int>(e);
+    edge.in_workspace = edge.interior = true;
+    for (std::size_t j = 0; j < problem.tower.roots.size() && edge.in_workspace; ++j) {
+      const int sign = signs.square_sign(static_cast<int>(j), mode, index);
+      if (sign < 0) edge.in_workspace = false;
+      if (sign <= 0) edge.interior = false;
+    }
+    if (!edge.in_workspace) continue;
+    std::vector<Vanishing> components;
+    std::string factors, causes;
+    for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+      const core::LocusFactor& factor = problem.factors[f];
+      const auto& curves = curves_of_factor[f];
+      if (std::find(curves.begin(), curves.end(), arrangement.edges()[e].curve) == curves.end()) continue;
+      if (factor.role == FactorRole::construction) continue;
+      if (signs.sign(sheet_of_factor[f], mode, index) != 0) continue;
+      switch (factor.role) {
+        case FactorRole::reaction:
+          merge(components, factor.vanishing);
+          append(factors, factor.expression);
+          append(causes, factor.cause);
+          break;
+        case FactorRole::margin:
+          edge.labels.push_back({LocusKind::margin, factor.vanishing, factor.expression, factor.cause});
+          break;
+        case FactorRole::direct_singularity:
+          edge.labels.push_back({LocusKind::direct_singularity, {}, factor.expression, factor.cause});
+          break;
+        case FactorRole::workspace_boundary:
+          edge.labels.push_back({LocusKind::workspace_boundary, {}, factor.expression, factor.cause});
+          break;
+        case FactorRole::construction:
+          break;
+      }
+    }
+    const std::vector<Vanishing> vanishing = wanted_vanishing(problem, components);
+    if (!vanishing.empty()) edge.labels.push_back({gravest_kind(vanishing), vanishing, factors, causes});
+  }
+  return result;
+}
+
+}  // namespace clearloci::loci

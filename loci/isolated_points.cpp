@@ -1,0 +1,151 @@
+#include "loci/isolated_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "loci/edge_labels.hpp"
+#include "loci/sheet/isolated_zeros.hpp"
+#include "loci/sheet/multi_interval.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::FactorRole;
+using core::IsolatedPoint;
+using core::LocusKind;
+using core::LocusMap;
+using core::LocusProblem;
+using core::Quantity;
+using core::WorkingMode;
+using sheet::MultiInterval;
+
+bool makes_vanish(const core::LocusFactor& factor, const std::string& joint, Quantity quantity) {
+  return factor.role == FactorRole::reaction &&
+         std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
+                     [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
+}
+
+/// Whether a contact-loss curve of the joint passes within `reach` of a point.
+bool on_contact_loss_curve(const LocusMap& map, const WorkingMode& mode, const std::string& joint,
+                           const core::Point2& at, double reach) {
+  for (const core::LocusCurve& curve : map.curves) {
+    const bool own = curve.mode == mode && std::any_of(curve.vanishing.begin(), curve.vanishing.end(), [&](const auto& v) {
+                       return v.joint == joint && v.quantity == Quantity::f;
+                     });
+    if (!own) continue;
+    for (const core::Arc& arc : curve.arcs) {
+      for (std::size_t i = 1; i < arc.points.size(); ++i) {
+        const core::Point2 &a = arc.points[i - 1], &b = arc.points[i];
+        const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+        const double t =
+            length2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
+        if (std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]) <= reach) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Joins a joint to a point already found, or adds the point.
+void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
+  for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
+    IsolatedPoint& known = map.isolated_points[i];
+    if (known.mode != point.mode || known.kind != point.kind || known.certified != point.certified ||
+        std::hypot(known.at[0] - point.at[0], known.at[1] - point.at[1]) > same) {
+      continue;
+    }
+    for (const core::Vanishing& v : point.vanishing) {
+      if (std::find(known.vanishing.begin(), known.vanishing.end(), v) == known.vanishing.end()) {
+        known.vanishing.push_back(v);
+      }
+    }
+    return;
+  }
+  map.isolated_points.push_back(point);
+}
+
+/// Value of a sheet polynomial where (x, y) and the roots are enclosed.
+MultiInterval value(const core::Polynomial& p, const std::vector<MultiInterval>& variables) {
+  MultiInterval sum{core::Rational(0)};
+  for (const core::Term& term : p.terms) {
+    MultiInterval product(term.coefficient);
+    for (std::size_t i = 0; i < term.exponents.size(); ++i) {
+      for (int k = 0; k < term.exponents[i]; ++k) product = product * variables[i];
+    }
+    sum = sum + product;
+  }
+  return sum;
+}
+
+/// The point on the mode's sheet; empty where it lies outside the workspace.
+std::vector<MultiInterval> on_sheet(const core::RootTower& tower, const WorkingMode& mode, const PointEnclosure& at) {
+  std::vector<MultiInterval> variables;
+  for (std::size_t i = 0; i < 2; ++i) variables.emplace_back(at.lower[i], at.upper[i]);
+  variables.resize(static_cast<std::size_t>(tower.variables()), MultiInterval(core::Rational(0)));
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    const MultiInterval square = value(tower.roots[j].square, variables);
+    if (!square.non_negative()) return {};
+    const MultiInterval root = square_root(square);
+    variables[2 + j] = mode[j] > 0 ? root : -root;
+  }
+  return variables;
+}
+
+}  // namespace
+
+void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
+  if (std::find(problem.quantities.begin(), problem.quantities.end(), Quantity::f) == problem.quantities.end()) return;
+  const std::size_t first = map.isolated_points.size();
+  const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
+                               core::to_double(problem.upper[1] - problem.lower[1]));
+  for (const std::string& joint : problem.joints) {
+    std::vector<const core::LocusFactor*> x, y;
+    for (const core::LocusFactor& factor : problem.factors) {
+      const bool in_x = makes_vanish(factor, joint, Quantity::fx), in_y = makes_vanish(factor, joint, Quantity::fy);
+      if (in_x && !in_y) x.push_back(&factor);
+      if (in_y && !in_x) y.push_back(&factor);
+    }
+    for (const core::LocusFactor* fx : x) {
+      for (const core::LocusFactor* fy : y) {
+        const sheet::ZeroSet found =
+            sheet::isolated_zeros(problem.tower, mode, fx->sheet, fy->sheet, problem.lower, problem.upper);
+        const auto add = [&](double px, double py, bool certified) {
+          const core::Point2 at{px, py};
+          if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
+          add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {px, py}, mode, certified},
+                    1e-12 * size);
+        };
+        for (const sheet::SheetZero& zero : found.zeros) add(zero.x, zero.y, true);
+        for (const sheet::Cell& cell : found.undecided) add(cell.x.middle(), cell.y.middle(), false);
+      }
+    }
+  }
+}
+
+void add_isolated_points(const LocusProblem& problem, const WorkingMode& mode, const CurveArrangement& arrangement,
+                         const std::vector<std::vector<int>>& curves_of_factor, LocusMap& map) {
+  for (const ArrangementPoint& point : arrangement.isolated_points()) {
+    const std::vector<MultiInterval> at = on_sheet(problem.tower, mode, point.enclosure);
+    if (at.empty()) continue;
+    std::vector<core::Vanishing> components;
+    LocusKind kind = LocusKind::workspace_boundary;
+    for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+      const core::LocusFactor& factor = problem.factors[f];
+      const auto& own = curves_of_factor[f];
+      if (std::find(own.begin(), own.end(), point.curve) == own.end()) continue;
+      if (value(factor.sheet, at).sign() != 0) continue;
+      if (factor.role == FactorRole::reaction) {
+        components.insert(components.end(), factor.vanishing.begin(), factor.vanishing.end());
+      }
+      if (factor.role == FactorRole::direct_singularity) kind = LocusKind::direct_singularity;
+      if (factor.role == FactorRole::margin) kind = LocusKind::margin;
+    }
+    const std::vector<core::Vanishing> vanishing = wanted_vanishing(problem, components);
+    if (!vanishing.empty()) kind = gravest_kind(vanishing);
+    if (kind == LocusKind::workspace_boundary) continue;
+    map.isolated_points.push_back({kind, vanishing, {point.at[0], point.at[1]}, mode, true});
+  }
+  add_contact_loss_points(problem, mode, map);
+}
+
+}  // namespace clearloci::loci

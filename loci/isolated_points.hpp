@@ -1,0 +1,19 @@
+// Points where something vanishes without a curve of it: isolated contact losses (f_J = 0 is two equations, method.md
+// section 5) and isolated real points of a single factor.
+#pragma once
+
+#include "core/locus_map.hpp"
+#include "loci/curve_arrangement.hpp"
+
+namespace clearloci::loci {
+
+/// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no curve of either's common
+/// factors. Appended to the map; what stays undecided becomes a point that is not certified.
+void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
+
+/// The same, and the isolated real points of the arrangement's curves that lie on the mode's sheet.
+void add_isolated_points(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                         const CurveArrangement& arrangement, const std::vector<std::vector<int>>& curves_of_factor,
+                         core::LocusMap& map);
+
+}  // namespace clearloci::loci

@@ -1,0 +1,123 @@
+// Intervals of doubles, rounded outwards without touching the rounding mode:
+//     fl(a op b) = (a op b)(1 + e), |e| <= 2^-53, so widening a result r by |r| 2^-52 + 2^-1000 on either side encloses
+// the true one, underflow included. Overflow does not occur on the bounded boxes this program works on.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace clearloci::loci::sheet {
+
+/// [-negated_lower, upper]: with the lower bound negated both ends are rounded upwards, in one vector register.
+class Interval {
+ public:
+  Interval() : Interval(0.0) {}
+  Interval(double value) : Interval(value, value) {}  // NOLINT: a number is a thin interval
+  Interval(double lower, double upper) { set(-lower, upper); }
+
+  double lower() const { return -end(0); }
+  double upper() const { return end(1); }
+  double middle() const { return 0.5 * (lower() + upper()); }
+  double width() const { return upper() - lower(); }
+  /// Largest absolute value.
+  double magnitude() const { return std::max(std::abs(lower()), std::abs(upper())); }
+  /// Smallest absolute value.
+  double mignitude() const { return std::max({0.0, lower(), -upper()}); }
+  bool contains(double value) const { return lower() <= value && value <= upper(); }
+  bool contains_zero() const { return end(0) >= 0 && end(1) >= 0; }
+  /// +1 or -1 where the sign is proven, else 0.
+  int sign() const { return lower() > 0 ? 1 : upper() < 0 ? -1 : 0; }
+
+#if defined(__SSE2__)
+  friend Interval operator+(const Interval& a, const Interval& b) { return outward(_mm_add_pd(a.ends_, b.ends_)); }
+  friend Interval operator-(const Interval& a, const Interval& b) {
+    return outward(_mm_add_pd(a.ends_, _mm_shuffle_pd(b.ends_, b.ends_, 1)));
+  }
+  friend Interval operator-(const Interval& a) { return Interval(_mm_shuffle_pd(a.ends_, a.ends_, 1)); }
+  friend Interval operator*(const Interval& a, const Interval& b) {
+    const __m128d sign = _mm_set1_pd(-0.0);
+    const __m128d straight = _mm_mul_pd(a.ends_, b.ends_);
+    const __m128d crossed = _mm_mul_pd(a.ends_, _mm_shuffle_pd(b.ends_, b.ends_, 1));
+    const __m128d upper = _mm_max_pd(straight, _mm_xor_pd(crossed, sign));
+    const __m128d lower = _mm_max_pd(crossed, _mm_xor_pd(straight, sign));
+    return outward(_mm_max_pd(_mm_unpacklo_pd(lower, upper), _mm_unpackhi_pd(lower, upper)));
+  }
+
+ private:
+  explicit Interval(__m128d ends) : ends_(ends) {}
+  static Interval outward(__m128d ends) {
+    const __m128d size = _mm_andnot_pd(_mm_set1_pd(-0.0), ends);
+    const __m128d error = _mm_add_pd(_mm_mul_pd(size, _mm_set1_pd(0x1p-52)), _mm_set1_pd(0x1p-1000));
+    return Interval(_mm_add_pd(ends, error));
+  }
+  void set(double negated_lower, double upper) { ends_ = _mm_set_pd(upper, negated_lower); }
+  double end(int which) const { return which == 0 ? _mm_cvtsd_f64(ends_) : _mm_cvtsd_f64(_mm_unpackhi_pd(ends_, ends_)); }
+  __m128d ends_;
+#else
+  friend Interval operator+(const Interval& a, const Interval& b) {
+    return outward(a.ends_[0] + b.ends_[0], a.ends_[1] + b.ends_[1]);
+  }
+  friend Interval operator-(const Interval& a, const Interval& b) {
+    return outward(a.ends_[0] + b.ends_[1], a.ends_[1] + b.ends_[0]);
+  }
+  friend Interval operator-(const Interval& a) { return Interval(-a.upper(), -a.lower()); }
+  friend Interval operator*(const Interval& a, const Interval& b) {
+    const double ll = a.lower() * b.lower(), lu = a.lower() * b.upper();
+    const double ul = a.upper() * b.lower(), uu = a.upper() * b.upper();
+    return outward(-std::min({ll, lu, ul, uu}), std::max({ll, lu, ul, uu}));
+  }
+
+ private:
+  static Interval outward(double negated_lower, double upper) {
+    Interval result;
+    result.set(negated_lower + (std::abs(negated_lower) * 0x1p-52 + 0x1p-1000),
+               upper + (std::abs(upper) * 0x1p-52 + 0x1p-1000));
+    return result;
+  }
+  void set(double negated_lower, double upper) { ends_[0] = negated_lower, ends_[1] = upper; }
+  double end(int which) const { return ends_[which]; }
+  double ends_[2];
+#endif
+};
+
+/// The smallest interval containing both.
+inline Interval hull(const Interval& a, const Interval& b) {
+  return {std::min(a.lower(), b.lower()), std::max(a.upper(), b.upper())};
+}
+
+/// What both contain; the caller knows that they meet (both enclose one quantity).
+inline Interval meet(const Interval& a, const Interval& b) {
+  const double lower = std::max(a.lower(), b.lower());
+  return {lower, std::max(lower, std::min(a.upper(), b.upper()))};
+}
+
+inline bool disjoint(const Interval& a, const Interval& b) { return a.upper() < b.lower() || b.upper() < a.lower(); }
+
+/// `a` in the interior of `b`.
+inline bool inside(const Interval& a, const Interval& b) { return b.lower() < a.lower() && a.upper() < b.upper(); }
+
+inline Interval squared(const Interval& a) {
+  const double low = a.mignitude(), high = a.magnitude();
+  const Interval least = Interval(low) * Interval(low);
+  const Interval most = Interval(high) * Interval(high);
+  return {std::max(0.0, least.lower()), most.upper()};
+}
+
+/// 1/a; required: 0 is not in `a`.
+inline Interval inverse(const Interval& a) {
+  const double lower = 1.0 / a.upper(), upper = 1.0 / a.lower();
+  return {lower - std::abs(lower) * 0x1p-52, upper + std::abs(upper) * 0x1p-52};
+}
+
+/// Square roots of the non-negative part of `a`; required: a.upper() >= 0.
+inline Interval square_root(const Interval& a) {
+  const double lower = std::sqrt(std::max(0.0, a.lower())), upper = std::sqrt(a.upper());
+  return {std::max(0.0, lower - lower * 0x1p-52), upper + upper * 0x1p-52 + 0x1p-1000};
+}
+
+}  // namespace clearloci::loci::sheet

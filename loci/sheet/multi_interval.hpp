@@ -1,0 +1,37 @@
+// The rung above double intervals: intervals with ends n / 2^precision, for signs that doubles cannot decide.
+#pragma once
+
+#include "core/rational.hpp"
+
+namespace clearloci::loci::sheet {
+
+class MultiInterval {
+ public:
+  static constexpr int precision = 512;  ///< bits after the binary point
+
+  MultiInterval() = default;
+  explicit MultiInterval(const core::Rational& value);
+  explicit MultiInterval(double value);
+  /// Required: lower <= upper.
+  MultiInterval(const core::Rational& lower, const core::Rational& upper)
+      : lower_(MultiInterval(lower).lower_), upper_(MultiInterval(upper).upper_) {}
+
+  /// +1 or -1 where the sign is proven, else 0.
+  int sign() const { return lower_ > 0 ? 1 : upper_ < 0 ? -1 : 0; }
+  bool non_negative() const { return upper_ >= 0; }
+  /// Enclosing doubles.
+  double lower() const;
+  double upper() const;
+
+  friend MultiInterval operator+(const MultiInterval& a, const MultiInterval& b);
+  friend MultiInterval operator*(const MultiInterval& a, const MultiInterval& b);
+  friend MultiInterval operator-(const MultiInterval& a);
+  friend MultiInterval squared(const MultiInterval& a);
+  /// Required: non_negative().
+  friend MultiInterval square_root(const MultiInterval& a);
+
+ private:
+  core::Integer lower_, upper_;
+};
+
+}  // namespace clearloci::loci::sheet

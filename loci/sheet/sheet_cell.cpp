@@ -1,0 +1,212 @@
+#include "loci/sheet/sheet_cell.hpp"
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+// A root is lifted where its square varies by more than this ratio over the cell: the chain rule's 1/(2 s) then spans
+// a factor 2 or more and loses more than the extra coordinate costs.
+constexpr double lift_ratio = 0.25;
+
+template <class T>
+T signed_root(int sign, const T& square) {
+  return sign > 0 ? square_root(square) : -square_root(square);
+}
+
+}  // namespace
+
+Interval determinant(const std::vector<std::vector<Interval>>& matrix) {
+  const std::size_t n = matrix.size();
+  if (n == 1) return matrix[0][0];
+  if (n == 2) return matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
+  Interval sum = 0;
+  for (std::size_t column = 0; column < n; ++column) {
+    std::vector<std::vector<Interval>> minor(n - 1);
+    for (std::size_t row = 1; row < n; ++row)
+      for (std::size_t c = 0; c < n; ++c)
+        if (c != column) minor[row - 1].push_back(matrix[row][c]);
+    const Interval term = matrix[0][column] * determinant(minor);
+    sum = column % 2 == 0 ? sum + term : sum - term;
+  }
+  return sum;
+}
+
+SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode)
+    : program_(&program),
+      mode_(std::move(mode)),
+      over_(program.registers<Interval>()),
+      at_middle_(program.registers<Interval>()),
+      is_lifted_(program.roots()),
+      slopes_(program.functions()),
+      middle_values_(program.functions()),
+      half_inverse_(program.roots()),
+      gradient_(program.variables()) {
+  core::ensure(static_cast<int>(mode_.size()) == program.roots(), "a working mode has a sign for every root");
+}
+
+bool SheetCell::enter(const Interval& x, const Interval& y) {
+  over_.set(0, x);
+  over_.set(1, y);
+  lifted_.clear();
+  local_.assign({x, y});
+  for (int j = 0; j < program_->roots(); ++j) {
+    over_.run_square(j);
+    const Interval& square = over_.square(j);
+    if (square.upper() < 0) return false;
+    over_.set(2 + j, signed_root(mode_[j], square));
+    is_lifted_[j] = square.lower() <= lift_ratio * square.upper();
+    if (is_lifted_[j]) {
+      lifted_.push_back(j);
+      local_.push_back(over_.variable(2 + j));
+    }
+  }
+  over_.run_values();
+  return true;
+}
+
+bool SheetCell::enter_local(const std::vector<Interval>& local, const std::vector<int>& lifted) {
+  over_.set(0, local[0]);
+  over_.set(1, local[1]);
+  lifted_ = lifted;
+  local_ = local;
+  std::size_t next = 0;
+  for (int j = 0; j < program_->roots(); ++j) {
+    over_.run_square(j);
+    is_lifted_[j] = next < lifted_.size() && lifted_[next] == j;
+    if (is_lifted_[j]) {
+      over_.set(2 + j, local_[2 + next++]);
+    } else {
+      if (over_.square(j).lower() <= 0) return false;
+      over_.set(2 + j, signed_root(mode_[j], over_.square(j)));
+    }
+  }
+  over_.run_values();
+  return true;
+}
+
+void SheetCell::reduce(std::vector<Interval>& gradient) const {
+  for (int j = program_->roots() - 1; j >= 0; --j) {
+    if (is_lifted_[j]) continue;
+    const Interval factor = gradient[2 + j] * half_inverse_[j];
+    if (factor.lower() == 0 && factor.upper() == 0) continue;
+    for (int v = 0; v < 2 + j; ++v) gradient[v] = gradient[v] + factor * over_.square_partial(j, v);
+  }
+}
+
+void SheetCell::differentiate() {
+  over_.run_gradients();
+  for (int j = 0; j < program_->roots(); ++j)
+    if (!is_lifted_[j]) half_inverse_[j] = inverse(Interval(2.0) * over_.variable(2 + j));
+
+  const auto project = [&](std::vector<Interval>& slopes) {
+    reduce(gradient_);
+    slopes.assign({gradient_[0], gradient_[1]});
+    for (const int j : lifted_) slopes.push_back(gradient_[2 + j]);
+  };
+  for (int f = 0; f < program_->functions(); ++f) {
+    for (int v = 0; v < program_->variables(); ++v) gradient_[v] = over_.partial(f, v);
+    project(slopes_[f]);
+  }
+  bond_slopes_.resize(lifted_.size());
+  for (std::size_t l = 0; l < lifted_.size(); ++l) {
+    const int j = lifted_[l];
+    for (int v = 0; v < program_->variables(); ++v) gradient_[v] = -over_.square_partial(j, v);
+    gradient_[2 + j] = gradient_[2 + j] + Interval(2.0) * over_.variable(2 + j);
+    project(bond_slopes_[l]);
+  }
+
+  middle_.clear();
+  for (const Interval& range : local_) middle_.push_back(range.middle());
+  at_middle_.set(0, middle_[0]);
+  at_middle_.set(1, middle_[1]);
+  middle_bonds_.resize(lifted_.size());
+  std::size_t next = 0;
+  for (int j = 0; j < program_->roots(); ++j) {
+    at_middle_.run_square(j);
+    if (is_lifted_[j]) {
+      at_middle_.set(2 + j, middle_[2 + next]);
+      middle_bonds_[next] = squared(Interval(middle_[2 + next])) - at_middle_.square(j);
+      ++next;
+    } else {
+      // The cell proves Q_j > 0; rounding at the middle cannot matter beyond that.
+      at_middle_.set(2 + j, meet(signed_root(mode_[j], at_middle_.square(j)), over_.variable(2 + j)));
+    }
+  }
+  at_middle_.run_values();
+  for (int f = 0; f < program_->functions(); ++f) middle_values_[f] = at_middle_.value(f);
+}
+
+void SheetCell::sharpen_middle() {
+  if (!precise_) precise_ = program_->registers<MultiInterval>();
+  precise_->set(0, MultiInterval(middle_[0]));
+  precise_->set(1, MultiInterval(middle_[1]));
+  std::size_t next = 0;
+  for (int j = 0; j < program_->roots(); ++j) {
+    precise_->run_square(j);
+    if (is_lifted_[j]) {
+      const MultiInterval s(middle_[2 + next]);
+      const MultiInterval bond = squared(s) + -precise_->square(j);
+      middle_bonds_[next] = Interval(bond.lower(), bond.upper());
+      precise_->set(2 + j, s);
+      ++next;
+    } else {
+      precise_->set(2 + j, signed_root(mode_[j], precise_->square(j)));
+    }
+  }
+  precise_->run_values();
+  for (int f = 0; f < program_->functions(); ++f)
+    middle_values_[f] = Interval(precise_->value(f).lower(), precise_->value(f).upper());
+}
+
+bool SheetCell::rounding_dominates(int function) const {
+  double spread = 0;
+  for (int c = 0; c < dimension(); ++c) spread += slopes_[function][c].magnitude() * 0.5 * local_[c].width();
+  return middle_values_[function].width() > 0.1 * spread;
+}
+
+Interval SheetCell::centred(int function) const {
+  Interval sum = middle_values_[function];
+  for (int c = 0; c < dimension(); ++c) sum = sum + slopes_[function][c] * (local_[c] - Interval(middle_[c]));
+  return meet(sum, over_.value(function));
+}
+
+Interval SheetCell::tangent(int function, int c) const {
+  const int n = dimension();
+  if (n == 2) return c == 0 ? slopes_[function][1] : -slopes_[function][0];
+  std::vector<std::vector<Interval>> minor(n - 1);
+  for (int row = 0; row + 1 < n; ++row) {
+    const std::vector<Interval>& slopes = row == 0 ? slopes_[function] : bond_slopes_[row - 1];
+    for (int column = 0; column < n; ++column)
+      if (column != c) minor[row].push_back(slopes[column]);
+  }
+  const Interval value = determinant(minor);
+  return c % 2 == 0 ? value : -value;
+}
+
+PointSign::PointSign(const SheetProgram& program, core::WorkingMode mode)
+    : program_(&program), mode_(std::move(mode)), quick_(program.registers<Interval>()) {}
+
+std::optional<int> PointSign::operator()(double x, double y, int function) {
+  const auto decide = [&]<class T>(SheetProgram::Registers<T>& registers) -> std::optional<int> {
+    registers.set(0, T(x));
+    registers.set(1, T(y));
+    bool certainly_inside = true;
+    for (int j = 0; j < program_->roots(); ++j) {
+      registers.run_square(j);
+      const int sign = registers.square(j).sign();
+      if (sign < 0) return std::nullopt;
+      certainly_inside = certainly_inside && sign > 0;
+      registers.set(2 + j, signed_root(mode_[j], registers.square(j)));
+    }
+    registers.run_values();
+    return certainly_inside ? registers.value(function).sign() : 0;
+  };
+  const std::optional<int> sign = decide(quick_);
+  if (!sign || *sign != 0) return sign;
+  if (!precise_) precise_ = program_->registers<MultiInterval>();
+  return decide(*precise_);
+}
+
+}  // namespace clearloci::loci::sheet

@@ -1,0 +1,94 @@
+// Enclosures of a SheetProgram over a cell X x Y of one working mode's sheet.
+//
+// Roots far from 0 on the cell are functions of (x, y): ds_j/dv = (dQ_j/dv + sum_{i<j} dQ_j/ds_i ds_i/dv) / (2 s_j).
+// Next to Q_j = 0 that slope is unbounded, so there s_j becomes a coordinate of its own, bound by the equation
+// G_j = s_j^2 - Q_j = 0: the cell is *lifted* to X x Y x S_j, where the sheet is smooth. The coordinates that remain,
+// (x, y, lifted s_j ...), are the cell's local coordinates; slopes are derivatives with respect to them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "loci/sheet/sheet_program.hpp"
+
+namespace clearloci::loci::sheet {
+
+class SheetCell {
+ public:
+  SheetCell(const SheetProgram& program, core::WorkingMode mode);
+
+  /// Moves to the cell and encloses roots and values, choosing which roots to lift. False: proven to lie outside the
+  /// workspace (some Q_j < 0 all over it).
+  bool enter(const Interval& x, const Interval& y);
+
+  /// Moves to a box in given local coordinates. `lifted`: roots in ascending order; `local`: (x, y, lifted s_j ...),
+  /// of either sign. False: another root is not proven to be away from 0, the box is too wide to work on.
+  bool enter_local(const std::vector<Interval>& local, const std::vector<int>& lifted);
+
+  const SheetProgram& program() const { return *program_; }
+  const core::WorkingMode& mode() const { return mode_; }
+  const std::vector<int>& lifted() const { return lifted_; }
+  int dimension() const { return 2 + static_cast<int>(lifted_.size()); }
+  const Interval& local(int c) const { return local_[c]; }
+  const Interval& root(int j) const { return over_.variable(2 + j); }
+  const Interval& square(int j) const { return over_.square(j); }
+  const Interval& value(int function) const { return over_.value(function); }
+
+  /// Computes slopes over the cell and values at its middle; wanted by everything below.
+  void differentiate();
+
+  /// Slope of a function, or of G_l for the l-th lifted root, along local coordinate `c`.
+  const Interval& slope(int function, int c) const { return slopes_[function][c]; }
+  const Interval& bond_slope(int l, int c) const { return bond_slopes_[l][c]; }
+
+  /// The middle, exactly representable, and the values there: of a function, of G_l.
+  double middle(int c) const { return middle_[c]; }
+  const Interval& middle_value(int function) const { return middle_values_[function]; }
+  const Interval& middle_bond(int l) const { return middle_bonds_[l]; }
+  /// Replaces middle values by ones computed with MultiInterval, correct to a rounding.
+  void sharpen_middle();
+  /// The width rounding gave to the value at the middle is what keeps 0 inside: sharpen_middle() may decide.
+  bool rounding_dominates(int function) const;
+
+  /// Mean-value form f(m) + sum slope_c (X_c - m_c), met with the plain enclosure.
+  Interval centred(int function) const;
+
+  /// Tangent of the curve f = 0 along coordinate `c`: the minor of (slopes of f, slopes of G) without column c, signed.
+  /// A minor free of 0 means that every value of coordinate `c` is taken at most once on the curve in the cell.
+  Interval tangent(int function, int c) const;
+
+ private:
+  void reduce(std::vector<Interval>& gradient) const;
+
+  const SheetProgram* program_;
+  core::WorkingMode mode_;
+  SheetProgram::Registers<Interval> over_, at_middle_;
+  std::optional<SheetProgram::Registers<MultiInterval>> precise_;
+  std::vector<int> lifted_;
+  std::vector<bool> is_lifted_;
+  std::vector<Interval> local_;
+  std::vector<double> middle_;
+  std::vector<std::vector<Interval>> slopes_, bond_slopes_;
+  std::vector<Interval> middle_values_, middle_bonds_;
+  std::vector<Interval> half_inverse_;  // 1/(2 s_j) of the roots that are not lifted
+  std::vector<Interval> gradient_;
+};
+
+/// Sign of a function at a point of the sheet: +1 or -1 proven, 0 undecided; none: proven outside the workspace.
+/// Decided by doubles where they can, by MultiInterval otherwise.
+class PointSign {
+ public:
+  PointSign(const SheetProgram& program, core::WorkingMode mode);
+  std::optional<int> operator()(double x, double y, int function = 0);
+
+ private:
+  const SheetProgram* program_;
+  core::WorkingMode mode_;
+  SheetProgram::Registers<Interval> quick_;
+  std::optional<SheetProgram::Registers<MultiInterval>> precise_;
+};
+
+/// Determinant by cofactors; for the small matrices of a cell.
+Interval determinant(const std::vector<std::vector<Interval>>& matrix);
+
+}  // namespace clearloci::loci::sheet

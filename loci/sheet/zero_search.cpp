@@ -1,0 +1,183 @@
+#include "loci/sheet/zero_search.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+// Cells are examined this much larger on every side, relative to their width, so that a zero on a common edge lies well
+// inside the box of either neighbour and is certified there.
+constexpr double inflation = 0.1;
+// Refinement converges quadratically; this many steps are never needed.
+constexpr int most_refinements = 40;
+// An enclosure this narrow, relative to its place, is as good as doubles can write down.
+constexpr double narrow = 0x1p-51;
+// Cells within this factor of the smallest size are worth the price of multi-precision.
+constexpr double near_smallest = 1e4;
+
+Interval inflated(const Interval& a) {
+  const double margin = inflation * a.width();
+  return {a.lower() - margin, a.upper() + margin};
+}
+
+}  // namespace
+
+ZeroSearch::ZeroSearch(const SheetProgram& program, const core::WorkingMode& mode, System system)
+    : program_(&program), system_(std::move(system)), cell_(program, mode) {
+  core::ensure(system_.functions.size() == system_.free.size(), "as many functions as unknowns");
+}
+
+FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, double smallest, std::size_t most_cells) {
+  smallest_ = smallest;
+  zeros_.clear();
+  undecided_.clear();
+  std::vector<Cell> live = seeds, next;
+  while (!live.empty() && live.size() <= most_cells + seeds.size()) {
+    next.clear();
+    for (const Cell& cell : live) examine(cell, next);
+    std::swap(live, next);
+  }
+  FoundZeros result;
+  result.gave_up = !live.empty();
+  undecided_.insert(undecided_.end(), live.begin(), live.end());
+  result.undecided = std::move(undecided_);
+  for (CertifiedZero& zero : zeros_) result.enclosures.push_back(std::move(zero.enclosure));
+  return result;
+}
+
+void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
+  const auto excluded = [&](auto&& enclosure) {
+    return std::any_of(system_.functions.begin(), system_.functions.end(),
+                       [&](int f) { return !enclosure(f).contains_zero(); });
+  };
+  if (!cell_.enter(cell.x, cell.y) || excluded([&](int f) { return cell_.value(f); }) || known(cell)) return;
+  std::vector<Interval> box;
+  const std::vector<int> lifted = cell_.lifted();
+  const auto is_free = [&](int c) {
+    return c >= 2 || std::find(system_.free.begin(), system_.free.end(), c) != system_.free.end();
+  };
+  for (int c = 0; c < cell_.dimension(); ++c) box.push_back(is_free(c) ? inflated(cell_.local(c)) : cell_.local(c));
+  if (cell_.enter_local(box, lifted)) {
+    cell_.differentiate();
+    if (width(cell) < near_smallest * smallest_ &&
+        std::any_of(system_.functions.begin(), system_.functions.end(),
+                    [&](int f) { return cell_.rounding_dominates(f); }))
+      cell_.sharpen_middle();
+    if (excluded([&](int f) { return cell_.centred(f); })) return;
+    std::vector<Interval> image;
+    const Verdict verdict = krawczyk(cell_, system_, image);
+    if (verdict == Verdict::none) return;
+    if (verdict == Verdict::unique && accept(box, lifted, std::move(image), cell)) return;
+  }
+  if (width(cell) < smallest_)
+    undecided_.push_back(cell);
+  else
+    split(cell, next);
+}
+
+/// The box of `zero` holds whatever zero lies in `all` (an enclosure of all variables).
+bool ZeroSearch::owns(const CertifiedZero& zero, const std::vector<Interval>& all) const {
+  for (const int c : system_.free)
+    if (!inside(all[c], zero.unique[c])) return false;
+  for (std::size_t l = 0; l < zero.lifted.size(); ++l)
+    if (!inside(all[2 + zero.lifted[l]], zero.unique[2 + l])) return false;
+  return true;
+}
+
+/// All of the cell lies in the box of a zero that is known already. Required: cell_ has entered it.
+bool ZeroSearch::known(const Cell& cell) const {
+  if (zeros_.empty()) return false;
+  std::vector<Interval> all = {cell.x, cell.y};
+  for (int j = 0; j < program_->roots(); ++j) all.push_back(cell_.root(j));
+  return std::any_of(zeros_.begin(), zeros_.end(), [&](const CertifiedZero& zero) { return owns(zero, all); });
+}
+
+double ZeroSearch::width(const Cell& cell) const { return std::max(cell.x.width(), cell.y.width()); }
+
+void ZeroSearch::split(const Cell& cell, std::vector<Cell>& next) const {
+  if (cell.x.width() > cell.y.width()) {
+    next.push_back({{cell.x.lower(), cell.x.middle()}, cell.y});
+    next.push_back({{cell.x.middle(), cell.x.upper()}, cell.y});
+  } else {
+    next.push_back({cell.x, {cell.y.lower(), cell.y.middle()}});
+    next.push_back({cell.x, {cell.y.middle(), cell.y.upper()}});
+  }
+}
+
+/// Narrows the enclosure of a certified zero, in doubles and, where they do not get it narrow, in multi-precision.
+void ZeroSearch::shrink(std::vector<Interval>& enclosure, const std::vector<int>& lifted) {
+  bool sharp = false;
+  std::vector<Interval> image;
+  for (int step = 0; step < most_refinements; ++step) {
+    if (!cell_.enter_local(enclosure, lifted)) return;
+    cell_.differentiate();
+    if (sharp) cell_.sharpen_middle();
+    if (krawczyk(cell_, system_, image) == Verdict::none || image.empty()) return;
+    bool shrunk = false, wide = false;
+    for (std::size_t c = 0; c < enclosure.size(); ++c) {
+      const Interval smaller = meet(image[c], enclosure[c]);
+      shrunk = shrunk || smaller.width() < 0.5 * enclosure[c].width();
+      enclosure[c] = smaller;
+      wide = wide || smaller.width() > narrow * std::max(smallest_, smaller.magnitude());
+    }
+    if (!wide || (!shrunk && sharp)) return;
+    sharp = sharp || !shrunk;
+  }
+}
+
+/// Keeps the zero in `box` if it lies in the cell and on the mode's sheet. False: rounding does not tell whether it is
+/// a new one.
+bool ZeroSearch::accept(const std::vector<Interval>& box, const std::vector<int>& lifted,
+                        std::vector<Interval> enclosure, const Cell& cell) {
+  shrink(enclosure, lifted);
+  if (disjoint(enclosure[0], cell.x) || disjoint(enclosure[1], cell.y)) return true;
+  for (std::size_t l = 0; l < lifted.size(); ++l)
+    if (enclosure[2 + l].sign() == -mode()[lifted[l]]) return true;
+  CertifiedZero zero{lifted, box, {enclosure[0], enclosure[1]}};
+  if (!cell_.enter_local(enclosure, lifted)) return false;
+  for (int j = 0; j < program_->roots(); ++j) zero.enclosure.push_back(cell_.root(j));
+  for (const CertifiedZero& other : zeros_) {
+    if (owns(other, zero.enclosure) || owns(zero, other.enclosure)) return true;
+    if (!disjoint(other.enclosure[0], zero.enclosure[0]) && !disjoint(other.enclosure[1], zero.enclosure[1]))
+      return false;
+  }
+  zeros_.push_back(std::move(zero));
+  return true;
+}
+
+std::vector<Cell> clusters(std::vector<Cell> cells) {
+  std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
+    return a.x.lower() != b.x.lower() ? a.x.lower() < b.x.lower() : a.y.lower() < b.y.lower();
+  });
+  std::vector<std::size_t> parent(cells.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (std::size_t k = i + 1; k < cells.size() && cells[k].x.lower() <= cells[i].x.upper(); ++k)
+      if (!disjoint(cells[i].y, cells[k].y)) {
+        const std::size_t a = find(i), b = find(k);
+        parent[std::max(a, b)] = std::min(a, b);
+      }
+  std::vector<Cell> result;
+  std::vector<std::size_t> index(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::size_t root = find(i);
+    if (root == i) {
+      index[i] = result.size();
+      result.push_back(cells[i]);
+    } else {
+      Cell& cluster = result[index[root]];
+      cluster = {hull(cluster.x, cells[i].x), hull(cluster.y, cells[i].y)};
+    }
+  }
+  return result;
+}
+
+}  // namespace clearloci::loci::sheet

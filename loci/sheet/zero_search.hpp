@@ -1,0 +1,61 @@
+// The search behind isolated_zeros and behind the crossings of curves with cell edges: subdivision, exclusion, and
+// Krawczyk's proof of existence and uniqueness.
+#pragma once
+
+#include <vector>
+
+#include "loci/sheet/krawczyk.hpp"
+#include "loci/sheet/sheet_cell.hpp"
+
+namespace clearloci::loci::sheet {
+
+/// A cell of the plane.
+struct Cell {
+  Interval x, y;
+};
+
+/// Cells that touch, merged into the hulls of their clusters.
+std::vector<Cell> clusters(std::vector<Cell> cells);
+
+struct FoundZeros {
+  std::vector<std::vector<Interval>> enclosures;  ///< of (x, y, s1...sm), one a zero, in the order found
+  std::vector<Cell> undecided;
+  bool gave_up = false;
+};
+
+class ZeroSearch {
+ public:
+  /// Two functions with both coordinates free, or one function along one of them.
+  ZeroSearch(const SheetProgram& program, const core::WorkingMode& mode, System system);
+
+  /// All zeros in the seeds, which are thin in the coordinates that are not free. `smallest`: width below which a cell
+  /// is left undecided; `most_cells`: more live cells than that of one size mean that the functions share a curve.
+  FoundZeros run(const std::vector<Cell>& seeds, double smallest, std::size_t most_cells);
+
+  const core::WorkingMode& mode() const { return cell_.mode(); }
+
+ private:
+  struct CertifiedZero {
+    std::vector<int> lifted;
+    std::vector<Interval> unique;     // local coordinates of a box that holds this zero only
+    std::vector<Interval> enclosure;  // of all variables
+  };
+
+  void examine(const Cell& cell, std::vector<Cell>& next);
+  bool owns(const CertifiedZero& zero, const std::vector<Interval>& all) const;
+  bool known(const Cell& cell) const;
+  void split(const Cell& cell, std::vector<Cell>& next) const;
+  double width(const Cell& cell) const;
+  void shrink(std::vector<Interval>& enclosure, const std::vector<int>& lifted);
+  bool accept(const std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval> enclosure,
+              const Cell& cell);
+
+  const SheetProgram* program_;
+  System system_;
+  SheetCell cell_;
+  double smallest_ = 0;
+  std::vector<CertifiedZero> zeros_;
+  std::vector<Cell> undecided_;
+};
+
+}  // namespace clearloci::loci::sheet

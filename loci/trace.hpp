@@ -1,0 +1,28 @@
+// From factors to arcs, with a guarantee (method.md section 8).
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "core/locus_factor.hpp"
+#include "core/locus_map.hpp"
+
+namespace clearloci::loci {
+
+/// `exact`: the CGAL arrangement of the implicit curves proves the topology; `adaptive`: certified subdivision on the
+/// working mode's sheet; `automatic`: exact up to the degree where it is quick, adaptive above.
+enum class Engine { automatic, exact, adaptive };
+
+struct TraceOptions {
+  Engine engine = Engine::automatic;
+  std::function<void(double fraction, std::string_view stage)> progress;  ///< may be empty
+  std::optional<std::chrono::steady_clock::time_point> deadline;          ///< then: what is known, complete = false
+};
+
+/// Every curve, isolated point and workspace region of the problem's modes. Two free coordinates required.
+/// The map's mechanism name, parameters, notes and other timings are left to the caller.
+core::LocusMap trace(const core::LocusProblem& problem, const TraceOptions& options = {});
+
+}  // namespace clearloci::loci

@@ -1,0 +1,36 @@
+// Physical names for factors: "link PB2 parallel to the load", "A1, B1, P aligned". Private to symbolic/.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "symbolic/geometry.hpp"
+
+namespace clearloci::symbolic {
+
+/// Geometric conditions of the mechanism as polynomials in natural coordinates, each with its wording.
+class Causes {
+ public:
+  explicit Causes(const Geometry& geometry);
+
+  /// The wording of the condition that a factor states, up to a constant; empty where it states none of them.
+  std::string of(const Poly& factor) const;
+
+  /// The condition that three points lie on a line.
+  Poly aligned(mechanism::PointIndex a, mechanism::PointIndex b, mechanism::PointIndex c) const;
+
+ private:
+  struct Edge;
+  struct Direction;
+  void add(const Poly& condition, std::string wording);
+  void add_load_conditions(const std::vector<Edge>& edges, const std::vector<Direction>& directions);
+  void add_alignments();
+  void add_link_pairs(const std::vector<Edge>& edges);
+
+  const Geometry* geometry_;
+  std::vector<std::array<Poly, 2>> points_;
+  std::vector<std::pair<Poly, std::string>> conditions_;
+};
+
+}  // namespace clearloci::symbolic

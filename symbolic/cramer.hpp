@@ -1,0 +1,22 @@
+// Cramer determinants by sparse exact elimination (paper (28), (29); method.md section 3):
+//     w_k = |A_k| / |A|,   A_k: A with column k replaced by the right-hand side.
+// Private to symbolic/.
+#pragma once
+
+#include <vector>
+
+#include "symbolic/ring.hpp"
+
+namespace clearloci::symbolic {
+
+struct CramerDeterminants {
+  Poly determinant;              ///< |A|
+  std::vector<Poly> numerators;  ///< |A_k|, one a column; empty where |A| = 0
+};
+
+/// Constant pivots are eliminated first, which raises no degree; the small core that is left is solved fraction-free.
+/// One elimination serves every column.
+CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::vector<Poly>>& matrix,
+                                       const std::vector<Poly>& right_hand_side);
+
+}  // namespace clearloci::symbolic

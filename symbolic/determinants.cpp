@@ -1,0 +1,33 @@
+#include "symbolic/determinants.hpp"
+
+#include "core/errors.hpp"
+#include "symbolic/cramer.hpp"
+
+namespace clearloci::symbolic {
+
+FactoredDeterminants factored_determinants(const Geometry& geometry) {
+  NewtonEulerEquations equations = newton_euler_equations(geometry);
+  std::vector<std::vector<Poly>> matrix;
+  std::vector<Poly> loads;
+  for (unsigned i = 0; i < equations.matrix.rows(); ++i) {
+    std::vector<Poly>& row = matrix.emplace_back();
+    for (unsigned j = 0; j < equations.matrix.cols(); ++j) row.push_back(geometry.poly(equations.matrix(i, j)));
+    loads.push_back(geometry.poly(equations.loads(i, 0)));
+  }
+  CramerDeterminants cramer = cramer_determinants(geometry.ring(), matrix, loads);
+  if (cramer.determinant.is_zero()) {
+    throw core::InputError({geometry.mechanism().file}, "the equations are singular in every pose: |A| = 0",
+                           "a part moves freely while another is over-constrained; check joints and actuators");
+  }
+  const auto factored = [](const Poly& p) {
+    FactoredPoly result;
+    result.factors = p.factors(result.constant);
+    return result;
+  };
+  FactoredDeterminants result{std::move(equations), cramer.determinant, std::move(cramer.numerators),
+                              factored(cramer.determinant), {}};
+  for (const Poly& numerator : result.numerators) result.numerator_factors.push_back(factored(numerator));
+  return result;
+}
+
+}  // namespace clearloci::symbolic

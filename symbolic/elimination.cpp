@@ -1,0 +1,173 @@
+#include "symbolic/elimination.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Rational;
+
+/// N = a + b s for a reduced N.
+std::pair<Poly, Poly> split(const Poly& p, int variable) {
+  std::vector<Poly> parts = p.coefficients(variable);
+  core::ensure(parts.size() <= 2, "a polynomial reduced in its roots");
+  if (parts.size() == 1) parts.emplace_back(p.ring());
+  return {std::move(parts[0]), std::move(parts[1])};
+}
+
+void insert_distinct(std::vector<Poly>& list, const Poly& p) {
+  if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
+}
+
+}  // namespace
+
+Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
+  for (const Poly& denominator : geometry.denominators()) {
+    for (const Poly& factor : implicit_factors(denominator)) insert_distinct(denominator_factors_, factor);
+  }
+}
+
+Poly Elimination::over_tower(const Poly& natural) const {
+  const Ring& ring = geometry_->ring();
+  Poly result = natural;
+  for (const ConstructedPoint& c : geometry_->constructed()) {
+    if (!result.depends_on(c.x) && !result.depends_on(c.y)) continue;
+    const TowerPoint& position = geometry_->tower(c.point);
+    // Homogenise: a term of degree i in x and j in y takes X^i Y^j W^(degree - i - j).
+    std::vector<std::vector<Poly>> terms;
+    int degree = 0;
+    for (const Poly& by_x : result.coefficients(c.x)) {
+      terms.push_back(by_x.coefficients(c.y));
+      for (std::size_t j = 0; j < terms.back().size(); ++j) {
+        if (!terms.back()[j].is_zero()) degree = std::max(degree, static_cast<int>(terms.size() - 1 + j));
+      }
+    }
+    const auto powers = [&](const Poly& base) {
+      std::vector<Poly> list(1, Poly(ring, 1));
+      for (int i = 0; i < degree; ++i) list.push_back(geometry_->reduce(list.back() * base));
+      return list;
+    };
+    const std::vector<Poly> xs = powers(position.x), ys = powers(position.y), ws = powers(position.w);
+    Poly sum(ring);
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      for (std::size_t j = 0; j < terms[i].size(); ++j) {
+        if (terms[i][j].is_zero()) continue;
+        sum += terms[i][j] * xs[i] * ys[j] * ws[static_cast<std::size_t>(degree) - i - j];
+      }
+    }
+    result = geometry_->reduce(sum);
+  }
+  return result;
+}
+
+bool Elimination::is_denominator(const Poly& irreducible) const {
+  return std::find(denominator_factors_.begin(), denominator_factors_.end(), irreducible) !=
+         denominator_factors_.end();
+}
+
+bool Elimination::has_free_coordinate(const Poly& p) const {
+  for (const int variable : geometry_->tower_variables()) {
+    if (p.depends_on(variable)) return true;
+  }
+  return false;
+}
+
+Poly Elimination::strip_denominators(Poly p) const {
+  Poly quotient(p.ring());
+  for (const Poly& denominator : denominator_factors_) {
+    while (p.divides(denominator, quotient)) p = quotient;
+  }
+  for (const Poly& denominator : geometry_->denominators()) {
+    while (!denominator.is_constant() && p.divides(denominator, quotient)) p = quotient;
+  }
+  return p;
+}
+
+std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with_implicit) const {
+  std::vector<SheetFactor> result;
+  Rational constant;
+  for (const PolyFactor& factor : strip_denominators(sheet).factors(constant)) {
+    if (!has_free_coordinate(factor.poly) || is_denominator(factor.poly)) continue;
+    SheetFactor entry{factor.poly, factor.multiplicity, {}};
+    if (with_implicit) {
+      entry.implicit = implicit_factors(factor.poly);
+      if (entry.implicit.empty()) continue;
+    }
+    result.push_back(std::move(entry));
+  }
+  return result;
+}
+
+std::vector<Poly> Elimination::implicit_factors(const Poly& sheet) const {
+  std::vector<Poly> found;
+  eliminate(sheet, found);
+  return found;
+}
+
+void Elimination::eliminate(Poly p, std::vector<Poly>& found) const {
+  p = strip_denominators(std::move(p));
+  const auto& roots = geometry_->roots();
+  const auto top = std::find_if(roots.rbegin(), roots.rend(), [&](const auto& r) { return p.depends_on(r.variable); });
+  if (top == roots.rend()) {
+    Rational constant;
+    for (const PolyFactor& factor : p.factors(constant)) {
+      if (has_free_coordinate(factor.poly) && !is_denominator(factor.poly)) insert_distinct(found, factor.poly);
+    }
+    return;
+  }
+  auto [a, b] = split(p, top->variable);
+  // What the two parts share vanishes for either sign; only the rest needs its conjugate.
+  const Poly shared = gcd(a, b);
+  if (!shared.is_constant()) {
+    eliminate(shared, found);
+    a = a.exact_quotient(shared);
+    b = b.exact_quotient(shared);
+  }
+  eliminate(geometry_->reduce(a * a - b * b * top->square), found);
+}
+
+Poly Elimination::norm_on_line(const Poly& sheet) const {
+  // The line x_i = p_i + q_i x_last with arbitrary fixed numbers.
+  const Ring& ring = geometry_->ring();
+  const int last = geometry_->coordinates() - 1;
+  const auto on_line = [&](Poly p) {
+    for (int variable = 0; variable < last; ++variable) {
+      const Poly line = Poly(ring, Rational(911 + 97 * variable, 1873)) +
+                        Poly::variable(ring, last).scaled(Rational(-577, 1021 + variable));
+      Poly sum(ring), power(ring, 1);
+      for (const Poly& coefficient : p.coefficients(variable)) {
+        sum += coefficient * power;
+        power *= line;
+      }
+      p = sum;
+    }
+    return p;
+  };
+  Poly p = on_line(sheet);
+  const auto& roots = geometry_->roots();
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
+    std::vector<Poly> powers = p.coefficients(root->variable);
+    if (powers.size() == 1) continue;
+    const Poly square = on_line(root->square);
+    Poly even(ring), odd(ring), square_power(ring, 1);
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+      (k % 2 == 0 ? even : odd) += powers[k] * square_power;
+      if (k % 2 == 1) square_power *= square;
+    }
+    p = even * even - odd * odd * square;
+  }
+  for (const Poly& denominator : denominator_factors_) {
+    const Poly restricted = on_line(denominator);
+    Poly quotient(ring);
+    while (!restricted.is_constant() && p.divides(restricted, quotient)) p = quotient;
+  }
+  return p;
+}
+
+bool Elimination::may_share_curve(const Poly& a, const Poly& b) const {
+  return !gcd(norm_on_line(a), norm_on_line(b)).is_constant();
+}
+
+}  // namespace clearloci::symbolic

@@ -1,0 +1,52 @@
+// From a factor in natural coordinates to implicit curves (method.md section 4): the constructed points are put in
+// over the tower, then every root is eliminated by the product of conjugates, N = a + b s  ->  a^2 - b^2 Q.
+// Private to symbolic/.
+#pragma once
+
+#include <vector>
+
+#include "symbolic/geometry.hpp"
+
+namespace clearloci::symbolic {
+
+/// A factor of a natural factor over the tower, with what its zeros look like in the plane.
+struct SheetFactor {
+  Poly sheet;                  ///< in the coordinates and roots, reduced, primitive
+  int multiplicity = 1;
+  std::vector<Poly> implicit;  ///< irreducible, primitive, distinct; together they contain its zeros in every mode
+};
+
+class Elimination {
+ public:
+  explicit Elimination(const Geometry& geometry);
+
+  /// Constructed points replaced by their tower form, cleared of denominators, reduced. Zero where the natural
+  /// polynomial vanishes in every pose.
+  Poly over_tower(const Poly& natural) const;
+
+  /// The factors of a non-zero sheet polynomial that can vanish inside the workspace: constants and squared distances
+  /// are dropped. `implicit` is left empty unless wanted.
+  std::vector<SheetFactor> sheet_factors(const Poly& sheet, bool with_implicit) const;
+
+  /// The irreducible polynomials in the free coordinates that contain the zeros of a sheet polynomial.
+  std::vector<Poly> implicit_factors(const Poly& sheet) const;
+
+  /// The irreducible factors of the squared distances that the closure divides by.
+  const std::vector<Poly>& denominator_factors() const { return denominator_factors_; }
+
+  /// Whether two sheet polynomials can share a curve: decided on a random line, where a common curve shows as a common
+  /// factor. False is certain; true may be a rare coincidence.
+  bool may_share_curve(const Poly& a, const Poly& b) const;
+
+ private:
+  void eliminate(Poly p, std::vector<Poly>& found) const;
+  Poly norm_on_line(const Poly& sheet) const;
+  bool is_denominator(const Poly& irreducible) const;
+  bool has_free_coordinate(const Poly& p) const;
+  Poly strip_denominators(Poly p) const;
+
+  const Geometry* geometry_;
+  std::vector<Poly> denominator_factors_;  ///< irreducible, in the free coordinates
+};
+
+}  // namespace clearloci::symbolic

@@ -1,0 +1,60 @@
+// The equations behind the loci, printed: A, |A|, every Cramer numerator |A_J^k| with its factors, their causes and
+// implicit polynomials (results.md, `equations`).
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::symbolic {
+
+enum class Language { text, latex, c, python, matlab };
+
+struct ImplicitPolynomial {
+  std::string polynomial;
+  int degree = 0;            ///< total degree in the free coordinates
+  std::string closed_form;   ///< "circle: centre (d, L), radius L"; empty where there is none
+};
+
+struct DeterminantFactor {
+  std::string expression;
+  int multiplicity = 1;
+  std::string cause;  ///< may be empty
+  std::vector<ImplicitPolynomial> implicit;
+};
+
+/// |A| or one numerator |A_J^k|. `name`: the unknown ("fA1x"), or "A" for the determinant itself.
+struct Determinant {
+  std::string name;
+  std::string expression;                  ///< exact value of the printed determinant, sign included; "0" possible
+  std::vector<DeterminantFactor> factors;  ///< without the constant
+};
+
+struct EquationSheet {
+  std::string mechanism;
+  Language language = Language::text;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name, exact value
+  std::vector<std::string> coordinates;
+  std::vector<std::string> rows;                 ///< "A1B1: fx", "A1B1: moment about P", ...
+  std::vector<std::string> unknowns;             ///< column order: "fA1x", "fA1y", ..., "MA1"
+  std::vector<std::vector<std::string>> matrix;  ///< A
+  std::vector<std::string> loads;                ///< the column -w_e
+  /// How every constructed point's symbols follow from the coordinates, in order of evaluation: "xB1" = "...".
+  std::vector<std::pair<std::string, std::string>> closure;
+  Determinant determinant;
+  std::vector<Determinant> numerators;
+};
+
+struct SheetOptions {
+  Language language = Language::text;
+  bool keep_parameters = false;  ///< --symbolic
+};
+
+EquationSheet equation_sheet(const mechanism::Mechanism& mechanism, const SheetOptions& options);
+
+/// The whole sheet as a text to read (text, latex) or to run (c, python, matlab).
+std::string format(const EquationSheet& sheet);
+
+}  // namespace clearloci::symbolic

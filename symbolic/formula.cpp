@@ -1,0 +1,99 @@
+#include "symbolic/formula.hpp"
+
+#include <algorithm>
+#include <regex>
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Integer;
+using core::Rational;
+
+std::string integer_text(const Integer& value, Language language) {
+  // In C an integer literal may overflow, and 1/2 is 0.
+  return language == Language::c ? value.get_str() + ".0" : value.get_str();
+}
+
+std::string times(Language language) { return language == Language::latex ? " " : "*"; }
+
+std::string power_text(const std::string& base, int exponent, Language language) {
+  if (exponent == 1) return base;
+  const std::string n = std::to_string(exponent);
+  switch (language) {
+    case Language::latex:
+      return base + "^{" + n + "}";
+    case Language::c:
+      return "pow(" + base + ", " + n + ")";
+    case Language::python:
+      return base + "**" + n;
+    case Language::text:
+    case Language::matlab:
+      return base + "^" + n;
+  }
+  return base;
+}
+
+std::string sum_in_parentheses(const std::string& sum, Language language) {
+  return language == Language::latex ? "\\left(" + sum + "\\right)" : "(" + sum + ")";
+}
+
+}  // namespace
+
+std::string number_text(const Rational& value, Language language) {
+  if (value.get_den() == 1) return integer_text(value.get_num(), language);
+  if (language == Language::latex) {
+    const std::string sign = value < 0 ? "-" : "";
+    return sign + "\\frac{" + Integer(abs(value.get_num())).get_str() + "}{" + value.get_den().get_str() + "}";
+  }
+  return integer_text(value.get_num(), language) + "/" + integer_text(value.get_den(), language);
+}
+
+std::string variable_text(const std::string& name, Language language) {
+  if (language != Language::latex) return name;
+  if (name.find('(') != std::string::npos) {
+    return std::regex_replace(name, std::regex("\\b(cos|sin)\\("), "\\$1(");
+  }
+  if (name.size() == 1) return name;
+  return name.substr(0, 1) + "_{" + name.substr(1) + "}";
+}
+
+std::string formula(const core::Polynomial& p, const std::vector<std::string>& names, Language language) {
+  if (p.is_zero()) return number_text(0, language);
+  std::string result;
+  for (const core::Term& term : p.terms) {
+    std::string monomial;
+    for (std::size_t i = 0; i < term.exponents.size(); ++i) {
+      if (term.exponents[i] == 0) continue;
+      if (!monomial.empty()) monomial += times(language);
+      monomial += power_text(variable_text(names[i], language), term.exponents[i], language);
+    }
+    const bool negative = term.coefficient < 0;
+    const Rational magnitude = abs(term.coefficient);
+    if (result.empty()) {
+      if (negative) result += "-";
+    } else {
+      result += negative ? " - " : " + ";
+    }
+    if (monomial.empty()) result += number_text(magnitude, language);
+    else if (magnitude == 1) result += monomial;
+    else result += number_text(magnitude, language) + times(language) + monomial;
+  }
+  return result;
+}
+
+std::string product_formula(const FactoredPoly& p, const std::vector<std::string>& names, Language language) {
+  std::string result;
+  for (const PolyFactor& factor : p.factors) {
+    const std::string base = formula(factor.poly.plain(), names, language);
+    const bool alone = p.factors.size() == 1 && factor.multiplicity == 1 && abs(p.constant) == 1 && p.constant > 0;
+    const bool single = factor.poly.length() == 1;
+    if (!result.empty()) result += times(language);
+    result += power_text(alone || single ? base : sum_in_parentheses(base, language), factor.multiplicity, language);
+  }
+  if (result.empty()) return number_text(p.constant, language);
+  if (p.constant == 1) return result;
+  if (p.constant == -1) return "-" + result;
+  return number_text(p.constant, language) + times(language) + result;
+}
+
+}  // namespace clearloci::symbolic

@@ -1,0 +1,329 @@
+#include "symbolic/geometry.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "mechanism/evaluate.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Expression;
+using core::Rational;
+using core::RootRole;
+using mechanism::DyadPoint;
+using mechanism::ExplicitPoint;
+using mechanism::MeanPoint;
+using mechanism::Mechanism;
+using mechanism::OffsetPoint;
+using mechanism::PointIndex;
+
+GiNaC::numeric number(const Rational& value) { return GiNaC::numeric(core::to_string(value).c_str()); }
+
+/// GiNaC prints and parses cl_RA exactly; a short text is the simplest bridge to GMP.
+Rational rational(const GiNaC::numeric& value) {
+  std::ostringstream text;
+  text << value.numer() << "/" << value.denom();
+  Rational result(text.str());
+  result.canonicalize();
+  return result;
+}
+
+struct PlacedExpression {
+  Expression expression;
+  core::SourcePosition where;
+};
+
+/// Every expression that the equations are made of.
+std::vector<PlacedExpression> expressions_of(const Mechanism& m) {
+  std::vector<PlacedExpression> all;
+  const auto add = [&all](const std::vector<Expression>& expressions, const core::SourcePosition& where) {
+    for (const Expression& e : expressions) all.push_back({e, where});
+  };
+  for (const mechanism::Point& point : m.points) {
+    if (const auto* form = std::get_if<ExplicitPoint>(&point.form)) add(form->coordinates, point.where);
+    if (const auto* dyad = std::get_if<DyadPoint>(&point.form)) add({dyad->from_length, dyad->to_length}, point.where);
+    if (const auto* offset = std::get_if<OffsetPoint>(&point.form)) add({offset->along, offset->left}, point.where);
+  }
+  for (const mechanism::Load& load : m.loads) {
+    add(load.force, load.where);
+    add({load.couple}, load.where);
+  }
+  if (!m.gravity.empty()) {
+    add(m.gravity, {m.file});
+    for (const mechanism::Link& link : m.links) add({link.mass}, link.where);
+  }
+  return all;
+}
+
+/// A free coordinate inside something that is no polynomial.
+struct NotPolynomial {
+  std::string expression;
+};
+
+}  // namespace
+
+Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters)
+    : mechanism_(&mechanism), keep_parameters_(keep_parameters) {
+  for (const PlacedExpression& placed : expressions_of(mechanism)) {
+    try {
+      (void)expression(placed.expression);
+    } catch (const NotPolynomial& found) {
+      throw core::InputError(placed.where, "'" + found.expression + "' is no polynomial in the free coordinates",
+                             "write it with + - * and whole powers of the coordinates");
+    }
+  }
+  name_variables();
+  const std::size_t count = mechanism.points.size();
+  natural_.resize(count);
+  tower_.resize(count, TowerPoint{Poly(*ring_), Poly(*ring_), Poly(*ring_)});
+  for (PointIndex point = 0; point < static_cast<PointIndex>(count); ++point) place(point);
+}
+
+GiNaC::symbol Geometry::symbol(const std::string& name) const {
+  return symbols_.try_emplace(name, GiNaC::symbol(name)).first->second;
+}
+
+GiNaC::ex Geometry::expression(const Expression& e) const {
+  using Kind = Expression::Kind;
+  const std::set<std::string> names = core::symbols(e);
+  const bool free = std::any_of(mechanism_->coordinates.begin(), mechanism_->coordinates.end(),
+                                [&](const auto& coordinate) { return names.contains(coordinate.name); });
+  if (!free && !keep_parameters_) return number(mechanism::value_of(e, *mechanism_));
+  if (names.empty() && mechanism::evaluate(e, mechanism_->parameters).exact) {
+    return number(mechanism::value_of(e, *mechanism_));
+  }
+  const auto kept = [&](const std::string& name) {
+    if (free) throw NotPolynomial{core::to_string(e)};
+    if (std::find(kept_.begin(), kept_.end(), name) == kept_.end()) kept_.push_back(name);
+    return GiNaC::ex(symbol(name));
+  };
+  const auto argument = [&](std::size_t i) { return expression(e.arguments()[i]); };
+  switch (e.kind()) {
+    case Kind::number:
+      return number(e.value());
+    case Kind::symbol: {
+      const bool coordinate = std::any_of(mechanism_->coordinates.begin(), mechanism_->coordinates.end(),
+                                          [&](const auto& c) { return c.name == e.name(); });
+      return coordinate ? GiNaC::ex(symbol(e.name())) : kept(e.name());
+    }
+    case Kind::add:
+      return argument(0) + argument(1);
+    case Kind::multiply:
+      return argument(0) * argument(1);
+    case Kind::negate:
+      return -argument(0);
+    case Kind::divide: {
+      const GiNaC::ex divisor = argument(1);
+      if (GiNaC::is_a<GiNaC::numeric>(divisor)) return argument(0) / divisor;
+      return argument(0) * kept("1/(" + core::to_string(e.arguments()[1]) + ")");
+    }
+    case Kind::power: {
+      const GiNaC::ex exponent = argument(1);
+      if (exponent.info(GiNaC::info_flags::nonnegint)) return GiNaC::pow(argument(0), exponent);
+      return kept("(" + core::to_string(e) + ")");
+    }
+    case Kind::pi:
+    case Kind::sqrt:
+    case Kind::cos:
+    case Kind::sin:
+      return kept(core::to_string(e));
+  }
+  return 0;
+}
+
+void Geometry::name_variables() {
+  std::vector<std::string> names;
+  const auto add = [&names](std::string name) {
+    while (std::find(names.begin(), names.end(), name) != names.end()) name += '_';
+    names.push_back(name);
+    return static_cast<int>(names.size()) - 1;
+  };
+  for (const auto& coordinate : mechanism_->coordinates) variable_of_symbol_[coordinate.name] = add(coordinate.name);
+  std::set<std::string> taken(kept_.begin(), kept_.end());
+  const auto add_untaken = [&](std::string name) {
+    while (taken.contains(name)) name += '_';
+    return add(name);
+  };
+  for (PointIndex i = 0; i < static_cast<PointIndex>(mechanism_->points.size()); ++i) {
+    const mechanism::Point& point = mechanism_->points[index(i)];
+    if (!std::holds_alternative<DyadPoint>(point.form) && !std::holds_alternative<OffsetPoint>(point.form)) continue;
+    const int x = add_untaken("x" + point.name);
+    const int y = add_untaken("y" + point.name);
+    constructed_.push_back({i, x, y});
+  }
+  for (std::size_t i = 1; i <= constructed_.size(); ++i) add_untaken("s" + std::to_string(i));
+  for (const std::string& name : kept_) variable_of_symbol_[name] = add(name);
+  ring_ = std::make_unique<Ring>(names);
+  for (const ConstructedPoint& c : constructed_) {
+    for (const int variable : {c.x, c.y}) variable_of_symbol_[ring_->name(variable)] = variable;
+  }
+}
+
+Poly Geometry::poly(const GiNaC::ex& e) const {
+  if (GiNaC::is_a<GiNaC::numeric>(e)) {
+    const auto& value = GiNaC::ex_to<GiNaC::numeric>(e);
+    core::ensure(value.is_rational(), "a rational coefficient");
+    return Poly(*ring_, rational(value));
+  }
+  if (GiNaC::is_a<GiNaC::symbol>(e)) {
+    return Poly::variable(*ring_, variable_of_symbol_.at(GiNaC::ex_to<GiNaC::symbol>(e).get_name()));
+  }
+  if (GiNaC::is_a<GiNaC::add>(e)) {
+    Poly sum(*ring_);
+    for (const GiNaC::ex& term : e) sum += poly(term);
+    return sum;
+  }
+  if (GiNaC::is_a<GiNaC::mul>(e)) {
+    Poly product(*ring_, 1);
+    for (const GiNaC::ex& factor : e) product *= poly(factor);
+    return product;
+  }
+  core::ensure(GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::nonnegint), "a polynomial expression");
+  return poly(e.op(0)).pow(static_cast<unsigned>(GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int()));
+}
+
+Poly Geometry::reduce(const Poly& p) const {
+  Poly result = p;
+  // From the last root down: a square may hold earlier roots only.
+  for (auto root = roots_.rbegin(); root != roots_.rend(); ++root) {
+    if (result.degree(root->variable) < 2) continue;
+    const std::vector<Poly> powers = result.coefficients(root->variable);
+    const Poly s = Poly::variable(*ring_, root->variable);
+    Poly even(*ring_), odd(*ring_), square_power(*ring_, 1);
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+      (k % 2 == 0 ? even : odd) += powers[k] * square_power;
+      if (k % 2 == 1) square_power *= root->square;
+    }
+    result = even + odd * s;
+  }
+  return result;
+}
+
+std::vector<int> Geometry::tower_variables() const {
+  std::vector<int> variables;
+  for (int i = 0; i < coordinates(); ++i) variables.push_back(i);
+  for (const TowerRoot& root : roots_) variables.push_back(root.variable);
+  return variables;
+}
+
+core::RootTower Geometry::plain_tower() const {
+  core::RootTower tower;
+  for (const auto& coordinate : mechanism_->coordinates) tower.coordinates.push_back(coordinate.name);
+  const std::vector<int> variables = tower_variables();
+  for (const TowerRoot& root : roots_) {
+    tower.roots.push_back({"s" + std::to_string(tower.roots.size() + 1), mechanism_->points[index(root.point)].name,
+                           root.role, root.square.plain(variables)});
+  }
+  for (const Poly& denominator : denominators_) tower.denominators.push_back(denominator.plain(variables));
+  return tower;
+}
+
+void Geometry::place(PointIndex point) {
+  const mechanism::PointForm& form = mechanism_->points[index(point)].form;
+  if (const auto* by_coordinates = std::get_if<ExplicitPoint>(&form)) place_explicit(point, *by_coordinates);
+  if (const auto* mean = std::get_if<MeanPoint>(&form)) place_mean(point, *mean);
+  if (const auto* dyad = std::get_if<DyadPoint>(&form)) place_dyad(point, *dyad);
+  if (const auto* offset = std::get_if<OffsetPoint>(&form)) place_offset(point, *offset);
+}
+
+void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
+  for (std::size_t i = 0; i < 2; ++i) natural_[index(point)][i] = expression(form.coordinates[i]).expand();
+  tower_[index(point)] = {poly(natural_[index(point)][0]), poly(natural_[index(point)][1]), Poly(*ring_, 1)};
+}
+
+void Geometry::place_mean(PointIndex point, const MeanPoint& form) {
+  const TowerPoint& a = tower(form.first);
+  const TowerPoint& b = tower(form.second);
+  for (std::size_t i = 0; i < 2; ++i) {
+    natural_[index(point)][i] = ((natural(form.first)[i] + natural(form.second)[i]) / 2).expand();
+  }
+  tower_[index(point)] = {reduce(a.x * b.w + b.x * a.w), reduce(a.y * b.w + b.y * a.w),
+                          reduce(a.w * b.w).scaled(2)};
+}
+
+void Geometry::construct(PointIndex point) {
+  const auto own = std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
+  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own->x))), GiNaC::ex(symbol(ring_->name(own->y)))};
+}
+
+void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
+  construct(point);
+  const TowerPoint& a = tower(form.from);
+  const TowerPoint& p = tower(form.to);
+  const Poly from_length = poly(expression(form.from_length).expand());
+  const Poly to_length = poly(expression(form.to_length).expand());
+  // P - A = (u, v) / w; D = d / w^2; k = kn / w^2; Q = square / w^4 and s is scaled by w^2 > 0 likewise.
+  const Poly u = reduce(p.x * a.w - a.x * p.w);
+  const Poly v = reduce(p.y * a.w - a.y * p.w);
+  const Poly w = reduce(a.w * p.w);
+  const Poly w2 = reduce(w * w);
+  const Poly d = reduce(u * u + v * v);
+  const Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + d);
+  const Poly square = reduce((from_length * from_length * d * w2).scaled(4) - kn * kn);
+  const int variable = static_cast<int>(roots_.size()) + coordinates() + 2 * static_cast<int>(constructed_.size());
+  roots_.push_back({point, variable, RootRole::working_mode, square});
+  denominators_.push_back(d);
+  const Poly s = Poly::variable(*ring_, variable);
+  tower_[index(point)] = {reduce((d * p.w * a.x).scaled(2) + kn * u - s * v),
+                          reduce((d * p.w * a.y).scaled(2) + kn * v + s * u), reduce(d * w).scaled(2)};
+}
+
+TowerPoint Geometry::offset_over_tower(const OffsetPoint& form, const Poly& length_numerator,
+                                       const Poly& length_denominator) const {
+  const TowerPoint& a = tower(form.first);
+  const TowerPoint& b = tower(form.second);
+  const Poly along = poly(expression(form.along).expand());
+  const Poly left = poly(expression(form.left).expand());
+  const Poly u = b.x * a.w - a.x * b.w;
+  const Poly v = b.y * a.w - a.y * b.w;
+  // A + (along u - left v) / (w length): over the common denominator A.w B.w length.
+  return {reduce(a.x * b.w * length_numerator + (along * u - left * v) * length_denominator),
+          reduce(a.y * b.w * length_numerator + (along * v + left * u) * length_denominator),
+          reduce(a.w * b.w * length_numerator)};
+}
+
+void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
+  const TowerPoint& a = tower(form.first);
+  const TowerPoint& b = tower(form.second);
+  const Poly u = reduce(b.x * a.w - a.x * b.w);
+  const Poly v = reduce(b.y * a.w - a.y * b.w);
+  const Poly w = reduce(a.w * b.w);
+  const Poly d = reduce(u * u + v * v);
+  const Poly one(*ring_, 1);
+  // On a rigid link the distance is constant: then the point is linear in the two others.
+  Poly squared_length(*ring_), length(*ring_);
+  const std::vector<int> free_variables = tower_variables();
+  const bool constant = d.divides(reduce(w * w), squared_length) &&
+                        std::none_of(free_variables.begin(), free_variables.end(),
+                                     [&](int variable) { return squared_length.depends_on(variable); });
+  bool known = constant && squared_length.square_root(length);
+  if (constant && !known && squared_length.is_constant()) {
+    const Expression root = Expression::apply(Expression::Kind::sqrt, {Expression::number(squared_length.constant())});
+    length = Poly(*ring_, mechanism::value_of(root, *mechanism_));
+    known = true;
+  }
+  if (known && length.is_constant()) {
+    const GiNaC::ex scale = number(1 / length.constant());
+    const GiNaC::ex along = expression(form.along) * scale;
+    const GiNaC::ex left = expression(form.left) * scale;
+    const auto& p = natural(form.first);
+    const auto& q = natural(form.second);
+    natural_[index(point)] = {(p[0] + along * (q[0] - p[0]) - left * (q[1] - p[1])).expand(),
+                              (p[1] + along * (q[1] - p[1]) + left * (q[0] - p[0])).expand()};
+    tower_[index(point)] = offset_over_tower(form, length, one);
+    return;
+  }
+  construct(point);
+  if (known) {
+    tower_[index(point)] = offset_over_tower(form, length, one);
+    return;
+  }
+  // A varying distance (a telescopic leg): s = |AB| w, always positive. 1 / |AB| = s w / d.
+  const int variable = static_cast<int>(roots_.size()) + coordinates() + 2 * static_cast<int>(constructed_.size());
+  roots_.push_back({point, variable, RootRole::length, d});
+  denominators_.push_back(d);
+  tower_[index(point)] = offset_over_tower(form, d, reduce(Poly::variable(*ring_, variable) * w));
+}
+
+}  // namespace clearloci::symbolic

@@ -1,0 +1,102 @@
+// Closure (method.md section 1): every point in natural coordinates and over the tower of square roots.
+// Private to symbolic/.
+//
+//   D = |P - A|^2,  k = a^2 - b^2 + D,  Q = 4 a^2 D - k^2,  s^2 = Q
+//   B = A + (k (P - A) +- s J (P - A)) / (2 D),   J = [[0, -1], [1, 0]]
+//
+// Points are kept homogeneous, (X : Y : W) with X, Y, W polynomials in the coordinates and the roots and W >= 0 (a
+// product of squared distances), so that no division is ever needed and no sign is lost.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/root_tower.hpp"
+#include "mechanism/mechanism.hpp"
+#include "symbolic/ring.hpp"
+
+namespace clearloci::symbolic {
+
+/// x = X / W, y = Y / W over the tower.
+struct TowerPoint {
+  Poly x, y, w;
+};
+
+/// s = +-sqrt(square); `variable` is its index in the ring. `scale` > 0 on the workspace.
+struct TowerRoot {
+  mechanism::PointIndex point = 0;
+  int variable = 0;
+  core::RootRole role = core::RootRole::working_mode;
+  Poly square;
+};
+
+/// A point that has symbols of its own in natural coordinates (xB1, yB1).
+struct ConstructedPoint {
+  mechanism::PointIndex point = 0;
+  int x = 0, y = 0;  ///< ring variables
+};
+
+/// All the algebra of one mechanism lives in one ring:
+/// free coordinates, coordinates of constructed points, roots, parameters kept symbolic.
+class Geometry {
+ public:
+  /// With `keep_parameters` the parameters, and irrational expressions in them, stay symbols; otherwise their exact
+  /// values are put in. Throws core::InputError where a point is no polynomial in the free coordinates.
+  Geometry(const mechanism::Mechanism& mechanism, bool keep_parameters);
+
+  const mechanism::Mechanism& mechanism() const { return *mechanism_; }
+  const Ring& ring() const { return *ring_; }
+  int coordinates() const { return static_cast<int>(mechanism_->coordinates.size()); }
+
+  /// A point in natural coordinates.
+  const std::array<GiNaC::ex, 2>& natural(mechanism::PointIndex point) const { return natural_[index(point)]; }
+  const TowerPoint& tower(mechanism::PointIndex point) const { return tower_[index(point)]; }
+  const std::vector<ConstructedPoint>& constructed() const { return constructed_; }
+  const std::vector<TowerRoot>& roots() const { return roots_; }
+  /// The numerators of the squared distances divided by, reduced.
+  const std::vector<Poly>& denominators() const { return denominators_; }
+
+  /// An expression of the file as a GiNaC expression in the ring's symbols.
+  GiNaC::ex expression(const core::Expression& expression) const;
+  /// A polynomial GiNaC expression as an element of the ring.
+  Poly poly(const GiNaC::ex& expression) const;
+  /// Powers of roots put back: at most the first power of each remains.
+  Poly reduce(const Poly& p) const;
+
+  /// Ring variables in the order of core::RootTower: coordinates, then roots.
+  std::vector<int> tower_variables() const;
+  core::RootTower plain_tower() const;
+
+ private:
+  static std::size_t index(mechanism::PointIndex point) { return static_cast<std::size_t>(point); }
+  GiNaC::symbol symbol(const std::string& name) const;
+  void name_variables();
+  void place(mechanism::PointIndex point);
+  void place_explicit(mechanism::PointIndex point, const mechanism::ExplicitPoint& form);
+  void place_mean(mechanism::PointIndex point, const mechanism::MeanPoint& form);
+  void place_dyad(mechanism::PointIndex point, const mechanism::DyadPoint& form);
+  void place_offset(mechanism::PointIndex point, const mechanism::OffsetPoint& form);
+  /// Position first + ((u along + v across) (second - first)) / length, over the tower.
+  TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const Poly& length_numerator,
+                               const Poly& length_denominator) const;
+  void construct(mechanism::PointIndex point);
+
+  const mechanism::Mechanism* mechanism_;
+  bool keep_parameters_;
+  mutable std::map<std::string, GiNaC::symbol> symbols_;   ///< by printed name
+  mutable std::vector<std::string> kept_;                  ///< parameters and irrational expressions, as they appear
+  mutable std::map<std::string, int> variable_of_symbol_;  ///< GiNaC symbol's name to ring variable
+  std::unique_ptr<Ring> ring_;
+  std::vector<std::array<GiNaC::ex, 2>> natural_;
+  std::vector<TowerPoint> tower_;
+  std::vector<ConstructedPoint> constructed_;
+  std::vector<TowerRoot> roots_;
+  std::vector<Poly> denominators_;
+};
+
+}  // namespace clearloci::symbolic

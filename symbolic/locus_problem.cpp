@@ -1,0 +1,321 @@
+#include "symbolic/locus_problem.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/errors.hpp"
+#include "symbolic/causes.hpp"
+#include "symbolic/determinants.hpp"
+#include "symbolic/elimination.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::FactorRole;
+using core::LocusFactor;
+using core::Quantity;
+using core::Vanishing;
+using mechanism::JointIndex;
+using mechanism::Mechanism;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+Quantity quantity_of(const mechanism::Unknown& unknown) {
+  return unknown.component == 0 ? Quantity::fx : unknown.component == 1 ? Quantity::fy : Quantity::M;
+}
+
+std::vector<std::string> selected_joints(const Mechanism& m, const Selection& selection) {
+  std::vector<std::string> known, with_clearance;
+  for (const mechanism::Joint& joint : m.joints) {
+    known.push_back(joint.name);
+    if (joint.clearance) with_clearance.push_back(joint.name);
+  }
+  for (const std::string& name : selection.joints) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string list;
+    for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
+    throw core::InputError({m.file}, "there is no joint '" + name + "'", "choose among " + list);
+  }
+  if (!selection.joints.empty()) return selection.joints;
+  return with_clearance.empty() ? known : with_clearance;
+}
+
+/// A natural factor that occurs in numerators, with what vanishes on it.
+struct SharedFactor {
+  Poly natural;
+  std::vector<Vanishing> vanishing;
+  bool wanted_curve = false;  ///< its curves are to be traced
+  bool wanted_point = false;  ///< it takes part in an isolated contact loss
+};
+
+class Derivation {
+ public:
+  Derivation(const Mechanism& m, const Selection& selection)
+      : mechanism_(m),
+        selection_(selection),
+        geometry_(m, false),
+        determinants_(factored_determinants(geometry_)),
+        elimination_(geometry_),
+        causes_(geometry_) {
+    result_.problem.tower = geometry_.plain_tower();
+    result_.problem.joints = selected_joints(m, selection);
+    result_.problem.quantities = selection.quantities;
+    result_.problem.modes = {file_mode()};
+    for (const mechanism::Joint& joint : m.joints) result_.problem.joint_order.push_back(joint.name);
+    for (const auto& coordinate : m.coordinates) {
+      result_.problem.lower.push_back(coordinate.lower);
+      result_.problem.upper.push_back(coordinate.upper);
+    }
+  }
+
+  DerivedProblem run() {
+    const auto start = Clock::now();
+    collect_factors();
+    mark_wanted();
+    result_.symbolic_seconds = seconds_since(start);
+    const auto elimination_start = Clock::now();
+    add_reactions();
+    if (selection_.min_force || selection_.min_couple) add_margins();
+    add_direct_singularities();
+    add_boundaries();
+    result_.elimination_seconds = seconds_since(elimination_start);
+    return std::move(result_);
+  }
+
+ private:
+  core::WorkingMode file_mode() const {
+    core::WorkingMode mode;
+    const std::vector<int> sides = mechanism::working_mode(mechanism_);
+    std::size_t next = 0;
+    for (const TowerRoot& root : geometry_.roots()) {
+      mode.push_back(root.role == core::RootRole::working_mode ? sides[next++] : 1);
+    }
+    return mode;
+  }
+
+  bool wanted(Quantity quantity) const {
+    return std::find(selection_.quantities.begin(), selection_.quantities.end(), quantity) !=
+           selection_.quantities.end();
+  }
+
+  bool selected(const std::string& joint) const {
+    const auto& joints = result_.problem.joints;
+    return std::find(joints.begin(), joints.end(), joint) != joints.end();
+  }
+
+  const std::string& joint_name(JointIndex joint) const {
+    return mechanism_.joints[static_cast<std::size_t>(joint)].name;
+  }
+
+  /// How often a factor divides |A|: there the reaction w = N / |A| does not vanish.
+  int in_determinant(const Poly& natural) const {
+    for (const PolyFactor& factor : determinants_.determinant_factors.factors) {
+      if (factor.poly == natural) return factor.multiplicity;
+    }
+    return 0;
+  }
+
+  void collect_factors() {
+    if (elimination_.over_tower(determinants_.determinant).is_zero()) {
+      throw core::InputError({mechanism_.file}, "the equations are singular in every pose: |A| = 0 on the closure",
+                             "check the lengths, the joints and which of them are actuated");
+    }
+    for (std::size_t k = 0; k < determinants_.equations.unknowns.size(); ++k) {
+      const mechanism::Unknown& unknown = determinants_.equations.unknowns[k];
+      const std::string& joint = joint_name(unknown.joint);
+      const FactoredPoly& numerator = determinants_.numerator_factors[k];
+      bool always_zero = numerator.constant == 0;
+      for (const PolyFactor& factor : numerator.factors) {
+        if (elimination_.over_tower(factor.poly).is_zero()) always_zero = true;
+      }
+      if (always_zero) {
+        if (selected(joint)) {
+          result_.notes.push_back(determinants_.equations.unknown_names[k] + " is zero in every pose: no load reaches it");
+        }
+        result_.problem.always_zero.push_back({joint, quantity_of(unknown)});
+        continue;
+      }
+      for (const PolyFactor& factor : numerator.factors) {
+        const int multiplicity = factor.multiplicity - in_determinant(factor.poly);
+        if (multiplicity <= 0) continue;
+        auto known = std::find_if(factors_.begin(), factors_.end(),
+                                  [&](const SharedFactor& f) { return f.natural == factor.poly; });
+        if (known == factors_.end()) known = factors_.insert(known, {factor.poly, {}});
+        known->vanishing.push_back({joint, quantity_of(unknown), multiplicity});
+      }
+    }
+  }
+
+  std::vector<std::size_t> factors_of(const std::string& joint, Quantity quantity) const {
+    std::vector<std::size_t> list;
+    for (std::size_t i = 0; i < factors_.size(); ++i) {
+      const auto& v = factors_[i].vanishing;
+      if (std::any_of(v.begin(), v.end(), [&](const Vanishing& w) { return w.joint == joint && w.quantity == quantity; })) {
+        list.push_back(i);
+      }
+    }
+    return list;
+  }
+
+  bool is_always_zero(const std::string& joint, Quantity quantity) const {
+    const auto& list = result_.problem.always_zero;
+    return std::any_of(list.begin(), list.end(),
+                       [&](const Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
+  }
+
+  void want(const std::vector<std::size_t>& list) {
+    for (const std::size_t i : list) factors_[i].wanted_curve = true;
+  }
+
+  void mark_wanted() {
+    for (const std::string& joint : result_.problem.joints) {
+      for (const Quantity component : {Quantity::M, Quantity::fx, Quantity::fy}) {
+        if (wanted(component)) want(factors_of(joint, component));
+      }
+      if (wanted(Quantity::f)) mark_contact_loss(joint);
+    }
+  }
+
+  /// f_J = 0 is two equations: its curves lie where a factor of one and a factor of the other share a curve.
+  void mark_contact_loss(const std::string& joint) {
+    const std::vector<std::size_t> in_x = factors_of(joint, Quantity::fx), in_y = factors_of(joint, Quantity::fy);
+    if (is_always_zero(joint, Quantity::fx)) want(in_y);
+    if (is_always_zero(joint, Quantity::fy)) want(in_x);
+    for (const std::size_t i : in_x) {
+      for (const std::size_t k : in_y) {
+        if (i == k || may_share_curve(i, k)) {
+          factors_[i].wanted_curve = factors_[k].wanted_curve = true;
+        }
+        if (i != k) factors_[i].wanted_point = factors_[k].wanted_point = true;
+      }
+    }
+  }
+
+  bool may_share_curve(std::size_t i, std::size_t k) {
+    return elimination_.may_share_curve(elimination_.over_tower(factors_[i].natural),
+                                        elimination_.over_tower(factors_[k].natural));
+  }
+
+  std::string text(const Poly& p) const { return core::to_string(p.plain(), geometry_.ring().names()); }
+
+  void add(FactorRole role, const Poly& sheet, bool with_implicit, LocusFactor common) {
+    common.role = role;
+    const std::vector<int> variables = geometry_.tower_variables();
+    const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
+    for (const SheetFactor& part : elimination_.sheet_factors(sheet, with_implicit)) {
+      LocusFactor factor = common;
+      factor.sheet = part.sheet.plain(variables);
+      for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
+      for (const Poly& curve : part.implicit) factor.implicit.push_back(curve.plain(free));
+      result_.problem.factors.push_back(std::move(factor));
+    }
+  }
+
+  void add_reactions() {
+    for (const SharedFactor& shared : factors_) {
+      if (!shared.wanted_curve && !shared.wanted_point) continue;
+      LocusFactor factor;
+      factor.expression = text(shared.natural);
+      factor.cause = causes_.of(shared.natural);
+      factor.vanishing = shared.vanishing;
+      add(FactorRole::reaction, elimination_.over_tower(shared.natural), shared.wanted_curve, factor);
+    }
+  }
+
+  void add_direct_singularities() {
+    for (const PolyFactor& part : determinants_.determinant_factors.factors) {
+      LocusFactor factor;
+      factor.expression = text(part.poly);
+      factor.cause = causes_.of(part.poly);
+      add(FactorRole::direct_singularity, elimination_.over_tower(part.poly), true, factor);
+    }
+  }
+
+  void add_boundaries() {
+    for (const TowerRoot& root : geometry_.roots()) {
+      if (root.role != core::RootRole::working_mode) continue;
+      const auto& dyad = std::get<mechanism::DyadPoint>(mechanism_.points[static_cast<std::size_t>(root.point)].form);
+      LocusFactor factor;
+      const Poly stretched = causes_.aligned(dyad.from, root.point, dyad.to);
+      factor.expression = text(stretched);
+      factor.cause = causes_.of(stretched);
+      add(FactorRole::workspace_boundary, root.square, true, factor);
+    }
+    const std::vector<int> variables = geometry_.tower_variables();
+    const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
+    for (const Poly& denominator : elimination_.denominator_factors()) {
+      LocusFactor factor;
+      factor.role = FactorRole::construction;
+      factor.sheet = denominator.plain(variables);
+      factor.implicit = {denominator.plain(free)};
+      result_.problem.factors.push_back(std::move(factor));
+    }
+  }
+
+  /// |f_J|^2 = f_min^2 and M_J^2 = M_min^2, cleared of |A|^2 (method.md section 5).
+  void add_margins() {
+    const Poly& determinant = determinants_.determinant;
+    const auto numerator = [&](const std::string& joint, Quantity quantity) -> const Poly* {
+      for (std::size_t k = 0; k < determinants_.equations.unknowns.size(); ++k) {
+        const mechanism::Unknown& unknown = determinants_.equations.unknowns[k];
+        if (joint_name(unknown.joint) == joint && quantity_of(unknown) == quantity) return &determinants_.numerators[k];
+      }
+      return nullptr;
+    };
+    const auto add_margin = [&](const std::string& joint, Quantity quantity, const Poly& natural,
+                                const core::Rational& bound) {
+      LocusFactor factor;
+      const std::string unit = quantity == Quantity::f ? " N" : " N m";
+      factor.expression = (quantity == Quantity::f ? "|f" : "|M") + joint + "| - " + core::to_string(bound);
+      factor.cause = (quantity == Quantity::f ? "contact force of " : "couple of ") + joint + " at its minimum of " +
+                     core::to_string(bound) + unit;
+      factor.vanishing = {{joint, quantity, 1}};
+      const Poly sheet = elimination_.over_tower(natural);
+      if (sheet.is_zero()) {
+        result_.notes.push_back(factor.cause + " in every pose");
+        return;
+      }
+      add(FactorRole::margin, sheet, true, factor);
+    };
+    for (const std::string& joint : result_.problem.joints) {
+      const Poly* fx = numerator(joint, Quantity::fx);
+      const Poly* fy = numerator(joint, Quantity::fy);
+      const Poly* couple = numerator(joint, Quantity::M);
+      if (selection_.min_force && fx != nullptr && fy != nullptr) {
+        const Poly shared = gcd(gcd(*fx, *fy), determinant);
+        const Poly x = fx->exact_quotient(shared), y = fy->exact_quotient(shared), d = determinant.exact_quotient(shared);
+        add_margin(joint, Quantity::f,
+                   x * x + y * y - (d * d).scaled(*selection_.min_force * *selection_.min_force), *selection_.min_force);
+      }
+      if (selection_.min_couple && couple != nullptr) {
+        const Poly shared = gcd(*couple, determinant);
+        const Poly c = couple->exact_quotient(shared), d = determinant.exact_quotient(shared).scaled(*selection_.min_couple);
+        add_margin(joint, Quantity::M, c - d, *selection_.min_couple);
+        add_margin(joint, Quantity::M, c + d, *selection_.min_couple);
+      }
+    }
+  }
+
+  const Mechanism& mechanism_;
+  const Selection& selection_;
+  Geometry geometry_;
+  FactoredDeterminants determinants_;
+  Elimination elimination_;
+  Causes causes_;
+  std::vector<SharedFactor> factors_;
+  DerivedProblem result_;
+};
+
+}  // namespace
+
+DerivedProblem locus_problem(const Mechanism& mechanism, const Selection& selection) {
+  const auto start = Clock::now();
+  Derivation derivation(mechanism, selection);
+  const double preparation = seconds_since(start);
+  DerivedProblem result = derivation.run();
+  result.symbolic_seconds += preparation;
+  return result;
+}
+
+}  // namespace clearloci::symbolic

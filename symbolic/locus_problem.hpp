@@ -1,0 +1,34 @@
+// From a mechanism to the factors whose zeros are its discontinuity loci (method.md sections 1 to 5).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/locus_factor.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::symbolic {
+
+/// What to trace.
+struct Selection {
+  std::vector<std::string> joints;           ///< empty: every joint with a clearance, or all where none has one
+  std::vector<core::Quantity> quantities = {core::Quantity::f, core::Quantity::M};
+  std::optional<core::Rational> min_force;   ///< N: adds the margin curves |f_J| = min_force
+  std::optional<core::Rational> min_couple;  ///< N m: adds the margin curves |M_J| = min_couple
+};
+
+struct DerivedProblem {
+  core::LocusProblem problem;
+  std::vector<std::string> notes;  ///< reactions that vanish in every pose, and the like
+  double symbolic_seconds = 0;     ///< matrix, numerators, factors
+  double elimination_seconds = 0;  ///< roots eliminated, factored
+};
+
+/// The factors of every wanted numerator, of |A| and of every Qj, over the root tower, with their implicit
+/// polynomials. Throws core::InputError for an unknown joint, a non-square system or a determinant that vanishes in
+/// every pose.
+DerivedProblem locus_problem(const mechanism::Mechanism& mechanism, const Selection& selection);
+
+}  // namespace clearloci::symbolic

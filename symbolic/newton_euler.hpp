@@ -1,0 +1,27 @@
+// The Newton-Euler equations of the kinetostatic mechanism (paper (9), (10), (13); method.md section 2):
+//     A w_J = -w_e
+// One block row a link (fx, fy in N, moment about the end-effector point in N m), one column an unknown. A reaction is
+// what `from` exerts on `to`: it enters the rows of `to` with + and those of `from` with -. Private to symbolic/.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <string>
+#include <vector>
+
+#include "symbolic/geometry.hpp"
+
+namespace clearloci::symbolic {
+
+struct NewtonEulerEquations {
+  std::vector<mechanism::Unknown> unknowns;  ///< columns
+  std::vector<std::string> unknown_names;    ///< "fA1x", "fA1y", ..., "MA1"
+  std::vector<std::string> row_names;        ///< "A1B1: force x", ...
+  GiNaC::matrix matrix;                      ///< A, in natural coordinates
+  GiNaC::matrix loads;                       ///< the column -w_e
+};
+
+/// Throws core::InputError where A is not square.
+NewtonEulerEquations newton_euler_equations(const Geometry& geometry);
+
+}  // namespace clearloci::symbolic

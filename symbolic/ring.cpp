@@ -1,0 +1,259 @@
+#include "symbolic/ring.hpp"
+
+#include <flint/fmpq_mpoly_factor.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/errors.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Rational;
+
+/// A FLINT rational that frees itself.
+class Fmpq {
+ public:
+  Fmpq() { fmpq_init(value_); }
+  explicit Fmpq(const Rational& value) : Fmpq() { fmpq_set_mpq(value_, value.get_mpq_t()); }
+  ~Fmpq() { fmpq_clear(value_); }
+  Fmpq(const Fmpq&) = delete;
+  Fmpq& operator=(const Fmpq&) = delete;
+  fmpq* get() { return value_; }
+  Rational rational() const {
+    Rational result;
+    fmpq_get_mpq(result.get_mpq_t(), value_);
+    return result;
+  }
+
+ private:
+  fmpq_t value_;
+};
+
+std::vector<ulong> exponents_of(const Poly& p, slong term) {
+  std::vector<ulong> exponents(static_cast<std::size_t>(p.ring().size()));
+  fmpq_mpoly_get_term_exp_ui(exponents.data(), p.raw(), term, p.ring().context());
+  return exponents;
+}
+
+}  // namespace
+
+Ring::Ring(std::vector<std::string> names) : names_(std::move(names)) {
+  fmpq_mpoly_ctx_init(context_, static_cast<slong>(names_.size()), ORD_LEX);
+}
+
+Ring::~Ring() { fmpq_mpoly_ctx_clear(context_); }
+
+int Ring::index(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
+}
+
+Poly::Poly(const Ring& ring, const Rational& value) : ring_(&ring) {
+  fmpq_mpoly_init(value_, ring.context());
+  if (value != 0) fmpq_mpoly_set_fmpq(value_, Fmpq(value).get(), ring.context());
+}
+
+Poly Poly::variable(const Ring& ring, int index) {
+  Poly result(ring);
+  fmpq_mpoly_gen(result.value_, index, ring.context());
+  return result;
+}
+
+Poly::Poly(const Poly& other) : ring_(other.ring_) {
+  fmpq_mpoly_init(value_, ring_->context());
+  fmpq_mpoly_set(value_, other.value_, ring_->context());
+}
+
+Poly::Poly(Poly&& other) noexcept : ring_(other.ring_) {
+  fmpq_mpoly_init(value_, ring_->context());
+  fmpq_mpoly_swap(value_, other.value_, ring_->context());
+}
+
+Poly& Poly::operator=(Poly other) noexcept {
+  std::swap(ring_, other.ring_);
+  std::swap(*value_, *other.value_);
+  return *this;
+}
+
+Poly::~Poly() { fmpq_mpoly_clear(value_, ring_->context()); }
+
+Poly& Poly::operator+=(const Poly& other) {
+  fmpq_mpoly_add(value_, value_, other.value_, ring_->context());
+  return *this;
+}
+
+Poly& Poly::operator-=(const Poly& other) {
+  fmpq_mpoly_sub(value_, value_, other.value_, ring_->context());
+  return *this;
+}
+
+Poly& Poly::operator*=(const Poly& other) {
+  fmpq_mpoly_mul(value_, value_, other.value_, ring_->context());
+  return *this;
+}
+
+Poly Poly::operator-() const { return scaled(-1); }
+
+Poly Poly::scaled(const Rational& factor) const {
+  Poly result(*ring_);
+  fmpq_mpoly_scalar_mul_fmpq(result.value_, value_, Fmpq(factor).get(), ring_->context());
+  return result;
+}
+
+Poly Poly::pow(unsigned exponent) const {
+  Poly result(*ring_);
+  core::ensure(fmpq_mpoly_pow_ui(result.value_, value_, exponent, ring_->context()) != 0, "a power that fits memory");
+  return result;
+}
+
+bool Poly::operator==(const Poly& other) const {
+  return fmpq_mpoly_equal(value_, other.value_, ring_->context()) != 0;
+}
+
+bool Poly::is_zero() const { return fmpq_mpoly_is_zero(value_, ring_->context()) != 0; }
+
+bool Poly::is_constant() const { return fmpq_mpoly_is_fmpq(value_, ring_->context()) != 0; }
+
+Rational Poly::constant() const {
+  Fmpq value;
+  fmpq_mpoly_get_fmpq(value.get(), value_, ring_->context());
+  return value.rational();
+}
+
+std::size_t Poly::length() const { return static_cast<std::size_t>(fmpq_mpoly_length(value_, ring_->context())); }
+
+int Poly::degree(int variable) const {
+  return static_cast<int>(fmpq_mpoly_degree_si(value_, variable, ring_->context()));
+}
+
+int Poly::total_degree() const { return static_cast<int>(fmpq_mpoly_total_degree_si(value_, ring_->context())); }
+
+bool Poly::divides(const Poly& divisor, Poly& quotient) const {
+  return fmpq_mpoly_divides(quotient.value_, value_, divisor.value_, ring_->context()) != 0;
+}
+
+Poly Poly::exact_quotient(const Poly& divisor) const {
+  Poly quotient(*ring_);
+  core::ensure(divides(divisor, quotient), "an exact division");
+  return quotient;
+}
+
+std::vector<Poly> Poly::coefficients(int variable) const {
+  std::vector<Poly> result(static_cast<std::size_t>(std::max(degree(variable), 0)) + 1, Poly(*ring_));
+  Fmpq coefficient;
+  for (slong term = 0; term < static_cast<slong>(length()); ++term) {
+    std::vector<ulong> exponents = exponents_of(*this, term);
+    const ulong power = exponents[static_cast<std::size_t>(variable)];
+    exponents[static_cast<std::size_t>(variable)] = 0;
+    fmpq_mpoly_get_term_coeff_fmpq(coefficient.get(), value_, term, ring_->context());
+    // Terms of one power keep their order when the power is taken out, so pushing keeps each list sorted.
+    fmpq_mpoly_push_term_fmpq_ui(result[power].value_, coefficient.get(), exponents.data(), ring_->context());
+  }
+  for (Poly& part : result) fmpq_mpoly_reduce(part.value_, ring_->context());
+  return result;
+}
+
+Poly Poly::primitive() const {
+  if (is_zero()) return *this;
+  Poly result(*ring_);
+  Fmpq content;
+  fmpq_mpoly_content(content.get(), value_, ring_->context());
+  fmpq_mpoly_scalar_div_fmpq(result.value_, value_, content.get(), ring_->context());
+  Fmpq leading;
+  fmpq_mpoly_get_term_coeff_fmpq(leading.get(), result.value_, 0, ring_->context());
+  return sgn(leading.rational()) < 0 ? -result : result;
+}
+
+Poly Poly::derivative(int variable) const {
+  Poly result(*ring_);
+  fmpq_mpoly_derivative(result.value_, value_, variable, ring_->context());
+  return result;
+}
+
+std::vector<PolyFactor> Poly::factors(Rational& constant) const {
+  std::vector<PolyFactor> result;
+  constant = 0;
+  if (is_zero()) return result;
+  if (is_constant()) {
+    constant = this->constant();
+    return result;
+  }
+  fmpq_mpoly_factor_t factorisation;
+  fmpq_mpoly_factor_init(factorisation, ring_->context());
+  core::ensure(fmpq_mpoly_factor(factorisation, value_, ring_->context()) != 0, "a factorisation over Q");
+  for (slong i = 0; i < fmpq_mpoly_factor_length(factorisation, ring_->context()); ++i) {
+    Poly base(*ring_);
+    fmpq_mpoly_factor_get_base(base.value_, factorisation, i, ring_->context());
+    const slong exponent = fmpq_mpoly_factor_get_exp_si(factorisation, i, ring_->context());
+    result.push_back({base.primitive(), static_cast<int>(exponent)});
+  }
+  fmpq_mpoly_factor_clear(factorisation, ring_->context());
+  std::sort(result.begin(), result.end(), [this](const PolyFactor& a, const PolyFactor& b) {
+    const int by_degree = a.poly.total_degree() - b.poly.total_degree();
+    return by_degree != 0 ? by_degree < 0 : fmpq_mpoly_cmp(a.poly.value_, b.poly.value_, ring_->context()) > 0;
+  });
+  // The constant is what the primitive factors leave of the leading coefficient.
+  Fmpq leading;
+  fmpq_mpoly_get_term_coeff_fmpq(leading.get(), value_, 0, ring_->context());
+  constant = leading.rational();
+  for (const PolyFactor& factor : result) {
+    Fmpq own;
+    fmpq_mpoly_get_term_coeff_fmpq(own.get(), factor.poly.value_, 0, ring_->context());
+    for (int i = 0; i < factor.multiplicity; ++i) constant /= own.rational();
+  }
+  return result;
+}
+
+Poly gcd(const Poly& a, const Poly& b) {
+  Poly result(*a.ring_);
+  core::ensure(fmpq_mpoly_gcd(result.value_, a.value_, b.value_, a.ring_->context()) != 0, "a gcd over Q");
+  return result.primitive();
+}
+
+bool Poly::square_root(Poly& root) const {
+  Rational constant;
+  const std::vector<PolyFactor> parts = factors(constant);
+  if (constant < 0 || !mpz_perfect_square_p(constant.get_num_mpz_t()) ||
+      !mpz_perfect_square_p(constant.get_den_mpz_t())) {
+    return false;
+  }
+  root = Poly(*ring_, Rational(sqrt(constant.get_num()), sqrt(constant.get_den())));
+  for (const PolyFactor& factor : parts) {
+    if (factor.multiplicity % 2 != 0) return false;
+    root *= factor.poly.pow(static_cast<unsigned>(factor.multiplicity / 2));
+  }
+  return true;
+}
+
+core::Polynomial Poly::plain(const std::vector<int>& variables) const {
+  core::Polynomial result;
+  result.variables = static_cast<int>(variables.size());
+  Fmpq coefficient;
+  for (slong term = 0; term < static_cast<slong>(length()); ++term) {
+    const std::vector<ulong> exponents = exponents_of(*this, term);
+    core::Term plain_term;
+    ulong kept = 0;
+    for (const int variable : variables) {
+      plain_term.exponents.push_back(static_cast<int>(exponents[static_cast<std::size_t>(variable)]));
+      kept += exponents[static_cast<std::size_t>(variable)];
+    }
+    core::ensure(kept == std::accumulate(exponents.begin(), exponents.end(), ulong{0}),
+                 "a polynomial in the listed variables only");
+    fmpq_mpoly_get_term_coeff_fmpq(coefficient.get(), value_, term, ring_->context());
+    plain_term.coefficient = coefficient.rational();
+    result.terms.push_back(std::move(plain_term));
+  }
+  std::sort(result.terms.begin(), result.terms.end(),
+            [](const core::Term& a, const core::Term& b) { return a.exponents > b.exponents; });
+  return result;
+}
+
+core::Polynomial Poly::plain() const {
+  std::vector<int> all(static_cast<std::size_t>(ring_->size()));
+  std::iota(all.begin(), all.end(), 0);
+  return plain(all);
+}
+
+}  // namespace clearloci::symbolic
