@@ -1,0 +1,168 @@
+// What only the whole mechanism shows: is it square, do its links stay rigid, are its names unambiguous.
+#include <algorithm>
+#include <cmath>
+
+#include "mechanism/posture_sample.hpp"
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+
+const Point& point_at(const Mechanism& mechanism, PointIndex index) {
+  return mechanism.points[static_cast<std::size_t>(index)];
+}
+
+/// The points a form is built from.
+std::vector<PointIndex> bases(const PointForm& form) {
+  if (const auto* dyad = std::get_if<DyadPoint>(&form)) return {dyad->from, dyad->to};
+  if (const auto* offset = std::get_if<OffsetPoint>(&form)) return {offset->first, offset->second};
+  if (const auto* mean = std::get_if<MeanPoint>(&form)) return {mean->first, mean->second};
+  return {};
+}
+
+bool is_explicit(const Point& point) { return std::holds_alternative<ExplicitPoint>(point.form); }
+
+/// Least and greatest distance of two points over sampled postures.
+struct DistanceRange {
+  PointIndex first, second;
+  double least = INFINITY, greatest = 0;
+};
+
+std::vector<DistanceRange> distances_to_keep(const Link& link) {
+  std::vector<DistanceRange> pairs;
+  for (std::size_t i = 0; i < link.points.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) pairs.push_back({link.points[j], link.points[i]});
+  if (!link.mass.is_zero_literal())
+    for (const PointIndex point : link.points)
+      if (point != link.centre_of_mass) pairs.push_back({point, link.centre_of_mass});
+  return pairs;
+}
+
+}  // namespace
+
+std::set<std::string> coordinates_of(const Mechanism& mechanism, PointIndex point) {
+  std::set<std::string> found;
+  const PointForm& form = point_at(mechanism, point).form;
+  if (const auto* fixed = std::get_if<ExplicitPoint>(&form)) {
+    for (const Expression& expression : fixed->coordinates)
+      for (const std::string& name : symbols(expression))
+        if (std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                        [&name](const Coordinate& coordinate) { return coordinate.name == name; }))
+          found.insert(name);
+  }
+  for (const PointIndex base : bases(form)) found.merge(coordinates_of(mechanism, base));
+  return found;
+}
+
+bool is_on_link(const Mechanism& mechanism, PointIndex point, LinkIndex link) {
+  if (link == ground) return coordinates_of(mechanism, point).empty();
+  const Link& body = mechanism.links[static_cast<std::size_t>(link)];
+  if (std::find(body.points.begin(), body.points.end(), point) != body.points.end()) return true;
+  const PointForm& form = point_at(mechanism, point).form;
+  if (std::holds_alternative<DyadPoint>(form) || std::holds_alternative<ExplicitPoint>(form)) return false;
+  const std::vector<PointIndex> built_from = bases(form);
+  return std::all_of(built_from.begin(), built_from.end(),
+                     [&](PointIndex base) { return is_on_link(mechanism, base, link); });
+}
+
+void check_square(const Mechanism& mechanism, const core::SourcePosition& joints) {
+  const std::size_t equations = 3 * mechanism.links.size();
+  const std::size_t columns = unknowns(mechanism).size();
+  if (equations == columns) return;
+  const std::size_t actuators = columns - 2 * mechanism.joints.size();
+  const std::string counts = std::to_string(columns) + " unknowns (2 for each of " +
+                             std::to_string(mechanism.joints.size()) + " joints, " + std::to_string(actuators) +
+                             " actuators) but " + std::to_string(equations) + " equations (3 for each of " +
+                             std::to_string(mechanism.links.size()) + " links)";
+  if (columns > equations)
+    throw InputError(
+        joints,
+        "the equations are not square: " + counts + ", over-constrained by " + std::to_string(columns - equations),
+        "remove joints or actuators, or add the missing links");
+  throw InputError(
+      joints, "the equations are not square: " + counts + ", under-actuated by " + std::to_string(equations - columns),
+      "add joints or actuate more of them (actuated: true)");
+}
+
+void check_names(const Mechanism& mechanism) {
+  const auto is_used = [&mechanism](const std::string& name) {
+    return std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(),
+                       [&name](const Parameter& parameter) { return parameter.name == name; }) ||
+           std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                       [&name](const Coordinate& coordinate) { return coordinate.name == name; });
+  };
+  for (const Point& point : mechanism.points) {
+    if (is_explicit(point)) continue;
+    for (const char* axis : {"x", "y"})
+      if (is_used(axis + point.name))
+        throw InputError(point.where,
+                         "'" + (axis + point.name) + "' names a coordinate of point " + point.name +
+                             " in formulas, but also a parameter or free coordinate",
+                         "rename the point, or the parameter or coordinate");
+  }
+}
+
+void check_coordinates_used(const Mechanism& mechanism, const core::SourcePosition& workspace) {
+  std::set<std::string> used;
+  for (std::size_t i = 0; i < mechanism.points.size(); ++i)
+    used.merge(coordinates_of(mechanism, static_cast<PointIndex>(i)));
+  for (const Coordinate& coordinate : mechanism.coordinates)
+    if (!used.contains(coordinate.name))
+      throw InputError(workspace, "no point depends on the free coordinate '" + coordinate.name + "'",
+                       "use it in the coordinates of a point, or remove it");
+}
+
+void check_distinct_bases(const Mechanism& mechanism) {
+  constexpr std::size_t poses = 16;
+  for (const Point& point : mechanism.points) {
+    const std::vector<PointIndex> pair = bases(point.form);
+    if (pair.size() != 2 || std::holds_alternative<MeanPoint>(point.form)) continue;
+    bool coincide = false;
+    bool apart = false;
+    for (const std::vector<double>& pose : spread_poses(mechanism, poses)) {
+      const auto placed = sample_points(mechanism, pose);
+      const auto& p = placed[static_cast<std::size_t>(pair[0])];
+      const auto& q = placed[static_cast<std::size_t>(pair[1])];
+      if (!p || !q) continue;
+      // Relative to the coordinates: what rounding leaves of a distance that is zero.
+      const double size = std::hypot((*p)[0], (*p)[1]) + std::hypot((*q)[0], (*q)[1]);
+      const bool together = std::hypot((*q)[0] - (*p)[0], (*q)[1] - (*p)[1]) <= 1e-12 * size;
+      (together ? coincide : apart) = true;
+    }
+    if (!coincide || apart) continue;
+    throw InputError(point.where,
+                     "point " + point.name + " has no direction to build on: " + point_at(mechanism, pair[0]).name +
+                         " and " + point_at(mechanism, pair[1]).name + " coincide in every pose",
+                     "build it on two different places");
+  }
+}
+
+void check_rigidity(const Mechanism& mechanism) {
+  // Rounding moves a sampled distance by 1e-12 or so of its size, a real motion by far more.
+  constexpr double tolerance = 1e-7;
+  constexpr std::size_t enough_postures = 12;
+  const std::vector<PosturePoints> postures = sample_postures(mechanism, enough_postures);
+  for (const Link& link : mechanism.links) {
+    std::vector<DistanceRange> pairs = distances_to_keep(link);
+    for (DistanceRange& pair : pairs) {
+      for (const PosturePoints& posture : postures) {
+        const auto& p = posture[static_cast<std::size_t>(pair.first)];
+        const auto& q = posture[static_cast<std::size_t>(pair.second)];
+        const double distance = std::hypot(q[0] - p[0], q[1] - p[1]);
+        pair.least = std::min(pair.least, distance);
+        pair.greatest = std::max(pair.greatest, distance);
+      }
+      if (postures.empty() || pair.greatest - pair.least <= tolerance * pair.greatest) continue;
+      const Point& second = point_at(mechanism, pair.second);
+      throw InputError(link.where,
+                       "link " + link.name + " is not rigid: the distance between " +
+                           point_at(mechanism, pair.first).name + " and " +
+                           (second.auxiliary ? "its centre of mass" : second.name) + " changes over the workspace",
+                       "list only points that move together, each tied to the others by a dyad, on or mean");
+    }
+  }
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,24 @@
+// A mechanism's points in floating point, at poses spread over the box: for checks of the input, nothing else.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::mechanism {
+
+using PosturePoints = std::vector<std::array<double, 2>>;  ///< one a point, m
+
+/// Poses (one value a coordinate) spread evenly over the box: the first `count` of one fixed sequence.
+std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::size_t count);
+
+/// Every point at a pose, in the file's working mode; nothing for a point that cannot be built there.
+std::vector<std::optional<std::array<double, 2>>> sample_points(const Mechanism& mechanism,
+                                                                const std::vector<double>& pose);
+
+/// Up to `count` complete postures; fewer where the mechanism closes in few of 4096 poses.
+std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count);
+
+}  // namespace clearloci::mechanism

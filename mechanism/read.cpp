@@ -1,0 +1,81 @@
+#include "mechanism/read.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+
+const std::vector<std::string> top_keys = {"format", "name",   "space",        "parameters", "workspace", "points",
+                                           "links",  "joints", "end_effector", "loads",      "gravity"};
+
+void check_format(const Value& value) {
+  const std::string text = text_of(value);
+  if (text != "1")
+    throw InputError(value.where, "the format is '" + text + "', but this version reads format 1", "write format: 1");
+}
+
+/// The file's name without folder and extension, where the file gives the mechanism no name.
+std::string read_name(const std::optional<Value>& value, const std::string& file) {
+  return value ? text_of(*value) : std::filesystem::path(file).stem().string();
+}
+
+void check_space(const std::optional<Value>& value) {
+  if (!value) return;
+  const std::string text = text_of(*value);
+  if (text == "planar") return;
+  if (text == "spatial")
+    throw InputError(value->where, "spatial mechanisms are not read by this version", "describe a planar mechanism");
+  throw InputError(value->where, "the space is '" + text + "'", "write space: planar");
+}
+
+}  // namespace
+
+Mechanism parse_mechanism(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+  const Value document = parse_document(text, file);
+  if (!document.is_map())
+    throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
+  const Mapping root(document, top_keys);
+  check_format(root.at("format"));
+  check_space(root.find("space"));
+
+  Mechanism mechanism;
+  mechanism.file = file;
+  mechanism.name = read_name(root.find("name"), file);
+  read_parameters(mechanism, root.find("parameters"), overrides);
+  read_workspace(mechanism, root.at("workspace"));
+  read_points(mechanism, root.at("points"));
+  read_links(mechanism, root.at("links"));
+  read_joints(mechanism, root.at("joints"));
+  read_end_effector(mechanism, root.at("end_effector"));
+  read_loads(mechanism, root.find("loads"));
+  read_gravity(mechanism, root.find("gravity"));
+
+  check_names(mechanism);
+  check_coordinates_used(mechanism, root.at("workspace").where);
+  check_square(mechanism, root.at("joints").where);
+  check_distinct_bases(mechanism);
+  check_reachability(mechanism);
+  check_rigidity(mechanism);
+  return mechanism;
+}
+
+Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InputError({path, 0, 0}, "there is no such file", "check the path");
+  if (std::filesystem::is_directory(status))
+    throw InputError({path, 0, 0}, "this is a folder, not a file", "name the mechanism file in it");
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw InputError({path, 0, 0}, "the file cannot be read", "check its permissions");
+  return parse_mechanism(text.str(), path, overrides);
+}
+
+}  // namespace clearloci::mechanism

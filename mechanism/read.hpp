@@ -1,0 +1,25 @@
+// From the YAML file of mechanism-format.md to a Mechanism, with every check that needs no algebra.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::mechanism {
+
+/// `--set name=value` of the command line.
+using Override = std::pair<std::string, std::string>;
+
+/// Throws core::InputError, with file, line, column, problem and mend, for whatever is wrong with the input.
+Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides = {});
+
+/// The same for a text; `file` is the name that errors show.
+Mechanism parse_mechanism(const std::string& text, const std::string& file,
+                          const std::vector<Override>& overrides = {});
+
+/// An expression by the rules of mechanism-format.md, e.g. "2*L + cos(30 deg)". `where`: its place, for errors.
+Expression parse_expression(const std::string& text, const core::SourcePosition& where);
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,110 @@
+// Links: their points, mass, centre of mass and inertia.
+#include <algorithm>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+
+/// A name for a centre of mass that no point of the file has: "G_A1B1".
+std::string auxiliary_name(const Mechanism& mechanism, const std::string& link) {
+  std::string name = "G_" + link;
+  for (char& c : name)
+    if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '_';
+  const auto taken = [&mechanism](const std::string& candidate) {
+    return std::any_of(mechanism.points.begin(), mechanism.points.end(),
+                       [&candidate](const Point& point) { return point.name == candidate; });
+  };
+  while (taken(name)) name += "_";
+  return name;
+}
+
+PointIndex add_auxiliary(Mechanism& mechanism, const Link& link, PointForm form, const core::SourcePosition& where) {
+  mechanism.points.push_back({auxiliary_name(mechanism, link.name), std::move(form), true, where});
+  return static_cast<PointIndex>(mechanism.points.size()) - 1;
+}
+
+std::vector<PointIndex> read_link_points(const Mechanism& mechanism, const Value& value) {
+  std::vector<PointIndex> points;
+  for (const Value& name : elements(value)) {
+    const PointIndex point = read_point_name(mechanism, name);
+    if (std::find(points.begin(), points.end(), point) != points.end())
+      throw InputError(name.where, value.what + " list " + text_of(name) + " twice", "name each point once");
+    points.push_back(point);
+  }
+  if (points.empty()) throw InputError(value.where, value.what + " are none", "name the points attached to the link");
+  return points;
+}
+
+PointIndex read_centre_of_mass(Mechanism& mechanism, const Link& link, const std::optional<Value>& value) {
+  if (!value) {
+    if (link.points.size() == 1) return link.points[0];
+    return add_auxiliary(mechanism, link, MeanPoint{link.points[0], link.points[1]}, link.where);
+  }
+  if (value->is_scalar()) return read_point_name(mechanism, *value);
+  PointForm form = read_point_form(mechanism, *value);
+  if (std::holds_alternative<DyadPoint>(form))
+    throw InputError(value->where, value->what + " is a dyad", "name a point, or write {on: ...} or {mean: ...}");
+  return add_auxiliary(mechanism, link, std::move(form), value->where);
+}
+
+/// A link with one point has neither a middle nor a length: with a mass it must say its com and inertia.
+void check_one_point(const Link& link, const Mapping& mapping, const Rational& mass) {
+  if (link.points.size() > 1 || sgn(mass) == 0) return;
+  for (const char* key : {"com", "inertia"})
+    if (!mapping.find(key))
+      throw InputError(link.where,
+                       "link " + link.name + " has a mass and a single point, so its " + key + " has no default",
+                       std::string("write ") + key + " or name a second point");
+}
+
+}  // namespace
+
+LinkIndex read_link_name(const Mechanism& mechanism, const Value& value, bool or_ground) {
+  const std::string name = text_of(value);
+  if (name == "ground" && or_ground) return ground;
+  if (name == "ground")
+    throw InputError(value.where, value.what + " is the ground, which is fixed", "name a link that moves");
+  std::vector<std::string> known;
+  if (or_ground) known.push_back("ground");
+  for (std::size_t i = 0; i < mechanism.links.size(); ++i) {
+    if (mechanism.links[i].name == name) return static_cast<LinkIndex>(i);
+    known.push_back(mechanism.links[i].name);
+  }
+  throw InputError(value.where, value.what + ": there is no link '" + name + "'", suggest(name, known, "links"));
+}
+
+void read_links(Mechanism& mechanism, const Value& value) {
+  const std::vector<Entry> links = entries(value);
+  if (links.empty()) throw InputError(value.where, "there are no links", "write such as AB: {points: [A, B]}");
+  for (const Entry& entry : links) {
+    if (entry.key.empty()) throw InputError(entry.where, "a link without a name", "name it");
+    if (entry.key == "ground")
+      throw InputError(entry.where, "'ground' is always there and cannot be described", "rename or remove this link");
+    Value described = entry.value;
+    described.what = "link " + entry.key;
+    const Mapping mapping(described, {"points", "mass", "com", "inertia"});
+    Link link;
+    link.name = entry.key;
+    link.where = entry.where;
+    link.points = read_link_points(mechanism, mapping.at("points"));
+    Rational mass = 0;
+    if (const auto written = mapping.find("mass")) {
+      const Number number = read_number(mechanism, *written, Sign::not_negative);
+      link.mass = number.expression;
+      mass = number.value;
+    }
+    check_one_point(link, mapping, mass);
+    link.centre_of_mass = read_centre_of_mass(mechanism, link, mapping.find("com"));
+    if (const auto written = mapping.find("inertia"))
+      link.inertia = read_number(mechanism, *written, Sign::not_negative).expression;
+    else if (link.points.size() == 1)
+      link.inertia = Expression();
+    mechanism.links.push_back(std::move(link));
+  }
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,282 @@
+// Points and their forms.
+#include <algorithm>
+#include <map>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+
+bool mentions_coordinates(const Mechanism& mechanism, const Expression& expression) {
+  const std::set<std::string> names = symbols(expression);
+  return std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                     [&names](const Coordinate& coordinate) { return names.contains(coordinate.name); });
+}
+
+/// Explicit coordinates are polynomials in the lengths among the free coordinates and in cos, sin of the angles.
+class PolynomialCheck {
+ public:
+  PolynomialCheck(const Mechanism& mechanism, const Value& value) : mechanism_(mechanism), value_(value) {}
+
+  void operator()(const Expression& expression) const {
+    using Kind = Expression::Kind;
+    if (!mentions_coordinates(mechanism_, expression)) {
+      check_constant(expression);
+      return;
+    }
+    switch (expression.kind()) {
+      case Kind::symbol:
+        if (is_angle(expression.name()))
+          refuse("the angle '" + expression.name() + "' stands outside cos and sin",
+                 "write cos(" + expression.name() + ") or sin(" + expression.name() + ")");
+        return;
+      case Kind::divide:
+        if (mentions_coordinates(mechanism_, expression.arguments()[1]))
+          refuse("it divides by '" + to_string(expression.arguments()[1]) + "'", not_polynomial_mend);
+        check_divisor(expression.arguments()[1]);
+        (*this)(expression.arguments()[0]);
+        return;
+      case Kind::power:
+        check_exponent(expression.arguments()[1]);
+        (*this)(expression.arguments()[0]);
+        return;
+      case Kind::sqrt:
+        refuse("'" + to_string(expression) + "' is no polynomial", not_polynomial_mend);
+      case Kind::cos:
+      case Kind::sin:
+        check_angle(expression.arguments()[0]);
+        return;
+      default:
+        for (const Expression& argument : expression.arguments()) (*this)(argument);
+    }
+  }
+
+ private:
+  static constexpr const char* not_polynomial_mend =
+      "points are polynomials in the coordinates; distances belong into a dyad";
+
+  [[noreturn]] void refuse(const std::string& problem, const std::string& mend) const {
+    throw InputError(value_.where, value_.what + ": " + problem, mend);
+  }
+
+  bool is_angle(const std::string& name) const {
+    return std::any_of(mechanism_.coordinates.begin(), mechanism_.coordinates.end(),
+                       [&name](const Coordinate& coordinate) { return coordinate.name == name && coordinate.angle; });
+  }
+
+  Rational check_constant(const Expression& expression) const {
+    try {
+      return evaluate(expression, mechanism_.parameters).value;
+    } catch (const std::domain_error& error) {
+      refuse(std::string(error.what()) + " in '" + to_string(expression) + "'",
+             "change the expression or the parameters in it");
+    }
+  }
+
+  void check_divisor(const Expression& divisor) const {
+    if (sgn(check_constant(divisor)) == 0)
+      refuse("division by zero in '" + value_.node.Scalar() + "'", "change the expression or the parameters in it");
+  }
+
+  void check_exponent(const Expression& exponent) const {
+    const bool constant = !mentions_coordinates(mechanism_, exponent);
+    const Rational value = constant ? check_constant(exponent) : Rational(-1);
+    if (value.get_den() != 1 || sgn(value) < 0 || value > 100)
+      refuse("'" + to_string(exponent) + "' is no exponent of a polynomial", "use 0, 1, 2, ... up to 100");
+  }
+
+  /// The argument of cos or sin: sums and constant multiples of angles.
+  void check_angle(const Expression& expression) const {
+    using Kind = Expression::Kind;
+    if (!mentions_coordinates(mechanism_, expression)) {
+      check_constant(expression);
+      return;
+    }
+    const std::vector<Expression>& arguments = expression.arguments();
+    switch (expression.kind()) {
+      case Kind::symbol:
+        if (!is_angle(expression.name()))
+          refuse("'" + expression.name() + "' inside cos or sin is a length",
+                 "declare it as an angle: " + expression.name() + ": {angle: [0, 360 deg]}");
+        return;
+      case Kind::add:
+      case Kind::negate:
+        for (const Expression& argument : arguments) check_angle(argument);
+        return;
+      case Kind::multiply: {
+        const bool first_constant = !mentions_coordinates(mechanism_, arguments[0]);
+        if (first_constant || !mentions_coordinates(mechanism_, arguments[1])) {
+          const Rational factor = check_constant(arguments[first_constant ? 0 : 1]);
+          if (factor.get_den() != 1) break;
+          check_angle(arguments[first_constant ? 1 : 0]);
+          return;
+        }
+        break;
+      }
+      default:
+        break;
+    }
+    refuse("'" + to_string(expression) + "' inside cos or sin is no sum of whole multiples of angles",
+           "write such as cos(theta), cos(2*theta + 30 deg)");
+  }
+
+  const Mechanism& mechanism_;
+  const Value& value_;
+};
+
+ExplicitPoint read_explicit(const Mechanism& mechanism, const Value& value) {
+  ExplicitPoint point;
+  for (const Value& coordinate : elements(value, 2)) {
+    point.coordinates.push_back(read_expression(mechanism, coordinate, Scope::parameters_and_coordinates));
+    PolynomialCheck(mechanism, coordinate)(point.coordinates.back());
+  }
+  return point;
+}
+
+/// Two different points.
+std::pair<PointIndex, PointIndex> read_pair(const Mechanism& mechanism, const Value& value) {
+  const std::vector<Value> names = elements(value, 2);
+  const PointIndex first = read_point_name(mechanism, names[0]);
+  const PointIndex second = read_point_name(mechanism, names[1]);
+  if (first == second)
+    throw InputError(names[1].where, value.what + " names the point " + text_of(names[1]) + " twice",
+                     "name two different points");
+  return {first, second};
+}
+
+DyadPoint read_dyad(const Mechanism& mechanism, const Value& value) {
+  const Mapping mapping(value, {"dyad", "lengths", "side"});
+  const auto [from, to] = read_pair(mechanism, mapping.at("dyad"));
+  const std::vector<Value> lengths = elements(mapping.at("lengths"), 2);
+  const Value side = mapping.at("side");
+  const std::string side_text = text_of(side);
+  if (side_text != "left" && side_text != "right")
+    throw InputError(side.where, side.what + " is '" + side_text + "'", "write left or right");
+  return {from, to, read_number(mechanism, lengths[0], Sign::positive).expression,
+          read_number(mechanism, lengths[1], Sign::positive).expression,
+          side_text == "left" ? Side::left : Side::right};
+}
+
+OffsetPoint read_offset(const Mechanism& mechanism, const Value& value) {
+  const Mapping mapping(value, {"on", "offset"});
+  const auto [first, second] = read_pair(mechanism, mapping.at("on"));
+  const std::vector<Value> offset = elements(mapping.at("offset"), 2);
+  return {first, second, read_number(mechanism, offset[0], Sign::any).expression,
+          read_number(mechanism, offset[1], Sign::any).expression};
+}
+
+bool has_key(const Value& value, const std::string& key) { return static_cast<bool>(value.node[key]); }
+
+/// Names that a point's form mentions, as far as it is written well enough to tell.
+std::vector<Value> mentioned_points(const Value& value) {
+  std::vector<Value> mentioned;
+  if (!value.is_map()) return mentioned;
+  for (const Entry& entry : entries(value)) {
+    if (entry.key != "dyad" && entry.key != "on" && entry.key != "mean") continue;
+    if (!entry.value.is_sequence()) continue;
+    for (const Value& name : elements(entry.value))
+      if (name.is_scalar()) mentioned.push_back(name);
+  }
+  return mentioned;
+}
+
+/// Cycles and uses of later points, before any point is read.
+class OrderCheck {
+ public:
+  explicit OrderCheck(const std::vector<Entry>& points) : points_(points), state_(points.size(), State::unseen) {
+    for (std::size_t i = 0; i < points.size(); ++i) index_[points[i].key] = i;
+    for (std::size_t i = 0; i < points.size(); ++i) visit(i);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (const Value& used : mentioned_points(points[i].value)) {
+        const auto found = index_.find(used.node.Scalar());
+        if (found == index_.end() || found->second < i) continue;
+        throw InputError(used.where,
+                         "point " + points[i].key + " uses " + found->first + ", which is written below it in line " +
+                             std::to_string(points[found->second].where.line),
+                         "write " + found->first + " above " + points[i].key);
+      }
+    }
+  }
+
+ private:
+  enum class State { unseen, open, done };
+
+  void visit(std::size_t i) {
+    if (state_[i] == State::done) return;
+    if (state_[i] == State::open) refuse_cycle(i);
+    state_[i] = State::open;
+    path_.push_back(i);
+    for (const Value& used : mentioned_points(points_[i].value)) {
+      const auto found = index_.find(used.node.Scalar());
+      if (found != index_.end()) visit(found->second);
+    }
+    path_.pop_back();
+    state_[i] = State::done;
+  }
+
+  [[noreturn]] void refuse_cycle(std::size_t closing) const {
+    const auto start = std::find(path_.begin(), path_.end(), closing);
+    std::string cycle;
+    for (auto i = start; i != path_.end(); ++i) cycle += points_[*i].key + " -> ";
+    cycle += points_[closing].key;
+    throw InputError(points_[closing].where, "the points use each other in a cycle: " + cycle,
+                     "build one of them from points that are known without it");
+  }
+
+  const std::vector<Entry>& points_;
+  std::map<std::string, std::size_t> index_;
+  std::vector<State> state_;
+  std::vector<std::size_t> path_;
+};
+
+}  // namespace
+
+PointIndex read_point_name(const Mechanism& mechanism, const Value& value) {
+  const std::string name = text_of(value);
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < mechanism.points.size(); ++i) {
+    if (mechanism.points[i].auxiliary) continue;
+    if (mechanism.points[i].name == name) return static_cast<PointIndex>(i);
+    known.push_back(mechanism.points[i].name);
+  }
+  throw InputError(value.where, value.what + ": there is no point '" + name + "'", suggest(name, known, "points"));
+}
+
+PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
+  if (value.is_sequence()) return read_explicit(mechanism, value);
+  if (!value.is_map())
+    throw InputError(value.where, value.what + " is neither coordinates nor a construction",
+                     "write [x, y], {dyad: ...}, {on: ...} or {mean: ...}");
+  if (has_key(value, "dyad")) return read_dyad(mechanism, value);
+  if (has_key(value, "on")) return read_offset(mechanism, value);
+  if (has_key(value, "mean")) {
+    const auto [first, second] = read_pair(mechanism, Mapping(value, {"mean"}).at("mean"));
+    return MeanPoint{first, second};
+  }
+  if (has_key(value, "slider"))
+    throw InputError(value.where, value.what + " is a slider, which this version does not read",
+                     "use [x, y], dyad, on or mean");
+  const std::vector<std::string> forms = {"dyad", "on", "mean"};
+  const std::vector<Entry> written = entries(value);
+  if (written.empty())
+    throw InputError(value.where, value.what + " is empty", "write [x, y], {dyad: ...}, {on: ...} or {mean: ...}");
+  throw InputError(written.front().where, value.what + " has none of the forms dyad, on, mean",
+                   suggest(written.front().key, forms, "forms"));
+}
+
+void read_points(Mechanism& mechanism, const Value& value) {
+  const std::vector<Entry> points = entries(value);
+  if (points.empty()) throw InputError(value.where, "there are no points", "write such as A: [0, 0]");
+  const OrderCheck in_order(points);
+  for (const Entry& entry : points) {
+    check_label(entry.key, entry.where, "a point");
+    Value form = entry.value;
+    form.what = "point " + entry.key;
+    mechanism.points.push_back({entry.key, read_point_form(mechanism, form), false, entry.where});
+  }
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,194 @@
+// Numbers, parameters and the workspace.
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+using core::SourcePosition;
+
+bool is_word_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+std::vector<std::string> names_in(const Mechanism& mechanism, Scope scope) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : mechanism.parameters) names.push_back(parameter.name);
+  if (scope == Scope::parameters_and_coordinates)
+    for (const Coordinate& coordinate : mechanism.coordinates) names.push_back(coordinate.name);
+  return names;
+}
+
+/// Where a word stands in a scalar's text.
+SourcePosition place_of_word(const Value& value, const std::string& word) {
+  const std::string& text = value.node.Scalar();
+  SourcePosition place = value.where;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if (at > 0 && is_word_character(text[at - 1])) continue;
+    if (end < text.size() && is_word_character(text[end])) continue;
+    if (place.column > 0) place.column += static_cast<int>(at);
+    break;
+  }
+  return place;
+}
+
+ExactValue evaluate_at(const Expression& expression, const Mechanism& mechanism, const Value& value) {
+  try {
+    return evaluate(expression, mechanism.parameters);
+  } catch (const std::domain_error& error) {
+    throw InputError(value.where, value.what + ": " + error.what() + " in '" + value.node.Scalar() + "'",
+                     "change the expression or the parameters in it");
+  }
+}
+
+/// The value of a parameter: as in the file, or as overridden.
+Value parameter_value(const Entry& entry, const std::vector<Override>& overrides) {
+  Value value = entry.value;
+  value.what = "parameter " + entry.key;
+  for (const auto& [name, text] : overrides) {
+    if (name != entry.key) continue;
+    value.node = YAML::Node(text);
+    value.where = {"--set " + name + "=" + text, 0, 0};
+  }
+  return value;
+}
+
+void check_known_overrides(const std::vector<Entry>& parameters, const std::vector<Override>& overrides) {
+  std::vector<std::string> known;
+  for (const Entry& entry : parameters) known.push_back(entry.key);
+  for (const auto& [name, text] : overrides) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw InputError({"--set " + name + "=" + text, 0, 0}, "there is no parameter '" + name + "' in the file",
+                     known.empty() ? "the file has no parameters" : "the parameters are " + join(known));
+  }
+}
+
+Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
+  Coordinate coordinate;
+  coordinate.name = entry.key;
+  Value range = entry.value;
+  range.what = "coordinate " + entry.key;
+  if (range.is_map()) {
+    coordinate.angle = true;
+    range = Mapping(range, {"angle"}).at("angle");
+  }
+  range.what = "the range of coordinate " + entry.key;
+  const std::vector<Value> ends = elements(range, 2);
+  const Number lower = read_number(mechanism, ends[0], Sign::any);
+  const Number upper = read_number(mechanism, ends[1], Sign::any);
+  if (lower.value == upper.value)
+    throw InputError(range.where, range.what + " is empty: both ends are " + to_string(lower.expression),
+                     "write two different ends: [lower, upper]");
+  if (lower.value > upper.value)
+    throw InputError(
+        range.where,
+        range.what + " is reversed: " + to_string(lower.expression) + " is above " + to_string(upper.expression),
+        "write [" + to_string(upper.expression) + ", " + to_string(lower.expression) + "]");
+  coordinate.lower_expression = lower.expression;
+  coordinate.upper_expression = upper.expression;
+  coordinate.lower = lower.value;
+  coordinate.upper = upper.value;
+  return coordinate;
+}
+
+}  // namespace
+
+Expression read_expression(const Mechanism& mechanism, const Value& value, Scope scope) {
+  const Expression expression = parse_expression(text_of(value), value.where);
+  const std::vector<std::string> known = names_in(mechanism, scope);
+  for (const std::string& name : symbols(expression)) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const SourcePosition place = place_of_word(value, name);
+    const bool is_coordinate = std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                                           [&name](const Coordinate& c) { return c.name == name; });
+    if (is_coordinate)
+      throw InputError(place, value.what + " depends on the free coordinate '" + name + "'",
+                       "only coordinates of points may; write a number or parameters here");
+    const bool both = scope == Scope::parameters_and_coordinates;
+    throw InputError(
+        place, value.what + ": '" + name + "' is neither a number nor a parameter" + (both ? " nor a coordinate" : ""),
+        suggest(name, known, both ? "parameters and coordinates" : "parameters"));
+  }
+  return expression;
+}
+
+Number read_number(const Mechanism& mechanism, const Value& value, Sign sign) {
+  Number number;
+  number.expression = read_expression(mechanism, value, Scope::parameters);
+  number.value = evaluate_at(number.expression, mechanism, value).value;
+  const std::string written = to_string(number.expression);
+  if (sign != Sign::any && sgn(number.value) < 0)
+    throw InputError(value.where, value.what + " is negative: " + written,
+                     sign == Sign::positive ? "write a value above 0" : "write 0 or a value above 0");
+  if (sign == Sign::positive && sgn(number.value) == 0)
+    throw InputError(value.where, value.what + " is zero: " + written, "write a value above 0");
+  return number;
+}
+
+void check_identifier(const std::string& name, const SourcePosition& where, const std::string& what) {
+  check_label(name, where, what);
+  if (std::isdigit(static_cast<unsigned char>(name.front())))
+    throw InputError(where, "the name '" + name + "' of " + what + " begins with a digit", "begin it with a letter");
+  for (const char* reserved : {"sqrt", "cos", "sin", "pi", "deg"})
+    if (name == reserved)
+      throw InputError(where, "'" + name + "' has a meaning in expressions and cannot name " + what, "rename it");
+}
+
+void check_label(const std::string& name, const SourcePosition& where, const std::string& what) {
+  if (name.empty() || !std::all_of(name.begin(), name.end(), is_word_character))
+    throw InputError(where, "'" + name + "' cannot name " + what, "use letters, digits and _ only");
+}
+
+void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Override>& overrides) {
+  const std::vector<Entry> parameters = value && !value->node.IsNull() ? entries(*value) : std::vector<Entry>{};
+  check_known_overrides(parameters, overrides);
+  for (const Entry& entry : parameters) {
+    check_identifier(entry.key, entry.where, "a parameter");
+    const Value source = parameter_value(entry, overrides);
+    Parameter parameter;
+    parameter.name = entry.key;
+    parameter.expression = parse_expression(text_of(source), source.where);
+    // A parameter written further down is known to the file, but not yet here.
+    const std::set<std::string> used = symbols(parameter.expression);
+    for (const Entry& other : parameters) {
+      const bool above = std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(),
+                                     [&other](const Parameter& p) { return p.name == other.key; });
+      if (above || !used.contains(other.key)) continue;
+      throw InputError(place_of_word(source, other.key),
+                       other.key == entry.key ? source.what + " uses itself"
+                                              : source.what + " uses '" + other.key + "', which is written below it",
+                       other.key == entry.key ? "write it in numbers and the parameters above it"
+                                              : "write " + other.key + " above " + entry.key);
+    }
+    parameter.expression = read_expression(mechanism, source, Scope::parameters);
+    const ExactValue result = evaluate_at(parameter.expression, mechanism, source);
+    parameter.value = result.value;
+    parameter.exact = result.exact;
+    mechanism.parameters.push_back(std::move(parameter));
+  }
+}
+
+void read_workspace(Mechanism& mechanism, const Value& value) {
+  const std::vector<Entry> coordinates = entries(value);
+  if (coordinates.empty())
+    throw InputError(value.where, "the workspace has no coordinate", "write one to three, such as x: [-1, 1]");
+  if (coordinates.size() > 3)
+    throw InputError(coordinates[3].where,
+                     "the workspace has " + std::to_string(coordinates.size()) + " coordinates, more than three",
+                     "keep up to three and write the rest of the pose as parameters");
+  std::vector<Coordinate> read;
+  for (const Entry& entry : coordinates) {
+    check_identifier(entry.key, entry.where, "a coordinate");
+    for (const Parameter& parameter : mechanism.parameters)
+      if (parameter.name == entry.key)
+        throw InputError(entry.where, "'" + entry.key + "' is a parameter and a coordinate", "rename one of them");
+    read.push_back(read_coordinate(mechanism, entry));
+  }
+  mechanism.coordinates = std::move(read);
+}
+
+}  // namespace clearloci::mechanism

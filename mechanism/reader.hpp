@@ -1,0 +1,70 @@
+// The stages of reading a mechanism file, in the order in which they run. Each throws core::InputError for wrong input.
+// Internal to the reader.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "mechanism/mechanism.hpp"
+#include "mechanism/read.hpp"
+#include "mechanism/yaml_input.hpp"
+
+namespace clearloci::mechanism {
+
+/// A constant expression and its value.
+struct Number {
+  Expression expression;
+  Rational value;
+};
+
+enum class Sign { any, not_negative, positive };
+
+/// What an expression may speak of.
+enum class Scope { parameters, parameters_and_coordinates };
+
+// --- read_values.cpp: numbers, parameters, workspace
+Expression read_expression(const Mechanism& mechanism, const Value& value, Scope scope);
+Number read_number(const Mechanism& mechanism, const Value& value, Sign sign);
+void check_identifier(const std::string& name, const core::SourcePosition& where, const std::string& what);
+void check_label(const std::string& name, const core::SourcePosition& where, const std::string& what);
+void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Override>& overrides);
+void read_workspace(Mechanism& mechanism, const Value& value);
+
+// --- read_points.cpp
+PointIndex read_point_name(const Mechanism& mechanism, const Value& value);
+/// One point form; `what` of the value names the point. Points it uses must be in the mechanism already.
+PointForm read_point_form(const Mechanism& mechanism, const Value& value);
+void read_points(Mechanism& mechanism, const Value& value);
+
+// --- read_links.cpp
+LinkIndex read_link_name(const Mechanism& mechanism, const Value& value, bool or_ground);
+void read_links(Mechanism& mechanism, const Value& value);
+
+// --- read_joints.cpp: joints, end effector, loads
+void read_joints(Mechanism& mechanism, const Value& value);
+void read_end_effector(Mechanism& mechanism, const Value& value);
+void read_loads(Mechanism& mechanism, const std::optional<Value>& value);
+void read_gravity(Mechanism& mechanism, const std::optional<Value>& value);
+
+// --- checks.cpp: what only the whole mechanism shows
+/// The free coordinates that a point depends on, through the points it is built from.
+std::set<std::string> coordinates_of(const Mechanism& mechanism, PointIndex point);
+/// Listed among the link's points, or built by `on` or `mean` from points of the link. Ground holds every fixed point.
+bool is_on_link(const Mechanism& mechanism, PointIndex point, LinkIndex link);
+/// As many unknowns as equations. `joints`: the place of the joints in the file.
+void check_square(const Mechanism& mechanism, const core::SourcePosition& joints);
+/// The symbols xB, yB of a constructed point B name nothing else.
+void check_names(const Mechanism& mechanism);
+/// Every free coordinate moves some point.
+void check_coordinates_used(const Mechanism& mechanism, const core::SourcePosition& workspace);
+/// The two points that a dyad or `on` builds on do not coincide in every pose.
+void check_distinct_bases(const Mechanism& mechanism);
+/// The points of a link keep their distances.
+void check_rigidity(const Mechanism& mechanism);
+
+// --- reachability.cpp
+/// Every dyad can be closed somewhere in the box.
+void check_reachability(const Mechanism& mechanism);
+
+}  // namespace clearloci::mechanism

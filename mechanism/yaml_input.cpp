@@ -1,0 +1,166 @@
+#include "mechanism/yaml_input.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+using core::SourcePosition;
+
+SourcePosition position(const YAML::Mark& mark, const std::string& file) {
+  if (mark.is_null()) return {file, 0, 0};
+  return {file, mark.line + 1, mark.column + 1};
+}
+
+/// Of the text itself: yaml-cpp marks a quoted scalar at its quote, which it gives the tag "!".
+SourcePosition position(const YAML::Node& node, const std::string& file) {
+  SourcePosition place = position(node.Mark(), file);
+  if (node.IsScalar() && node.Tag() == "!") ++place.column;
+  return place;
+}
+
+std::string kind_of(const YAML::Node& node) {
+  if (node.IsMap()) return "a mapping";
+  if (node.IsSequence()) return "a list";
+  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  return "nothing";
+}
+
+/// Number of insertions, deletions, replacements and swaps of neighbours that turn a into b.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1, 0));
+  for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+    }
+  }
+  return cost[a.size()][b.size()];
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+}  // namespace
+
+Value parse_document(const std::string& text, const std::string& file) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.empty() || documents[0].IsNull())
+      throw InputError({file, 1, 1}, "the file is empty", "start with the line format: 1");
+    if (documents.size() > 1)
+      throw InputError(position(documents[1], file), "a second document in the file",
+                       "remove the line --- and keep one mechanism a file");
+    return {documents[0], "the file", position(documents[0], file)};
+  } catch (const YAML::Exception& error) {
+    throw InputError(position(error.mark, file), "not YAML: " + error.msg,
+                     "check brackets, colons and indentation at this place");
+  }
+}
+
+std::vector<Entry> entries(const Value& value) {
+  if (!value.is_map())
+    throw InputError(value.where, value.what + " should be a mapping, not " + kind_of(value.node),
+                     "write it as name: value");
+  std::vector<Entry> result;
+  std::map<std::string, SourcePosition> first;
+  for (const auto& pair : value.node) {
+    const SourcePosition where = position(pair.first, value.where.file);
+    if (!pair.first.IsScalar()) throw InputError(where, "a key of " + value.what + " is no name", "write a name");
+    const std::string& key = pair.first.Scalar();
+    const auto [earlier, is_new] = first.emplace(key, where);
+    if (!is_new)
+      throw InputError(
+          where,
+          "'" + key + "' is there twice in " + value.what + ": first in line " + std::to_string(earlier->second.line),
+          "rename or remove one of them");
+    // An empty value has no place of its own.
+    const SourcePosition place = pair.second.IsNull() ? where : position(pair.second, value.where.file);
+    result.push_back({key, where, {pair.second, "'" + key + "'", place}});
+  }
+  return result;
+}
+
+std::vector<Value> elements(const Value& value, int size) {
+  const std::string wanted = size < 0 ? "a list" : "a list of " + std::to_string(size);
+  if (!value.is_sequence())
+    throw InputError(value.where, value.what + " should be " + wanted + ", not " + kind_of(value.node),
+                     "write it in brackets: [ , ]");
+  if (size >= 0 && static_cast<int>(value.node.size()) != size)
+    throw InputError(value.where, value.what + " should be " + wanted + ", not of " + std::to_string(value.node.size()),
+                     "write " + std::to_string(size) + " entries in the brackets");
+  std::vector<Value> result;
+  for (const YAML::Node& element : value.node)
+    result.push_back({element, value.what, position(element, value.where.file)});
+  return result;
+}
+
+std::string text_of(const Value& value) {
+  if (value.node.IsNull()) throw InputError(value.where, value.what + " is empty", "write its value or remove its key");
+  if (!value.is_scalar())
+    throw InputError(value.where, value.what + " should be a single value, not " + kind_of(value.node),
+                     "write one name or expression");
+  return value.node.Scalar();
+}
+
+bool boolean_of(const Value& value) {
+  const std::string text = text_of(value);
+  if (text == "true" || text == "True" || text == "TRUE") return true;
+  if (text == "false" || text == "False" || text == "FALSE") return false;
+  throw InputError(value.where, value.what + " is neither true nor false but '" + text + "'", "write true or false");
+}
+
+Mapping::Mapping(const Value& value, const std::vector<std::string>& known_keys)
+    : value_(value), entries_(entries(value)) {
+  for (const Entry& entry : entries_) {
+    if (std::find(known_keys.begin(), known_keys.end(), entry.key) == known_keys.end())
+      throw InputError(entry.where, "unknown key '" + entry.key + "' in " + value.what,
+                       suggest(entry.key, known_keys, "keys"));
+  }
+}
+
+std::optional<Value> Mapping::find(const std::string& key) const {
+  for (const Entry& entry : entries_) {
+    if (entry.key != key) continue;
+    Value found = entry.value;
+    found.what = value_.what == "the file" ? "'" + key + "'" : "the " + key + " of " + value_.what;
+    return found;
+  }
+  return std::nullopt;
+}
+
+Value Mapping::at(const std::string& key) const {
+  if (auto found = find(key)) return *found;
+  throw InputError(value_.where, "the key '" + key + "' is missing in " + value_.what, "add " + key + ": ...");
+}
+
+std::string suggest(const std::string& wrong, const std::vector<std::string>& known, const std::string& plural) {
+  if (known.empty()) return "there are no " + plural;
+  const auto distance = [&wrong](const std::string& name) {
+    return edit_distance(lower_case(wrong), lower_case(name));
+  };
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+    return distance(a) < distance(b);
+  });
+  const std::size_t limit = std::max<std::size_t>(1, nearest->size() / 3);
+  if (wrong.size() > 1 && distance(*nearest) <= limit) return "did you mean '" + *nearest + "'?";
+  return "the " + plural + " are " + join(known);
+}
+
+std::string join(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace clearloci::mechanism
