@@ -56,7 +56,9 @@ class Interval {
     return Interval(_mm_add_pd(ends, error));
   }
   void set(double negated_lower, double upper) { ends_ = _mm_set_pd(upper, negated_lower); }
-  double end(int which) const { return which == 0 ? _mm_cvtsd_f64(ends_) : _mm_cvtsd_f64(_mm_unpackhi_pd(ends_, ends_)); }
+  double end(int which) const {
+    return which == 0 ? _mm_cvtsd_f64(ends_) : _mm_cvtsd_f64(_mm_unpackhi_pd(ends_, ends_));
+  }
   __m128d ends_;
 #else
   friend Interval operator+(const Interval& a, const Interval& b) {

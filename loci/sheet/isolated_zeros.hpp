@@ -1,24 +1,19 @@
 // All solutions of N1 = N2 = 0 on one working mode's sheet, each proven to exist and to be the only one near it.
 // Adaptive subdivision over (x, y), exclusion by enclosures, Krawczyk's operator in lifted coordinates, so that
-// solutions next to the workspace boundary are as good as any.
+// solutions next to the workspace boundary are as good as any; polar coordinates around the points where a dyad's
+// ends meet (patch.hpp).
 #pragma once
 
 #include <vector>
 
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/sheet/patch.hpp"
 
 namespace clearloci::loci::sheet {
 
-/// A cell of the plane.
-struct Cell {
-  Interval x, y;
-};
-
 struct SheetZero {
   double x = 0, y = 0;
-  std::vector<double> roots;         ///< s1...sm there
-  double radius = 0;                 ///< of the enclosure, in x and y
-  std::vector<Interval> enclosure;   ///< of (x, y, s1...sm)
+  std::vector<double> roots;  ///< s1...sm there
+  double radius = 0;          ///< half the width of the enclosure in x and y
   /// False: it lies on Q_j = 0 to rounding, so that it may belong to the mode with the other sign of s_j.
   bool inside_workspace = true;
 };
@@ -29,21 +24,14 @@ struct ZeroOptions {
 };
 
 struct ZeroSet {
-  std::vector<SheetZero> zeros;   ///< sorted by x, then y
-  std::vector<Cell> undecided;    ///< hulls of clusters of cells that may hold further zeros
-  bool gave_up = false;           ///< stopped early: N1 and N2 vanish together along a curve, or nearly
+  std::vector<SheetZero> zeros;  ///< sorted by x, then y
+  std::vector<Cell> undecided;   ///< hulls of clusters of cells that may hold further zeros
+  bool gave_up = false;          ///< stopped early: N1 and N2 vanish together along a curve, or nearly
 };
 
-/// Zeros of functions 0 and 1 of `program` inside the cells `seeds` (which may overlap) and the workspace.
-ZeroSet isolated_zeros(const SheetProgram& program, const core::WorkingMode& mode, const std::vector<Cell>& seeds,
-                       const ZeroOptions& options = {});
-
-/// The same for two polynomials over the tower and a box, an exact one: zeros on its edges count as inside.
+/// Zeros inside the workspace and the box; zeros on the box's edges count as inside.
 ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const core::Polynomial& first,
                        const core::Polynomial& second, const std::vector<core::Rational>& lower,
                        const std::vector<core::Rational>& upper, const ZeroOptions& options = {});
-
-/// Cells that touch, merged into the hulls of their clusters.
-std::vector<Cell> clusters(std::vector<Cell> cells);
 
 }  // namespace clearloci::loci::sheet

@@ -38,13 +38,9 @@ MultiInterval::MultiInterval(const core::Rational& value) {
 MultiInterval::MultiInterval(double value) : MultiInterval(core::Rational(value)) {}
 
 // mpz_get_d_2exp truncates; one step outwards encloses.
-double MultiInterval::lower() const {
-  return std::nextafter(scaled(lower_), -std::numeric_limits<double>::infinity());
-}
+double MultiInterval::lower() const { return std::nextafter(scaled(lower_), -std::numeric_limits<double>::infinity()); }
 
-double MultiInterval::upper() const {
-  return std::nextafter(scaled(upper_), std::numeric_limits<double>::infinity());
-}
+double MultiInterval::upper() const { return std::nextafter(scaled(upper_), std::numeric_limits<double>::infinity()); }
 
 MultiInterval operator+(const MultiInterval& a, const MultiInterval& b) {
   MultiInterval result;
@@ -61,8 +57,7 @@ MultiInterval operator-(const MultiInterval& a) {
 }
 
 MultiInterval operator*(const MultiInterval& a, const MultiInterval& b) {
-  const core::Integer products[] = {a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_,
-                                    a.upper_ * b.upper_};
+  const core::Integer products[] = {a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_, a.upper_ * b.upper_};
   MultiInterval result;
   result.lower_ = floor_shift(*std::min_element(std::begin(products), std::end(products)));
   result.upper_ = ceiling_shift(*std::max_element(std::begin(products), std::end(products)));

@@ -81,15 +81,22 @@ class SheetProgram::Builder {
     const Node n = nodes_[node];
     int result = zero_;
     switch (n.kind) {
-      case Kind::variable: result = n.first == v ? one_ : zero_; break;
-      case Kind::constant: break;
-      case Kind::add: result = add(derivative(n.first, v), derivative(n.second, v)); break;
+      case Kind::variable:
+        result = n.first == v ? one_ : zero_;
+        break;
+      case Kind::constant:
+        break;
+      case Kind::add:
+        result = add(derivative(n.first, v), derivative(n.second, v));
+        break;
       case Kind::multiply: {
         const int left = multiply(derivative(n.first, v), n.second);
         result = add(left, multiply(n.first, derivative(n.second, v)));
         break;
       }
-      case Kind::square: result = multiply(multiply(constant(2), n.first), derivative(n.first, v)); break;
+      case Kind::square:
+        result = multiply(multiply(constant(2), n.first), derivative(n.first, v));
+        break;
     }
     derivatives_[{node, v}] = result;
     return result;
@@ -104,11 +111,21 @@ class SheetProgram::Builder {
     int next = variables_ + static_cast<int>(constants_.size());
     for (const Node& node : nodes_) {
       switch (node.kind) {
-        case Kind::variable: registers.push_back(node.first); continue;
-        case Kind::constant: registers.push_back(variables_ + node.first); continue;
-        case Kind::add: program.instructions_.push_back({Operation::add, 0, 0}); break;
-        case Kind::multiply: program.instructions_.push_back({Operation::multiply, 0, 0}); break;
-        case Kind::square: program.instructions_.push_back({Operation::square, 0, 0}); break;
+        case Kind::variable:
+          registers.push_back(node.first);
+          continue;
+        case Kind::constant:
+          registers.push_back(variables_ + node.first);
+          continue;
+        case Kind::add:
+          program.instructions_.push_back({Operation::add, 0, 0});
+          break;
+        case Kind::multiply:
+          program.instructions_.push_back({Operation::multiply, 0, 0});
+          break;
+        case Kind::square:
+          program.instructions_.push_back({Operation::square, 0, 0});
+          break;
       }
       program.instructions_.back().first = registers[node.first];
       program.instructions_.back().second = registers[node.second];

@@ -75,9 +75,9 @@ class SheetProgram {
 
   core::RootTower tower_;
   std::vector<core::Polynomial> functions_;
-  std::vector<core::Rational> constants_;    // registers variables()...
-  std::vector<Instruction> instructions_;    // registers after the constants
-  std::vector<int> stage_end_;               // roots() + 2 entries
+  std::vector<core::Rational> constants_;  // registers variables()...
+  std::vector<Instruction> instructions_;  // registers after the constants
+  std::vector<int> stage_end_;             // roots() + 2 entries
   std::vector<int> squares_, values_;
   std::vector<std::vector<int>> partials_, square_partials_;
   int zero_ = 0;
@@ -101,9 +101,15 @@ void SheetProgram::Registers<T>::run(int stage) {
     const T& a = values[instruction.first];
     const T& b = values[instruction.second];
     switch (instruction.operation) {
-      case Operation::add: values[offset + i] = a + b; break;
-      case Operation::multiply: values[offset + i] = a * b; break;
-      case Operation::square: values[offset + i] = squared(a); break;
+      case Operation::add:
+        values[offset + i] = a + b;
+        break;
+      case Operation::multiply:
+        values[offset + i] = a * b;
+        break;
+      case Operation::square:
+        values[offset + i] = squared(a);
+        break;
     }
   }
 }

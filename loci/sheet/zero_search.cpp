@@ -63,9 +63,8 @@ void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
   for (int c = 0; c < cell_.dimension(); ++c) box.push_back(is_free(c) ? inflated(cell_.local(c)) : cell_.local(c));
   if (cell_.enter_local(box, lifted)) {
     cell_.differentiate();
-    if (width(cell) < near_smallest * smallest_ &&
-        std::any_of(system_.functions.begin(), system_.functions.end(),
-                    [&](int f) { return cell_.rounding_dominates(f); }))
+    if (width(cell) < near_smallest * smallest_ && std::any_of(system_.functions.begin(), system_.functions.end(),
+                                                               [&](int f) { return cell_.rounding_dominates(f); }))
       cell_.sharpen_middle();
     if (excluded([&](int f) { return cell_.centred(f); })) return;
     std::vector<Interval> image;

@@ -1,0 +1,326 @@
+#include "loci/sheet/patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+using core::Polynomial;
+using core::Rational;
+
+// Exponents in lexicographically descending order, as core::Polynomial wants them.
+using Collected = std::map<std::vector<int>, Rational, std::greater<>>;
+
+Polynomial as_polynomial(int variables, const Collected& collected) {
+  Polynomial result{variables, {}};
+  for (const auto& [exponents, coefficient] : collected)
+    if (coefficient != 0) result.terms.push_back({exponents, coefficient});
+  return result;
+}
+
+/// Coefficients of (c + d t)^n, lowest power first.
+std::vector<Rational> binomial_power(const Rational& c, const Rational& d, int n) {
+  std::vector<Rational> result = {1};
+  for (int i = 0; i < n; ++i) {
+    result.emplace_back(0);
+    for (std::size_t k = result.size() - 1; k > 0; --k) result[k] = c * result[k] + d * result[k - 1];
+    result[0] *= c;
+  }
+  return result;
+}
+
+/// p(..., v + shift, ...).
+Polynomial shifted(const Polynomial& p, int variable, const Rational& shift) {
+  if (shift == 0) return p;
+  std::vector<std::vector<Rational>> powers;
+  for (int n = 0; n <= std::max(0, core::degree_in(p, variable)); ++n) powers.push_back(binomial_power(shift, 1, n));
+  Collected collected;
+  for (const core::Term& term : p.terms) {
+    std::vector<int> exponents = term.exponents;
+    const int n = term.exponents[variable];
+    for (int k = 0; k <= n; ++k) {
+      exponents[variable] = k;
+      collected[exponents] += term.coefficient * powers[n][k];
+    }
+  }
+  return as_polynomial(p.variables, collected);
+}
+
+bool holds_root(const Star& star, int root) {
+  return std::find(star.roots.begin(), star.roots.end(), root) != star.roots.end();
+}
+
+/// Lowest degree in the distance from a star at the origin; its roots count as a distance.
+int order_at_star(const Polynomial& p, const Star& star) {
+  int order = std::numeric_limits<int>::max();
+  for (const core::Term& term : p.terms) {
+    int degree = term.exponents[0] + term.exponents[1];
+    for (const int j : star.roots) degree += term.exponents[2 + j];
+    order = std::min(order, degree);
+  }
+  return order;
+}
+
+Polynomial moved_to(const Star& star, const Polynomial& p) { return shifted(shifted(p, 0, star.x), 1, star.y); }
+
+/// The polynomial in (u, t, ...), divided by u^divide. Required: written around the star.
+Polynomial in_polar(const Polynomial& p, const Star& star, const Chart& chart, int divide) {
+  const auto& [x0, x1, y0, y1] = chart.rectangle;
+  const bool along_x = chart.side == Chart::Side::right || chart.side == Chart::Side::left;
+  const Rational depth = chart.side == Chart::Side::right  ? x1 - star.x
+                         : chart.side == Chart::Side::left ? x0 - star.x
+                         : chart.side == Chart::Side::top  ? y1 - star.y
+                                                           : y0 - star.y;
+  const Rational start = along_x ? y0 - star.y : x0 - star.x, length = along_x ? y1 - y0 : x1 - x0;
+  const int deep = along_x ? 0 : 1, wide = 1 - deep;
+  std::vector<std::vector<Rational>> across;
+  for (int n = 0; n <= std::max(0, core::degree_in(p, wide)); ++n) across.push_back(binomial_power(start, length, n));
+  std::vector<Rational> depths = {1};
+  for (int n = 0; n < core::degree_in(p, deep); ++n) depths.push_back(depths.back() * depth);
+
+  Collected collected;
+  for (const core::Term& term : p.terms) {
+    std::vector<int> exponents = term.exponents;
+    exponents[0] = term.exponents[0] + term.exponents[1] - divide;
+    for (const int j : star.roots) exponents[0] += term.exponents[2 + j];
+    const Rational coefficient = term.coefficient * depths[term.exponents[deep]];
+    const std::vector<Rational>& powers = across[term.exponents[wide]];
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+      exponents[1] = static_cast<int>(k);
+      collected[exponents] += coefficient * powers[k];
+    }
+  }
+  return as_polynomial(p.variables, collected);
+}
+
+/// The real zero of c ((x - a)^2 + (y - b)^2), if the polynomial is one.
+std::optional<Star> double_point(const Polynomial& d) {
+  Rational xx, yy, x, y, constant;
+  for (const core::Term& term : d.terms) {
+    for (std::size_t v = 2; v < term.exponents.size(); ++v)
+      if (term.exponents[v] != 0) return std::nullopt;
+    const int i = term.exponents[0], j = term.exponents[1];
+    if (i == 2 && j == 0)
+      xx = term.coefficient;
+    else if (i == 0 && j == 2)
+      yy = term.coefficient;
+    else if (i == 1 && j == 0)
+      x = term.coefficient;
+    else if (i == 0 && j == 1)
+      y = term.coefficient;
+    else if (i == 0 && j == 0)
+      constant = term.coefficient;
+    else
+      return std::nullopt;
+  }
+  if (xx == 0 || xx != yy) return std::nullopt;
+  const Rational a = -x / (2 * xx), b = -y / (2 * xx);
+  if (xx * (a * a + b * b) != constant) return std::nullopt;
+  return Star{a, b, {}};
+}
+
+/// Quotient by a divisor whose leading coefficient in x is a number; none: not divisible.
+std::optional<Polynomial> exact_quotient(Polynomial p, const Polynomial& divisor) {
+  const int n = core::degree_in(divisor, 0);
+  Rational leading;
+  for (const core::Term& term : divisor.terms)
+    if (term.exponents[0] == n) {
+      for (std::size_t v = 1; v < term.exponents.size(); ++v)
+        if (term.exponents[v] != 0) return std::nullopt;
+      leading = term.coefficient;
+    }
+  Collected rest, quotient;
+  for (const core::Term& term : p.terms) rest[term.exponents] = term.coefficient;
+  while (!rest.empty()) {
+    const auto [exponents, coefficient] = *rest.begin();
+    if (coefficient == 0) {
+      rest.erase(rest.begin());
+      continue;
+    }
+    if (exponents[0] < n) return std::nullopt;
+    std::vector<int> factor = exponents;
+    factor[0] -= n;
+    const Rational scale = coefficient / leading;
+    quotient[factor] += scale;
+    for (const core::Term& term : divisor.terms) {
+      std::vector<int> place = factor;
+      for (std::size_t v = 0; v < place.size(); ++v) place[v] += term.exponents[v];
+      rest[place] -= scale * term.coefficient;
+    }
+  }
+  return as_polynomial(p.variables, quotient);
+}
+
+}  // namespace
+
+std::vector<Star> stars(const core::RootTower& tower) {
+  std::vector<Star> result;
+  for (const Polynomial& denominator : tower.denominators) {
+    std::optional<Star> star = double_point(denominator);
+    if (!star) continue;
+    const bool again = std::any_of(result.begin(), result.end(),
+                                   [&](const Star& other) { return other.x == star->x && other.y == star->y; });
+    bool reachable = true;
+    for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+      const Polynomial square = moved_to(*star, tower.roots[j].square);
+      if (order_at_star(square, *star) >= 2) star->roots.push_back(static_cast<int>(j));
+      if (!square.is_zero() && square.is_constant()) continue;
+      const std::vector<int> origin(square.variables, 0);
+      if (!square.terms.empty() && square.terms.back().exponents == origin && square.terms.back().coefficient < 0 &&
+          std::none_of(square.terms.begin(), square.terms.end(), [](const core::Term& term) {
+            return std::any_of(term.exponents.begin() + 2, term.exponents.end(), [](int e) { return e != 0; });
+          }))
+        reachable = false;
+    }
+    if (!again && reachable && !star->roots.empty()) result.push_back(std::move(*star));
+  }
+  return result;
+}
+
+core::Point2 Chart::to_plane(double p, double q) const {
+  if (side == Side::plane) return {p, q};
+  const double a = core::to_double(origin_x), b = core::to_double(origin_y);
+  const double x0 = core::to_double(rectangle[0]), x1 = core::to_double(rectangle[1]);
+  const double y0 = core::to_double(rectangle[2]), y1 = core::to_double(rectangle[3]);
+  switch (side) {
+    case Side::right:
+      return {a + p * (x1 - a), b + p * (y0 - b + q * (y1 - y0))};
+    case Side::left:
+      return {a + p * (x0 - a), b + p * (y0 - b + q * (y1 - y0))};
+    case Side::top:
+      return {a + p * (x0 - a + q * (x1 - x0)), b + p * (y1 - b)};
+    default:
+      return {a + p * (x0 - a + q * (x1 - x0)), b + p * (y0 - b)};
+  }
+}
+
+Cell Chart::to_plane(const Cell& cell) const {
+  if (side == Side::plane) return cell;
+  const auto interval = [](const Rational& value) { return constant_as(value, static_cast<Interval*>(nullptr)); };
+  const Interval a = interval(origin_x), b = interval(origin_y);
+  const Interval x0 = interval(rectangle[0]), x1 = interval(rectangle[1]);
+  const Interval y0 = interval(rectangle[2]), y1 = interval(rectangle[3]);
+  const Interval &p = cell.x, &q = cell.y;
+  switch (side) {
+    case Side::right:
+      return {a + p * (x1 - a), b + p * (y0 - b + q * (y1 - y0))};
+    case Side::left:
+      return {a + p * (x0 - a), b + p * (y0 - b + q * (y1 - y0))};
+    case Side::top:
+      return {a + p * (x0 - a + q * (x1 - x0)), b + p * (y1 - b)};
+    default:
+      return {a + p * (x0 - a + q * (x1 - x0)), b + p * (y0 - b)};
+  }
+}
+
+std::array<double, 4> Chart::jacobian(double p, double q) const {
+  if (side == Side::plane) return {1, 0, 0, 1};
+  const core::Point2 origin = to_plane(0, 0), outer = to_plane(1, q), start = to_plane(1, 0), end = to_plane(1, 1);
+  return {outer[0] - origin[0], p * (end[0] - start[0]), outer[1] - origin[1], p * (end[1] - start[1])};
+}
+
+core::Polynomial without_denominators(core::Polynomial function, const core::RootTower& tower) {
+  for (const Polynomial& denominator : tower.denominators) {
+    if (!double_point(denominator)) continue;
+    while (std::optional<Polynomial> quotient = exact_quotient(function, denominator)) {
+      if (quotient->is_zero()) break;
+      function = std::move(*quotient);
+    }
+  }
+  return function;
+}
+
+ChartedSheet charted(const core::RootTower& tower, const std::vector<core::Polynomial>& functions, const Chart& chart,
+                     const std::vector<Star>& all_stars) {
+  if (chart.side == Chart::Side::plane) {
+    ChartedSheet sheet{tower, {}};
+    for (const Polynomial& f : functions) sheet.functions.push_back(without_denominators(f, tower));
+    return sheet;
+  }
+  const Star& star = all_stars[chart.star];
+  ChartedSheet sheet;
+  sheet.tower.coordinates = {"u", "t"};
+  sheet.tower.roots = tower.roots;
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    const int divide = holds_root(star, static_cast<int>(j)) ? 2 : 0;
+    sheet.tower.roots[j].square = in_polar(moved_to(star, tower.roots[j].square), star, chart, divide);
+  }
+  for (const Polynomial& f : functions) {
+    const Polynomial local = moved_to(star, f);
+    sheet.functions.push_back(in_polar(local, star, chart, local.is_zero() ? 0 : order_at_star(local, star)));
+  }
+  return sheet;
+}
+
+Partition partition(const core::RootTower& tower, const std::array<double, 4>& box) {
+  // A star this close to the box's edge, relative to its rectangle, has the rectangle reach across the edge.
+  constexpr double margin = 0.05;
+  constexpr double largest = 0.15;  // half a rectangle's width, relative to the box
+  Partition result;
+  result.domain = box;
+  result.charts.emplace_back();
+  const double size = std::max(box[1] - box[0], box[3] - box[2]);
+  const std::vector<Star> all = stars(tower);
+  const auto place = [](const Star& star) { return std::array{core::to_double(star.x), core::to_double(star.y)}; };
+  std::vector<std::array<double, 2>> half_widths;
+  for (const Star& star : all) {
+    const auto [x, y] = place(star);
+    double reach = largest * size;
+    for (const Star& other : all) {
+      const auto [ox, oy] = place(other);
+      if (&other != &star) reach = std::min(reach, 0.4 * std::max(std::abs(ox - x), std::abs(oy - y)));
+    }
+    const double edge = margin * reach;
+    if (x < box[0] - edge || x > box[1] + edge || y < box[2] - edge || y > box[3] + edge) continue;
+    // Short binary fractions, so that the charts' coefficients stay short.
+    const double grain = std::exp2(std::floor(std::log2(reach)) - 8);
+    const auto side = [&](double centre, double direction, double limit) {
+      const double wanted = centre + direction * reach;
+      const double rounded = std::round(wanted / grain) * grain;
+      const double room = direction * (limit - centre);
+      return room >= reach * 1.1 ? rounded : room > edge ? limit : rounded;
+    };
+    const std::array<double, 4> hole = {side(x, -1, box[0]), side(x, 1, box[1]), side(y, -1, box[2]),
+                                        side(y, 1, box[3])};
+    const int index = static_cast<int>(result.stars.size());
+    result.stars.push_back(star);
+    result.holes.push_back(hole);
+    for (const Chart::Side s : {Chart::Side::right, Chart::Side::top, Chart::Side::left, Chart::Side::bottom})
+      result.charts.push_back({s, index, star.x, star.y, {hole[0], hole[1], hole[2], hole[3]}});
+    for (const int c : {0, 2}) {
+      result.domain[c] = std::min(result.domain[c], hole[c]);
+      result.domain[c + 1] = std::max(result.domain[c + 1], hole[c + 1]);
+    }
+  }
+  return result;
+}
+
+std::vector<Cell> outside_holes(const Partition& partition) {
+  std::vector<double> xs = {partition.domain[0], partition.domain[1]}, ys = {partition.domain[2], partition.domain[3]};
+  for (const auto& hole : partition.holes) {
+    xs.insert(xs.end(), {hole[0], hole[1]});
+    ys.insert(ys.end(), {hole[2], hole[3]});
+  }
+  for (auto* cuts : {&xs, &ys}) {
+    std::sort(cuts->begin(), cuts->end());
+    cuts->erase(std::unique(cuts->begin(), cuts->end()), cuts->end());
+  }
+  std::vector<Cell> result;
+  for (std::size_t i = 0; i + 1 < xs.size(); ++i)
+    for (std::size_t k = 0; k + 1 < ys.size(); ++k) {
+      const bool in_hole = std::any_of(partition.holes.begin(), partition.holes.end(), [&](const auto& hole) {
+        return hole[0] <= xs[i] && xs[i + 1] <= hole[1] && hole[2] <= ys[k] && ys[k + 1] <= hole[3];
+      });
+      if (!in_hole) result.push_back({{xs[i], xs[i + 1]}, {ys[k], ys[k + 1]}});
+    }
+  return result;
+}
+
+}  // namespace clearloci::loci::sheet

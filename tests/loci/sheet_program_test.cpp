@@ -1,0 +1,169 @@
+// The compiled program against the polynomials it was compiled from.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "loci/sheet/sheet_cell.hpp"
+#include "loci/sheet/sheet_program.hpp"
+#include "tests/loci/sheet_cases.hpp"
+
+namespace clearloci::loci::sheet {
+namespace {
+
+using testing::FiveBar;
+using testing::Ring;
+
+TEST(Interval, EnclosesRoundedResults) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> number(-3, 3);
+  for (int i = 0; i < 2000; ++i) {
+    const double a = number(random), b = number(random), c = number(random), d = number(random);
+    const Interval p(std::min(a, b), std::max(a, b)), q(std::min(c, d), std::max(c, d));
+    const core::Rational exact_a(a), exact_c(c);
+    const auto holds = [](const Interval& i_, const core::Rational& value) {
+      return core::Rational(i_.lower()) <= value && value <= core::Rational(i_.upper());
+    };
+    EXPECT_TRUE(holds(p + q, exact_a + exact_c));
+    EXPECT_TRUE(holds(p - q, exact_a - exact_c));
+    EXPECT_TRUE(holds(p * q, exact_a * exact_c));
+    EXPECT_TRUE(holds(squared(p), exact_a * exact_a));
+    if (!q.contains_zero()) {
+      EXPECT_TRUE(holds(p * inverse(q), exact_a / exact_c));
+    }
+  }
+  EXPECT_EQ((Interval(1, 2) - Interval(0, 3)).sign(), 0);
+  EXPECT_EQ((Interval(-1, 2) * Interval(-3, 4)).contains(-6), true);
+  EXPECT_LE((Interval(-1, 2) * Interval(-3, 4)).lower(), -6);
+  EXPECT_GE((Interval(-1, 2) * Interval(-3, 4)).upper(), 8);
+  EXPECT_LT((Interval(-1, 2) * Interval(-3, 4)).upper(), 8.000001);
+}
+
+TEST(Interval, EnclosesRationalsThatDoublesMiss) {
+  const Interval third = constant_as(core::Rational(1, 3), static_cast<Interval*>(nullptr));
+  EXPECT_LT(core::Rational(third.lower()), core::Rational(1, 3));
+  EXPECT_GT(core::Rational(third.upper()), core::Rational(1, 3));
+  EXPECT_EQ(constant_as(core::Rational(1, 4), static_cast<Interval*>(nullptr)).width(), 0);
+}
+
+class CompiledFiveBar : public ::testing::Test {
+ protected:
+  FiveBar design{.a1 = {3, 5}, .b1 = {2, 5}, .a2 = {1, 2}, .b2 = {7, 10}, .weight = {981, 100}};
+  testing::FiveBarSheet sheet = testing::five_bar_sheet(design);
+  std::vector<core::Polynomial> functions{sheet.moment_A1, sheet.determinant};
+  SheetProgram program{sheet.tower, functions};
+};
+
+TEST_F(CompiledFiveBar, AgreesWithPolynomialsInDoubleIntervalAndMultiInterval) {
+  auto doubles = program.registers<double>();
+  auto intervals = program.registers<Interval>();
+  auto multiples = program.registers<MultiInterval>();
+  std::mt19937_64 random(11);
+  std::uniform_int_distribution<int> number(-64, 64);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<double> at;
+    std::vector<core::Rational> exact;
+    for (int v = 0; v < 4; ++v) {
+      at.push_back(number(random) / 64.0);
+      exact.emplace_back(at.back());
+      doubles.set(v, at.back());
+      intervals.set(v, at.back());
+      multiples.set(v, MultiInterval(at.back()));
+    }
+    for (int j = 0; j < 2; ++j) doubles.run_square(j), intervals.run_square(j), multiples.run_square(j);
+    doubles.run_values(), intervals.run_values(), multiples.run_values();
+    doubles.run_gradients(), intervals.run_gradients();
+    for (int f = 0; f < 2; ++f) {
+      const core::Rational truth = core::evaluate(functions[f], exact);
+      const double size = 1 + std::abs(core::to_double(truth));
+      EXPECT_NEAR(doubles.value(f), core::to_double(truth), 1e-9 * size);
+      EXPECT_LE(core::Rational(intervals.value(f).lower()), truth);
+      EXPECT_GE(core::Rational(intervals.value(f).upper()), truth);
+      EXPECT_LT(intervals.value(f).width(), 1e-9 * size);
+      EXPECT_LE(core::Rational(multiples.value(f).lower()), truth);
+      EXPECT_GE(core::Rational(multiples.value(f).upper()), truth);
+      EXPECT_LT(multiples.value(f).upper() - multiples.value(f).lower(), 1e-14 * size);
+      for (int v = 0; v < 4; ++v) {
+        const core::Rational slope = core::evaluate(core::derivative(functions[f], v), exact);
+        EXPECT_LE(core::Rational(intervals.partial(f, v).lower()), slope);
+        EXPECT_GE(core::Rational(intervals.partial(f, v).upper()), slope);
+        EXPECT_NEAR(doubles.partial(f, v), core::to_double(slope), 1e-9 * (1 + std::abs(core::to_double(slope))));
+      }
+    }
+  }
+}
+
+TEST_F(CompiledFiveBar, SharesSubexpressions) {
+  const SheetProgram twice(sheet.tower, {sheet.moment_A1, sheet.moment_A1});
+  const SheetProgram once(sheet.tower, {sheet.moment_A1});
+  EXPECT_EQ(twice.instructions(), once.instructions());
+}
+
+// dN/dx on the sheet, through every s_j(x, y), against a difference quotient.
+TEST_F(CompiledFiveBar, SlopesFollowTheChainRule) {
+  const core::WorkingMode mode = {-1, 1};
+  SheetCell cell(program, mode);
+  const auto value = [&](double x, double y) {
+    EXPECT_TRUE(cell.enter(x, y));
+    return cell.value(0).middle();
+  };
+  const double x = 0.21, y = -0.63, h = 1e-6;
+  const double along_x = (value(x + h, y) - value(x - h, y)) / (2 * h);
+  const double along_y = (value(x, y + h) - value(x, y - h)) / (2 * h);
+  ASSERT_TRUE(cell.enter(x, y));
+  ASSERT_TRUE(cell.lifted().empty());
+  cell.differentiate();
+  EXPECT_NEAR(cell.slope(0, 0).middle(), along_x, 1e-6 * std::abs(along_x));
+  EXPECT_NEAR(cell.slope(0, 1).middle(), along_y, 1e-6 * std::abs(along_y));
+}
+
+// Every point of a cell has its value inside the cell's enclosures, lifted or not.
+TEST_F(CompiledFiveBar, CellsEncloseTheirPoints) {
+  const core::WorkingMode mode = {1, 1};
+  SheetCell cell(program, mode), point(program, mode);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int lifted = 0, plain = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double x = -0.5 + 1.5 * unit(random), y = -1 + 2 * unit(random), w = 0.1 * unit(random);
+    const bool inside_workspace = cell.enter({x, x + w}, {y, y + w});
+    if (inside_workspace) cell.differentiate();
+    if (inside_workspace) ++(cell.lifted().empty() ? plain : lifted);
+    for (int k = 0; k < 5; ++k) {
+      if (!point.enter(x + w * unit(random), y + w * unit(random))) continue;
+      ASSERT_TRUE(inside_workspace || !point.lifted().empty());
+      EXPECT_FALSE(disjoint(point.value(0), cell.value(0)));
+      EXPECT_FALSE(disjoint(point.value(0), cell.centred(0)));
+      EXPECT_FALSE(disjoint(point.value(1), cell.centred(1)));
+    }
+  }
+  EXPECT_GT(lifted, 10);
+  EXPECT_GT(plain, 10);
+}
+
+TEST(PointSign, DecidesWhatDoublesCannot) {
+  const Ring r{2};
+  // x^2 - y^2 - 2^-200 at x = 1 + 2^-52, y = 1 + 2^-52 is -2^-200.
+  core::Integer power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 2, 200);
+  const SheetProgram program(testing::plane(),
+                             {r.x() * r.x() - r.y() * r.y() - r(core::Rational(core::Integer(1), power))});
+  PointSign sign(program, {});
+  EXPECT_EQ(sign(1 + 0x1p-52, 1 + 0x1p-52), -1);
+  EXPECT_EQ(sign(1 + 0x1p-52, 1), 1);
+}
+
+TEST(PointSign, KnowsTheWorkspace) {
+  const Ring r{3};
+  const core::RootTower tower = testing::one_root(r(1) - r.x() * r.x() - r.y() * r.y());
+  const SheetProgram program(tower, {r.s(1) - r(core::Rational(1, 2))});
+  PointSign right(program, {1}), wrong(program, {-1});
+  EXPECT_EQ(right(0, 0), 1);
+  EXPECT_EQ(right(0.9, 0), -1);
+  EXPECT_EQ(wrong(0, 0), -1);
+  EXPECT_EQ(right(1, 1e-9), std::nullopt);
+  EXPECT_EQ(right(1, 0), 0);
+}
+
+}  // namespace
+}  // namespace clearloci::loci::sheet
