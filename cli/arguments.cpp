@@ -138,15 +138,15 @@ std::vector<core::Rational> parse_pose(const std::string& text, const mechanism:
 }
 
 std::pair<int, int> parse_grid(const std::string& text) {
-  constexpr int most = 20000;  // 20000^2 cells are the edge of what a machine of today holds
+  constexpr int most = 20000;  // nodes along an axis; their square is the edge of what a machine of today holds
   const std::vector<std::string> words = split(text, 'x');
   if (words.size() == 2) {
     const std::optional<int> columns = whole_number(words[0]);
     const std::optional<int> rows = whole_number(words[1]);
-    if (columns && rows && *columns >= 1 && *rows >= 1 && *columns <= most && *rows <= most) return {*columns, *rows};
+    if (columns && rows && *columns >= 2 && *rows >= 2 && *columns <= most && *rows <= most) return {*columns, *rows};
   }
   refuse("--grid", fmt::format("'{}' is not a grid", text),
-         fmt::format("give cells along x and y, each from 1 to {}, e.g. --grid 400x400", most));
+         fmt::format("give the nodes along each coordinate, from 2 to {}, e.g. --grid 400x400", most));
 }
 
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism) {

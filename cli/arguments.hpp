@@ -16,9 +16,9 @@ namespace clearloci::cli {
 
 /// What every command takes.
 struct CommonArguments {
-  std::string model;
-  std::vector<std::string> overrides;  ///< "name=value"
-  std::string output;                  ///< folder; empty: not given
+  std::string model = {};
+  std::vector<std::string> overrides = {};  ///< "name=value"
+  std::string output = {};                  ///< folder; empty: not given
   bool quiet = false;
   bool json = false;
 };
@@ -50,7 +50,7 @@ core::Rational parse_positive(const std::string& text, const std::string& option
 /// "0.25,-0.7": one number a free coordinate.
 std::vector<core::Rational> parse_pose(const std::string& text, const mechanism::Mechanism& mechanism);
 
-/// "400x400": cells along each coordinate.
+/// "400x400": nodes along each coordinate.
 std::pair<int, int> parse_grid(const std::string& text);
 
 /// `options.joints`, each of which may list several after commas; checked against the mechanism.

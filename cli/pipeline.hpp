@@ -21,13 +21,13 @@ namespace clearloci {
 using DyadSides = std::vector<int>;
 
 struct LociRequest {
-  symbolic::Selection selection;         ///< joints, quantities, margins
-  double tolerance = 1e-5;               ///< largest distance of a chord from its curve, m
-  std::vector<DyadSides> working_modes;  ///< empty: the file's
-  bool all_working_modes = false;        ///< every combination of sides, the file's first
+  symbolic::Selection selection = {};         ///< joints, quantities, margins
+  double tolerance = 1e-5;                    ///< largest distance of a chord from its curve, m
+  std::vector<DyadSides> working_modes = {};  ///< empty: the file's
+  bool all_working_modes = false;             ///< every combination of sides, the file's first
   loci::Engine engine = loci::Engine::automatic;
-  std::optional<std::chrono::steady_clock::time_point> deadline;          ///< then: what is known, complete = false
-  std::function<void(double fraction, std::string_view stage)> progress;  ///< may be empty
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
+  std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
 };
 
 /// The discontinuity loci of a mechanism with two free coordinates (or, with one, their points).

@@ -1,0 +1,66 @@
+// |A| and every Cramer numerator of the 5R with symbolic parameters: sparse exact elimination against GiNaC's own
+// determinant() of the full matrix, once for |A| and once a column.
+#include <benchmark/benchmark.h>
+#include <ginac/ginac.h>
+
+#include "mechanism/read.hpp"
+#include "symbolic/cramer.hpp"
+#include "symbolic/determinants.hpp"
+
+namespace {
+
+using clearloci::symbolic::Geometry;
+using clearloci::symbolic::NewtonEulerEquations;
+using clearloci::symbolic::Poly;
+
+constexpr bool keep_parameters = true;
+
+const clearloci::mechanism::Mechanism& five_bar() {
+  static const clearloci::mechanism::Mechanism mechanism =
+      clearloci::mechanism::read_mechanism(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
+  return mechanism;
+}
+
+/// From the mechanism to its numerators, closure and matrix included.
+void numerators(benchmark::State& state) {
+  for (auto _ : state) {
+    const Geometry geometry(five_bar(), keep_parameters);
+    const NewtonEulerEquations equations = newton_euler_equations(geometry);
+    std::vector<std::vector<Poly>> matrix;
+    std::vector<Poly> loads;
+    for (unsigned i = 0; i < equations.matrix.rows(); ++i) {
+      std::vector<Poly>& row = matrix.emplace_back();
+      for (unsigned j = 0; j < equations.matrix.cols(); ++j) row.push_back(geometry.poly(equations.matrix(i, j)));
+      loads.push_back(geometry.poly(equations.loads(i, 0)));
+    }
+    benchmark::DoNotOptimize(clearloci::symbolic::cramer_determinants(geometry.ring(), matrix, loads));
+  }
+}
+
+/// The same, factored.
+void numerators_factored(benchmark::State& state) {
+  for (auto _ : state) {
+    const Geometry geometry(five_bar(), keep_parameters);
+    benchmark::DoNotOptimize(clearloci::symbolic::factored_determinants(geometry));
+  }
+}
+
+/// From the mechanism to the same numerators by GiNaC alone.
+void numerators_ginac_determinant(benchmark::State& state) {
+  for (auto _ : state) {
+    const Geometry geometry(five_bar(), keep_parameters);
+    const NewtonEulerEquations equations = newton_euler_equations(geometry);
+    benchmark::DoNotOptimize(equations.matrix.determinant());
+    for (unsigned column = 0; column < equations.matrix.cols(); ++column) {
+      GiNaC::matrix replaced = equations.matrix;
+      for (unsigned row = 0; row < replaced.rows(); ++row) replaced(row, column) = equations.loads(row, 0);
+      benchmark::DoNotOptimize(replaced.determinant());
+    }
+  }
+}
+
+BENCHMARK(numerators)->Unit(benchmark::kMillisecond);
+BENCHMARK(numerators_factored)->Unit(benchmark::kMillisecond);
+BENCHMARK(numerators_ginac_determinant)->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -1,0 +1,119 @@
+"""Wrong calls and wrong inputs: one line on standard error that says what and how to mend it, and the right status."""
+
+import unittest
+
+from program import FIVE_BAR, InOwnFolder
+
+
+class WrongCalls(InOwnFolder):
+    def complaint(self, *words):
+        process = self.run_program(*words, status=2)
+        self.assertEqual(process.stdout, "", words)
+        self.assertRegex(process.stderr, r"\Aclearloci: [^\n]+\n\Z", words)
+        self.assertEqual(list(self.folder.glob("out/*")), [], f"{words}: a failed call leaves nothing behind")
+        return process.stderr
+
+    def test_no_command(self):
+        self.assertIn("--help", self.complaint())
+
+    def test_unknown_command(self):
+        message = self.complaint("locus", FIVE_BAR)
+        self.assertIn("unknown command 'locus'", message)
+        self.assertIn("loci, equations, validate, pose", message)
+
+    def test_no_model(self):
+        for command in ("loci", "equations", "validate", "pose"):
+            self.assertIn("MODEL", self.complaint(command))
+
+    def test_unknown_option(self):
+        self.assertIn("--frobnicate", self.complaint("loci", FIVE_BAR, "--frobnicate"))
+
+    def test_a_second_model(self):
+        self.assertIn("other.yaml", self.complaint("loci", FIVE_BAR, "other.yaml"))
+
+    def test_missing_file(self):
+        self.assertIn("nowhere.yaml", self.complaint("loci", "nowhere.yaml"))
+
+    def test_a_folder_for_a_file(self):
+        self.complaint("loci", self.folder)
+
+    def test_unknown_joint_lists_those_there_are(self):
+        self.assertIn("A1, B1, P, B2, A2", self.complaint("loci", FIVE_BAR, "--joint", "A7"))
+
+    def test_unknown_quantity(self):
+        self.assertIn("f, M, fx, fy", self.complaint("loci", FIVE_BAR, "--quantity", "f,Q"))
+
+    def test_unknown_export_format(self):
+        message = self.complaint("loci", FIVE_BAR, "--export", "svg,jpeg")
+        self.assertIn("'jpeg'", message)
+        self.assertIn("geojson", message)
+
+    def test_unknown_language(self):
+        self.assertIn("matlab", self.complaint("equations", FIVE_BAR, "--language", "fortran"))
+
+    def test_unknown_engine(self):
+        self.assertIn("adaptive", self.complaint("loci", FIVE_BAR, "--engine", "steam"))
+
+    def test_working_mode_names_the_dyads(self):
+        message = self.complaint("loci", FIVE_BAR, "--working-mode", "left")
+        self.assertIn("B1,B2", message)
+        self.assertIn("2 dyads", message)
+        self.complaint("loci", FIVE_BAR, "--working-mode", "left,up")
+
+    def test_set(self):
+        for wrong in ("L", "L=", "=1", "L=1/0", "L=abc", "Lambda=1", "L=-1"):
+            self.complaint("loci", FIVE_BAR, "--set", wrong)
+
+    def test_numbers(self):
+        for option in ("--min-force", "--min-couple", "--tolerance", "--time-limit"):
+            for wrong in ("0", "-1", "much", "1/0", ""):
+                self.complaint("loci", FIVE_BAR, f"{option}={wrong}")
+
+    def test_pose(self):
+        self.assertIn("x,y", self.complaint("pose", FIVE_BAR, "--at", "0.25"))
+        self.complaint("pose", FIVE_BAR, "--at", "0.25,-0.7,1")
+        self.complaint("pose", FIVE_BAR, "--at", "0.25,north")
+        self.assertIn("--at", self.complaint("pose", FIVE_BAR))
+        self.assertIn("out of reach", self.complaint("pose", FIVE_BAR, "--at", "7,7"))
+
+    def test_grid(self):
+        for wrong in ("400", "0x10", "axb", "-4x4", "1x1"):
+            self.assertIn("--grid", self.complaint("validate", FIVE_BAR, f"--grid={wrong}"))
+
+    def test_output_that_cannot_be_written(self):
+        (self.folder / "taken").write_text("a file, not a folder")
+        self.complaint("loci", FIVE_BAR, "-o", "taken")
+
+    def test_wrong_file_names_line_and_column(self):
+        path = self.model(lambda text: text.replace("lengths: [L, L], side: right", "lengths: [L, -L], side: right"))
+        self.assertRegex(self.complaint("loci", path), r"model\.yaml:\d+:\d+: .+; .+")
+        path = self.model(lambda text: text.replace("side: left", "side: up"))
+        self.assertRegex(self.complaint("pose", path, "--at", "0.25,-0.7"), r"model\.yaml:\d+:\d+: .+; .+")
+
+    def test_full_disk(self):
+        import subprocess
+
+        from program import PROGRAM
+
+        with open("/dev/full", "w") as full:
+            process = subprocess.run(
+                [PROGRAM, "pose", FIVE_BAR, "--at", "0.25,-0.7"], stdout=full, stderr=subprocess.PIPE, text=True
+            )
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("standard output", process.stderr)
+
+
+class Help(InOwnFolder):
+    def test_every_command_has_an_example(self):
+        self.assertIn("Exit status", self.run_program("--help").stdout)
+        for command in ("loci", "equations", "validate", "pose"):
+            process = self.run_program(command, "--help")
+            self.assertIn(f"Example: clearloci {command} ", process.stdout)
+            self.assertEqual(process.stderr, "")
+
+    def test_version(self):
+        self.assertRegex(self.run_program("--version").stdout, r"\Aclearloci \d+\.\d+\.\d+\n\Z")
+
+
+if __name__ == "__main__":
+    unittest.main()

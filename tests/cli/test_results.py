@@ -1,0 +1,171 @@
+"""What the commands print and write: valid, complete, and the same bytes from run to run."""
+
+import csv
+import json
+import re
+import unittest
+
+from program import FIVE_BAR, InOwnFolder
+
+
+def without_timing(text):
+    """loci.json's text with the seconds taken out; everything else is to be the same bytes."""
+    return re.sub(r'"timing": \{[^}]*\}', '"timing": {}', text)
+
+
+class Loci(InOwnFolder):
+    def test_default_files(self):
+        process = self.run_program("loci", FIVE_BAR)
+        folder = self.folder / "out" / "five_bar"
+        self.assertEqual(
+            sorted(path.name for path in folder.iterdir()), ["loci.csv", "loci.json", "loci.png", "loci.svg"]
+        )
+        self.assertEqual(process.stderr, "", "no progress bar where standard error is no terminal")
+        self.assertIn("contact", process.stdout)
+        with open(folder / "loci.csv", newline="") as file:
+            self.assertGreater(len(list(csv.reader(file))), 50)
+
+    def test_json_is_the_file(self):
+        process = self.run_program("loci", FIVE_BAR, "--json", "-o", "here")
+        written = (self.folder / "here" / "loci.json").read_text(encoding="utf-8")
+        self.assertEqual(process.stdout, written)
+        result = json.loads(written)
+        self.assertEqual(result["format"], 1)
+        self.assertTrue(result["complete"])
+        self.assertEqual(result["parameters"], {"L": "1/2", "d": "1/2"})
+        self.assertEqual(result["coordinates"], ["x", "y"])
+        self.assertEqual(list(result["timing"]), ["symbolic", "elimination", "tracing"])
+        for curve in result["curves"]:
+            self.assertTrue(curve["arcs"], curve["id"])
+            for arc in curve["arcs"]:
+                self.assertGreaterEqual(len(arc["points"]), 2)
+
+    def test_the_papers_circles(self):
+        result = json.loads(self.run_program("loci", FIVE_BAR, "--json", "--working-mode", "all").stdout)
+        lost = {}
+        for curve in result["curves"]:
+            if curve["kind"] == "contact-loss":
+                circle = curve["closed_form"]["circle"]
+                for vanishing in curve["vanishing"]:
+                    if vanishing["quantity"] == "f":
+                        lost.setdefault(vanishing["joint"], set()).add((*circle["centre"], circle["radius"]))
+        leg_1 = {("1/2", "1/2", "1/2"), ("1/2", "-1/2", "1/2")}
+        leg_2 = {("0", "1/2", "1/2"), ("0", "-1/2", "1/2")}
+        self.assertEqual(lost, {"A1": leg_1, "B1": leg_1, "P": leg_1, "B2": leg_2, "A2": leg_2})
+
+    def test_same_bytes_from_run_to_run(self):
+        options = ("--export", "svg,pdf,png,csv,dxf,geojson,vtk", "--working-mode", "all")
+        for folder in ("first", "second"):
+            self.run_program("loci", FIVE_BAR, "-o", folder, *options)
+        names = sorted(path.name for path in (self.folder / "first").iterdir())
+        self.assertEqual(names, sorted(path.name for path in (self.folder / "second").iterdir()))
+        self.assertGreater(len(names), 7)
+        for name in names:
+            first, second = ((self.folder / folder / name).read_bytes() for folder in ("first", "second"))
+            if name == "loci.json":
+                first, second = without_timing(first.decode()), without_timing(second.decode())
+            self.assertEqual(first, second, name)
+
+    def test_overrides(self):
+        result = json.loads(self.run_program("loci", FIVE_BAR, "--json", "--set", "L=0.4", "--set", "d=1/3").stdout)
+        self.assertEqual(result["parameters"], {"L": "2/5", "d": "1/3"})
+
+    def test_chosen_joint_and_quantity(self):
+        result = json.loads(self.run_program("loci", FIVE_BAR, "--json", "--joint", "B2", "--quantity", "f").stdout)
+        named = {(v["joint"], v["quantity"]) for curve in result["curves"] for v in curve["vanishing"]}
+        self.assertEqual(named, {("B2", "f")})
+
+    def test_quiet(self):
+        process = self.run_program("loci", FIVE_BAR, "--quiet")
+        self.assertEqual((process.stdout, process.stderr), ("", ""))
+        self.assertTrue((self.folder / "out" / "five_bar" / "loci.svg").exists())
+
+    def test_a_time_limit_is_kept(self):
+        process = self.run_program("loci", FIVE_BAR, "--time-limit", "1e-6", "-o", "here", status=3)
+        self.assertRegex(process.stderr, r"\Aclearloci: [^\n]*time limit[^\n]*\n\Z")
+        result = json.loads((self.folder / "here" / "loci.json").read_text(encoding="utf-8"))
+        self.assertFalse(result["complete"])
+
+
+class Equations(InOwnFolder):
+    def test_json(self):
+        sheet = json.loads(self.run_program("equations", FIVE_BAR, "--json").stdout)
+        self.assertEqual(
+            sheet["unknowns"],
+            "fA1x fA1y fB1x fB1y fPx fPy fB2x fB2y fA2x fA2y MA1 MA2".split(),
+        )
+        self.assertEqual([len(row) for row in sheet["matrix"]], [12] * 12)
+        self.assertEqual(len(sheet["loads"]), 12)
+        self.assertEqual(list(sheet["numerators"]), sheet["unknowns"])
+        self.assertIsInstance(sheet["determinant"], str)
+        for numerator in sheet["numerators"].values():
+            self.assertEqual(set(numerator), {"expression", "factors"})
+            for factor in numerator["factors"]:
+                self.assertTrue({"expression", "multiplicity", "cause", "implicit"} <= set(factor))
+        # Paper (29): |A_MA1| = 100 (x - xB2) (y xB1 - yB1 x).
+        self.assertEqual(sum(f["multiplicity"] for f in sheet["numerators"]["MA1"]["factors"]), 2)
+
+    def test_every_language(self):
+        for language in ("text", "latex", "c", "python", "matlab"):
+            for extra in ((), ("--symbolic",)):
+                self.assertIn(
+                    "B2", self.run_program("equations", FIVE_BAR, "--language", language, *extra).stdout, language
+                )
+
+    def test_written_where_asked(self):
+        self.run_program("equations", FIVE_BAR, "--language", "latex,python", "-o", "there", "--quiet")
+        self.assertEqual(
+            sorted(path.name for path in (self.folder / "there").iterdir()), ["equations.py", "equations.tex"]
+        )
+
+    def test_python_text_is_python(self):
+        compile(self.run_program("equations", FIVE_BAR, "--language", "python").stdout, "equations.py", "exec")
+
+
+class Pose(InOwnFolder):
+    def test_balance(self):
+        pose = json.loads(self.run_program("pose", FIVE_BAR, "--at", "0.25,-0.7", "--json").stdout)
+        self.assertEqual(pose["at"], [0.25, -0.7])
+        reactions = pose["reactions"]
+        for component, load in (("fx", 0.0), ("fy", -100.0)):
+            ground = reactions["A1"][component] + reactions["A2"][component]
+            self.assertAlmostEqual(ground + load, 0, delta=1e-9)
+        # The paper's mode, mirrored about x = 1/4 here: the legs bear the same.
+        self.assertAlmostEqual(reactions["A1"]["fy"], 50, delta=1e-9)
+        for point, (x, y) in pose["posture"].items():
+            self.assertTrue(abs(x) < 2 and abs(y) < 2, point)
+        self.assertEqual(set(reactions["B1"]), {"fx", "fy"})
+        self.assertGreater(pose["condition"], 1)
+
+    def test_working_mode(self):
+        sides = [
+            json.loads(self.run_program("pose", FIVE_BAR, "--at", "1/4,-7/10", "--working-mode", mode, "--json").stdout)
+            for mode in ("left,left", "right,left")
+        ]
+        self.assertNotEqual(sides[0]["posture"]["B1"], sides[1]["posture"]["B1"])
+        self.assertEqual(sides[0]["posture"]["B2"], sides[1]["posture"]["B2"])
+
+    def test_table(self):
+        text = self.run_program("pose", FIVE_BAR, "--at", "-0.1,-0.5").stdout
+        self.assertIn("fx [N]", text)
+        self.assertNotIn("-0 ", text)
+
+
+class Validate(InOwnFolder):
+    def test_the_shipped_example_holds(self):
+        verdict = json.loads(self.run_program("validate", FIVE_BAR, "--grid", "60x60", "--json").stdout)
+        self.assertTrue(verdict["validated"])
+        self.assertEqual(verdict["disputed"], 0)
+        self.assertGreater(verdict["held"], 1000)
+        self.assertEqual(verdict["disputed_edges"], [])
+        checked = {(tally["reaction"]["joint"], tally["reaction"]["quantity"]) for tally in verdict["reactions"]}
+        self.assertEqual(len(checked), 12)
+
+    def test_table(self):
+        text = self.run_program("validate", FIVE_BAR, "--grid", "30x40").stdout
+        self.assertIn("0 disputed", text)
+        self.assertIn("M_A1", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
