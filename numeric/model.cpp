@@ -32,6 +32,10 @@ class ModelBuilder {
     for (std::size_t i = 0; i < m_.points.size(); ++i) points_.push_back(place(static_cast<int>(i)));
     model.points = points_;
     model.loads = loads();
+    if (!m_.gravity.empty()) {
+      const Register gx = compile(m_.gravity.at(0));
+      model.gravity = {gx, compile(m_.gravity.at(1))};
+    }
     model.posture_size = tape_.size();
     model.elimination = eliminate(tape_, equations(model));
     model.tape = tape_.tape();
@@ -103,8 +107,6 @@ class ModelBuilder {
       if (!load.force.empty()) {
         l.fx = compile(load.force.at(0));
         l.fy = compile(load.force.at(1));
-      } else {
-        l.at.reset();
       }
       all.push_back(l);
     }
@@ -196,6 +198,7 @@ Posture posture(const NumericModel& model, std::span<const double> pose, std::sp
 
   const auto at = [&](Register r) { return registers[static_cast<std::size_t>(r)]; };
   Posture result;
+  if (model.gravity) result.gravity = {at((*model.gravity)[0]), at((*model.gravity)[1])};
   for (std::size_t i = 0; i < model.points.size(); ++i) {
     const auto& [x, y] = model.points[i];
     result.points.push_back({at(x), at(y)});
@@ -203,8 +206,13 @@ Posture posture(const NumericModel& model, std::span<const double> pose, std::sp
     if (!placed && !result.unreachable) result.unreachable = static_cast<int>(i);
   }
   for (const auto& load : model.loads) {
-    const Point2 place = load.at ? result.points[static_cast<std::size_t>(*load.at)] : Point2{};
-    result.loads.push_back({load.link, place, {at(load.fx), at(load.fy)}, at(load.couple), load.weight});
+    const auto& link = model.mechanism.links[static_cast<std::size_t>(load.link)];
+    const int place = load.at ? *load.at : link.centre_of_mass;  // a couple acts nowhere: any point of its link will do
+    result.loads.push_back({load.link,
+                            result.points[static_cast<std::size_t>(place)],
+                            {at(load.fx), at(load.fy)},
+                            at(load.couple),
+                            load.weight});
   }
   return result;
 }

@@ -20,20 +20,21 @@ using core::Point2;
 /// An external force or couple as registers of the tape. `weight`: from gravity, not from the file's loads.
 struct LoadRegisters {
   mechanism::LinkIndex link = 0;
-  std::optional<mechanism::PointIndex> at;  ///< absent: a pure couple
+  std::optional<mechanism::PointIndex> at;  ///< may be absent from a pure couple
   Register fx = 0, fy = 0, couple = 0;
   bool weight = false;
 };
 
 struct NumericModel {
   mechanism::Mechanism mechanism;
-  std::vector<mechanism::Unknown> unknowns;     ///< columns of A
-  std::vector<mechanism::PointIndex> dyads;     ///< the working mode has a sign for each
-  std::vector<std::array<double, 2>> box;       ///< lower, upper of each free coordinate, m or rad
-  Tape tape;                                    ///< inputs: free coordinates, then the signs of the working mode
-  int posture_size = 0;                         ///< instructions that compute points and loads; the rest serve reactions
+  std::vector<mechanism::Unknown> unknowns;  ///< columns of A
+  std::vector<mechanism::PointIndex> dyads;  ///< the working mode has a sign for each
+  std::vector<std::array<double, 2>> box;    ///< lower, upper of each free coordinate, m or rad
+  Tape tape;                                 ///< inputs: free coordinates, then the signs of the working mode
+  int posture_size = 0;                      ///< instructions that compute points and loads; the rest serve reactions
   std::vector<std::array<Register, 2>> points;  ///< of every point
   std::vector<LoadRegisters> loads;             ///< the file's loads in order, then the weights
+  std::optional<std::array<Register, 2>> gravity;
   Elimination elimination;
 
   int inputs() const { return static_cast<int>(box.size() + dyads.size()); }
@@ -53,9 +54,10 @@ struct AppliedLoad {
 
 /// Every point and load at one pose. Coordinates in m, in the ground's frame.
 struct Posture {
-  std::vector<Point2> points;                          ///< as mechanism.points; NaN from the unreachable one on
-  std::vector<AppliedLoad> loads;                      ///< as NumericModel::loads
-  std::optional<mechanism::PointIndex> unreachable;    ///< the first point that cannot be placed
+  std::vector<Point2> points;                        ///< as mechanism.points; NaN from the unreachable one on
+  std::vector<AppliedLoad> loads;                    ///< as NumericModel::loads
+  Point2 gravity{};                                  ///< m/s²
+  std::optional<mechanism::PointIndex> unreachable;  ///< the first point that cannot be placed
 
   bool reachable() const { return !unreachable; }
 };
@@ -64,7 +66,7 @@ struct Posture {
 /// reachable; one where a dyad's two base points coincide is not, for its apex is then undefined.
 Posture posture(const NumericModel& model, std::span<const double> pose, std::span<const int> mode);
 
-/// |P - E| etc. are lengths: the median length of the links, m; a scale for tolerances and pictures.
+/// The median length of the links, m: a scale for pictures. 1 where no link has a length.
 double typical_length(const NumericModel& model, const Posture& posture);
 
 /// Signs of the model's dyads in a traced mode: entries of `length` roots are dropped, the rest matched by point name.

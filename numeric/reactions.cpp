@@ -59,7 +59,8 @@ Reactions solve_reactions(const NumericModel& model, const Posture& posture) {
   r.determinant = lu.determinant();
   const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(A).singularValues();
   r.condition = singular(0) / singular(singular.size() - 1);
-  const double scale = A.cwiseAbs().rowwise().sum().maxCoeff() * r.values.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
+  const double scale =
+      A.cwiseAbs().rowwise().sum().maxCoeff() * r.values.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
   r.residual = scale == 0 ? 0 : (A * r.values - b).cwiseAbs().maxCoeff() / scale;
   return r;
 }
@@ -104,7 +105,9 @@ class Evaluator {
   }
 
  private:
-  const T* at(Register r, int lane = 0) const { return registers_.data() + static_cast<std::ptrdiff_t>(r) * Lanes + lane; }
+  const T* at(Register r, int lane = 0) const {
+    return registers_.data() + static_cast<std::ptrdiff_t>(r) * Lanes + lane;
+  }
   T* out(int unknown) { return numerators_.data() + static_cast<std::ptrdiff_t>(unknown) * Lanes; }
 
   void solve_core() {

@@ -1,7 +1,8 @@
 // Newton-Euler equations in floating point (paper (9), (10), (13); method.md section 2):
 //     A w_J = -w_e        (kinetostatic: no inertial loads)
-// Rows: fx (N), fy (N), moment about the end-effector point (N m) of every link in the file's order. Columns: unknowns in
-// the order of mechanism::unknowns. A reaction is what `from` exerts on `to`: + in the rows of `to`, - in those of `from`.
+// Rows: fx (N), fy (N), moment about the end-effector point (N m) of every link in the file's order. Columns: unknowns
+// in the order of mechanism::unknowns. A reaction is what `from` exerts on `to`: + in the rows of `to`, - in those of
+// `from`.
 #pragma once
 
 #include <Eigen/Core>

@@ -67,8 +67,8 @@ MechanismBuilder& MechanismBuilder::dyad(const std::string& name, const std::str
   return add_point(name, mechanism::DyadPoint{point_index(from), point_index(to), number(a), number(b), side});
 }
 
-MechanismBuilder& MechanismBuilder::offset(const std::string& name, const std::string& first,
-                                           const std::string& second, double along, double left) {
+MechanismBuilder& MechanismBuilder::offset(const std::string& name, const std::string& first, const std::string& second,
+                                           double along, double left) {
   return add_point(name, mechanism::OffsetPoint{point_index(first), point_index(second), number(along), number(left)});
 }
 

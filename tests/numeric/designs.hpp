@@ -55,12 +55,12 @@ class MechanismBuilder {
 
 /// A planar 5R: A1 at the origin. The defaults are the paper's example under its vertical load.
 struct FiveBar {
-  double base_x = 0.5, base_y = 0;                              ///< A2
-  double a1 = 0.5, b1 = 0.5, a2 = 0.5, b2 = 0.5;                ///< |A1B1|, |B1P|, |A2B2|, |B2P|
+  double base_x = 0.5, base_y = 0;                ///< A2
+  double a1 = 0.5, b1 = 0.5, a2 = 0.5, b2 = 0.5;  ///< |A1B1|, |B1P|, |A2B2|, |B2P|
   Side side1 = Side::right, side2 = Side::left;
-  double fx = 0, fy = -100, couple = 0;                         ///< at P, on PB2
+  double fx = 0, fy = -100, couple = 0;  ///< at P, on PB2
   double mass = 1;
-  bool weighs = false;                                          ///< gravity (0, -9.81)
+  bool weighs = false;  ///< gravity (0, -9.81)
   std::array<double, 4> box = {-0.5, 1.0, -1.0, 1.0};
 };
 

@@ -12,8 +12,8 @@
 namespace clearloci::numeric {
 namespace {
 
-using test::FiveBar;
 using test::five_bar;
+using test::FiveBar;
 using test::Side;
 
 const std::vector<int> paper_mode = {-1, 1};  // B1 right, B2 left
@@ -25,17 +25,17 @@ Eigen::MatrixXd paper_matrix(const Posture& posture) {
   const double yA1 = A1[1] - P[1], xA1 = A1[0] - P[0], yB1 = B1[1] - P[1], xB1 = B1[0] - P[0];
   const double yB2 = B2[1] - P[1], xB2 = B2[0] - P[0], yA2 = A2[1] - P[1], xA2 = A2[0] - P[0];
   Eigen::MatrixXd A(12, 12);
-  A << 1, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0,       //
-      0, 1, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0,        //
+  A << 1, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0,          //
+      0, 1, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0,           //
       -yA1, xA1, yB1, -xB1, 0, 0, 0, 0, 0, 0, 1, 0,  //
-      0, 0, 1, 0, -1, 0, 0, 0, 0, 0, 0, 0,        //
-      0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, 0,        //
-      0, 0, -yB1, xB1, 0, 0, 0, 0, 0, 0, 0, 0,    //
-      0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0,         //
-      0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0,         //
-      0, 0, 0, 0, 0, 0, -yB2, xB2, 0, 0, 0, 0,    //
-      0, 0, 0, 0, 0, 0, -1, 0, 1, 0, 0, 0,        //
-      0, 0, 0, 0, 0, 0, 0, -1, 0, 1, 0, 0,        //
+      0, 0, 1, 0, -1, 0, 0, 0, 0, 0, 0, 0,           //
+      0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, 0,           //
+      0, 0, -yB1, xB1, 0, 0, 0, 0, 0, 0, 0, 0,       //
+      0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0,            //
+      0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0,            //
+      0, 0, 0, 0, 0, 0, -yB2, xB2, 0, 0, 0, 0,       //
+      0, 0, 0, 0, 0, 0, -1, 0, 1, 0, 0, 0,           //
+      0, 0, 0, 0, 0, 0, 0, -1, 0, 1, 0, 0,           //
       0, 0, 0, 0, 0, 0, yB2, -xB2, -yA2, xA2, 0, 1;
   return A;
 }
@@ -191,7 +191,8 @@ mechanism::Mechanism random_mechanism() {
     case 0:
       return five_bar(random_five_bar());
     case 1:
-      return test::three_rrr(between(-1, 1), between(-9, 9), between(-9, 9), between(-1, 1), *rc::gen::arbitrary<bool>());
+      return test::three_rrr(between(-1, 1), between(-9, 9), between(-9, 9), between(-1, 1),
+                             *rc::gen::arbitrary<bool>());
     default:
       return test::driven_five_bar(between(-9, 9), between(-9, 9), *rc::gen::arbitrary<bool>());
   }
@@ -234,7 +235,8 @@ RC_GTEST_PROP(Reactions, BalanceAndAgreeByBothRoutes, ()) {
     RC_ASSERT(std::abs(field.numerator(k)[0] - b.value) <= 2 * b.error);
     RC_ASSERT(b.error <= 1e-10 * (1 + lu.values.cwiseAbs().maxCoeff() * std::abs(determinant)));
     if (lu.condition < 1e8) {
-      RC_ASSERT(std::abs(field.reaction(k, 0) - lu.values(k)) <= 1e-15 * lu.condition * (1 + lu.values.cwiseAbs().maxCoeff()));
+      RC_ASSERT(std::abs(field.reaction(k, 0) - lu.values(k)) <=
+                1e-15 * lu.condition * (1 + lu.values.cwiseAbs().maxCoeff()));
     }
   }
 }
@@ -264,7 +266,8 @@ RC_GTEST_PROP(Reactions, FollowRotationAndScaling, ()) {
     RC_ASSERT(std::abs(t.values(2 * joint) - expected[0]) < tolerance);
     RC_ASSERT(std::abs(t.values(2 * joint + 1) - expected[1]) < tolerance);
   }
-  for (const int couple : {10, 11}) RC_ASSERT(std::abs(t.values(couple) - scale * r.values(couple)) < scale * tolerance);
+  for (const int couple : {10, 11})
+    RC_ASSERT(std::abs(t.values(couple) - scale * r.values(couple)) < scale * tolerance);
 }
 
 TEST(Reactions, SwappingFromAndToNegatesAReaction) {

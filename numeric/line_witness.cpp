@@ -1,0 +1,85 @@
+#include "numeric/line_witness.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace clearloci::numeric {
+
+bool is_decided(const BoundedNumerators& numerators, const WitnessColumns& columns) {
+  for (const int column : {columns.first, columns.second}) {
+    if (column < 0) continue;
+    const Bounded& n = numerators.values[static_cast<std::size_t>(column)];
+    if (std::abs(n.value) > n.error) return true;
+  }
+  return false;
+}
+
+const BoundedNumerators& LineWitness::at(double position) {
+  const auto found = known_.find(position);
+  if (found != known_.end()) return found->second;
+  return known_.emplace(position, bounded_numerators(model_, point(position), mode_)).first->second;
+}
+
+bool LineWitness::reachable_around(double position, double radius) {
+  const core::Point2 centre = point(position);
+  if (reachable(position)) return true;
+  for (int k = 0; k < 8; ++k) {
+    const double angle = k * std::numbers::pi / 4;
+    const core::Point2 p = {centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)};
+    if (posture(model_, p, mode_).reachable()) return true;
+  }
+  return false;
+}
+
+bool LineWitness::reachable_between(double a, double b, int samples) {
+  for (int k = 1; k <= samples; ++k) {
+    if (!posture(model_, point(a + (b - a) * k / (samples + 1)), mode_).reachable()) return false;
+  }
+  return true;
+}
+
+bool LineWitness::decided(const WitnessColumns& columns, double position) {
+  const BoundedNumerators& n = at(position);
+  return n.reachable && is_decided(n, columns);
+}
+
+LineWitness::Pair LineWitness::pair(const WitnessColumns& columns, double position) {
+  const BoundedNumerators& n = at(position);
+  const auto value = [&](int column) { return column < 0 ? 0.0 : n.values[static_cast<std::size_t>(column)].value; };
+  return {value(columns.first), value(columns.second)};
+}
+
+Parity LineWitness::sign_changes(const WitnessColumns& columns, double a, double b) {
+  if (columns.second < 0) return (pair(columns, a)[0] > 0) == (pair(columns, b)[0] > 0) ? Parity::even : Parity::odd;
+  constexpr int pieces = 16;  // a turn that cancels a flip over the whole stretch does not do so over each piece
+  int odd = 0;
+  double from = a;
+  for (int k = 1; k <= pieces; ++k) {
+    const double to = k == pieces ? b : a + (b - a) * k / pieces;
+    if (!decided(columns, to)) return Parity::unknown;
+    const Parity piece = flips(columns, from, to);
+    if (piece == Parity::unknown) return piece;
+    odd += piece == Parity::odd;
+    from = to;
+  }
+  return odd % 2 == 0 ? Parity::even : Parity::odd;
+}
+
+/// A direction that merely turns does so by little between near enough positions; one that flips does not, however near
+/// they are.
+Parity LineWitness::flips(const WitnessColumns& columns, double a, double b) {
+  const Pair n_a = pair(columns, a), n_b = pair(columns, b);
+  if (turn_cosine(n_a, n_b) > least_cosine) return Parity::even;
+  if (std::abs(b - a) < smallest_) return n_a[0] * n_b[0] + n_a[1] * n_b[1] > 0 ? Parity::even : Parity::odd;
+  const double middle = a + (std::numbers::sqrt2 - 1) * (b - a);  // off centre, where symmetric designs flip
+  if (!decided(columns, middle)) return Parity::unknown;
+  const Parity left = flips(columns, a, middle), right = flips(columns, middle, b);
+  if (left == Parity::unknown || right == Parity::unknown) return Parity::unknown;
+  return left == right ? Parity::even : Parity::odd;
+}
+
+double turn_cosine(const std::array<double, 2>& p, const std::array<double, 2>& q) {
+  return (p[0] * q[0] + p[1] * q[1]) / (std::hypot(p[0], p[1]) * std::hypot(q[0], q[1]));
+}
+
+}  // namespace clearloci::numeric

@@ -1,0 +1,67 @@
+// One line of the validation grid: numerators of the traced reactions at any position along it, with proven signs.
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "numeric/reactions.hpp"
+
+namespace clearloci::numeric {
+
+/// Columns of the unknowns that vanish together: one for fx, fy, M; the two components for f.
+struct WitnessColumns {
+  int first = -1;
+  int second = -1;  ///< -1: a single component
+};
+
+/// Cosine of the angle between two numerator pairs; NaN where one is zero.
+double turn_cosine(const std::array<double, 2>& p, const std::array<double, 2>& q);
+
+/// Two directions that differ by less than 25 degrees are taken for neighbours without a flip between them.
+inline constexpr double least_cosine = 0.9;
+
+enum class Parity { even, odd, unknown };
+
+/// Whether some numerator of the columns is nonzero beyond its rounding error.
+bool is_decided(const BoundedNumerators& numerators, const WitnessColumns& columns);
+
+/// A horizontal (row) or vertical line of the grid in one working mode. Remembers what it has evaluated.
+class LineWitness {
+ public:
+  /// `level`: the fixed coordinate; positions run along the other. `smallest`: the distance below which a turn of a
+  /// force's direction counts as a jump, m.
+  LineWitness(const NumericModel& model, std::span<const int> mode, bool row, double level, double smallest)
+      : model_(model), mode_(mode), row_(row), level_(level), smallest_(smallest) {}
+
+  core::Point2 point(double at) const { return row_ ? core::Point2{at, level_} : core::Point2{level_, at}; }
+  const BoundedNumerators& at(double position);
+  bool reachable(double position) { return at(position).reachable; }
+  /// Whether any of the position and eight points around it, at distance `radius`, is reachable.
+  bool reachable_around(double position, double radius);
+
+  /// Every one of `samples` positions strictly between a and b is reachable.
+  bool reachable_between(double a, double b, int samples);
+
+  /// Reachable, and decided in the sense above.
+  bool decided(const WitnessColumns& columns, double position);
+
+  /// How often the numerator changes sign (or the force flips) between a and b, by parity. Requires both decided.
+  /// Unknown where a force's direction cannot be followed in between.
+  Parity sign_changes(const WitnessColumns& columns, double a, double b);
+
+ private:
+  using Pair = std::array<double, 2>;
+  Pair pair(const WitnessColumns& columns, double position);
+  Parity flips(const WitnessColumns& columns, double a, double b);
+
+  const NumericModel& model_;
+  std::span<const int> mode_;
+  bool row_;
+  double level_;
+  double smallest_;
+  std::map<double, BoundedNumerators> known_;
+};
+
+}  // namespace clearloci::numeric

@@ -1,0 +1,128 @@
+#include "numeric/sketch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "numeric/reactions.hpp"
+
+namespace clearloci::numeric {
+
+namespace {
+
+const Point2& point_of(const Posture& posture, int index) { return posture.points[static_cast<std::size_t>(index)]; }
+
+double cross(const Point2& o, const Point2& p, const Point2& q) {
+  return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+}
+
+double distance(const Point2& p, const Point2& q) { return std::hypot(q[0] - p[0], q[1] - p[1]); }
+
+/// Sine of the smallest angle at a dyad's apex: 1 far from the boundary, 0 on it.
+double openness(const NumericModel& model, const Posture& posture) {
+  double least = 1;
+  for (const int index : model.dyads) {
+    const auto& dyad = std::get<mechanism::DyadPoint>(model.mechanism.points[static_cast<std::size_t>(index)].form);
+    const Point2 &apex = point_of(posture, index), &from = point_of(posture, dyad.from),
+                 &to = point_of(posture, dyad.to);
+    least = std::min(least, std::abs(cross(apex, from, to)) / (distance(apex, from) * distance(apex, to)));
+  }
+  return least;
+}
+
+/// The smallest distance between joints at different places, in typical lengths, counted up to a third.
+double spacing(const NumericModel& model, const Posture& posture) {
+  constexpr double enough = 1.0 / 3;
+  const double scale = typical_length(model, posture);
+  double least = enough;
+  const auto& joints = model.mechanism.joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (std::size_t j = i + 1; j < joints.size(); ++j) {
+      if (joints[i].at == joints[j].at) continue;
+      least = std::min(least, distance(point_of(posture, joints[i].at), point_of(posture, joints[j].at)) / scale);
+    }
+  }
+  return least / enough;
+}
+
+/// Pairs of links whose first segments cross elsewhere than in a shared point.
+int crossings(const NumericModel& model, const Posture& posture) {
+  int count = 0;
+  const auto& links = model.mechanism.links;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    for (std::size_t j = i + 1; j < links.size(); ++j) {
+      if (links[i].points.size() < 2 || links[j].points.size() < 2) continue;
+      const Point2 &p = point_of(posture, links[i].points[0]), &q = point_of(posture, links[i].points[1]);
+      const Point2 &r = point_of(posture, links[j].points[0]), &s = point_of(posture, links[j].points[1]);
+      if (cross(p, q, r) * cross(p, q, s) < 0 && cross(r, s, p) * cross(r, s, q) < 0) ++count;
+    }
+  }
+  return count;
+}
+
+/// Poses of a grid over the box, off its symmetries, about a thousand in all; pose after pose.
+std::vector<double> pose_grid(std::span<const std::array<double, 2>> box) {
+  const std::size_t n = box.size();
+  const int steps = n == 1 ? 400 : n == 2 ? 33 : 10;
+  std::vector<double> poses;
+  std::vector<int> index(n, 0);
+  while (true) {
+    for (std::size_t c = 0; c < n; ++c) {
+      poses.push_back(box[c][0] + (box[c][1] - box[c][0]) * (index[c] + 0.45) / steps);
+    }
+    std::size_t c = 0;
+    while (c < n && ++index[c] == steps) index[c++] = 0;
+    if (c == n) return poses;
+  }
+}
+
+}  // namespace
+
+core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std::span<const int> mode) {
+  const Posture p = posture(model, pose, mode);
+  core::ensure(p.reachable(), "a sketch is drawn at a reachable pose");
+  const auto& m = model.mechanism;
+  core::Sketch result;
+  for (const auto& link : m.links) {
+    core::SketchLink drawn{link.name, {}};
+    for (const int index : link.points) drawn.points.push_back(point_of(p, index));
+    result.links.push_back(std::move(drawn));
+  }
+  for (const auto& joint : m.joints) {
+    const bool on_ground = joint.from == mechanism::ground || joint.to == mechanism::ground;
+    result.joints.push_back({joint.name, point_of(p, joint.at), on_ground, joint.actuated});
+  }
+  for (const auto& load : p.loads) {
+    if (!load.weight) result.loads.push_back({load.at, load.force, load.couple});
+  }
+  result.gravity = p.gravity;
+  return result;
+}
+
+std::optional<std::vector<double>> sample_pose(const NumericModel& model, std::span<const int> mode,
+                                               std::span<const std::array<double, 2>> box) {
+  core::ensure(box.size() == model.box.size(), "a box has a range for each free coordinate");
+  const std::vector<double> poses = pose_grid(box);
+  ReactionField field;
+  reaction_field(model, poses, mode, field);
+  double largest = 0;
+  for (std::size_t k = 0; k < field.poses; ++k) {
+    if (field.reachable(k)) largest = std::max(largest, std::abs(field.determinants[k]));
+  }
+  std::optional<std::vector<double>> best;
+  double best_score = -1;
+  for (std::size_t k = 0; k < field.poses; ++k) {
+    if (!field.reachable(k)) continue;
+    const std::span<const double> pose(poses.data() + k * box.size(), box.size());
+    const Posture p = posture(model, pose, mode);
+    const double conditioning = largest > 0 ? std::sqrt(std::abs(field.determinants[k]) / largest) : 1;
+    const double score = openness(model, p) * conditioning * spacing(model, p) / (1 + crossings(model, p));
+    if (score > best_score) {
+      best_score = score;
+      best.emplace(pose.begin(), pose.end());
+    }
+  }
+  return best;
+}
+
+}  // namespace clearloci::numeric

@@ -1,0 +1,302 @@
+#include "numeric/validate.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/errors.hpp"
+#include "numeric/edge_judge.hpp"
+#include "numeric/grid_passages.hpp"
+#include "numeric/reactions.hpp"
+
+namespace clearloci::numeric {
+
+namespace {
+
+using core::LocusCurve;
+using core::LocusKind;
+using core::LocusMap;
+using core::Quantity;
+using core::WorkingMode;
+
+/// Off every centre and every symmetry (validate.hpp).
+constexpr double shift_x = std::numbers::sqrt2 - 1;
+constexpr double shift_y = std::numbers::phi - 1;
+
+/// Chords are within the map's tolerance of the curve; below this fraction of the box a tolerance means nothing, for
+/// vertices themselves are only within 1e-12 of the box.
+constexpr double least_tolerance = 1e-9;
+
+/// A force's direction that turns by more than a right angle within this fraction of the box has flipped.
+constexpr double flip_resolution = 1e-10;
+
+constexpr int zero_samples = 64;  ///< nodes on which a numerator must vanish before all nodes are asked
+
+std::vector<WorkingMode> modes_of(const LocusMap& map) {
+  std::vector<WorkingMode> modes;
+  const auto add = [&](const WorkingMode& mode) {
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+  };
+  for (const auto& region : map.workspace) add(region.mode);
+  for (const auto& curve : map.curves) add(curve.mode);
+  return modes;
+}
+
+/// How often a quantity of a joint vanishes on a curve.
+int weight(const LocusCurve& curve, const TracedReaction& reaction) {
+  if (curve.kind == LocusKind::margin) return 0;  // there a reaction equals its least size
+  const auto multiplicity = [&](Quantity quantity) {
+    const auto found = std::find_if(curve.vanishing.begin(), curve.vanishing.end(), [&](const core::Vanishing& v) {
+      return v.joint == reaction.joint && v.quantity == quantity;
+    });
+    return found == curve.vanishing.end() ? 0 : found->multiplicity;
+  };
+  if (const int own = multiplicity(reaction.quantity)) return own;
+  if (reaction.quantity == Quantity::M) return 0;
+  if (reaction.quantity == Quantity::f) return std::min(multiplicity(Quantity::fx), multiplicity(Quantity::fy));
+  return multiplicity(Quantity::f);
+}
+
+WitnessColumns columns_of(const NumericModel& model, const TracedReaction& reaction) {
+  const auto column = [&](int component) {
+    for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+      const auto& joint = model.mechanism.joints[static_cast<std::size_t>(model.unknowns[k].joint)];
+      if (joint.name == reaction.joint && model.unknowns[k].component == component) return static_cast<int>(k);
+    }
+    throw core::InputError({model.mechanism.file, 0, 0},
+                           "joint " + reaction.joint + " has no reaction " + core::to_string(reaction.quantity),
+                           "name a joint of the mechanism, and M only where it is actuated");
+  };
+  switch (reaction.quantity) {
+    case Quantity::f:
+      return {column(0), column(1)};
+    case Quantity::fx:
+      return {column(0), -1};
+    case Quantity::fy:
+      return {column(1), -1};
+    case Quantity::M:
+      break;
+  }
+  return {column(2), -1};
+}
+
+GridAxis axis(double lower, double upper, int nodes, double shift) {
+  const double step = (upper - lower) / nodes;
+  return {lower + shift * step, step, nodes};
+}
+
+struct CheckedReaction {
+  TracedReaction reaction;
+  WitnessColumns columns;
+  std::vector<int> weights;  ///< a curve of the map each, in the mode at hand
+};
+
+struct LineTally {
+  std::vector<std::array<std::size_t, 4>> counts;  ///< by reaction and Verdict
+  std::vector<DisputedEdge> disputed;
+};
+
+/// Everything about one working mode of the map.
+class ModeValidation {
+ public:
+  ModeValidation(const NumericModel& model, const LocusMap& map, const Grid& grid, const WorkingMode& mode,
+                 const std::vector<TracedReaction>& traced, double reach, double diagonal)
+      : model_(model), grid_(grid), mode_(mode), signs_(dyad_signs(model, map.tower, mode)), reach_(reach) {
+    smallest_ = flip_resolution * diagonal;
+    for (const auto& reaction : traced) reactions_.push_back({reaction, columns_of(model, reaction), {}});
+    for (const auto& curve : map.curves) {
+      const bool here = curve.mode == mode;
+      boundary_.push_back(here && curve.kind == LocusKind::workspace_boundary ? 1 : 0);
+      for (auto& r : reactions_) r.weights.push_back(here ? weight(curve, r.reaction) : 0);
+    }
+    std::vector<int> numbers;
+    for (std::size_t c = 0; c < map.curves.size(); ++c) {
+      const bool matters = std::any_of(reactions_.begin(), reactions_.end(),
+                                       [&](const CheckedReaction& r) { return r.weights[c] != 0; });
+      if (matters || boundary_[c] != 0) numbers.push_back(static_cast<int>(c));
+    }
+    passages_ = find_passages(grid, map.curves, numbers, reach);
+  }
+
+  void run(ValidationReport& report, std::size_t listed) {
+    evaluate_nodes();
+    find_zeros();
+    const int rows = grid_.y.nodes, lines = rows + grid_.x.nodes;
+    std::vector<LineTally> tallies(static_cast<std::size_t>(lines));
+    tbb::parallel_for(0, lines, [&](int line) {
+      tallies[static_cast<std::size_t>(line)] = line < rows ? judge_line(true, line) : judge_line(false, line - rows);
+    });
+    merge(tallies, report, listed);
+  }
+
+ private:
+  void evaluate_nodes() {
+    fields_.resize(static_cast<std::size_t>(grid_.y.nodes));
+    tbb::parallel_for(0, grid_.y.nodes, [&](int j) {
+      std::vector<double> poses;
+      for (int i = 0; i < grid_.x.nodes; ++i) poses.insert(poses.end(), {grid_.x.at(i), grid_.y.at(j)});
+      reaction_field(model_, poses, signs_, fields_[static_cast<std::size_t>(j)]);
+    });
+  }
+
+  bool node_reachable(int i, int j) const {
+    return fields_[static_cast<std::size_t>(j)].reachable(static_cast<std::size_t>(i));
+  }
+  double numerator(int column, int i, int j) const {
+    return column < 0 ? 0.0 : fields_[static_cast<std::size_t>(j)].numerator(column)[static_cast<std::size_t>(i)];
+  }
+
+  /// Reactions that are nonzero beyond rounding at no node.
+  void find_zeros() {
+    std::vector<std::array<int, 2>> nodes;
+    for (int j = 0; j < grid_.y.nodes; ++j) {
+      for (int i = 0; i < grid_.x.nodes; ++i) {
+        if (node_reachable(i, j)) nodes.push_back({i, j});
+      }
+    }
+    zero_ = std::vector<std::atomic<bool>>(reactions_.size());
+    for (auto& z : zero_) z = !nodes.empty();
+    const auto ask = [&](const std::array<int, 2>& node) {
+      const auto n = bounded_numerators(model_, std::array{grid_.x.at(node[0]), grid_.y.at(node[1])}, signs_);
+      for (std::size_t r = 0; r < reactions_.size(); ++r) {
+        if (zero_[r] && is_decided(n, reactions_[r].columns)) zero_[r] = false;
+      }
+    };
+    const auto none_left = [&] {
+      return std::none_of(zero_.begin(), zero_.end(), [](const auto& z) { return z.load(); });
+    };
+    for (std::size_t k = 0; k < nodes.size() && !none_left();
+         k += std::max<std::size_t>(1, nodes.size() / zero_samples)) {
+      ask(nodes[k]);
+    }
+    if (none_left()) return;
+    tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t k) { ask(nodes[k]); });
+  }
+
+  EdgeNodes edge_nodes(const WitnessColumns& columns, int i, int j, bool row) const {
+    const int i2 = row ? i + 1 : i, j2 = row ? j : j + 1;
+    EdgeNodes nodes{node_reachable(i, j), node_reachable(i2, j2), Parity::unknown};
+    if (!nodes.first_reachable || !nodes.second_reachable) return nodes;
+    // One component: the cosine is a sign. Two: in between, the turn has to be followed.
+    const double cosine = turn_cosine({numerator(columns.first, i, j), numerator(columns.second, i, j)},
+                                      {numerator(columns.first, i2, j2), numerator(columns.second, i2, j2)});
+    if (std::abs(cosine) > least_cosine) nodes.change = cosine > 0 ? Parity::even : Parity::odd;
+    return nodes;
+  }
+
+  LineTally judge_line(bool row, int line) const {
+    const GridAxis &along = row ? grid_.x : grid_.y, &across = row ? grid_.y : grid_.x;
+    const auto& passages = (row ? passages_.rows : passages_.columns)[static_cast<std::size_t>(line)];
+    EdgeJudge judge(LineWitness(model_, signs_, row, across.at(line), smallest_), along, passages, boundary_, reach_);
+    const LineWitness place(model_, signs_, row, across.at(line), smallest_);
+    LineTally tally;
+    tally.counts.resize(reactions_.size());
+    for (int edge = 0; edge + 1 < along.nodes; ++edge) {
+      for (std::size_t r = 0; r < reactions_.size(); ++r) {
+        if (zero_[r]) continue;
+        const auto& checked = reactions_[r];
+        const EdgeNodes nodes = edge_nodes(checked.columns, row ? edge : line, row ? line : edge, row);
+        const Finding finding = judge.judge(edge, {checked.columns, checked.weights}, nodes);
+        ++tally.counts[r][static_cast<std::size_t>(finding.verdict)];
+        if (finding.verdict != Verdict::disputed) continue;
+        tally.disputed.push_back({place.point(along.at(edge)), place.point(along.at(edge + 1)), mode_, checked.reaction,
+                                  finding.crossings, finding.sign_change});
+      }
+    }
+    return tally;
+  }
+
+  void merge(const std::vector<LineTally>& lines, ValidationReport& report, std::size_t listed) const {
+    for (std::size_t r = 0; r < reactions_.size(); ++r) {
+      std::array<std::size_t, 4> sum{};
+      for (const auto& line : lines) {
+        for (std::size_t v = 0; v < sum.size(); ++v) sum[v] += line.counts[r][v];
+      }
+      const auto count = [&](Verdict v) { return sum[static_cast<std::size_t>(v)]; };
+      report.tallies.push_back({mode_, reactions_[r].reaction, count(Verdict::held), count(Verdict::disputed),
+                                count(Verdict::undecided), count(Verdict::outside), zero_[r]});
+      report.held += count(Verdict::held);
+      report.disputed += count(Verdict::disputed);
+      report.undecided += count(Verdict::undecided);
+      report.outside += count(Verdict::outside);
+    }
+    for (const auto& line : lines) {
+      for (const auto& edge : line.disputed) {
+        if (report.disputed_edges.size() < listed) report.disputed_edges.push_back(edge);
+      }
+    }
+  }
+
+  const NumericModel& model_;
+  Grid grid_;
+  WorkingMode mode_;
+  std::vector<int> signs_;
+  double reach_;
+  double smallest_ = 0;
+  std::vector<CheckedReaction> reactions_;
+  std::vector<int> boundary_;
+  GridPassages passages_;
+  std::vector<ReactionField> fields_;  ///< a row of nodes each
+  std::vector<std::atomic<bool>> zero_;
+};
+
+void check_call(const NumericModel& model, const LocusMap& map, const GridSpec& spec) {
+  const auto refuse = [](const std::string& problem, const std::string& mend) {
+    throw core::InputError({}, problem, mend);
+  };
+  if (spec.nx < 2 || spec.ny < 2) refuse("the grid has no cells", "ask for 2x2 nodes at least");
+  if (model.box.size() != 2 || map.lower.size() != 2 || map.upper.size() != 2) {
+    refuse("the loci are not curves", "validate needs two free coordinates");
+  }
+  if (map.tower.coordinates.empty()) return;
+  for (std::size_t c = 0; c < 2; ++c) {
+    if (map.tower.coordinates.at(c) != model.mechanism.coordinates[c].name) {
+      refuse("the loci have other coordinates than the mechanism", "trace the loci of the same mechanism");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<TracedReaction> named_reactions(const LocusMap& map) {
+  std::vector<TracedReaction> named;
+  for (const auto& curve : map.curves) {
+    if (curve.kind == LocusKind::margin) continue;
+    for (const auto& v : curve.vanishing) {
+      const TracedReaction reaction{v.joint, v.quantity};
+      if (std::find(named.begin(), named.end(), reaction) == named.end()) named.push_back(reaction);
+    }
+  }
+  return named;
+}
+
+ValidationReport validate(const mechanism::Mechanism& mechanism, const LocusMap& map, const GridSpec& spec,
+                          const std::vector<TracedReaction>& traced) {
+  const NumericModel model = compile(mechanism);
+  check_call(model, map, spec);
+  const auto bound = [&](const std::vector<core::Rational>& corner, std::size_t c) {
+    return core::to_double(corner[c]);
+  };
+  const Grid grid = {axis(bound(map.lower, 0), bound(map.upper, 0), spec.nx, shift_x),
+                     axis(bound(map.lower, 1), bound(map.upper, 1), spec.ny, shift_y)};
+  const double diagonal =
+      std::hypot(bound(map.upper, 0) - bound(map.lower, 0), bound(map.upper, 1) - bound(map.lower, 1));
+  const double reach = std::max(map.tolerance, least_tolerance * diagonal);
+
+  ValidationReport report;
+  tbb::task_arena arena(spec.threads > 0 ? spec.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    for (const auto& mode : modes_of(map)) {
+      ModeValidation(model, map, grid, mode, traced.empty() ? named_reactions(map) : traced, reach, diagonal)
+          .run(report, spec.listed_disputes);
+    }
+  });
+  return report;
+}
+
+}  // namespace clearloci::numeric

@@ -1,0 +1,51 @@
+#include "numeric/sketch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numeric/reactions.hpp"
+#include "tests/numeric/designs.hpp"
+
+namespace clearloci::numeric {
+namespace {
+
+TEST(Sketch, ShowsLinksJointsAndLoadsButNoWeights) {
+  const NumericModel model = compile(test::five_bar({.couple = 2, .weighs = true}));
+  const auto s = sketch(model, std::array{0.25, -0.7}, std::array{-1, 1});
+  ASSERT_EQ(s.links.size(), 4u);
+  EXPECT_EQ(s.links[2].name, "PB2");
+  EXPECT_EQ(s.links[2].points[0], (core::Point2{0.25, -0.7}));
+  ASSERT_EQ(s.joints.size(), 5u);
+  EXPECT_TRUE(s.joints[0].on_ground && s.joints[0].actuated);
+  EXPECT_FALSE(s.joints[1].on_ground || s.joints[1].actuated);
+  ASSERT_EQ(s.loads.size(), 1u);
+  EXPECT_EQ(s.loads[0].force, (core::Point2{0, -100}));
+  EXPECT_EQ(s.loads[0].couple, 2);
+  EXPECT_EQ(s.gravity, (core::Point2{0, -9.81}));
+}
+
+TEST(SamplePose, IsReachableWellConditionedAndOpen) {
+  for (const auto& mechanism :
+       {test::five_bar(), test::three_rrr(0.2, 1, 0, 0, false), test::driven_five_bar(1, 0, true)}) {
+    const NumericModel model = compile(mechanism);
+    const auto mode = mechanism::working_mode(mechanism);
+    const auto pose = sample_pose(model, mode, model.box);
+    ASSERT_TRUE(pose.has_value());
+    const auto p = posture(model, *pose, mode);
+    ASSERT_TRUE(p.reachable());
+    EXPECT_LT(solve_reactions(model, p).condition, 200);
+    for (const double dx : {-0.05, 0.05}) {
+      EXPECT_TRUE(posture(model, std::array{(*pose)[0] + dx, (*pose)[1]}, mode).reachable());
+    }
+  }
+}
+
+TEST(SamplePose, IsEmptyOutOfReach) {
+  const NumericModel model = compile(test::five_bar());
+  const std::vector<std::array<double, 2>> far = {{5, 6}, {5, 6}};
+  EXPECT_FALSE(sample_pose(model, std::array{1, 1}, far).has_value());
+}
+
+}  // namespace
+}  // namespace clearloci::numeric
