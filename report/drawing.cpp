@@ -13,6 +13,7 @@ using core::Point2;
 using Context = Cairo::RefPtr<Cairo::Context>;
 
 constexpr Colour ink{0.13, 0.13, 0.13};
+constexpr Colour faded_ink{0.40, 0.40, 0.40};
 constexpr Colour frame{0.45, 0.45, 0.45};
 constexpr Colour workspace_fill{0.925, 0.941, 0.957};
 constexpr Colour grid{0.86, 0.86, 0.86};
@@ -52,6 +53,15 @@ void draw_workspace(const Context& context, const Subject& subject, const Layout
   }
 }
 
+void draw_search_box(const Context& context, const Box& box) {
+  context->rectangle(box.x, box.y, box.width, box.height);
+  set_colour(context, frame, 0.6);
+  context->set_line_width(0.5);
+  context->set_dash(std::vector<double>{1.5, 2}, 0);
+  context->stroke();
+  context->unset_dash();
+}
+
 /// Lines at the ticks, and the searched box where the plot shows more than that.
 void draw_grid(const Context& context, const Layout& layout) {
   context->unset_dash();
@@ -67,12 +77,7 @@ void draw_grid(const Context& context, const Layout& layout) {
   }
   context->stroke();
   const Point2 low = layout.page(layout.search_low), high = layout.page(layout.search_high);
-  context->rectangle(low[0], high[1], high[0] - low[0], low[1] - high[1]);
-  set_colour(context, frame, 0.6);
-  context->set_line_width(0.5);
-  context->set_dash(std::vector<double>{1.5, 2}, 0);
-  context->stroke();
-  context->unset_dash();
+  draw_search_box(context, {low[0], high[1], high[0] - low[0], low[1] - high[1]});
 }
 
 void draw_curve(const Context& context, const Layout& layout, const core::LocusCurve& curve) {
@@ -189,6 +194,9 @@ void draw_sample(const Context& context, const LegendEntry& entry) {
       set_colour(context, workspace_fill);
       context->fill();
       break;
+    case SampleKind::searched_box:
+      draw_search_box(context, {x, y - 4.5, legend_sample_width, 9});
+      break;
     case SampleKind::mechanism:
       draw_mechanism_sample(context, x, y, legend_sample_width);
       break;
@@ -203,10 +211,10 @@ void draw_sample(const Context& context, const LegendEntry& entry) {
 void draw_legend(const Context& context, const Layout& layout) {
   for (const auto& entry : layout.legend) {
     draw_sample(context, entry);
-    set_colour(context, ink);
     double baseline = entry.box.y + 0.5 * legend_line_height + 0.36 * legend_font.size;
     for (const auto& line : entry.lines) {
-      write_text(context, line, entry.box.x + legend_sample_width + legend_sample_gap, baseline, legend_font);
+      set_colour(context, line.secondary ? faded_ink : ink);
+      write_text(context, line.text, entry.box.x + legend_sample_width + legend_sample_gap, baseline, legend_font);
       baseline += legend_line_height;
     }
   }
@@ -224,8 +232,9 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   context->clip();
   draw_workspace(context, subject, layout);
   draw_grid(context, layout);
+  if (subject.sketch != nullptr) draw_links(context, layout, *subject.sketch);
   draw_loci(context, subject, layout);
-  if (subject.sketch != nullptr) draw_mechanism(context, layout, *subject.sketch);
+  if (subject.sketch != nullptr) draw_joints(context, layout, *subject.sketch);
   draw_isolated_points(context, subject, layout);
   if (subject.sketch != nullptr) draw_loads(context, layout, *subject.sketch);
   context->restore();

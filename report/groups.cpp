@@ -57,11 +57,9 @@ std::string reason_words(const core::LocusCurve& curve) {
   return "curve of degree " + std::to_string(core::total_degree(curve.implicit));
 }
 
-std::string group_label(const core::LocusCurve& curve) {
-  if (curve.kind == core::LocusKind::direct_singularity) return "direct singularity";
-  if (curve.kind == core::LocusKind::workspace_boundary) return "workspace boundary (inverse singularity)";
+std::string what_words(const core::LocusCurve& curve) {
   const std::string what = printable(vanishing_words(curve.kind, curve.vanishing));
-  return (what.empty() ? kind_words(curve.kind) : what) + " — " + reason_words(curve);
+  return what.empty() || !is_reaction(curve.kind) ? kind_words(curve.kind) : what;
 }
 
 void add_curve(Groups& groups, const core::LocusCurve& curve) {
@@ -76,8 +74,11 @@ void add_curve(Groups& groups, const core::LocusCurve& curve) {
     CurveGroup fresh;
     fresh.kind = curve.kind;
     fresh.reason = reason;
-    fresh.label = group_label(curve);
-    if (reaction) fresh.vanishing = curve.vanishing;
+    fresh.what = what_words(curve);
+    if (reaction) {
+      fresh.vanishing = curve.vanishing;
+      fresh.why = reason_words(curve);
+    }
     group = groups.curves.insert(groups.curves.end(), std::move(fresh));
   }
   group->curves.push_back(&curve);

@@ -33,7 +33,8 @@ struct CurveGroup {
   core::LocusKind kind = core::LocusKind::contact_loss;
   std::vector<core::Vanishing> vanishing;
   std::string reason;  ///< the cause, or the factor where it has no reading
-  std::string label;   ///< for the legend
+  std::string what;    ///< for the legend: what happens there
+  std::string why;     ///< and the reason in words; may be empty
   Stroke stroke;
   int number = 0;  ///< running number among the groups of reaction loci, which chooses the colour
   std::vector<const core::LocusCurve*> curves;

@@ -24,8 +24,8 @@ void choose_view(const Subject& subject, Layout& layout) {
   const core::LocusMap& map = *subject.map;
   const bool planar = map.lower.size() > 1;
   for (int i = 0; i < 2; ++i) {
-    layout.search_low[i] = i == 0 || planar ? core::to_double(map.lower[i]) : -0.1;
-    layout.search_high[i] = i == 0 || planar ? core::to_double(map.upper[i]) : 0.1;
+    layout.search_low[i] = i == 0 || planar ? core::to_double(map.lower[i]) : 0;
+    layout.search_high[i] = i == 0 || planar ? core::to_double(map.upper[i]) : 0;
   }
   layout.low = layout.search_low;
   layout.high = layout.search_high;
@@ -87,26 +87,43 @@ void choose_axes(const Subject& subject, Layout& layout) {
   layout.y_ticks = ticks(layout.low[1], layout.high[1], 42 / layout.scale);
 }
 
-std::vector<LegendEntry> legend_entries(const Subject& subject) {
-  std::vector<LegendEntry> entries;
-  const auto add = [&](SampleKind sample, const std::string& label) -> LegendEntry& {
-    entries.push_back({.sample = sample, .stroke = {}, .marker = {}, .lines = {label}, .box = {}});
-    return entries.back();
-  };
-  for (const auto& group : subject.groups.curves) add(SampleKind::curve, group.label).stroke = group.stroke;
-  for (const auto& group : subject.groups.points) add(SampleKind::point, group.label).marker = group.marker;
-  const auto& regions = subject.map->workspace;
-  if (std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
-    add(SampleKind::workspace, "workspace of this working mode");
+/// True where the plot had to grow for the mechanism, so that the searched box needs an explanation.
+bool shows_more_than_searched(const Layout& layout) {
+  const double margin = 0.1 * std::max(layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]);
+  bool more = false;
+  for (int i = 0; i < 2; ++i) {
+    more = more || layout.search_low[i] - layout.low[i] > margin || layout.high[i] - layout.search_high[i] > margin;
   }
+  return more;
+}
+
+/// Entries with their labels not wrapped yet.
+std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& layout) {
+  std::vector<LegendEntry> entries;
+  const auto add = [&](SampleKind sample, const std::string& label, const std::string& reason = "") -> LegendEntry& {
+    LegendEntry entry;
+    entry.sample = sample;
+    entry.lines.push_back({label, false});
+    if (!reason.empty()) entry.lines.push_back({reason, true});
+    return entries.emplace_back(std::move(entry));
+  };
+  for (const auto& group : subject.groups.curves) {
+    add(SampleKind::curve, group.what, group.why).stroke = group.stroke;
+  }
+  for (const auto& group : subject.groups.points) add(SampleKind::point, group.label).marker = group.marker;
+  const core::LocusMap& map = *subject.map;
+  const auto& regions = map.workspace;
+  if (std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
+    add(SampleKind::workspace, "workspace");
+  }
+  if (map.lower.size() > 1 && shows_more_than_searched(layout)) add(SampleKind::searched_box, "searched box");
   if (subject.sketch != nullptr) {
     const auto& joints = subject.sketch->joints;
     const bool actuated = std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.actuated; });
-    add(SampleKind::mechanism,
-        actuated ? "mechanism in a sample posture; actuated joints filled" : "mechanism in a sample posture");
+    add(SampleKind::mechanism, "mechanism in a sample posture", actuated ? "actuated joints filled" : "");
     if (!subject.sketch->loads.empty()) add(SampleKind::load, "load");
   }
-  if (!subject.map->complete) add(SampleKind::remark, "Incomplete: the work was stopped at its time limit.");
+  if (!map.complete) add(SampleKind::remark, "incomplete: stopped at the time limit");
   return entries;
 }
 
@@ -115,7 +132,13 @@ double place_legend(std::vector<LegendEntry>& entries, double x, double y, doubl
   const Measure measure = measure_in(legend_font);
   double total = 0;
   for (auto& entry : entries) {
-    entry.lines = wrap(entry.lines.front(), width - legend_sample_width - legend_sample_gap, measure);
+    std::vector<LegendLine> wrapped;
+    for (const auto& line : entry.lines) {
+      for (auto& piece : wrap(line.text, width - legend_sample_width - legend_sample_gap, measure)) {
+        wrapped.push_back({std::move(piece), line.secondary});
+      }
+    }
+    entry.lines = std::move(wrapped);
     entry.box.width = width;
     entry.box.height = legend_line_height * static_cast<double>(entry.lines.size());
     total += entry.box.height + entry_gap;
@@ -166,14 +189,17 @@ Layout lay_out(const Subject& subject) {
   Layout layout;
   choose_view(subject, layout);
   choose_axes(subject, layout);
-  layout.legend = legend_entries(subject);
+  layout.legend = legend_entries(subject, layout);
 
   const double left = page_margin + (layout.y_ticks.empty() ? 0 : 16 + widest_label(layout.y_ticks) + 8);
   constexpr double below_plot = 34;  // tick labels and axis label
   layout.plot.x = left;
   layout.y_label_x = page_margin + 10;
 
-  const bool beside = layout.plot.width <= 1.3 * layout.plot.height;
+  // A legend beside the plot may be a little longer than it; a longer one reads better below, in two columns.
+  std::vector<LegendEntry> trial = layout.legend;
+  const bool beside = layout.plot.width <= 1.3 * layout.plot.height &&
+                      place_legend(trial, 0, 0, legend_column, 1) <= 1.25 * layout.plot.height;
   const double least_width = left + std::max(layout.plot.width, 2 * legend_column + legend_gap);
   layout.width =
       (beside ? layout.plot.right() + legend_gap + legend_column : std::max(layout.plot.right(), least_width)) +

@@ -19,14 +19,19 @@ struct Box {
 };
 
 /// What a legend entry shows a sample of.
-enum class SampleKind { curve, point, workspace, mechanism, load, remark };
+enum class SampleKind { curve, point, workspace, searched_box, mechanism, load, remark };
+
+struct LegendLine {
+  std::string text;
+  bool secondary = false;  ///< the reason: in grey
+};
 
 struct LegendEntry {
   SampleKind sample = SampleKind::curve;
-  Stroke stroke;                   ///< of a curve
-  Marker marker;                   ///< of a point
-  std::vector<std::string> lines;  ///< the label, wrapped
-  Box box;                         ///< sample and label
+  Stroke stroke;                  ///< of a curve
+  Marker marker;                  ///< of a point
+  std::vector<LegendLine> lines;  ///< the label, wrapped
+  Box box;                        ///< sample and label
 };
 
 struct Tick {

@@ -26,15 +26,28 @@ std::string padded(const std::string& text, int width, bool right) {
   return right ? space + text : text + space;
 }
 
+/// The lines of a cell, each wrapped to `width`.
+std::vector<std::string> wrapped(const std::string& cell, int width) {
+  const auto measure = [](std::string_view text) { return static_cast<double>(columns(text)); };
+  std::vector<std::string> lines;
+  for (std::size_t start = 0; start <= cell.size();) {
+    const std::size_t end = std::min(cell.find('\n', start), cell.size());
+    for (auto& line : wrap(std::string_view(cell).substr(start, end - start), width, measure)) {
+      lines.push_back(std::move(line));
+    }
+    start = end + 1;
+  }
+  return lines;
+}
+
 /// Columns as wide as their cells need, at most `widest`, two spaces apart, below a rule.
 std::string format_rows(const std::vector<Column>& heading, const std::vector<Row>& rows) {
-  const auto measure = [](std::string_view text) { return static_cast<double>(columns(text)); };
   std::vector<int> widths;
   std::vector<std::vector<std::vector<std::string>>> cells(rows.size());
   for (std::size_t c = 0; c < heading.size(); ++c) {
     int width = columns(heading[c].heading);
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      cells[r].push_back(wrap(rows[r][c], heading[c].widest, measure));
+      cells[r].push_back(wrapped(rows[r][c], heading[c].widest));
       for (const auto& line : cells[r].back()) width = std::max(width, columns(line));
     }
     widths.push_back(width);
@@ -43,7 +56,7 @@ std::string format_rows(const std::vector<Column>& heading, const std::vector<Ro
   const auto add_line = [&](const auto& text_of) {
     std::string line;
     for (std::size_t c = 0; c < heading.size(); ++c) {
-      line += (c == 0 ? "  " : "  ") + padded(text_of(c), widths[c], heading[c].right);
+      line += (c == 0 ? "" : "  ") + padded(text_of(c), widths[c], heading[c].right);
     }
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
@@ -79,11 +92,14 @@ std::string what_vanishes(const std::vector<core::Vanishing>& vanishing) {
   return text;
 }
 
+/// What vanishes, and on a line of its own where.
 std::string where(const core::LocusCurve& curve) {
-  if (!curve.cause.empty()) return printable(curve.cause);
+  const std::string what = what_vanishes(curve.vanishing);
+  const std::string start = what.empty() ? "" : what + "\n";
+  if (!curve.cause.empty()) return start + printable(curve.cause);
   constexpr int readable = 60;  // a longer factor would fill the screen; `equations` prints it whole
-  if (columns(curve.factor) <= readable) return printable(curve.factor);
-  return "factor without a short form";
+  if (columns(curve.factor) <= readable) return start + printable(curve.factor);
+  return start + "factor without a short form";
 }
 
 double total_length(const core::LocusCurve& curve) {
@@ -93,18 +109,26 @@ double total_length(const core::LocusCurve& curve) {
 }
 
 std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
-  const std::vector<Column> heading = {{"curve", 8},      {"kind", 18},         {"vanishing", 20},
-                                       {"where", 30},     {"deg.", 4, true},    {"closed form", 24},
-                                       {"arcs", 4, true}, {"length/m", 8, true}};
+  std::vector<Column> heading = {{"curve", 8},         {"kind", 18},       {"what vanishes, where", 0},
+                                 {"degree", 6, true},  {"closed form", 0}, {"arcs", 4, true},
+                                 {"length/m", 8, true}};
   std::vector<Row> rows;
+  int closed_form = 0, identifier = columns(heading[0].heading);
   for (const auto& curve : map.curves) {
     if (curve.mode != mode) continue;
-    rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind),
-                    what_vanishes(curve.vanishing), where(curve), std::to_string(core::total_degree(curve.implicit)),
+    rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind), where(curve),
+                    std::to_string(core::total_degree(curve.implicit)),
                     closed_form_words(curve.closed_form, map.tower.coordinates), std::to_string(curve.arcs.size()),
                     fmt::format("{:.4f}", total_length(curve))});
+    closed_form = std::max(closed_form, columns(rows.back()[4]));
+    identifier = std::max(identifier, std::min(columns(rows.back()[0]), heading[0].widest));
   }
-  if (rows.empty()) return "  no curves\n";
+  // The two wide columns share what the others leave of the width.
+  constexpr int least = 30;
+  const int others = identifier + 18 + 6 + 4 + 8 + 6 * 2;
+  heading[4].widest = std::clamp(closed_form, 11, table_width - others - least);
+  heading[2].widest = table_width - others - heading[4].widest;
+  if (rows.empty()) return "no curves\n";
   return format_rows(heading, rows);
 }
 
@@ -120,7 +144,7 @@ std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode)
     for (const double value : point.at) row.push_back(fmt::format("{:.9f}", value));
     rows.push_back(std::move(row));
   }
-  return rows.empty() ? "" : "\n  isolated points\n" + format_rows(heading, rows);
+  return rows.empty() ? "" : "\nisolated points\n" + format_rows(heading, rows);
 }
 
 std::string notes(const core::LocusMap& map) {
@@ -134,8 +158,8 @@ std::string notes(const core::LocusMap& map) {
   if (!map.complete) sentences.push_back("Incomplete: the work was stopped at its time limit.");
   std::string out;
   for (const auto& sentence : sentences) {
-    const auto lines = wrap(printable(sentence), table_width - 4, measure);
-    for (std::size_t i = 0; i < lines.size(); ++i) out += (i == 0 ? "  " : "    ") + lines[i] + "\n";
+    const auto lines = wrap(printable(sentence), table_width - 2, measure);
+    for (std::size_t i = 0; i < lines.size(); ++i) out += (i == 0 ? "" : "  ") + lines[i] + "\n";
   }
   return out.empty() ? "" : "\n" + out;
 }
@@ -145,10 +169,10 @@ std::string notes(const core::LocusMap& map) {
 std::string loci_table(const core::LocusMap& map) {
   std::string out = printable(map.mechanism);
   const std::string parameters = printable(parameter_words(map));
-  if (!parameters.empty()) out += "\n  " + parameters;
+  if (!parameters.empty()) out += "\n" + parameters;
   out += "\n";
   std::vector<core::WorkingMode> modes = modes_of(map);
-  if (modes.empty()) out += "\n  no curves\n";
+  if (modes.empty()) out += "\nno curves\n";
   for (const auto& mode : modes) {
     const std::string words = printable(mode_words(map.tower, mode));
     out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";

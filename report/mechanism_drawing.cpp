@@ -78,27 +78,38 @@ void draw_ground(const Context& context, const Point2& at) {
   context->stroke();
 }
 
-/// Where a joint's name stands: away from the links that meet there, and from the bracket of a fixed joint.
+/// Where a joint's name stands: the direction, of sixteen, that keeps the largest angle to the links and loads that
+/// meet there and to the bracket of a fixed joint. Unit vector, y up.
 Point2 name_direction(const core::Sketch& sketch, const core::SketchJoint& joint) {
-  Point2 sum = {0, 0};
-  const auto add = [&](double dx, double dy) {
-    const double length = std::hypot(dx, dy);
-    if (length < 1e-12) return;
-    sum[0] -= dx / length;
-    sum[1] -= dy / length;
+  std::vector<double> occupied;
+  const auto occupy = [&](double dx, double dy) {
+    if (std::hypot(dx, dy) > 1e-12) occupied.push_back(std::atan2(dy, dx));
   };
   for (const auto& link : sketch.links) {
     const bool here = std::find(link.points.begin(), link.points.end(), joint.at) != link.points.end();
     for (const auto& point : link.points) {
-      if (here) add(point[0] - joint.at[0], point[1] - joint.at[1]);
+      if (here) occupy(point[0] - joint.at[0], point[1] - joint.at[1]);
     }
   }
   for (const auto& load : sketch.loads) {
-    if (load.at == joint.at) add(load.force[0], load.force[1]);
+    // The arrow stands before or behind the point.
+    if (load.at == joint.at) occupy(load.force[0], load.force[1]);
+    if (load.at == joint.at) occupy(-load.force[0], -load.force[1]);
   }
-  if (joint.on_ground) return {sum[0] < 0 ? -0.85 : 0.85, 0.5};
-  const double length = std::hypot(sum[0], sum[1]);
-  return length < 0.2 ? Point2{0.8, 0.6} : Point2{sum[0] / length, sum[1] / length};
+  if (joint.on_ground) {
+    for (const double dx : {-0.8, 0.0, 0.8}) occupy(dx, -1);
+  }
+  double best = 0, best_room = -1;
+  for (const int k : {1, 0, 15, 2, 14, 7, 8, 9, 6, 10, 3, 5, 13, 11, 4, 12}) {  // readers look to the right first
+    const double angle = full_turn * k / 16;
+    double room = std::numbers::pi;
+    for (const double other : occupied) room = std::min(room, std::abs(std::remainder(angle - other, full_turn)));
+    if (room > best_room + 0.05) {
+      best = angle;
+      best_room = room;
+    }
+  }
+  return {std::cos(best), std::sin(best)};
 }
 
 void write_joint_name(const Context& context, const Layout& layout, const core::Sketch& sketch,
@@ -143,19 +154,21 @@ void draw_force(const Context& context, const Layout& layout, const core::Sketch
   Point2 tip = {tail[0] + length * unit[0], tail[1] + length * unit[1]};
   const Box& plot = layout.plot;
   const bool leaves =
-      tip[0] < plot.x + 4 || tip[0] > plot.right() - 4 || tip[1] < plot.y + room || tip[1] > plot.bottom() - 4;
+      tip[0] < plot.x + 4 || tip[0] > plot.right() - 4 || tip[1] < plot.y + room || tip[1] > plot.bottom() - room;
   if (leaves) {
     tip = {at[0] - clear_of_pin * unit[0], at[1] - clear_of_pin * unit[1]};
     tail = {tip[0] - length * unit[0], tip[1] - length * unit[1]};
   }
   draw_load_arrow(context, tail, tip);
-  const Point2 free_end = leaves ? tail : tip;
+  // The size stands beyond the arrow's free end, inside the plot.
+  const double away = leaves ? -1 : 1;
   const std::string words = short_number(size, 4) + " N";
-  // Beside the arrow's free end, on the side where the plot has more room.
-  const bool to_right = free_end[0] + text_width(words, load_font) + 10 < plot.right();
-  const bool steep = std::abs(unit[1]) > 0.7;
-  write_over_lines(context, words, free_end[0] + (steep ? (to_right ? 7 : -7) : 0), free_end[1] + (steep ? 1 : -8),
-                   load_font, load_colour, steep ? (to_right ? Align::left : Align::right) : Align::centre);
+  const double half_width = text_width(words, load_font) / 2 + 3, half_height = 6;
+  const Point2 end = leaves ? tail : tip;
+  const double x = end[0] + away * unit[0] * (half_width + 5), y = end[1] + away * unit[1] * (half_height + 4);
+  write_over_lines(context, words, std::clamp(x, plot.x + half_width, plot.right() - half_width),
+                   std::clamp(y, plot.y + half_height, plot.bottom() - half_height) + 0.36 * load_font.size, load_font,
+                   load_colour, Align::centre);
 }
 
 }  // namespace
@@ -200,7 +213,7 @@ void draw_load_arrow(const Context& context, const Point2& tail, const Point2& t
   context->fill();
 }
 
-void draw_mechanism(const Context& context, const Layout& layout, const core::Sketch& sketch) {
+void draw_links(const Context& context, const Layout& layout, const core::Sketch& sketch) {
   for (const auto& joint : sketch.joints) {
     if (joint.on_ground) draw_ground(context, layout.page(joint.at));
   }
@@ -211,6 +224,9 @@ void draw_mechanism(const Context& context, const Layout& layout, const core::Sk
     if (path.size() > 2) path.push_back(path.front());
     draw_bar(context, path);
   }
+}
+
+void draw_joints(const Context& context, const Layout& layout, const core::Sketch& sketch) {
   for (const auto& joint : sketch.joints) draw_pin(context, layout.page(joint.at), joint.actuated);
   for (const auto& joint : sketch.joints) write_joint_name(context, layout, sketch, joint);
 }

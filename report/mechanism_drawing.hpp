@@ -7,8 +7,11 @@
 
 namespace clearloci::report {
 
-/// Links, ground, joints with their names. Drawn under the names of nothing else, so that loci stay readable.
-void draw_mechanism(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
+/// Links and the ground, to be drawn below the loci, which stay readable over them.
+void draw_links(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
+
+/// Joints with their names.
+void draw_joints(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
 
 /// Forces as arrows with their size in N, couples as turning arrows with theirs in N m, gravity in the plot's corner.
 void draw_loads(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);

@@ -30,7 +30,7 @@ std::string title_of(const Subject& subject) {
 
 std::string legend_of(const Groups& groups) {
   std::string text;
-  for (const auto& group : groups.curves) text += group.label + "\n";
+  for (const auto& group : groups.curves) text += group.what + (group.why.empty() ? "" : " — " + group.why) + "\n";
   for (const auto& group : groups.points) text += group.label + "\n";
   return text;
 }

@@ -1,1 +1,118 @@
+#include "report/files.hpp"
+
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "core/errors.hpp"
+#include "report/loci_json.hpp"
+#include "report/write_loci.hpp"
+#include "tests/report/five_bar_map.hpp"
+#include "tests/report/scratch_folder.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using fixture::read_file;
+using fixture::ScratchFolder;
+
+TEST(Files, WrittenFileHoldsTheBytesAndNoTemporaryIsLeft) {
+  const ScratchFolder scratch;
+  const std::string bytes("a\0b\r\n\xFF", 6);
+  write_atomically(scratch.path() / "file", bytes);
+  EXPECT_EQ(read_file(scratch.path() / "file"), bytes);
+  write_atomically(scratch.path() / "file", "");
+  EXPECT_EQ(read_file(scratch.path() / "file"), "");
+  EXPECT_EQ(scratch.file_count(), 1);
+}
+
+TEST(Files, MissingFoldersAreMade) {
+  const ScratchFolder scratch;
+  write_atomically(scratch.path() / "a/b c/d" / "file", "x");
+  EXPECT_EQ(read_file(scratch.path() / "a/b c/d/file"), "x");
+}
+
+TEST(Files, AFileAnyoneMayReadUnlessTheUserSaysOtherwise) {
+  const ScratchFolder scratch;
+  write_atomically(scratch.path() / "file", "x");
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  const auto mode = static_cast<unsigned>(std::filesystem::status(scratch.path() / "file").permissions());
+  EXPECT_EQ(mode, 0666u & ~mask);
+}
+
+/// What write_atomically says of a path it cannot write; the scratch folder must be as it was.
+void expect_refusal(const ScratchFolder& scratch, const std::filesystem::path& path) {
+  const int before = scratch.file_count();
+  try {
+    write_atomically(path, "x");
+    FAIL() << path << " was written";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(scratch.path().string()), std::string::npos) << error.what();
+    EXPECT_FALSE(error.mend().empty());
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(scratch.file_count(), before);
+}
+
+TEST(Files, AFolderThatIsAFileIsRefused) {
+  const ScratchFolder scratch;
+  write_atomically(scratch.path() / "file", "x");
+  expect_refusal(scratch, scratch.path() / "file" / "loci.json");
+  EXPECT_EQ(read_file(scratch.path() / "file"), "x");
+}
+
+TEST(Files, AFileThatIsAFolderIsRefusedAndNoTemporaryIsLeft) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directories(scratch.path() / "loci.json" / "full");
+  expect_refusal(scratch, scratch.path() / "loci.json");
+}
+
+TEST(Files, AFolderWithoutPermissionIsRefused) {
+  const ScratchFolder scratch;
+  std::filesystem::permissions(scratch.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  if (::access(scratch.path().c_str(), W_OK) == 0) GTEST_SKIP() << "this user may write everywhere";
+  expect_refusal(scratch, scratch.path() / "loci.json");
+}
+
+TEST(WriteLoci, OneModeNeedsNoModeInItsNames) {
+  const ScratchFolder scratch;
+  const auto map = fixture::five_bar_map();
+  std::set<FileFormat> all;
+  for (const auto& name : file_format_names()) all.insert(file_format(name).value());
+  const auto written = write_loci(map, {{fixture::elbows_out(), fixture::five_bar_sketch(fixture::elbows_out())}},
+                                  scratch.path() / "out", all);
+  std::vector<std::string> names;
+  for (const auto& path : written) {
+    names.push_back(path.filename().string());
+    EXPECT_GT(std::filesystem::file_size(path), 100u) << path;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"loci.json", "loci.csv", "loci.svg", "loci.png", "loci.pdf", "loci.dxf",
+                                             "loci-r12.dxf", "loci.geojson", "loci.vtp"}));
+}
+
+TEST(WriteLoci, SeveralModesHaveAPictureEach) {
+  const ScratchFolder scratch;
+  const auto written = write_loci(fixture::five_bar_map_in_all_modes(), {}, scratch.path(), {FileFormat::svg});
+  std::vector<std::string> names;
+  for (const auto& path : written) names.push_back(path.filename().string());
+  EXPECT_EQ(names, (std::vector<std::string>{"loci-right-left.svg", "loci-right-right.svg", "loci-left-left.svg",
+                                             "loci-left-right.svg"}));
+}
+
+TEST(WriteLoci, AMapWithoutAnyCurveStillGivesEveryFile) {
+  const ScratchFolder scratch;
+  core::LocusMap map = fixture::five_bar_map();
+  map.curves.clear();
+  map.isolated_points.clear();
+  map.workspace.clear();
+  EXPECT_EQ(write_loci(map, {}, scratch.path(), default_file_formats()).size(), 4u);
+}
+
+TEST(WriteLoci, UnknownFormatsAreUnknown) {
+  EXPECT_FALSE(file_format("jpeg"));
+  EXPECT_FALSE(file_format(""));
+  EXPECT_FALSE(file_format("SVG"));
+}
+
+}  // namespace
+}  // namespace clearloci::report

@@ -1,1 +1,76 @@
 #include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "report/loci_table.hpp"
+#include "report/wording.hpp"
+#include "report/wrap.hpp"
+#include "tests/report/five_bar_map.hpp"
+
+namespace clearloci::report {
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(LociTable, SaysWhatVanishesWhereAndHow) {
+  const std::string table = loci_table(fixture::five_bar_map());
+  for (const char* part :
+       {"Planar 5R manipulator", "L = 1/2, d = 1/2", "Working mode: B1 right, B2 left", "f: A1, B1, P; M: A1",
+        "link PB2 parallel to the load", "circle centre (1/2, -1/2), radius 1/2", "direct singularity",
+        "workspace boundary", "backlash", "isolated points", "-0.198205000"}) {
+    EXPECT_TRUE(has(table, part)) << part << "\n" << table;
+  }
+}
+
+TEST(LociTable, FitsTheTerminalAndItsColumnsAlign) {
+  for (const auto& map : {fixture::five_bar_map(), fixture::five_bar_map_in_all_modes(), fixture::hostile_map()}) {
+    std::istringstream in(loci_table(map));
+    int degree_column = 0;
+    for (std::string line; std::getline(in, line);) {
+      EXPECT_LE(columns(line), 120) << line;
+      const std::size_t degree = line.find("degree");
+      if (degree != std::string::npos) degree_column = columns(line.substr(0, degree)) + 6;
+      if (has(line, "circle centre (1/2, 1/2)")) {
+        EXPECT_EQ(columns(line.substr(0, line.find("circle"))), degree_column + 2) << line;
+      }
+    }
+  }
+}
+
+TEST(LociTable, LongFactorsDoNotFillTheScreen) {
+  core::LocusMap map = fixture::five_bar_map();
+  map.curves[0].cause = "";
+  map.curves[0].factor = std::string(5000, 'x');
+  EXPECT_FALSE(has(loci_table(map), "xxxx"));
+}
+
+TEST(LociTable, NotesUncertaintyAndIncompletenessAreSaid) {
+  core::LocusMap map = fixture::five_bar_map();
+  EXPECT_FALSE(has(loci_table(map), "certified"));
+  map.curves[1].certified = false;
+  map.complete = false;
+  map.notes = {"M_A2 vanishes in every pose"};
+  const std::string table = loci_table(map);
+  EXPECT_TRUE(has(table, "c2*"));
+  EXPECT_TRUE(has(table, "not certified"));
+  EXPECT_TRUE(has(table, "Incomplete"));
+  EXPECT_TRUE(has(table, "M_A2 vanishes in every pose"));
+}
+
+TEST(LociTable, AnEmptyMapIsAnAnswer) {
+  core::LocusMap map;
+  map.mechanism = "nothing";
+  EXPECT_EQ(loci_table(map), "nothing\n\nno curves\n");
+}
+
+TEST(Wrap, LinesFitAndNothingIsLost) {
+  const Measure measure = [](std::string_view text) { return static_cast<double>(columns(text)); };
+  EXPECT_EQ(wrap("", 5, measure), (std::vector<std::string>{""}));
+  EXPECT_EQ(wrap("  one two  three", 7, measure), (std::vector<std::string>{"one two", "three"}));
+  EXPECT_EQ(wrap("abcdefgh ij", 3, measure), (std::vector<std::string>{"abc", "def", "gh", "ij"}));
+  EXPECT_EQ(wrap("éééé", 3, measure), (std::vector<std::string>{"ééé", "é"}));
+  EXPECT_EQ(wrap("ab", 0, measure), (std::vector<std::string>{"a", "b"})) << "a line has a character at least";
+}
+
+}  // namespace
+}  // namespace clearloci::report
