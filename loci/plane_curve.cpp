@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 namespace clearloci::loci {
 
@@ -11,39 +13,82 @@ PlaneCurve::PlaneCurve(const core::Polynomial& implicit) {
   for (const core::Term& term : implicit.terms) scale = std::max(scale, core::Rational(abs(term.coefficient)));
   for (const core::Term& term : implicit.terms) {
     const int i = term.exponents[0], j = term.exponents[1];
-    terms_.push_back({i, j, core::to_double(term.coefficient / scale)});
+    const double c = core::to_double(term.coefficient / scale);
+    terms_.push_back({i, j, c, Interval(c - std::abs(c) * 0x1p-52, c + std::abs(c) * 0x1p-52)});
     degree_x_ = std::max(degree_x_, i);
     degree_y_ = std::max(degree_y_, j);
   }
 }
 
-PlaneCurve::Jet PlaneCurve::jet(const core::Point2& at) const {
-  constexpr std::size_t capacity = 64;
-  std::array<double, capacity> fixed_x{}, fixed_y{};
-  std::vector<double> large_x, large_y;
-  const auto powers = [](double base, int degree, std::array<double, capacity>& fixed, std::vector<double>& large) {
-    double* table = fixed.data();
-    if (static_cast<std::size_t>(degree) >= capacity) {
-      large.resize(static_cast<std::size_t>(degree) + 1);
-      table = large.data();
-    }
-    table[0] = 1;
-    for (int k = 1; k <= degree; ++k) table[k] = table[k - 1] * base;
+template <typename Number>
+PlaneCurve::Derivatives<Number> PlaneCurve::derivatives(const Number& x, const Number& y) const {
+  const auto powers = [](const Number& base, int degree) {
+    std::vector<Number> table{Number(1.0)};
+    for (int k = 1; k <= degree; ++k) table.push_back(table.back() * base);
     return table;
   };
-  const double* x = powers(at[0], degree_x_, fixed_x, large_x);
-  const double* y = powers(at[1], degree_y_, fixed_y, large_y);
-  Jet jet;
-  for (const auto& [i, j, c] : terms_) {
-    const double dx = i > 0 ? i * x[i - 1] : 0, dy = j > 0 ? j * y[j - 1] : 0;
-    jet.f += c * x[i] * y[j];
-    jet.fx += c * dx * y[j];
-    jet.fy += c * x[i] * dy;
-    jet.fxy += c * dx * dy;
-    if (i > 1) jet.fxx += c * i * (i - 1) * x[i - 2] * y[j];
-    if (j > 1) jet.fyy += c * j * (j - 1) * x[i] * y[j - 2];
+  const std::vector<Number> xs = powers(x, degree_x_), ys = powers(y, degree_y_);
+  Derivatives<Number> d;
+  for (const Term& term : terms_) {
+    const auto [i, j] = std::pair{static_cast<std::size_t>(term.i), static_cast<std::size_t>(term.j)};
+    Number c{0.0};
+    if constexpr (std::is_same_v<Number, double>) c = term.coefficient;
+    else c = term.enclosure;
+    const Number zero(0.0);
+    const Number x1 = i > 0 ? xs[i - 1] * Number(term.i) : zero, y1 = j > 0 ? ys[j - 1] * Number(term.j) : zero;
+    const Number cy = c * ys[j], cx = c * xs[i];
+    d.f = d.f + cy * xs[i];
+    d.fx = d.fx + cy * x1;
+    d.fy = d.fy + cx * y1;
+    d.fxy = d.fxy + c * x1 * y1;
+    if (i > 1) d.fxx = d.fxx + cy * (xs[i - 2] * Number(static_cast<double>(term.i) * (term.i - 1)));
+    if (j > 1) d.fyy = d.fyy + cx * (ys[j - 2] * Number(static_cast<double>(term.j) * (term.j - 1)));
   }
-  return jet;
+  return d;
+}
+
+PlaneCurve::Jet PlaneCurve::jet(const core::Point2& at) const { return {derivatives<double>(at[0], at[1])}; }
+
+core::Point2 PlaneCurve::project(core::Point2 near) const {
+  const core::Point2 start = near;
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 8; ++i) {
+    const Jet at = jet(near);
+    const double g2 = at.fx * at.fx + at.fy * at.fy;
+    if (g2 == 0) return start;
+    const double step = std::abs(at.f) / std::sqrt(g2);
+    if (step >= last) break;  // rounding
+    last = step;
+    near = {near[0] - at.f * at.fx / g2, near[1] - at.f * at.fy / g2};
+  }
+  return near;
+}
+
+bool PlaneCurve::joined(const core::Point2& a, const core::Point2& b) const {
+  // A box around the chord, wider by `margin`; across it runs the coordinate in which f is monotone.
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+  const double margin = 0.25 * length + 1e-14;
+  const bool flat = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]);
+  const std::size_t along = flat ? 0 : 1, across = 1 - along;
+  std::array<Interval, 2> box, side;
+  box[along] = Interval(std::min(a[along], b[along]), std::max(a[along], b[along]));
+  box[across] = Interval(std::min(a[across], b[across]) - margin, std::max(a[across], b[across]) + margin);
+  const Derivatives<Interval> over = derivatives<Interval>(box[0], box[1]);
+  const std::array<double, 2> middle = {box[0].middle(), box[1].middle()};
+  const Derivatives<Interval> at = derivatives<Interval>(Interval(middle[0]), Interval(middle[1]));
+  const Interval dx = box[0] - Interval(middle[0]), dy = box[1] - Interval(middle[1]);
+  const std::array<Interval, 2> slope = {at.fx + over.fxx * dx + over.fxy * dy, at.fy + over.fxy * dx + over.fyy * dy};
+  if (slope[across].contains_zero()) return false;
+  // f keeps one sign on either long side: the branch cannot leave through them.
+  std::array<int, 2> sign{};
+  for (const int end : {0, 1}) {
+    side[across] = Interval(end == 0 ? box[across].lower() : box[across].upper());
+    side[along] = Interval(middle[along]);
+    const Interval value = derivatives<Interval>(side[0], side[1]).f;
+    const Interval range = value + slope[along] * (box[along] - Interval(middle[along]));
+    sign[static_cast<std::size_t>(end)] = range.sign();
+  }
+  return sign[0] != 0 && sign[0] == -sign[1];
 }
 
 double PlaneCurve::Jet::slope() const { return std::hypot(fx, fy); }

@@ -1,4 +1,5 @@
-// An implicit plane curve in doubles: value, slope and curvature, for placing vertices.
+// An implicit plane curve in doubles: value, slope and curvature for placing vertices, and a proof by intervals that
+// two of them are joined by the curve.
 #pragma once
 
 #include <array>
@@ -6,6 +7,7 @@
 
 #include "core/locus_map.hpp"
 #include "core/polynomial.hpp"
+#include "loci/sheet/interval.hpp"
 
 namespace clearloci::loci {
 
@@ -14,8 +16,11 @@ class PlaneCurve {
   /// In (x, y).
   explicit PlaneCurve(const core::Polynomial& implicit);
 
-  struct Jet {
-    double f = 0, fx = 0, fy = 0, fxx = 0, fxy = 0, fyy = 0;
+  template <typename Number>
+  struct Derivatives {
+    Number f{0.0}, fx{0.0}, fy{0.0}, fxx{0.0}, fxy{0.0}, fyy{0.0};
+  };
+  struct Jet : Derivatives<double> {
 
     double slope() const;      ///< |grad f|
     double curvature() const;  ///< of the level line through the point, 1/m, >= 0
@@ -24,10 +29,23 @@ class PlaneCurve {
   };
   Jet jet(const core::Point2& at) const;
 
+  /// The point of the curve nearest to `near` by Newton along the gradient; `near` itself where that leads nowhere.
+  core::Point2 project(core::Point2 near) const;
+
+  /// Proves that the branch through `a` reaches `b` without leaving their neighbourhood, so that both lie on one
+  /// smooth piece. Required: both on the curve to rounding. False: not proven.
+  bool joined(const core::Point2& a, const core::Point2& b) const;
+
  private:
+  using Interval = sheet::Interval;
+
+  template <typename Number>
+  Derivatives<Number> derivatives(const Number& x, const Number& y) const;
+
   struct Term {
     int i, j;
     double coefficient;
+    Interval enclosure;
   };
   std::vector<Term> terms_;
   int degree_x_ = 0, degree_y_ = 0;

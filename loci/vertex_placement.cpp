@@ -18,18 +18,20 @@ class Placement {
     const ArrangementEdge& e = arrangement.edges()[static_cast<std::size_t>(edge)];
     start_ = arrangement.vertices()[static_cast<std::size_t>(e.from)].at;
     end_ = arrangement.vertices()[static_cast<std::size_t>(e.to)].at;
+    cautious_ = std::sqrt(8 * tolerance * distance(start_, end_));
   }
 
   core::Polyline run() {
     core::Polyline line{start_};
-    double reach = std::sqrt(8 * tolerance_ * distance(start_, end_));
+    double reach = cautious_;
     while (true) {
       const Point2 here = line.back();
       if (fits(here, end_)) break;
       const PlaneCurve::Jet jet = curve_.jet(here);
       const double bend = jet.curvature();
       if (jet.slope() > 0 && bend > 0) reach = std::sqrt(8 * tolerance_ / bend);
-      const Point2 next = step(here, jet, reach);
+      Point2 next = stride(line, jet, reach);
+      if (next == here) next = step(here, jet, reach);
       if (next[0] <= here[0] || next[0] >= end_[0]) break;  // the rest is shorter than doubles resolve
       line.push_back(next);
     }
@@ -50,17 +52,57 @@ class Placement {
       const Point2 chord = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
       const PlaneCurve::Jet jet = curve_.jet(chord);
       double off = jet.distance();
-      // Where the gradient nearly vanishes the vertical distance bounds the true one.
-      if (off < 0) off = chord[0] > start_[0] && chord[0] < end_[0] ? std::abs(at(chord[0])[1] - chord[1]) : 0;
-      else if (jet.curvature() * length * length > 32 * tolerance_) off = std::max(off, 2 * tolerance_);
+      if (off < 0) {
+        // Where the gradient nearly vanishes the vertical distance bounds the true one; it is dear, so only there.
+        if (length > cautious_) return 2 * tolerance_;
+        off = chord[0] > start_[0] && chord[0] < end_[0] ? std::abs(at(chord[0])[1] - chord[1]) : 0;
+      } else if (jet.curvature() * length * length > 32 * tolerance_) {
+        off = std::max(off, 2 * tolerance_);
+      }
       worst = std::max(worst, off);
+      if (worst > 4 * tolerance_) break;
     }
     return worst;
   }
 
   bool fits(const Point2& a, const Point2& b) const { return deviation(a, b) <= tolerance_; }
 
-  /// The next vertex about `reach` along the curve, drawn back until the chord holds the tolerance.
+  /// The next vertex about `reach` along the curve, found in doubles and proven to lie on the same branch; `here`
+  /// where no proof is had.
+  Point2 stride(const core::Polyline& line, PlaneCurve::Jet jet, double reach) const {
+    const Point2 here = line.back();
+    const double slope = jet.slope();
+    if (line.size() < 2 || !(slope > 0)) return here;
+    const Point2 before = line[line.size() - 2];
+    Point2 tangent = {-jet.fy / slope, jet.fx / slope};
+    if (tangent[0] * (here[0] - before[0]) + tangent[1] * (here[1] - before[1]) < 0) {
+      tangent = {-tangent[0], -tangent[1]};
+    }
+    // Towards the centre of curvature: against the gradient where the second derivative along the tangent is positive.
+    const double second = jet.fxx * tangent[0] * tangent[0] + 2 * jet.fxy * tangent[0] * tangent[1] +
+                          jet.fyy * tangent[1] * tangent[1];
+    const Point2 bend = {-second * jet.fx / (slope * slope), -second * jet.fy / (slope * slope)};
+    reach = std::min(reach, 0.7 * distance(here, end_));
+    Point2 best = here;
+    for (int attempt = 0; attempt < 6; ++attempt) {
+      const Point2 next = curve_.project({here[0] + reach * tangent[0] + 0.5 * reach * reach * bend[0],
+                                          here[1] + reach * tangent[1] + 0.5 * reach * reach * bend[1]});
+      const bool inside = next[0] > here[0] && next[0] < end_[0];
+      const double off = inside ? deviation(here, next) : 10 * tolerance_;
+      if (off <= tolerance_ && curve_.joined(here, next)) {
+        best = next;
+        if (off > 0.6 * tolerance_ || attempt > 2) break;
+        reach *= std::min(0.95 * std::sqrt(tolerance_ / std::max(off, 1e-3 * tolerance_)), 2.0);
+        if (reach > 0.7 * distance(here, end_)) break;
+        continue;
+      }
+      if (best != here) break;
+      reach *= off > tolerance_ ? std::clamp(0.9 * std::sqrt(tolerance_ / off), 0.2, 0.9) : 0.5;
+    }
+    return best;
+  }
+
+  /// The same with exact root isolation, drawn back until the chord holds the tolerance.
   Point2 step(const Point2& here, const PlaneCurve::Jet& jet, double reach) const {
     const double slope = jet.slope();
     double dx = reach;
@@ -96,6 +138,7 @@ class Placement {
   const PlaneCurve& curve_;
   double tolerance_;
   Point2 start_{}, end_{};
+  double cautious_ = 0;  ///< a chord that a curve of the edge's size would allow, m
 };
 
 }  // namespace

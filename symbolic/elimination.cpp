@@ -24,9 +24,10 @@ void insert_distinct(std::vector<Poly>& list, const Poly& p) {
 }  // namespace
 
 Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
-  for (const Poly& denominator : geometry.denominators()) {
-    for (const Poly& factor : implicit_factors(denominator)) insert_distinct(denominator_factors_, factor);
-  }
+  std::vector<Poly> found;
+  for (const Poly& denominator : geometry.denominators()) eliminate(denominator, found);
+  denominator_factors_ = std::move(found);
+  known_denominators_ = geometry.denominators();
 }
 
 Poly Elimination::over_tower(const Poly& natural) const {
@@ -79,7 +80,7 @@ Poly Elimination::strip_denominators(Poly p) const {
   for (const Poly& denominator : denominator_factors_) {
     while (p.divides(denominator, quotient)) p = quotient;
   }
-  for (const Poly& denominator : geometry_->denominators()) {
+  for (const Poly& denominator : known_denominators_) {
     while (!denominator.is_constant() && p.divides(denominator, quotient)) p = quotient;
   }
   return p;

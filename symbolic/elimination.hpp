@@ -46,6 +46,7 @@ class Elimination {
   Poly strip_denominators(Poly p) const;
 
   const Geometry* geometry_;
+  std::vector<Poly> known_denominators_;   ///< over the tower
   std::vector<Poly> denominator_factors_;  ///< irreducible, in the free coordinates
 };
 

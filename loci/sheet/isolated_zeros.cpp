@@ -46,7 +46,7 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
     const ChartedSheet sheet = charted(tower, {first, second}, chart, parts.stars);
     const SheetProgram program(sheet.tower, sheet.functions);
     ZeroSearch search(program, mode, {});
-    const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {0, 1}}};
+    const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {-1, 1}}};
     const FoundZeros found = search.run(seeds, options.smallest * (plane ? size : 1.0), options.most_cells);
     result.gave_up = result.gave_up || found.gave_up;
     for (const Cell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));

@@ -78,7 +78,8 @@ Polynomial in_polar(const Polynomial& p, const Star& star, const Chart& chart, i
                          : chart.side == Chart::Side::left ? x0 - star.x
                          : chart.side == Chart::Side::top  ? y1 - star.y
                                                            : y0 - star.y;
-  const Rational start = along_x ? y0 - star.y : x0 - star.x, length = along_x ? y1 - y0 : x1 - x0;
+  const Rational start = (along_x ? y0 + y1 : x0 + x1) / 2 - (along_x ? star.y : star.x);
+  const Rational length = (along_x ? y1 - y0 : x1 - x0) / 2;
   const int deep = along_x ? 0 : 1, wide = 1 - deep;
   std::vector<std::vector<Rational>> across;
   for (int n = 0; n <= std::max(0, core::degree_in(p, wide)); ++n) across.push_back(binomial_power(start, length, n));
@@ -189,15 +190,16 @@ core::Point2 Chart::to_plane(double p, double q) const {
   const double a = core::to_double(origin_x), b = core::to_double(origin_y);
   const double x0 = core::to_double(rectangle[0]), x1 = core::to_double(rectangle[1]);
   const double y0 = core::to_double(rectangle[2]), y1 = core::to_double(rectangle[3]);
+  const double mx = 0.5 * (x0 + x1), hx = 0.5 * (x1 - x0), my = 0.5 * (y0 + y1), hy = 0.5 * (y1 - y0);
   switch (side) {
     case Side::right:
-      return {a + p * (x1 - a), b + p * (y0 - b + q * (y1 - y0))};
+      return {a + p * (x1 - a), b + p * (my - b + q * hy)};
     case Side::left:
-      return {a + p * (x0 - a), b + p * (y0 - b + q * (y1 - y0))};
+      return {a + p * (x0 - a), b + p * (my - b + q * hy)};
     case Side::top:
-      return {a + p * (x0 - a + q * (x1 - x0)), b + p * (y1 - b)};
+      return {a + p * (mx - a + q * hx), b + p * (y1 - b)};
     default:
-      return {a + p * (x0 - a + q * (x1 - x0)), b + p * (y0 - b)};
+      return {a + p * (mx - a + q * hx), b + p * (y0 - b)};
   }
 }
 
@@ -207,23 +209,24 @@ Cell Chart::to_plane(const Cell& cell) const {
   const Interval a = interval(origin_x), b = interval(origin_y);
   const Interval x0 = interval(rectangle[0]), x1 = interval(rectangle[1]);
   const Interval y0 = interval(rectangle[2]), y1 = interval(rectangle[3]);
-  const Interval &p = cell.x, &q = cell.y;
+  const Interval half = 0.5, &p = cell.x, &q = cell.y;
+  const Interval mx = half * (x0 + x1), hx = half * (x1 - x0), my = half * (y0 + y1), hy = half * (y1 - y0);
   switch (side) {
     case Side::right:
-      return {a + p * (x1 - a), b + p * (y0 - b + q * (y1 - y0))};
+      return {a + p * (x1 - a), b + p * (my - b + q * hy)};
     case Side::left:
-      return {a + p * (x0 - a), b + p * (y0 - b + q * (y1 - y0))};
+      return {a + p * (x0 - a), b + p * (my - b + q * hy)};
     case Side::top:
-      return {a + p * (x0 - a + q * (x1 - x0)), b + p * (y1 - b)};
+      return {a + p * (mx - a + q * hx), b + p * (y1 - b)};
     default:
-      return {a + p * (x0 - a + q * (x1 - x0)), b + p * (y0 - b)};
+      return {a + p * (mx - a + q * hx), b + p * (y0 - b)};
   }
 }
 
 std::array<double, 4> Chart::jacobian(double p, double q) const {
   if (side == Side::plane) return {1, 0, 0, 1};
-  const core::Point2 origin = to_plane(0, 0), outer = to_plane(1, q), start = to_plane(1, 0), end = to_plane(1, 1);
-  return {outer[0] - origin[0], p * (end[0] - start[0]), outer[1] - origin[1], p * (end[1] - start[1])};
+  const core::Point2 origin = to_plane(0, 0), outer = to_plane(1, q), middle = to_plane(1, 0), end = to_plane(1, 1);
+  return {outer[0] - origin[0], p * (end[0] - middle[0]), outer[1] - origin[1], p * (end[1] - middle[1])};
 }
 
 core::Polynomial without_denominators(core::Polynomial function, const core::RootTower& tower) {
@@ -280,7 +283,7 @@ Partition partition(const core::RootTower& tower, const std::array<double, 4>& b
     const double edge = margin * reach;
     if (x < box[0] - edge || x > box[1] + edge || y < box[2] - edge || y > box[3] + edge) continue;
     // Short binary fractions, so that the charts' coefficients stay short.
-    const double grain = std::exp2(std::floor(std::log2(reach)) - 8);
+    const double grain = std::exp2(std::floor(std::log2(reach)) - 20);
     const auto side = [&](double centre, double direction, double limit) {
       const double wanted = centre + direction * reach;
       const double rounded = std::round(wanted / grain) * grain;

@@ -3,7 +3,7 @@
 // Where a dyad's lengths are equal, Q = 4 a^2 D - k^2 has a factor D = |P - A|^2: at P = A the sheet s^2 = Q has the
 // point of a cone, and every numerator vanishes there with some power of the distance. Such a point, a *star*, is blown
 // up: a rectangle around it is cut into four triangles, each with polar coordinates (u, t),
-//     P = A + u (E(t) - A),  E(t) on the triangle's outer side,  u, t in [0, 1],  s_j = u sigma_j,
+//     P = A + u (E(t) - A),  E(t) on the triangle's outer side,  u in [0, 1], t in [-1, 1],  s_j = u sigma_j,
 // in which sigma_j^2 = Q_j / u^2 is smooth, and the function, divided by its power of u, has simple zeros at u = 0:
 // the directions in which branches reach the star.
 #pragma once

@@ -1,0 +1,215 @@
+#include "loci/sheet/cell_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+// Cuts stay near the middle but off it, since designs are symmetric and curves like to touch or cross middles.
+constexpr double most_offset = 0.06;
+// Below this size, relative to the patch, multi-precision is worth its price where rounding is what hides a sign.
+constexpr double worth_precision = 1e-4;
+constexpr int cells_between_stops = 256;
+
+/// A fixed sequence that looks random: in [-1, 1].
+double scatter(unsigned index, unsigned attempt) {
+  std::uint64_t z = (std::uint64_t{index} << 8 | attempt) + 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+}
+
+struct Judgement {
+  LeafKind kind = LeafKind::undecided;
+  int along = 0;
+  int cut_axis = 0;
+};
+
+/// Which axis makes the value vary more over the cell: cutting it gains most.
+int steeper_axis(const SheetCell& cell) {
+  double variation[2];
+  for (const int v : {0, 1}) variation[v] = cell.slope(0, v).magnitude() * cell.local(v).width();
+  for (std::size_t l = 0; l < cell.lifted().size(); ++l) {
+    const int c = 2 + static_cast<int>(l);
+    const double whole = cell.slope(0, c).magnitude() * cell.local(c).width();
+    double share[2];
+    for (const int v : {0, 1})
+      share[v] = cell.bond_slope(static_cast<int>(l), v).magnitude() * cell.local(v).width();
+    const double sum = share[0] + share[1];
+    for (const int v : {0, 1}) variation[v] += sum > 0 ? whole * share[v] / sum : 0;
+  }
+  return variation[0] >= variation[1] ? 0 : 1;
+}
+
+Judgement judge(SheetCell& cell, const Cell& place, double patch_size) {
+  if (!cell.enter(place.x, place.y) || !cell.value(0).contains_zero()) return {LeafKind::empty};
+  cell.differentiate();
+  const double width = std::max(place.x.width(), place.y.width());
+  if (width < worth_precision * patch_size && cell.rounding_dominates(0)) cell.sharpen_middle();
+  if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
+  Judgement judgement;
+  double best = 0;
+  for (int c = 0; c < cell.dimension(); ++c) {
+    const Interval tangent = cell.tangent(0, c);
+    if (tangent.sign() == 0) continue;
+    const double steadiness = tangent.mignitude() / tangent.magnitude();
+    if (steadiness <= best) continue;
+    best = steadiness;
+    judgement.kind = LeafKind::graph;
+    judgement.along = c < 2 ? c : 2 + cell.lifted()[c - 2];
+  }
+  judgement.cut_axis = steeper_axis(cell);
+  return judgement;
+}
+
+}  // namespace
+
+CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, const Cell& domain,
+                   TreeOptions options) {
+  nodes_.push_back({domain});
+  smallest_ = options.smallest * std::max(domain.x.width(), domain.y.width());
+  SheetCell evaluator(program, mode);
+  build(evaluator, options);
+}
+
+void CellTree::build(SheetCell& evaluator, const TreeOptions& options) {
+  const double size = std::max(domain().x.width(), domain().y.width());
+  bool stopped = false;
+  // Breadth first: a budget that runs out leaves cells of one size undecided instead of one corner.
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node node = nodes_[i];
+    if (options.stop && i % cells_between_stops == 0) stopped = stopped || options.stop();
+    Leaf leaf{node.cell};
+    bool split = false;
+    const bool in_hole = std::any_of(options.holes.begin(), options.holes.end(), [&](const auto& hole) {
+      return hole[0] <= node.cell.x.lower() && node.cell.x.upper() <= hole[1] && hole[2] <= node.cell.y.lower() &&
+             node.cell.y.upper() <= hole[3];
+    });
+    if (in_hole) {
+      leaf.kind = LeafKind::hole;
+    } else if (cut_at_hole(node, options)) {
+      split = true;
+    } else {
+      const Judgement judgement = judge(evaluator, node.cell, size);
+      leaf.kind = judgement.kind;
+      leaf.along = judgement.along;
+      const double widths[2] = {node.cell.x.width(), node.cell.y.width()};
+      const bool may_split = !stopped && static_cast<int>(nodes_.size()) < options.most_cells &&
+                             std::max(widths[0], widths[1]) > smallest_;
+      if (judgement.kind == LeafKind::undecided && may_split) {
+        split = true;
+        node.axis = widths[judgement.cut_axis] > smallest_ ? judgement.cut_axis : 1 - judgement.cut_axis;
+        const Interval& range = node.axis == 0 ? node.cell.x : node.cell.y;
+        const double offset = most_offset * scatter(static_cast<unsigned>(i), options.attempt);
+        node.cut = range.lower() + range.width() * (0.5 + offset);
+      }
+      if (!split && leaf.kind != LeafKind::empty)
+        for (int j = 0; j < evaluator.program().roots(); ++j)
+          if (evaluator.square(j).contains_zero()) leaf.rim |= 1u << j;
+    }
+    if (split) {
+      Cell halves[2] = {node.cell, node.cell};
+      if (node.axis == 0) {
+        halves[0].x = {node.cell.x.lower(), node.cut};
+        halves[1].x = {node.cut, node.cell.x.upper()};
+      } else {
+        halves[0].y = {node.cell.y.lower(), node.cut};
+        halves[1].y = {node.cut, node.cell.y.upper()};
+      }
+      for (const int side : {0, 1}) {
+        node.child[side] = static_cast<int>(nodes_.size());
+        nodes_.push_back({halves[side]});
+      }
+    } else {
+      node.leaf = static_cast<int>(leaves_.size());
+      leaves_.push_back(leaf);
+    }
+    nodes_[i] = node;
+  }
+}
+
+/// Chooses a cut along a hole's side that runs through the node, if there is one.
+bool CellTree::cut_at_hole(Node& node, const TreeOptions& options) const {
+  for (const auto& hole : options.holes) {
+    const Interval x(hole[0], hole[1]), y(hole[2], hole[3]);
+    const auto overlap = [](const Interval& a, const Interval& b) {
+      return a.lower() < b.upper() && b.lower() < a.upper();
+    };
+    if (!overlap(x, node.cell.x) || !overlap(y, node.cell.y)) continue;
+    for (int side = 0; side < 4; ++side) {
+      const Interval& range = side < 2 ? node.cell.x : node.cell.y;
+      if (range.lower() < hole[side] && hole[side] < range.upper()) {
+        node.axis = side < 2 ? 0 : 1;
+        node.cut = hole[side];
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::vector<Seam> CellTree::seams() const {
+  std::vector<Seam> result;
+  seams_inside(0, result);
+  return result;
+}
+
+void CellTree::seams_inside(int index, std::vector<Seam>& result) const {
+  const Node& node = nodes_[index];
+  if (node.axis < 0) return;
+  seams_inside(node.child[0], result);
+  seams_inside(node.child[1], result);
+  seams_between(node.child[0], node.child[1], node.axis, node.cut, result);
+}
+
+void CellTree::seams_between(int lower, int upper, int axis, double at, std::vector<Seam>& result) const {
+  const Node &a = nodes_[lower], &b = nodes_[upper];
+  const auto across = [&](const Node& node) { return axis == 0 ? node.cell.y : node.cell.x; };
+  if (across(a).upper() <= across(b).lower() || across(b).upper() <= across(a).lower()) return;
+  if (a.axis >= 0) {
+    if (a.axis == axis) return seams_between(a.child[1], upper, axis, at, result);
+    seams_between(a.child[0], upper, axis, at, result);
+    seams_between(a.child[1], upper, axis, at, result);
+    return;
+  }
+  if (b.axis >= 0) {
+    if (b.axis == axis) return seams_between(lower, b.child[0], axis, at, result);
+    seams_between(lower, b.child[0], axis, at, result);
+    seams_between(lower, b.child[1], axis, at, result);
+    return;
+  }
+  const double from = std::max(across(a).lower(), across(b).lower());
+  const double to = std::min(across(a).upper(), across(b).upper());
+  result.push_back({a.leaf, b.leaf, axis, at, from, to});
+}
+
+int CellTree::locate(const Interval& x, const Interval& y) const {
+  int index = 0;
+  while (nodes_[index].axis >= 0) {
+    const Node& node = nodes_[index];
+    const Interval& place = node.axis == 0 ? x : y;
+    if (place.upper() < node.cut) index = node.child[0];
+    else if (node.cut < place.lower()) index = node.child[1];
+    else return -1;
+  }
+  return nodes_[index].leaf;
+}
+
+int CellTree::locate_at(int axis, double at, int side, const Interval& other) const {
+  int index = 0;
+  while (nodes_[index].axis >= 0) {
+    const Node& node = nodes_[index];
+    if (node.axis == axis) {
+      index = node.child[side < 0 ? (at <= node.cut ? 0 : 1) : (at >= node.cut ? 1 : 0)];
+    } else {
+      if (other.upper() < node.cut) index = node.child[0];
+      else if (node.cut < other.lower()) index = node.child[1];
+      else return -1;
+    }
+  }
+  return nodes_[index].leaf;
+}
+
+}  // namespace clearloci::loci::sheet
