@@ -10,8 +10,8 @@ struct ExactValue {
   bool exact = true;  ///< false: a rational within 1e-30 of an irrational value
 };
 
-/// Value of an expression without free coordinates, under the mechanism's parameters. Rational numbers, square roots and
-/// multiples of pi are kept apart until the end: sqrt(2)^2 is 2, and cos(a) with a = 90 deg is 0. A value that is
+/// Value of an expression without free coordinates, under the mechanism's parameters. Rational numbers, square roots
+/// and multiples of pi are kept apart until the end: sqrt(2)^2 is 2, and cos(a) with a = 90 deg is 0. A value that is
 /// irrational then is a rational within 1e-30 of it. cos and sin of one angle are the same rational point of the unit
 /// circle, so that cos^2 + sin^2 = 1 exactly; that point is exact at multiples of 90 deg, and elsewhere both of its
 /// coordinates are replaced, also where one of them is rational (cos(60 deg)).

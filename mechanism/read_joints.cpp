@@ -26,14 +26,15 @@ void refuse_other_joints(const Entry& entry) {
   }
 }
 
-Clearance read_clearance(const Mechanism& mechanism, const Value& value) {
+Clearance read_clearance(const Mechanism& mechanism, const Value& value, const std::string& joint) {
   const Mapping mapping(value, {"radial", "angular"});
-  Clearance clearance;
-  if (const auto radial = mapping.find("radial"))
-    clearance.radial = read_number(mechanism, *radial, Sign::not_negative).expression;
-  if (const auto angular = mapping.find("angular"))
-    clearance.angular = read_number(mechanism, *angular, Sign::not_negative).expression;
-  return clearance;
+  const auto part = [&](const std::string& key) {
+    std::optional<Value> written = mapping.find(key);
+    if (!written) return Expression();
+    written->what = "the " + key + " clearance of joint " + joint;
+    return read_number(mechanism, *written, Sign::not_negative).expression;
+  };
+  return {part("radial"), part("angular")};
 }
 
 /// A pin is a point of both links that it joins.
@@ -61,7 +62,8 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   joint.name = entry.key;
   joint.where = entry.where;
   const Value links = mapping.at("revolute");
-  const std::vector<Value> names = elements(links, 2);
+  std::vector<Value> names = elements(links, 2);
+  for (Value& name : names) name.what = described.what;
   joint.from = read_link_name(mechanism, names[0], true);
   joint.to = read_link_name(mechanism, names[1], true);
   if (joint.from == joint.to)
@@ -72,7 +74,8 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   joint.at = read_point_name(mechanism, at);
   check_joint_point(mechanism, joint, at);
   if (const auto actuated = mapping.find("actuated")) joint.actuated = boolean_of(*actuated);
-  if (const auto clearance = mapping.find("clearance")) joint.clearance = read_clearance(mechanism, *clearance);
+  if (const auto clearance = mapping.find("clearance"))
+    joint.clearance = read_clearance(mechanism, *clearance, joint.name);
   return joint;
 }
 

@@ -150,7 +150,8 @@ std::pair<PointIndex, PointIndex> read_pair(const Mechanism& mechanism, const Va
 DyadPoint read_dyad(const Mechanism& mechanism, const Value& value) {
   const Mapping mapping(value, {"dyad", "lengths", "side"});
   const auto [from, to] = read_pair(mechanism, mapping.at("dyad"));
-  const std::vector<Value> lengths = elements(mapping.at("lengths"), 2);
+  std::vector<Value> lengths = elements(mapping.at("lengths"), 2);
+  for (Value& length : lengths) length.what = "a length of " + value.what;
   const Value side = mapping.at("side");
   const std::string side_text = text_of(side);
   if (side_text != "left" && side_text != "right")

@@ -120,7 +120,8 @@ Number read_number(const Mechanism& mechanism, const Value& value, Sign sign) {
   Number number;
   number.expression = read_expression(mechanism, value, Scope::parameters);
   number.value = evaluate_at(number.expression, mechanism, value).value;
-  const std::string written = to_string(number.expression);
+  std::string written = to_string(number.expression);
+  if (written != core::to_string(number.value)) written += " = " + core::to_string(number.value);
   if (sign != Sign::any && sgn(number.value) < 0)
     throw InputError(value.where, value.what + " is negative: " + written,
                      sign == Sign::positive ? "write a value above 0" : "write 0 or a value above 0");

@@ -1,0 +1,42 @@
+// Every shipped example reads.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "mechanism/read.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+const std::filesystem::path examples = std::filesystem::path(CLEARLOCI_SOURCE_DIR) / "examples";
+
+TEST(Examples, AllRead) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(examples)) {
+    if (entry.path().extension() != ".yaml") continue;
+    EXPECT_NO_THROW(read_mechanism(entry.path().string())) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 6);
+}
+
+TEST(Examples, FiveBarHasTheColumnsOfThePaper) {
+  const Mechanism m = read_mechanism((examples / "five_bar.yaml").string());
+  std::string order;
+  for (const Unknown& unknown : unknowns(m)) order += unknown_name(m, unknown) + " ";
+  EXPECT_EQ(order, "fA1x fA1y fB1x fB1y fPx fPy fB2x fB2y fA2x fA2y MA1 MA2 ");
+}
+
+TEST(ReadMechanism, NamesAFileThatIsNotThere) {
+  try {
+    read_mechanism("no/such/file.yaml");
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_STREQ(error.what(), "no/such/file.yaml: there is no such file; check the path");
+  }
+  EXPECT_THROW(read_mechanism(examples.string()), core::InputError);  // a folder
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism
