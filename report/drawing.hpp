@@ -1,4 +1,5 @@
 // Draws a picture that has been laid out on any Cairo surface.
+// Private to report/.
 #pragma once
 
 #include <cairomm/context.h>

@@ -1,4 +1,5 @@
 // A DXF document around its entities: header, tables, blocks, objects, for R2000 (AC1015) and R12 (AC1009).
+// Private to report/.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
 // Loci that are drawn alike, and how.
+// Private to report/.
 #pragma once
 
 #include <string>

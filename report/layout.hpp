@@ -1,4 +1,5 @@
 // Where everything of a picture stands, decided before anything is drawn. Lengths in points (1/72 inch), y down.
+// Private to report/.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
 // The mechanism over its workspace: links as bars, joints as pins, the ground hatched, loads as arrows.
+// Private to report/.
 #pragma once
 
 #include <cairomm/context.h>

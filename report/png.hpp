@@ -1,4 +1,5 @@
 // PNG, quickly: Cairo's own writer takes twice the time of a whole picture for files of the same size.
+// Private to report/.
 #pragma once
 
 #include <string>

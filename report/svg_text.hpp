@@ -1,4 +1,5 @@
 // What Cairo's SVG still lacks.
+// Private to report/.
 #pragma once
 
 #include <string>

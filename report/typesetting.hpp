@@ -1,4 +1,5 @@
 // Text on a Cairo surface: one family, measured the same way for every kind of surface.
+// Private to report/.
 #pragma once
 
 #include <cairomm/context.h>
