@@ -254,6 +254,22 @@ TEST(Validate, NodesOnALocusAreRefined) {
   EXPECT_GT(report.held, 100u);
 }
 
+TEST(Validate, AForceThatOnlyTurnsAroundIsolatedPointsIsNoLocus) {
+  // With weights no curve of f is left (issue: contact loss at isolated points only), though directions turn fast
+  // there.
+  const FiveBar d{.fx = 60, .fy = -30, .weighs = true};
+  LocusMap map;
+  map.lower = {core::Rational(-1, 2), -1}, map.upper = {1, 1};
+  map.workspace.push_back({{-1, 1}, {}});
+  std::vector<TracedReaction> forces;
+  for (const char* joint : {"A1", "B1", "P", "B2", "A2"}) forces.push_back({joint, Quantity::f});
+  const auto report = report_on(d, map, grid, forces);
+  EXPECT_EQ(report.disputed, 0u);
+  EXPECT_GT(report.held, 5u * 3000u);
+  // The components do change sign along curves, and this map has none.
+  EXPECT_GT(report_on(d, map, grid, {{"A1", Quantity::fx}}).disputed, 10u);
+}
+
 TEST(Validate, RefusesWrongCalls) {
   const auto map = unloading_map(unequal());
   EXPECT_THROW(report_on(unequal(), map, {.nx = 1, .ny = 10}), core::InputError);
