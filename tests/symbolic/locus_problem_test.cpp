@@ -1,0 +1,138 @@
+#include "symbolic/locus_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "mechanism/read.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::FactorRole;
+using core::LocusFactor;
+using core::Quantity;
+
+mechanism::Mechanism example(const std::string& name, const std::vector<mechanism::Override>& overrides = {}) {
+  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml", overrides);
+}
+
+bool has(const LocusFactor& factor, const std::string& joint, Quantity quantity) {
+  return std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
+                     [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
+}
+
+const LocusFactor* with_cause(const core::LocusProblem& problem, FactorRole role, const std::string& cause) {
+  for (const LocusFactor& factor : problem.factors) {
+    if (factor.role == role && factor.cause == cause) return &factor;
+  }
+  return nullptr;
+}
+
+TEST(LocusProblem, OneFactorBearsEveryReactionOfTheUnloadedLeg) {
+  const auto derived = locus_problem(example("five_bar"), {});
+  const LocusFactor* factor = with_cause(derived.problem, FactorRole::reaction, "link PB2 parallel to the load");
+  ASSERT_NE(factor, nullptr);
+  for (const std::string joint : {"A1", "B1", "P"}) {
+    EXPECT_TRUE(has(*factor, joint, Quantity::fx)) << joint;
+    EXPECT_TRUE(has(*factor, joint, Quantity::fy)) << joint;
+  }
+  EXPECT_TRUE(has(*factor, "A1", Quantity::M));
+  // B2's force lies along PB2: on this factor only its component across the load vanishes.
+  EXPECT_FALSE(has(*factor, "B2", Quantity::fy));
+  EXPECT_FALSE(has(*factor, "A2", Quantity::M));
+  EXPECT_TRUE(derived.notes.empty());
+}
+
+TEST(LocusProblem, SheetsVanishWhereTheFactorDoes) {
+  // x - xB2 over the tower at a pose computed by hand: P on the circle about (1/2, 1/2), radius 1/2.
+  const auto derived = locus_problem(example("five_bar"), {});
+  const LocusFactor* factor = with_cause(derived.problem, FactorRole::reaction, "link PB2 parallel to the load");
+  ASSERT_NE(factor, nullptr);
+  const double x = 0.5 + 0.5 * 0.6, y = 0.5 + 0.5 * 0.8;
+  std::vector<double> at = {x, y};
+  for (std::size_t j = 0; j < 2; ++j) {
+    std::vector<double> full = {x, y, 0, 0};
+    at.push_back(std::sqrt(core::evaluate(derived.problem.tower.roots[j].square, std::span<const double>(full))));
+  }
+  // One of the two sides of B2 has PB2 vertical there, the other has not.
+  const double left = core::evaluate(factor->sheet, std::span<const double>(at));
+  at[3] = -at[3];
+  const double right = core::evaluate(factor->sheet, std::span<const double>(at));
+  EXPECT_LT(std::min(std::abs(left), std::abs(right)), 1e-12);
+  EXPECT_GT(std::max(std::abs(left), std::abs(right)), 1e-3);
+}
+
+TEST(LocusProblem, WithWeightsNoCurveOfForceIsWanted) {
+  const auto derived = locus_problem(example("five_bar_weights"), {});
+  for (const LocusFactor& factor : derived.problem.factors) {
+    if (factor.role != FactorRole::reaction || factor.implicit.empty()) continue;
+    EXPECT_TRUE(std::all_of(factor.vanishing.begin(), factor.vanishing.end(),
+                            [](const core::Vanishing& v) { return v.quantity == Quantity::M; }))
+        << factor.expression;
+  }
+}
+
+TEST(LocusProblem, ComponentsAreWantedOnRequest) {
+  Selection selection;
+  selection.quantities = {Quantity::fx};
+  selection.joints = {"A1"};
+  const auto derived = locus_problem(example("five_bar_weights"), selection);
+  int wanted = 0;
+  for (const LocusFactor& factor : derived.problem.factors) {
+    if (factor.role == FactorRole::reaction && !factor.implicit.empty()) {
+      ++wanted;
+      EXPECT_TRUE(has(factor, "A1", Quantity::fx)) << factor.expression;
+    }
+  }
+  EXPECT_GT(wanted, 0);
+}
+
+TEST(LocusProblem, MarginsAddTheirOwnFactors) {
+  Selection selection;
+  selection.min_force = 5;
+  selection.min_couple = core::Rational(1, 10);
+  const auto derived = locus_problem(example("five_bar"), selection);
+  const auto margins = std::count_if(derived.problem.factors.begin(), derived.problem.factors.end(),
+                                     [](const LocusFactor& f) { return f.role == FactorRole::margin; });
+  EXPECT_GE(margins, 5 + 2 * 2);
+}
+
+TEST(LocusProblem, AnUnloadedMechanismSaysSo) {
+  mechanism::Mechanism m = example("five_bar");
+  m.loads.clear();
+  const auto derived = locus_problem(m, {});
+  EXPECT_EQ(derived.notes.size(), 12u);
+  for (const LocusFactor& factor : derived.problem.factors) EXPECT_NE(factor.role, FactorRole::reaction);
+}
+
+TEST(LocusProblem, AnUnknownJointIsAnInputErrorThatListsTheKnown) {
+  Selection selection;
+  selection.joints = {"C7"};
+  try {
+    locus_problem(example("five_bar"), selection);
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("C7"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("A1, B1, P, B2, A2"), std::string::npos);
+  }
+}
+
+TEST(LocusProblem, DoublingTheLoadsChangesNoCurve) {
+  mechanism::Mechanism doubled = example("five_bar_generic");
+  for (auto& load : doubled.loads) {
+    for (auto& component : load.force) {
+      component = core::Expression::apply(core::Expression::Kind::multiply, {core::Expression::number(2), component});
+    }
+  }
+  const auto a = locus_problem(example("five_bar_generic"), {}), b = locus_problem(doubled, {});
+  ASSERT_EQ(a.problem.factors.size(), b.problem.factors.size());
+  for (std::size_t i = 0; i < a.problem.factors.size(); ++i) {
+    EXPECT_EQ(a.problem.factors[i].implicit, b.problem.factors[i].implicit);
+  }
+}
+
+}  // namespace
+}  // namespace clearloci::symbolic

@@ -1,0 +1,70 @@
+#include "symbolic/ring.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Rational;
+
+class RingTest : public testing::Test {
+ protected:
+  Ring ring{{"x", "y", "s"}};
+  Poly x = Poly::variable(ring, 0), y = Poly::variable(ring, 1), s = Poly::variable(ring, 2);
+  Poly number(const Rational& value) const { return Poly(ring, value); }
+};
+
+TEST_F(RingTest, FactorsAreIrreduciblePrimitiveAndMultiplyBack) {
+  const Poly p = ((x * x - y * y) * (x + y) * (x * x + y * y)).scaled(Rational(-3, 2));
+  Rational constant;
+  const std::vector<PolyFactor> factors = p.factors(constant);
+  ASSERT_EQ(factors.size(), 3u);
+  Poly product = number(constant);
+  for (const PolyFactor& f : factors) product *= f.poly.pow(static_cast<unsigned>(f.multiplicity));
+  EXPECT_TRUE(product == p);
+  EXPECT_EQ(constant, Rational(-3, 2));
+}
+
+TEST_F(RingTest, ConstantsAndZeroHaveNoFactors) {
+  Rational constant;
+  EXPECT_TRUE(number(0).factors(constant).empty());
+  EXPECT_EQ(constant, 0);
+  EXPECT_TRUE(number(Rational(7, 3)).factors(constant).empty());
+  EXPECT_EQ(constant, Rational(7, 3));
+}
+
+TEST_F(RingTest, PrimitiveHasCoprimeIntegersAndAPositiveLead) {
+  const Poly p = (x.scaled(Rational(-2, 3)) + y.scaled(Rational(4, 5)));
+  EXPECT_TRUE(p.primitive() == x.scaled(5) - y.scaled(6));
+}
+
+TEST_F(RingTest, CoefficientsRebuildThePolynomial) {
+  const Poly p = x * x * s * s * s + y * s + x * y - number(4) * s * s;
+  const std::vector<Poly> c = p.coefficients(2);
+  ASSERT_EQ(c.size(), 4u);
+  Poly sum(ring);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    EXPECT_FALSE(c[k].depends_on(2));
+    sum += c[k] * s.pow(static_cast<unsigned>(k));
+  }
+  EXPECT_TRUE(sum == p);
+}
+
+TEST_F(RingTest, SquareRootsOfSquaresOnly) {
+  Poly root(ring);
+  EXPECT_TRUE(((x + y) * (x + y)).scaled(Rational(9, 4)).square_root(root));
+  EXPECT_TRUE(root * root == ((x + y) * (x + y)).scaled(Rational(9, 4)));
+  EXPECT_FALSE((x * x * y).square_root(root));
+  EXPECT_FALSE((x * x).scaled(2).square_root(root));
+  EXPECT_FALSE((x * x).scaled(-1).square_root(root));
+}
+
+TEST_F(RingTest, PlainDataRefusesVariablesThatAreNotListed) {
+  EXPECT_EQ((x + y).plain({0, 1}).terms.size(), 2u);
+  EXPECT_THROW((x + s).plain({0, 1}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace clearloci::symbolic
