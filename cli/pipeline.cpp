@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "numeric/sketch.hpp"
 
 namespace clearloci {
 namespace {
@@ -47,19 +48,9 @@ void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& reque
                              "give +1 (left) or -1 (right) for each");
 }
 
-/// What every map says, traced or not.
-void describe(core::LocusMap& map, const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  map.mechanism = mechanism.name;
-  for (const mechanism::Parameter& parameter : mechanism.parameters)
-    map.parameters.emplace_back(parameter.name, core::to_string(parameter.value));
-  map.tolerance = request.tolerance;
-}
-
-/// The map of work that a deadline ended before there was a curve to trace.
-core::LocusMap nothing_known(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                             const std::string& reason, double seconds) {
+/// The map of work that a deadline ended before there was a curve to show.
+core::LocusMap nothing_known(const mechanism::Mechanism& mechanism, const std::string& reason) {
   core::LocusMap map;
-  describe(map, mechanism, request);
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
     map.tower.coordinates.push_back(coordinate.name);
     map.lower.push_back(coordinate.lower);
@@ -67,38 +58,62 @@ core::LocusMap nothing_known(const mechanism::Mechanism& mechanism, const LociRe
   }
   map.complete = false;
   map.notes = {reason};
-  map.timing = {{"symbolic", seconds}, {"elimination", 0}, {"tracing", 0}};
   return map;
+}
+
+/// Derives the problem and traces it; fills in the notes and the time of every stage begun.
+core::LocusMap derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  const auto check_deadline = [&] {
+    if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
+  };
+  double symbolic = 0, elimination = 0, tracing = 0;
+  core::LocusMap map;
+  Clock::time_point start = Clock::now();
+  try {
+    if (request.progress) request.progress(0, "equations");
+    check_deadline();
+    symbolic::DerivedProblem derived = symbolic::locus_problem(mechanism, request.selection);
+    symbolic = derived.symbolic_seconds;
+    elimination = derived.elimination_seconds;
+    derived.problem.tolerance = request.tolerance;
+    derived.problem.modes = modes_to_trace(mechanism, request, derived.problem.tower);
+
+    start = Clock::now();
+    check_deadline();
+    map = loci::trace(derived.problem,
+                      {.engine = request.engine, .progress = request.progress, .deadline = request.deadline});
+    tracing = seconds_since(start);
+    map.notes.insert(map.notes.begin(), derived.notes.begin(), derived.notes.end());
+  } catch (const core::LimitReached& limit) {
+    (symbolic > 0 ? tracing : symbolic) = seconds_since(start);
+    map = nothing_known(mechanism, limit.what());
+  }
+  map.timing = {{"symbolic", symbolic}, {"elimination", elimination}, {"tracing", tracing}};
+  return map;
+}
+
+/// Whether the free coordinates are x and y of the end effector's point: a picture over them then shows the mechanism.
+bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
+  const auto index = static_cast<std::size_t>(mechanism.end_effector_point);
+  const auto* const place = std::get_if<mechanism::ExplicitPoint>(&mechanism.points[index].form);
+  if (place == nullptr || mechanism.coordinates.size() != 2) return false;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const core::Expression& expression = place->coordinates[i];
+    if (expression.kind() != core::Expression::Kind::symbol || expression.name() != mechanism.coordinates[i].name)
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
 
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   check_sides(mechanism, request);
-  const auto report = [&](double fraction, std::string_view stage) {
-    if (request.progress) request.progress(fraction, stage);
-  };
-
-  const Clock::time_point start = Clock::now();
-  report(0, "equations");
-  symbolic::DerivedProblem derived;
-  try {
-    derived = symbolic::locus_problem(mechanism, request.selection);
-  } catch (const core::LimitReached& limit) {
-    return nothing_known(mechanism, request, limit.what(), seconds_since(start));
-  }
-  derived.problem.tolerance = request.tolerance;
-  derived.problem.modes = modes_to_trace(mechanism, request, derived.problem.tower);
-
-  const Clock::time_point traced_from = Clock::now();
-  core::LocusMap map = loci::trace(
-      derived.problem, {.engine = request.engine, .progress = request.progress, .deadline = request.deadline});
-  const double tracing = seconds_since(traced_from);
-
-  describe(map, mechanism, request);
-  map.notes.insert(map.notes.begin(), derived.notes.begin(), derived.notes.end());
-  map.timing = {
-      {"symbolic", derived.symbolic_seconds}, {"elimination", derived.elimination_seconds}, {"tracing", tracing}};
+  core::LocusMap map = derive_and_trace(mechanism, request);
+  map.mechanism = mechanism.name;
+  for (const mechanism::Parameter& parameter : mechanism.parameters)
+    map.parameters.emplace_back(parameter.name, core::to_string(parameter.value));
+  map.tolerance = request.tolerance;
   return map;
 }
 
@@ -129,6 +144,18 @@ LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest 
   numeric::ValidationReport report =
       numeric::validate(mechanism, map, grid, selected_reactions(mechanism, request.selection));
   return {std::move(map), std::move(report)};
+}
+
+std::vector<report::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
+  if (!pose_is_place_of_end_effector(mechanism)) return {};
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  std::vector<report::ModeSketch> sketches;
+  for (const core::WorkspaceRegion& region : map.workspace) {
+    const std::vector<int> sides = numeric::dyad_signs(model, map.tower, region.mode);
+    if (const std::optional<std::vector<double>> pose = numeric::sample_pose(model, sides, model.box))
+      sketches.push_back({region.mode, numeric::sketch(model, *pose, sides)});
+  }
+  return sketches;
 }
 
 }  // namespace clearloci

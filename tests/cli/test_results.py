@@ -72,8 +72,10 @@ class Loci(InOwnFolder):
 
     def test_chosen_joint_and_quantity(self):
         result = json.loads(self.run_program("loci", FIVE_BAR, "--json", "--joint", "B2", "--quantity", "f").stdout)
-        named = {(v["joint"], v["quantity"]) for curve in result["curves"] for v in curve["vanishing"]}
-        self.assertEqual(named, {("B2", "f")})
+        reactions = [curve for curve in result["curves"] if curve["vanishing"]]
+        self.assertEqual({curve["closed_form"]["circle"]["centre"][0] for curve in reactions}, {"0"})
+        for curve in reactions:  # which may bear the reactions of other joints too
+            self.assertIn({"joint": "B2", "quantity": "f"}, curve["vanishing"])
 
     def test_quiet(self):
         process = self.run_program("loci", FIVE_BAR, "--quiet")
