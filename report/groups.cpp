@@ -21,9 +21,10 @@ using Dashes = std::vector<std::vector<double>>;
 
 /// Every kind has a family of its own, so that a print in grey still tells kinds, and within a kind groups, apart.
 Stroke reaction_stroke(core::LocusKind kind, int within_kind, int number) {
+  constexpr double dot = 0.01;  // Cairo draws a dash of length 0 only where it is the pattern's one dash
   static const Dashes contact_loss = {{}, {9, 2.5}, {14, 2.5, 3, 2.5}, {5, 2.2}, {14, 2.5, 3, 2.5, 3, 2.5}, {20, 3}};
-  static const Dashes backlash = {{0, 4}, {0, 4, 0, 8}, {5, 4, 0, 4}, {0, 7}, {5, 4, 0, 4, 0, 4}, {0, 4, 0, 4, 0, 8}};
-  static const Dashes component = {{0, 2.4}, {3, 2.4, 0, 2.4}, {0, 5}, {3, 2.4, 0, 2.4, 0, 2.4}};
+  static const Dashes backlash = {{0, 4}, {4, 5}, {0, 7}, {4, 5, dot, 5}, {9, 5}, {9, 5, dot, 5}};
+  static const Dashes component = {{0, 2.4}, {3, 2.4}, {0, 5}, {3, 2.4, dot, 2.4}};
   static const Dashes margin = {{4, 2.5}, {2, 2}, {7, 3}, {7, 2, 2, 2}};
   const auto pick = [&](const Dashes& dashes) { return dashes[static_cast<std::size_t>(within_kind) % dashes.size()]; };
   const Colour colour = palette[static_cast<std::size_t>(number) % palette.size()];
