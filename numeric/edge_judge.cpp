@@ -64,7 +64,8 @@ double EdgeJudge::leave_passages(const LineReaction& reaction, double from, int 
 /// A position near `from`, no further than `within`, where no passage is and the numerator's sign is proven.
 std::optional<double> EdgeJudge::clear_position(const LineReaction& reaction, double from,
                                                 std::span<const int> directions, double within) {
-  for (double shift = 0; shift < 64 * reach_; shift = 2 * shift + reach_) {
+  for (const int times : {0, 1, 3, 7, 15, 31, 63}) {
+    const double shift = times * reach_;
     for (const int direction : directions) {
       const double position = leave_passages(reaction, from + direction * shift, direction);
       if (std::abs(position - from) <= within && witness_.decided(reaction.columns, position)) return position;

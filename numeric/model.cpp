@@ -134,7 +134,7 @@ class ModelBuilder {
     e.unknowns = static_cast<int>(model.unknowns.size());
     e.rows.resize(3 * m_.links.size());
     const auto accumulate = [&](int link, int row, int column, Register value) {
-      auto& entries = e.rows[static_cast<std::size_t>(3 * link + row)];
+      auto& entries = e.rows[3 * static_cast<std::size_t>(link) + static_cast<std::size_t>(row)];
       const auto [place, fresh] = entries.try_emplace(column, value);
       if (!fresh) place->second = t.add(place->second, value);
       if (t.is_exactly(place->second, 0)) entries.erase(place);

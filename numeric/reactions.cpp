@@ -161,8 +161,10 @@ class Evaluator {
 void reaction_field(const NumericModel& model, std::span<const double> poses, std::span<const int> mode,
                     ReactionField& field) {
   constexpr int lanes = 32;  // a few hundred registers of 32 doubles stay within the second-level cache
-  const std::size_t coordinates = model.box.size();
-  core::ensure(coordinates > 0 && poses.size() % coordinates == 0, "a pose has one value for each free coordinate");
+  // A mechanism without free coordinates has no poses to run through.
+  const std::size_t coordinates = std::max<std::size_t>(1, model.box.size());
+  core::ensure(coordinates == model.box.size() && poses.size() % coordinates == 0,
+               "a pose has one value for each free coordinate");
   field.poses = poses.size() / coordinates;
   field.unknowns = static_cast<int>(model.unknowns.size());
   field.numerators.resize(field.poses * model.unknowns.size());
