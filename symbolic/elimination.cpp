@@ -63,6 +63,15 @@ Poly Elimination::over_tower(const Poly& natural) const {
   return result;
 }
 
+std::optional<Rational> Elimination::constant_over_tower(const Poly& natural) const {
+  // natural + t: the coefficient of t is the common denominator that homogenising put to both.
+  const int t = geometry_->auxiliary();
+  const std::vector<Poly> parts = over_tower(natural + Poly::variable(natural.ring(), t)).coefficients(t);
+  Poly quotient(natural.ring());
+  if (parts.size() != 2 || !parts[0].divides(parts[1], quotient) || !quotient.is_constant()) return std::nullopt;
+  return quotient.constant();
+}
+
 bool Elimination::is_denominator(const Poly& irreducible) const {
   return std::find(denominator_factors_.begin(), denominator_factors_.end(), irreducible) !=
          denominator_factors_.end();

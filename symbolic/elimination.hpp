@@ -3,6 +3,7 @@
 // Private to symbolic/.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "symbolic/geometry.hpp"
@@ -23,6 +24,9 @@ class Elimination {
   /// Constructed points replaced by their tower form, cleared of denominators, reduced. Zero where the natural
   /// polynomial vanishes in every pose.
   Poly over_tower(const Poly& natural) const;
+
+  /// The value of a natural polynomial that is the same number in every pose, such as |B1 - P|^2; empty for others.
+  std::optional<core::Rational> constant_over_tower(const Poly& natural) const;
 
   /// The factors of a non-zero sheet polynomial that can vanish inside the workspace: constants and squared distances
   /// are dropped. `implicit` is left empty unless wanted.

@@ -154,6 +154,7 @@ void Geometry::name_variables() {
   }
   for (std::size_t i = 1; i <= constructed_.size(); ++i) add_untaken("s" + std::to_string(i));
   for (const std::string& name : kept_) variable_of_symbol_[name] = add(name);
+  add_untaken("t");
   ring_ = std::make_unique<Ring>(names);
   for (const ConstructedPoint& c : constructed_) {
     for (const int variable : {c.x, c.y}) variable_of_symbol_[ring_->name(variable)] = variable;

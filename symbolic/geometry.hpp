@@ -27,7 +27,7 @@ struct TowerPoint {
   Poly x, y, w;
 };
 
-/// s = +-sqrt(square); `variable` is its index in the ring. `scale` > 0 on the workspace.
+/// s = +-sqrt(square); `variable` is its index in the ring.
 struct TowerRoot {
   mechanism::PointIndex point = 0;
   int variable = 0;
@@ -42,7 +42,7 @@ struct ConstructedPoint {
 };
 
 /// All the algebra of one mechanism lives in one ring:
-/// free coordinates, coordinates of constructed points, roots, parameters kept symbolic.
+/// free coordinates, coordinates of constructed points, roots, parameters kept symbolic, an auxiliary variable.
 class Geometry {
  public:
   /// With `keep_parameters` the parameters, and irrational expressions in them, stay symbols; otherwise their exact
@@ -60,6 +60,9 @@ class Geometry {
   const std::vector<TowerRoot>& roots() const { return roots_; }
   /// The numerators of the squared distances divided by, reduced.
   const std::vector<Poly>& denominators() const { return denominators_; }
+
+  /// A ring variable that occurs in nothing else, for telling two polynomials of one computation apart.
+  int auxiliary() const { return ring().size() - 1; }
 
   /// An expression of the file as a GiNaC expression in the ring's symbols.
   GiNaC::ex expression(const core::Expression& expression) const;

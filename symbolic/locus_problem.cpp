@@ -41,6 +41,13 @@ std::vector<std::string> selected_joints(const Mechanism& m, const Selection& se
   return with_clearance.empty() ? known : with_clearance;
 }
 
+std::optional<core::Rational> rational_root(const core::Rational& square) {
+  if (square < 0 || !mpz_perfect_square_p(square.get_num_mpz_t()) || !mpz_perfect_square_p(square.get_den_mpz_t())) {
+    return std::nullopt;
+  }
+  return core::Rational(sqrt(square.get_num()), sqrt(square.get_den()));
+}
+
 /// A natural factor that occurs in numerators, with what vanishes on it.
 struct SharedFactor {
   Poly natural;
@@ -263,30 +270,41 @@ class Derivation {
       }
       return nullptr;
     };
-    const auto add_margin = [&](const std::string& joint, Quantity quantity, const Poly& natural,
+    // Joints of one chain bear the same force: their margins are one curve.
+    struct Margin {
+      Poly natural;
+      Quantity quantity;
+      core::Rational bound;
+      std::vector<std::string> joints;
+    };
+    std::vector<Margin> margins;
+    const auto add_margin = [&](const std::string& joint, Quantity quantity, const Poly& polynomial,
                                 const core::Rational& bound) {
-      LocusFactor factor;
-      const std::string unit = quantity == Quantity::f ? " N" : " N m";
-      factor.expression = (quantity == Quantity::f ? "|f" : "|M") + joint + "| - " + core::to_string(bound);
-      factor.cause = (quantity == Quantity::f ? "contact force of " : "couple of ") + joint + " at its minimum of " +
-                     core::to_string(bound) + unit;
-      factor.vanishing = {{joint, quantity, 1}};
-      const Poly sheet = elimination_.over_tower(natural);
-      if (sheet.is_zero()) {
-        result_.notes.push_back(factor.cause + " in every pose");
-        return;
-      }
-      add(FactorRole::margin, sheet, true, factor);
+      const Poly natural = polynomial.primitive();
+      auto known = std::find_if(margins.begin(), margins.end(), [&](const Margin& m) {
+        return m.quantity == quantity && m.natural == natural;
+      });
+      if (known == margins.end()) known = margins.insert(known, {natural, quantity, bound, {}});
+      if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
     };
     for (const std::string& joint : result_.problem.joints) {
       const Poly* fx = numerator(joint, Quantity::fx);
       const Poly* fy = numerator(joint, Quantity::fy);
       const Poly* couple = numerator(joint, Quantity::M);
-      if (selection_.min_force && fx != nullptr && fy != nullptr) {
-        const Poly shared = gcd(gcd(*fx, *fy), determinant);
-        const Poly x = fx->exact_quotient(shared), y = fy->exact_quotient(shared), d = determinant.exact_quotient(shared);
-        add_margin(joint, Quantity::f,
-                   x * x + y * y - (d * d).scaled(*selection_.min_force * *selection_.min_force), *selection_.min_force);
+      if (selection_.min_force && fx != nullptr && fy != nullptr && !(fx->is_zero() && fy->is_zero())) {
+        const core::Rational& bound = *selection_.min_force;
+        const Poly common = gcd(*fx, *fy);
+        const Poly x = fx->exact_quotient(common), y = fy->exact_quotient(common);
+        const Poly shared = gcd(common, determinant);
+        const Poly size = common.exact_quotient(shared), d = determinant.exact_quotient(shared);
+        // A two-force link bears (x, y) of constant length: then |f| = f_min is two linear conditions.
+        const std::optional<core::Rational> length2 = elimination_.constant_over_tower(x * x + y * y);
+        if (const auto length = length2 ? rational_root(*length2) : std::nullopt) {
+          add_margin(joint, Quantity::f, size.scaled(*length) - d.scaled(bound), bound);
+          add_margin(joint, Quantity::f, size.scaled(*length) + d.scaled(bound), bound);
+        } else {
+          add_margin(joint, Quantity::f, size * size * (x * x + y * y) - (d * d).scaled(bound * bound), bound);
+        }
       }
       if (selection_.min_couple && couple != nullptr) {
         const Poly shared = gcd(*couple, determinant);
@@ -294,6 +312,21 @@ class Derivation {
         add_margin(joint, Quantity::M, c - d, *selection_.min_couple);
         add_margin(joint, Quantity::M, c + d, *selection_.min_couple);
       }
+    }
+    for (const Margin& margin : margins) {
+      const bool force = margin.quantity == Quantity::f;
+      std::string names;
+      LocusFactor factor;
+      for (const std::string& joint : margin.joints) {
+        names += (names.empty() ? "" : ", ") + joint;
+        factor.vanishing.push_back({joint, margin.quantity, 1});
+      }
+      const std::string bound = core::to_string(margin.bound);
+      factor.expression = text(margin.natural);
+      factor.cause = (force ? "contact force of " : "couple of ") + names + " at " + bound + (force ? " N" : " N m");
+      const Poly sheet = elimination_.over_tower(margin.natural);
+      if (sheet.is_zero()) result_.notes.push_back(factor.cause + " in every pose");
+      else add(FactorRole::margin, sheet, true, factor);
     }
   }
 

@@ -97,7 +97,8 @@ TEST(LocusProblem, MarginsAddTheirOwnFactors) {
   const auto derived = locus_problem(example("five_bar"), selection);
   const auto margins = std::count_if(derived.problem.factors.begin(), derived.problem.factors.end(),
                                      [](const LocusFactor& f) { return f.role == FactorRole::margin; });
-  EXPECT_GE(margins, 5 + 2 * 2);
+  // Two legs with |f| = +-5 N, two actuators with M = +-1/10 N m.
+  EXPECT_EQ(margins, 8);
 }
 
 TEST(LocusProblem, AnUnloadedMechanismSaysSo) {
