@@ -7,8 +7,8 @@ int main(int argc, char** argv) {
   const clearloci::mechanism::Mechanism mechanism = clearloci::mechanism::read_mechanism(argv[1]);
   const clearloci::core::LocusMap map = clearloci::trace_loci(mechanism);
   for (const clearloci::core::LocusCurve& curve : map.curves)
-    std::cout << curve.id << ": " << to_string(curve.kind) << ", "
-              << to_string(curve.implicit, map.tower.coordinates) << " = 0\n";
+    std::cout << curve.id << ": " << to_string(curve.kind) << ", " << to_string(curve.implicit, map.tower.coordinates)
+              << " = 0\n";
   std::cout << map.curves.size() << " curves\n";
   return map.complete ? 0 : 1;
 }
