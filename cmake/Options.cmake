@@ -31,15 +31,7 @@ endif()
 
 # clearloci_folder(<folder> [sources...]): the folder's static library clearloci_<folder>, alias clearloci::<folder>.
 function(clearloci_folder folder)
-  set(sources)
-  foreach(source IN LISTS ARGN)
-    if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${source}")
-      list(APPEND sources "${source}")
-    else()
-      message(WARNING "${folder}/${source} is not there yet")
-    endif()
-  endforeach()
-  add_library(clearloci_${folder} STATIC ${sources})
+  add_library(clearloci_${folder} STATIC ${ARGN})
   add_library(clearloci::${folder} ALIAS clearloci_${folder})
   set_target_properties(clearloci_${folder} PROPERTIES EXPORT_NAME ${folder})
   target_include_directories(clearloci_${folder} PUBLIC
