@@ -37,10 +37,11 @@ std::optional<int> whole_number(std::string_view text) {
 }  // namespace
 
 void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
-  command.add_option("MODEL", arguments.model, "The mechanism file (YAML)")->required();
+  command.add_option("MODEL", arguments.model, "The mechanism file (YAML)")->required()->type_name("FILE");
   command.add_option("--set", arguments.overrides, "Override a parameter of the file: name=value (repeatable)")
-      ->allow_extra_args(false);
-  command.add_option("-o,--output", arguments.output, "Folder for the files that are written");
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+  command.add_option("-o,--output", arguments.output, "Folder for the files that are written")->type_name("DIR");
   command.add_flag("--quiet", arguments.quiet, "No table, no progress bar");
   command.add_flag("--json", arguments.json, "The result as JSON on standard output instead of the table");
 }

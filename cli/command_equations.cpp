@@ -121,6 +121,7 @@ Command add_equations_command(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
   add_common_arguments(*app, arguments->common);
   app->add_option("--language", arguments->languages, "text, latex, c, python, matlab; several after commas")
+      ->type_name("LIST")
       ->capture_default_str();
   app->add_flag("--symbolic", arguments->keep_parameters, "Keep the parameters as symbols");
   app->footer(

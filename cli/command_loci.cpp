@@ -72,6 +72,7 @@ Command add_loci_command(CLI::App& program) {
   app->add_option(
          "--export", arguments->formats,
          fmt::format("Files besides loci.json, several after commas: {}", fmt::join(report::file_format_names(), ", ")))
+      ->type_name("LIST")
       ->capture_default_str();
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"

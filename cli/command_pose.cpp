@@ -119,9 +119,12 @@ Command add_pose_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("pose", "Posture, reactions and condition number at one pose");
   const auto arguments = std::make_shared<Arguments>();
   add_common_arguments(*app, arguments->common);
-  app->add_option("--at", arguments->at, "The pose: one value for each free coordinate, e.g. 0.25,-0.7")->required();
+  app->add_option("--at", arguments->at, "The pose: one value for each free coordinate, e.g. 0.25,-0.7")
+      ->required()
+      ->type_name("POSE");
   app->add_option("--working-mode", arguments->working_mode,
-                  "left or right for every dyad, e.g. right,left (default: the file's)");
+                  "left or right for every dyad, e.g. right,left (default: the file's)")
+      ->type_name("SIDES");
   app->footer(
       "Example: clearloci pose examples/five_bar.yaml --at 0.25,-0.7\n"
       "With -o, DIR/pose.json is written.");

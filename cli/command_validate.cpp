@@ -117,7 +117,7 @@ Command add_validate_command(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
-  app->add_option("--grid", arguments->grid, "Nodes along each coordinate")->capture_default_str();
+  app->add_option("--grid", arguments->grid, "Nodes along each coordinate")->type_name("NXxNY")->capture_default_str();
   app->footer(
       "Example: clearloci validate examples/five_bar.yaml --grid 400x400\n"
       "Exit status 1 where an edge of the grid is disputed. With -o, DIR/validation.json is written.");

@@ -23,22 +23,32 @@ void add_tracing_arguments(CLI::App& command, LociArguments& arguments) {
   command
       .add_option("--joint", arguments.joints,
                   "A joint whose reactions count (repeatable; default: all with a clearance, or all)")
-      ->allow_extra_args(false);
-  command.add_option("--working-mode", arguments.working_mode,
-                     "left or right for every dyad, e.g. right,left, or all (default: the file's)");
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  command
+      .add_option("--working-mode", arguments.working_mode,
+                  "left or right for every dyad, e.g. right,left, or all (default: the file's)")
+      ->type_name("SIDES");
   command
       .add_option("--engine", arguments.engine, "automatic, exact (arrangement of curves) or adaptive (subdivision)")
+      ->type_name("ENGINE")
       ->capture_default_str();
-  command.add_option("--time-limit", arguments.time_limit,
-                     "Seconds; when they are over, what is known is written and the exit status is 3");
+  command
+      .add_option("--time-limit", arguments.time_limit,
+                  "Seconds; when they are over, what is known is written and the exit status is 3")
+      ->type_name("SECONDS");
 }
 
 void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
   command.add_option("--quantity", arguments.quantities, "What vanishes: f, M, fx, fy, several after commas")
+      ->type_name("LIST")
       ->capture_default_str();
-  command.add_option("--min-force", arguments.min_force, "N: also the curves on which a contact force has this value");
-  command.add_option("--min-couple", arguments.min_couple, "N m: also the curves on which a couple has this value");
+  command.add_option("--min-force", arguments.min_force, "Also the curves on which a contact force has this value")
+      ->type_name("N");
+  command.add_option("--min-couple", arguments.min_couple, "Also the curves on which a couple has this value")
+      ->type_name("NM");
   command.add_option("--tolerance", arguments.tolerance, "Largest distance of a chord from its curve, m")
+      ->type_name("M")
       ->capture_default_str();
 }
 
