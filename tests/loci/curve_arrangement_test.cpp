@@ -1,0 +1,100 @@
+// The exact arrangement on curves whose topology is known by construction.
+#include "loci/curve_arrangement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::Polynomial;
+using core::Rational;
+
+const Polynomial x = core::variable_polynomial(2, 0), y = core::variable_polynomial(2, 1);
+Polynomial number(const Rational& value) { return core::constant_polynomial(2, value); }
+
+/// (x - a)^2 + (y - b)^2 - r^2
+Polynomial circle(const Rational& a, const Rational& b, const Rational& r) {
+  return core::primitive_part((x - number(a)) * (x - number(a)) + (y - number(b)) * (y - number(b)) - number(r * r));
+}
+
+long edges_on(const CurveArrangement& arrangement, int curve) {
+  return std::count_if(arrangement.edges().begin(), arrangement.edges().end(),
+                       [&](const ArrangementEdge& e) { return e.curve == curve; });
+}
+
+TEST(CurveArrangement, EulersFormulaHoldsInsideTheBox) {
+  // Two circles that cross, inside the box: V - E + F = 1 + C with the box's rim as a second component.
+  const CurveArrangement arrangement({circle(0, 0, 1), circle(1, 0, 1)}, {-3, -3}, {3, 3});
+  EXPECT_EQ(arrangement.curves().size(), 6u);
+  const auto crossing = std::count_if(arrangement.vertices().begin(), arrangement.vertices().end(), [](const auto& v) {
+    return std::hypot(v.at[0] - 0.5, std::abs(v.at[1]) - std::sqrt(0.75)) < 1e-14;
+  });
+  EXPECT_EQ(crossing, 2);
+}
+
+TEST(CurveArrangement, TheBoxCutsAndNothingOutsideIsKept) {
+  const CurveArrangement arrangement({circle(0, 0, 1)}, {0, 0}, {2, 2});
+  EXPECT_EQ(edges_on(arrangement, 0), 1);
+  for (const ArrangementVertex& v : arrangement.vertices()) {
+    EXPECT_GE(v.at[0], -1e-12);
+    EXPECT_GE(v.at[1], -1e-12);
+  }
+}
+
+TEST(CurveArrangement, AnIsolatedPointIsFoundEvenOnAnotherCurve) {
+  // x^2 (x - 1) = y^2 has an isolated point in the origin, which lies on the line y = 0.
+  const Polynomial cubic = core::primitive_part(x * x * (x - number(1)) - y * y);
+  const CurveArrangement arrangement({cubic, y}, {-2, -2}, {2, 2});
+  ASSERT_EQ(arrangement.isolated_points().size(), 1u);
+  EXPECT_EQ(arrangement.isolated_points()[0].curve, 0);
+  EXPECT_NEAR(arrangement.isolated_points()[0].at[0], 0, 1e-15);
+  // It splits the line there.
+  EXPECT_TRUE(std::any_of(arrangement.vertices().begin(), arrangement.vertices().end(),
+                          [](const auto& v) { return std::hypot(v.at[0], v.at[1]) < 1e-15; }));
+}
+
+TEST(CurveArrangement, SamplesLieOnTheirEdge) {
+  const Polynomial cubic = core::primitive_part(y * y - x * x * x + x);  // an oval and a branch
+  const CurveArrangement arrangement({cubic}, {-2, -2}, {2, 2});
+  for (std::size_t e = 0; e < arrangement.edges().size(); ++e) {
+    const int curve = arrangement.edges()[e].curve;
+    for (const int attempt : {0, 1, 3}) {
+      const PointEnclosure at = arrangement.sample(static_cast<int>(e), attempt);
+      const std::array<double, 2> p = {core::to_double((at.lower[0] + at.upper[0]) / 2),
+                                       core::to_double((at.lower[1] + at.upper[1]) / 2)};
+      const Polynomial& f = arrangement.curves()[static_cast<std::size_t>(curve)];
+      EXPECT_NEAR(core::evaluate(f, std::span<const double>(p)), 0, 1e-12);
+    }
+  }
+}
+
+TEST(CurveArrangement, YAtFollowsTheRightBranch) {
+  // Two parallel lines 1e-9 apart as one irreducible-looking pair of curves.
+  const Polynomial low = y, high = core::primitive_part(y - number(Rational(1, 1000000000)));
+  const CurveArrangement arrangement({low, high}, {-1, -1}, {1, 1});
+  for (std::size_t e = 0; e < arrangement.edges().size(); ++e) {
+    if (arrangement.edges()[e].curve == 1) {
+      EXPECT_NEAR(arrangement.y_at(static_cast<int>(e), 0.25), 1e-9, 2e-17);
+    }
+  }
+}
+
+TEST(CurveArrangement, FactorsAreRecognised) {
+  const CurveArrangement arrangement({circle(0, 0, 1)}, {-2, -2}, {2, 2});
+  EXPECT_TRUE(arrangement.divides(0, circle(0, 0, 1) * (x + y)));
+  EXPECT_FALSE(arrangement.divides(0, circle(0, 0, 2)));
+  EXPECT_TRUE(arrangement.divides(0, number(0)));
+  EXPECT_FALSE(arrangement.divides(0, number(3)));
+}
+
+TEST(CurveArrangement, AnInterruptionEndsTheWork) {
+  EXPECT_THROW(CurveArrangement({circle(0, 0, 1)}, {-2, -2}, {2, 2}, [] { return true; }), core::LimitReached);
+}
+
+}  // namespace
+}  // namespace clearloci::loci
