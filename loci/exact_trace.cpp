@@ -216,7 +216,7 @@ class ExactTrace {
       map_.curves.push_back(std::move(curve));
     }
     add_workspace(mode, edges);
-    add_isolated_points(problem_, mode, arrangement_, list_.of_factor, map_);
+    add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, map_);
   }
 
   /// The edges between workspace and outside, joined to rings.

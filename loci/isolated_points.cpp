@@ -46,24 +46,6 @@ bool on_contact_loss_curve(const LocusMap& map, const WorkingMode& mode, const s
   return false;
 }
 
-/// Joins a joint to a point already found, or adds the point.
-void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
-  for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
-    IsolatedPoint& known = map.isolated_points[i];
-    if (known.mode != point.mode || known.kind != point.kind || known.certified != point.certified ||
-        std::hypot(known.at[0] - point.at[0], known.at[1] - point.at[1]) > same) {
-      continue;
-    }
-    for (const core::Vanishing& v : point.vanishing) {
-      if (std::find(known.vanishing.begin(), known.vanishing.end(), v) == known.vanishing.end()) {
-        known.vanishing.push_back(v);
-      }
-    }
-    return;
-  }
-  map.isolated_points.push_back(point);
-}
-
 /// Value of a sheet polynomial where (x, y) and the roots are enclosed.
 MultiInterval value(const core::Polynomial& p, const std::vector<MultiInterval>& variables) {
   MultiInterval sum{core::Rational(0)};
@@ -91,6 +73,33 @@ std::vector<MultiInterval> on_sheet(const core::RootTower& tower, const WorkingM
   return variables;
 }
 
+/// Where |A| vanishes too the numerators say nothing about the reaction, 0/0: every joint's vanish there together.
+bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode, const sheet::SheetZero& zero) {
+  const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
+  const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
+  return !at.empty() && std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+    return factor.role == FactorRole::direct_singularity && value(factor.sheet, at).sign() == 0;
+  });
+}
+
+/// Joins a joint to a point already found, or adds the point.
+void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
+  for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
+    IsolatedPoint& known = map.isolated_points[i];
+    if (known.mode != point.mode || known.kind != point.kind || known.certified != point.certified ||
+        std::hypot(known.at[0] - point.at[0], known.at[1] - point.at[1]) > same) {
+      continue;
+    }
+    for (const core::Vanishing& v : point.vanishing) {
+      if (std::find(known.vanishing.begin(), known.vanishing.end(), v) == known.vanishing.end()) {
+        known.vanishing.push_back(v);
+      }
+    }
+    return;
+  }
+  map.isolated_points.push_back(point);
+}
+
 }  // namespace
 
 void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
@@ -115,15 +124,18 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
           add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {px, py}, mode, certified},
                     1e-12 * size);
         };
-        for (const sheet::SheetZero& zero : found.zeros) add(zero.x, zero.y, true);
+        for (const sheet::SheetZero& zero : found.zeros) {
+          if (!on_direct_singularity(problem, mode, zero)) add(zero.x, zero.y, true);
+        }
         for (const sheet::Cell& cell : found.undecided) add(cell.x.middle(), cell.y.middle(), false);
       }
     }
   }
 }
 
-void add_isolated_points(const LocusProblem& problem, const WorkingMode& mode, const CurveArrangement& arrangement,
-                         const std::vector<std::vector<int>>& curves_of_factor, LocusMap& map) {
+void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& mode,
+                               const CurveArrangement& arrangement,
+                               const std::vector<std::vector<int>>& curves_of_factor, LocusMap& map) {
   for (const ArrangementPoint& point : arrangement.isolated_points()) {
     const std::vector<MultiInterval> at = on_sheet(problem.tower, mode, point.enclosure);
     if (at.empty()) continue;
@@ -145,7 +157,6 @@ void add_isolated_points(const LocusProblem& problem, const WorkingMode& mode, c
     if (kind == LocusKind::workspace_boundary) continue;
     map.isolated_points.push_back({kind, vanishing, {point.at[0], point.at[1]}, mode, true});
   }
-  add_contact_loss_points(problem, mode, map);
 }
 
 }  // namespace clearloci::loci

@@ -7,13 +7,13 @@
 
 namespace clearloci::loci {
 
-/// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no curve of either's common
-/// factors. Appended to the map; what stays undecided becomes a point that is not certified.
+/// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no contact-loss curve of the map.
+/// Appended to the map; what stays undecided becomes a point that is not certified.
 void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
 
-/// The same, and the isolated real points of the arrangement's curves that lie on the mode's sheet.
-void add_isolated_points(const core::LocusProblem& problem, const core::WorkingMode& mode,
-                         const CurveArrangement& arrangement, const std::vector<std::vector<int>>& curves_of_factor,
-                         core::LocusMap& map);
+/// The isolated real points of the arrangement's curves that lie on the mode's sheet.
+void add_isolated_curve_points(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                               const CurveArrangement& arrangement,
+                               const std::vector<std::vector<int>>& curves_of_factor, core::LocusMap& map);
 
 }  // namespace clearloci::loci

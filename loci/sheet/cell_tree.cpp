@@ -46,8 +46,6 @@ int steeper_axis(const SheetCell& cell) {
 Judgement judge(SheetCell& cell, const Cell& place, double patch_size) {
   if (!cell.enter(place.x, place.y) || !cell.value(0).contains_zero()) return {LeafKind::empty};
   cell.differentiate();
-  const double width = std::max(place.x.width(), place.y.width());
-  if (width < worth_precision * patch_size && cell.rounding_dominates(0)) cell.sharpen_middle();
   if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
   Judgement judgement;
   double best = 0;
@@ -59,6 +57,11 @@ Judgement judge(SheetCell& cell, const Cell& place, double patch_size) {
     best = steadiness;
     judgement.kind = LeafKind::graph;
     judgement.along = c < 2 ? c : 2 + cell.lifted()[c - 2];
+  }
+  const double width = std::max(place.x.width(), place.y.width());
+  if (judgement.kind == LeafKind::undecided && width < worth_precision * patch_size && cell.rounding_dominates(0)) {
+    cell.sharpen_middle();
+    if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
   }
   judgement.cut_axis = steeper_axis(cell);
   return judgement;

@@ -44,10 +44,12 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   for (const Chart& chart : parts.charts) {
     const bool plane = chart.side == Chart::Side::plane;
     const ChartedSheet sheet = charted(tower, {first, second}, chart, parts.stars);
-    const SheetProgram program(sheet.tower, sheet.functions);
+    SheetProgram program(sheet.tower, sheet.functions);
+    if (plane) localise(program, parts);
     ZeroSearch search(program, mode, {});
     const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {-1, 1}}};
-    const FoundZeros found = search.run(seeds, options.smallest * (plane ? size : 1.0), options.most_cells);
+    const FoundZeros found = search.run(
+        seeds, {options.smallest * (plane ? size : 1.0), static_cast<std::size_t>(options.most_cells), 2e-15 * size});
     result.gave_up = result.gave_up || found.gave_up;
     for (const Cell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
     for (const std::vector<Interval>& enclosure : found.enclosures) {

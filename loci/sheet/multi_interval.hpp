@@ -7,7 +7,7 @@ namespace clearloci::loci::sheet {
 
 class MultiInterval {
  public:
-  static constexpr int precision = 512;  ///< bits after the binary point
+  static constexpr int precision = 256;  ///< bits after the binary point
 
   MultiInterval() = default;
   explicit MultiInterval(const core::Rational& value);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 
 #include "core/errors.hpp"
 
@@ -34,23 +33,6 @@ std::vector<Rational> binomial_power(const Rational& c, const Rational& d, int n
     result[0] *= c;
   }
   return result;
-}
-
-/// p(..., v + shift, ...).
-Polynomial shifted(const Polynomial& p, int variable, const Rational& shift) {
-  if (shift == 0) return p;
-  std::vector<std::vector<Rational>> powers;
-  for (int n = 0; n <= std::max(0, core::degree_in(p, variable)); ++n) powers.push_back(binomial_power(shift, 1, n));
-  Collected collected;
-  for (const core::Term& term : p.terms) {
-    std::vector<int> exponents = term.exponents;
-    const int n = term.exponents[variable];
-    for (int k = 0; k <= n; ++k) {
-      exponents[variable] = k;
-      collected[exponents] += term.coefficient * powers[n][k];
-    }
-  }
-  return as_polynomial(p.variables, collected);
 }
 
 bool holds_root(const Star& star, int root) {
@@ -223,10 +205,23 @@ Cell Chart::to_plane(const Cell& cell) const {
   }
 }
 
-std::array<double, 4> Chart::jacobian(double p, double q) const {
-  if (side == Side::plane) return {1, 0, 0, 1};
-  const core::Point2 origin = to_plane(0, 0), outer = to_plane(1, q), middle = to_plane(1, 0), end = to_plane(1, 1);
-  return {outer[0] - origin[0], p * (end[0] - middle[0]), outer[1] - origin[1], p * (end[1] - middle[1])};
+std::optional<Cell> Chart::from_plane(const Cell& place) const {
+  if (side == Side::plane) return place;
+  const auto interval = [](const Rational& value) { return constant_as(value, static_cast<Interval*>(nullptr)); };
+  const bool along_x = side == Side::right || side == Side::left;
+  const Interval x = place.x - interval(origin_x), y = place.y - interval(origin_y);
+  const Interval depth = side == Side::right  ? interval(rectangle[1] - origin_x)
+                         : side == Side::left ? interval(rectangle[0] - origin_x)
+                         : side == Side::top  ? interval(rectangle[3] - origin_y)
+                                              : interval(rectangle[2] - origin_y);
+  const Interval u = (along_x ? x : y) * inverse(depth);
+  if (u.lower() <= 0 || u.upper() > 1) return std::nullopt;
+  const Interval middle = along_x ? interval((rectangle[2] + rectangle[3]) / 2 - origin_y)
+                                  : interval((rectangle[0] + rectangle[1]) / 2 - origin_x);
+  const Interval half = along_x ? interval((rectangle[3] - rectangle[2]) / 2) : interval((rectangle[1] - rectangle[0]) / 2);
+  const Interval t = ((along_x ? y : x) * inverse(u) - middle) * inverse(half);
+  if (t.lower() < -1 || t.upper() > 1) return std::nullopt;
+  return Cell{u, t};
 }
 
 core::Polynomial without_denominators(core::Polynomial function, const core::RootTower& tower) {
@@ -303,6 +298,16 @@ Partition partition(const core::RootTower& tower, const std::array<double, 4>& b
     }
   }
   return result;
+}
+
+void localise(SheetProgram& program, const Partition& partition) {
+  const auto& d = partition.domain;
+  std::vector<std::array<double, 2>> bases;
+  for (const Polynomial& denominator : program.tower().denominators)
+    if (const std::optional<Star> base = double_point(denominator))
+      bases.push_back({core::to_double(base->x), core::to_double(base->y)});
+  // A power of two, so that the grid's origins are short.
+  program.localise(std::exp2(std::round(std::log2(std::max(d[1] - d[0], d[3] - d[2]) / 8))), std::move(bases));
 }
 
 std::vector<Cell> outside_holes(const Partition& partition) {

@@ -9,7 +9,7 @@
 #pragma once
 
 #include <array>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/locus_map.hpp"
@@ -35,8 +35,8 @@ struct Chart {
 
   core::Point2 to_plane(double p, double q) const;
   Cell to_plane(const Cell& cell) const;
-  /// d(x, y)/d(p, q): {xp, xq, yp, yq}.
-  std::array<double, 4> jacobian(double p, double q) const;
+  /// The place in this chart's coordinates, if it surely lies in the chart.
+  std::optional<Cell> from_plane(const Cell& place) const;
 };
 
 /// The tower and functions written in a chart's coordinates, without the common powers of u.
@@ -58,6 +58,10 @@ struct Partition {
   std::vector<Chart> charts;                 ///< the plane first, then four a star
 };
 Partition partition(const core::RootTower& tower, const std::array<double, 4>& box);
+
+/// Gives a program on the plane origins all over it: where dyads are based, since numerators are small there, and on a
+/// grid. Charts have their origin where it is wanted.
+void localise(SheetProgram& program, const Partition& partition);
 
 /// The part of the domain outside the holes, as rectangles.
 std::vector<Cell> outside_holes(const Partition& partition);

@@ -9,6 +9,43 @@
 
 namespace clearloci::loci::sheet {
 
+namespace {
+
+// Cells wider than this, in steps of the grid of origins, gain nothing from an origin in their middle.
+constexpr double widest_local = 0.25;
+
+/// Coefficients of (v + shift)^n, lowest power first.
+std::vector<core::Rational> power_of_sum(const core::Rational& shift, int n) {
+  std::vector<core::Rational> result = {1};
+  for (int i = 0; i < n; ++i) {
+    result.emplace_back(0);
+    for (std::size_t k = result.size() - 1; k > 0; --k) result[k] = shift * result[k] + result[k - 1];
+    result[0] *= shift;
+  }
+  return result;
+}
+
+}  // namespace
+
+core::Polynomial shifted(const core::Polynomial& p, int variable, const core::Rational& shift) {
+  if (shift == 0) return p;
+  std::vector<std::vector<core::Rational>> powers;
+  for (int n = 0; n <= std::max(0, core::degree_in(p, variable)); ++n) powers.push_back(power_of_sum(shift, n));
+  std::map<std::vector<int>, core::Rational, std::greater<>> collected;
+  for (const core::Term& term : p.terms) {
+    std::vector<int> exponents = term.exponents;
+    const int n = term.exponents[variable];
+    for (int k = 0; k <= n; ++k) {
+      exponents[variable] = k;
+      collected[exponents] += term.coefficient * powers[n][k];
+    }
+  }
+  core::Polynomial result{p.variables, {}};
+  for (const auto& [exponents, coefficient] : collected)
+    if (coefficient != 0) result.terms.push_back({exponents, coefficient});
+  return result;
+}
+
 double constant_as(const core::Rational& value, double*) { return core::to_double(value); }
 
 Interval constant_as(const core::Rational& value, Interval*) {
@@ -164,14 +201,44 @@ class SheetProgram::Builder {
 SheetProgram::SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions)
     : tower_(tower), functions_(std::move(functions)) {
   core::ensure(tower_.coordinates.size() == 2, "a sheet has two free coordinates");
+  compile(tower_, functions_);
+}
+
+SheetProgram::SheetProgram(const SheetProgram& program, std::array<double, 2> origin)
+    : tower_(program.tower_), functions_(program.functions_), moved_(true), origin_(origin) {
+  const auto moved = [&](const core::Polynomial& p) {
+    return shifted(shifted(p, 0, core::Rational(origin[0])), 1, core::Rational(origin[1]));
+  };
+  core::RootTower tower = tower_;
+  std::vector<core::Polynomial> functions;
+  for (core::Root& root : tower.roots) root.square = moved(root.square);
+  for (const core::Polynomial& function : functions_) functions.push_back(moved(function));
+  compile(tower, functions);
+}
+
+const SheetProgram& SheetProgram::near(double x, double y, double width) const {
+  if (local_step_ == 0 || width > widest_local * local_step_) return *this;
+  std::array<double, 2> origin = {(std::floor(x / local_step_) + 0.5) * local_step_,
+                                  (std::floor(y / local_step_) + 0.5) * local_step_};
+  double nearest = local_step_;
+  for (const std::array<double, 2>& point : local_points_) {
+    const double distance = std::hypot(point[0] - x, point[1] - y);
+    if (distance < nearest) nearest = distance, origin = point;
+  }
+  std::unique_ptr<SheetProgram>& program = local_[origin];
+  if (!program) program.reset(new SheetProgram(*this, origin));
+  return *program;
+}
+
+void SheetProgram::compile(const core::RootTower& tower, const std::vector<core::Polynomial>& functions) {
   Builder builder(variables());
   std::vector<int> square_nodes, value_nodes;
-  for (const core::Root& root : tower_.roots) {
+  for (const core::Root& root : tower.roots) {
     core::ensure(root.square.variables == variables(), "a root's square is written in all variables of the tower");
     square_nodes.push_back(builder.horner(root.square.terms, variables() - 1));
     stage_end_.push_back(builder.instructions());
   }
-  for (const core::Polynomial& function : functions_) {
+  for (const core::Polynomial& function : functions) {
     core::ensure(function.variables == variables(), "a function is written in all variables of the tower");
     value_nodes.push_back(builder.horner(function.terms, variables() - 1));
   }

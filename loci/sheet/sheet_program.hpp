@@ -2,10 +2,14 @@
 //     stage j       Q_j(x, y, s1..s_{j-1})            the caller then sets s_j = sigma_j sqrt(Q_j)
 //     values        f(x, y, s1..sm)
 //     gradients     df/dv, dQ_j/dv for v in (x, y, s1..sm), by symbolic forward differentiation of the program
-// One program serves double, Interval and MultiInterval.
+// One program serves double, Interval and MultiInterval. Enclosures are the tighter the nearer the origin of the
+// polynomials is; `near` gives programs for the same functions with origins all over a region.
 #pragma once
 
 #include <cstdint>
+#include <array>
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "core/polynomial.hpp"
@@ -21,10 +25,28 @@ MultiInterval constant_as(const core::Rational& value, MultiInterval*);
 
 inline double squared(double a) { return a * a; }
 
+/// value - origin
+inline double relative(double value, double origin) { return value - origin; }
+inline Interval relative(const Interval& value, double origin) { return value - Interval(origin); }
+inline MultiInterval relative(const MultiInterval& value, double origin) { return value + MultiInterval(-origin); }
+
+/// p(..., v + shift, ...).
+core::Polynomial shifted(const core::Polynomial& p, int variable, const core::Rational& shift);
+
 class SheetProgram {
  public:
   /// `functions` in (x, y, s1..sm). Required: two free coordinates.
   SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions);
+
+  /// Makes `near` work: origins at given points for cells within a step of them, elsewhere on a grid of that step.
+  void localise(double step, std::vector<std::array<double, 2>> points) {
+    local_step_ = step;
+    local_points_ = std::move(points);
+  }
+
+  /// The program for cells of this width around (x, y): this one where cells are wide or localise was not called, else
+  /// one with an origin nearby, compiled when first asked for. Not to be called from two threads at once.
+  const SheetProgram& near(double x, double y, double width) const;
 
   int roots() const { return static_cast<int>(tower_.roots.size()); }
   int variables() const { return 2 + roots(); }
@@ -36,8 +58,10 @@ class SheetProgram {
   template <class T>
   class Registers {
    public:
-    void set(int variable, const T& value) { values_[variable] = value; }
-    const T& variable(int v) const { return values_[v]; }
+    void set(int variable, const T& value) {
+      values_[variable] = variable < 2 && program_->moved_ ? relative(value, program_->origin_[variable]) : value;
+    }
+    const T& root(int j) const { return values_[2 + j]; }
     const T& square(int root) const { return values_[program_->squares_[root]]; }
     const T& value(int function) const { return values_[program_->values_[function]]; }
     const T& partial(int function, int v) const { return values_[program_->partials_[function][v]]; }
@@ -73,6 +97,9 @@ class SheetProgram {
   };
   class Builder;
 
+  SheetProgram(const SheetProgram& program, std::array<double, 2> origin);
+  void compile(const core::RootTower& tower, const std::vector<core::Polynomial>& functions);
+
   core::RootTower tower_;
   std::vector<core::Polynomial> functions_;
   std::vector<core::Rational> constants_;  // registers variables()...
@@ -81,6 +108,11 @@ class SheetProgram {
   std::vector<int> squares_, values_;
   std::vector<std::vector<int>> partials_, square_partials_;
   int zero_ = 0;
+  bool moved_ = false;
+  std::array<double, 2> origin_{};
+  double local_step_ = 0;
+  std::vector<std::array<double, 2>> local_points_;
+  mutable std::map<std::array<double, 2>, std::unique_ptr<SheetProgram>> local_;
 };
 
 template <class T>

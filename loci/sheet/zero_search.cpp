@@ -12,10 +12,9 @@ namespace {
 // Cells are examined this much larger on every side, relative to their width, so that a zero on a common edge lies well
 // inside the box of either neighbour and is certified there.
 constexpr double inflation = 0.1;
-// Refinement converges quadratically; this many steps are never needed.
-constexpr int most_refinements = 40;
-// An enclosure this narrow, relative to its place, is as good as doubles can write down.
-constexpr double narrow = 0x1p-51;
+// Refinement converges quadratically in the end; a step that gains less than this factor gains nothing any more.
+constexpr double still_shrinking = 0.9;
+constexpr int most_refinements = 80;
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
 
@@ -31,12 +30,12 @@ ZeroSearch::ZeroSearch(const SheetProgram& program, const core::WorkingMode& mod
   core::ensure(system_.functions.size() == system_.free.size(), "as many functions as unknowns");
 }
 
-FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, double smallest, std::size_t most_cells) {
-  smallest_ = smallest;
+FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits) {
+  limits_ = limits;
   zeros_.clear();
   undecided_.clear();
   std::vector<Cell> live = seeds, next;
-  while (!live.empty() && live.size() <= most_cells + seeds.size()) {
+  while (!live.empty() && live.size() <= limits_.most_cells + seeds.size()) {
     next.clear();
     for (const Cell& cell : live) examine(cell, next);
     std::swap(live, next);
@@ -63,7 +62,7 @@ void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
   for (int c = 0; c < cell_.dimension(); ++c) box.push_back(is_free(c) ? inflated(cell_.local(c)) : cell_.local(c));
   if (cell_.enter_local(box, lifted)) {
     cell_.differentiate();
-    if (width(cell) < near_smallest * smallest_ && std::any_of(system_.functions.begin(), system_.functions.end(),
+    if (width(cell) < near_smallest * limits_.smallest && std::any_of(system_.functions.begin(), system_.functions.end(),
                                                                [&](int f) { return cell_.rounding_dominates(f); }))
       cell_.sharpen_middle();
     if (excluded([&](int f) { return cell_.centred(f); })) return;
@@ -72,7 +71,7 @@ void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
     if (verdict == Verdict::none) return;
     if (verdict == Verdict::unique && accept(box, lifted, std::move(image), cell)) return;
   }
-  if (width(cell) < smallest_)
+  if (width(cell) < limits_.smallest)
     undecided_.push_back(cell);
   else
     split(cell, next);
@@ -119,11 +118,11 @@ void ZeroSearch::shrink(std::vector<Interval>& enclosure, const std::vector<int>
     bool shrunk = false, wide = false;
     for (std::size_t c = 0; c < enclosure.size(); ++c) {
       const Interval smaller = meet(image[c], enclosure[c]);
-      shrunk = shrunk || smaller.width() < 0.5 * enclosure[c].width();
+      shrunk = shrunk || smaller.width() < still_shrinking * enclosure[c].width();
       enclosure[c] = smaller;
-      wide = wide || smaller.width() > narrow * std::max(smallest_, smaller.magnitude());
+      wide = wide || smaller.width() > limits_.accuracy;
     }
-    if (!wide || (!shrunk && sharp)) return;
+    if (!shrunk && (sharp || !wide)) return;
     sharp = sharp || !shrunk;
   }
 }

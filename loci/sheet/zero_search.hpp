@@ -28,9 +28,14 @@ class ZeroSearch {
   /// Two functions with both coordinates free, or one function along one of them.
   ZeroSearch(const SheetProgram& program, const core::WorkingMode& mode, System system);
 
-  /// All zeros in the seeds, which are thin in the coordinates that are not free. `smallest`: width below which a cell
-  /// is left undecided; `most_cells`: more live cells than that of one size mean that the functions share a curve.
-  FoundZeros run(const std::vector<Cell>& seeds, double smallest, std::size_t most_cells);
+  struct Limits {
+    double smallest;         ///< width below which a cell is left undecided
+    std::size_t most_cells;  ///< more live cells than that of one size mean that the functions share a curve
+    double accuracy;         ///< width of enclosures that is worth multi-precision to get below
+  };
+
+  /// All zeros in the seeds, which are thin in the coordinates that are not free.
+  FoundZeros run(const std::vector<Cell>& seeds, const Limits& limits);
 
   const core::WorkingMode& mode() const { return cell_.mode(); }
 
@@ -53,7 +58,7 @@ class ZeroSearch {
   const SheetProgram* program_;
   System system_;
   SheetCell cell_;
-  double smallest_ = 0;
+  Limits limits_{};
   std::vector<CertifiedZero> zeros_;
   std::vector<Cell> undecided_;
 };

@@ -1,0 +1,391 @@
+#include "loci/sheet/curve_graph.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+constexpr unsigned most_attempts = 4;
+// A cell edge on which the curve cannot be told apart at this size, relative to the patch, is an unlucky edge.
+constexpr double smallest_on_edge = 1e-14;
+constexpr std::size_t most_cells_on_edge = 256;
+// Of crossings, relative to the patch: a tenth of what vertices are held to.
+constexpr double accuracy = 1e-13;
+constexpr std::size_t most_rim_cells = 8192;
+
+using Side = Chart::Side;
+
+struct Seen {
+  int crossing;
+  std::vector<Interval> enclosure;
+};
+
+class GraphBuilder {
+ public:
+  GraphBuilder(const core::RootTower& tower, const core::Polynomial& curve, const core::WorkingMode& mode,
+               const Partition& parts, const TreeOptions& options, bool last_attempt)
+      : mode_(mode), parts_(parts), options_(options), last_attempt_(last_attempt) {
+    graph_.patches = make_patches(tower, curve, parts);
+  }
+
+  /// None: an unlucky cut, worth another attempt.
+  std::optional<CurveGraph> run() {
+    for (Patch& patch : graph_.patches) {
+      TreeOptions options = options_;
+      if (patch.chart.side == Side::plane) options.holes = parts_.holes;
+      patch.tree = std::make_unique<CellTree>(*patch.program, mode_, patch.domain, std::move(options));
+      at_leaf_.emplace_back(patch.tree->leaves().size());
+      open_.emplace_back(patch.tree->leaves().size());
+    }
+    for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) meet_seams(static_cast<int>(p));
+    for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) meet_border(static_cast<int>(p));
+    for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) meet_rims(static_cast<int>(p));
+    for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) pair_in_leaves(static_cast<int>(p));
+    for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) join_clusters(static_cast<int>(p));
+    if (!lucky()) return std::nullopt;
+    graph_.undecided = clusters(std::move(graph_.undecided));
+    return std::move(graph_);
+  }
+
+ private:
+  bool lucky() const { return !unlucky_ || last_attempt_; }
+
+  const Leaf& leaf(int patch, int index) const { return graph_.patches[patch].tree->leaves()[index]; }
+  bool has_curve(int patch, int index) const {
+    const LeafKind kind = leaf(patch, index).kind;
+    return kind == LeafKind::graph || kind == LeafKind::undecided;
+  }
+
+  /// What was to be told apart at a leaf could not be.
+  void give_up_on(int patch, int index) {
+    unlucky_ = true;
+    if (index >= 0) open_[patch][index] = true;
+  }
+
+  int add_crossing(int patch, const std::vector<Interval>& enclosure, Crossing::Kind kind) {
+    Crossing crossing;
+    crossing.kind = kind;
+    crossing.at = graph_.patches[patch].chart.to_plane(enclosure[0].middle(), enclosure[1].middle());
+    crossing.star = kind == Crossing::Kind::star ? graph_.patches[patch].chart.star : -1;
+    graph_.crossings.push_back(crossing);
+    return static_cast<int>(graph_.crossings.size()) - 1;
+  }
+
+  /// Zeros of the curve on a segment; nothing if they cannot be told apart or lie at its ends.
+  std::optional<std::vector<std::vector<Interval>>> zeros_on(int patch, ZeroSearch& search, int axis, double at,
+                                                             double from, double to) {
+    const Cell& domain = graph_.patches[patch].domain;
+    const double size = std::max(domain.x.width(), domain.y.width());
+    const Cell segment = axis == 0 ? Cell{at, {from, to}} : Cell{{from, to}, at};
+    FoundZeros found = search.run({segment}, {smallest_on_edge * size, most_cells_on_edge, accuracy * size});
+    if (!found.undecided.empty()) return std::nullopt;
+    for (const std::vector<Interval>& zero : found.enclosures) {
+      if (!inside(zero[1 - axis], Interval(from, to))) return std::nullopt;
+      for (std::size_t v = 2; v < zero.size(); ++v)
+        if (zero[v].sign() == 0) return std::nullopt;
+    }
+    return std::move(found.enclosures);
+  }
+
+  ZeroSearch search_along(int patch, int axis) const {
+    return ZeroSearch(*graph_.patches[patch].program, mode_, {{0}, {1 - axis}});
+  }
+
+  void meet_seams(int patch) {
+    ZeroSearch searches[2] = {search_along(patch, 0), search_along(patch, 1)};
+    for (const Seam& seam : graph_.patches[patch].tree->seams()) {
+      if (!has_curve(patch, seam.lower) || !has_curve(patch, seam.upper)) continue;
+      if (leaf(patch, seam.lower).kind == LeafKind::undecided && leaf(patch, seam.upper).kind == LeafKind::undecided) {
+        touching_.push_back({patch, seam.lower, seam.upper});
+        continue;
+      }
+      auto zeros = zeros_on(patch, searches[seam.axis], seam.axis, seam.at, seam.from, seam.to);
+      if (!zeros) {
+        give_up_on(patch, seam.lower);
+        give_up_on(patch, seam.upper);
+        continue;
+      }
+      for (std::vector<Interval>& zero : *zeros) {
+        const int crossing = add_crossing(patch, zero, Crossing::Kind::seam);
+        at_leaf_[patch][seam.lower].push_back({crossing, zero});
+        at_leaf_[patch][seam.upper].push_back({crossing, std::move(zero)});
+      }
+    }
+  }
+
+  /// The patch's own border: the box, a star, or the seam with another patch, to which what is found is handed over.
+  void meet_border(int patch) {
+    const Cell& domain = graph_.patches[patch].domain;
+    const Side side = graph_.patches[patch].chart.side;
+    for (int axis = 0; axis < 2; ++axis) {
+      ZeroSearch search = search_along(patch, axis);
+      for (const int end : {-1, 1}) {
+        const Interval& range = axis == 0 ? domain.x : domain.y;
+        const double at = end < 0 ? range.lower() : range.upper();
+        // Right and left charts find the crossings of their sides with the top and bottom ones.
+        if (axis == 1 && (side == Side::top || side == Side::bottom)) continue;
+        for (std::size_t l = 0; l < at_leaf_[patch].size(); ++l) {
+          const int index = static_cast<int>(l);
+          const Cell& cell = leaf(patch, index).cell;
+          const Interval& own = axis == 0 ? cell.x : cell.y;
+          if ((end < 0 ? own.lower() : own.upper()) != at || !has_curve(patch, index)) continue;
+          const Interval& other = axis == 0 ? cell.y : cell.x;
+          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper());
+          if (!zeros) {
+            give_up_on(patch, index);
+            continue;
+          }
+          for (std::vector<Interval>& zero : *zeros) hand_over(patch, index, axis, end, std::move(zero));
+        }
+      }
+    }
+  }
+
+  /// Position of `side` among the charts of its star.
+  static int chart_of(const Side side) {
+    return side == Side::right ? 0 : side == Side::top ? 1 : side == Side::left ? 2 : 3;
+  }
+
+  void hand_over(int patch, int index, int axis, int end, std::vector<Interval> zero) {
+    const Chart& chart = graph_.patches[patch].chart;
+    if (chart.side == Side::plane) {
+      at_leaf_[patch][index].push_back({add_crossing(patch, zero, Crossing::Kind::box), zero});
+      return;
+    }
+    if (axis == 0 && end < 0) {
+      at_leaf_[patch][index].push_back({add_crossing(patch, zero, Crossing::Kind::star), zero});
+      return;
+    }
+    int other = 0, other_leaf = -1;
+    std::vector<Interval> there = zero;
+    bool box = false;
+    if (axis == 0) {  // the outer side, towards the plane
+      const Cell place = chart.to_plane(Cell{zero[0], zero[1]});
+      const auto& hole = parts_.holes[chart.star];
+      const bool vertical = chart.side == Side::right || chart.side == Side::left;
+      const int direction = chart.side == Side::right || chart.side == Side::top ? 1 : -1;
+      const double at = hole[(vertical ? 0 : 2) + (direction > 0 ? 1 : 0)];
+      box = at == parts_.domain[(vertical ? 0 : 2) + (direction > 0 ? 1 : 0)];
+      there[0] = vertical ? Interval(at) : place.x;
+      there[1] = vertical ? place.y : Interval(at);
+      if (!box)
+        other_leaf =
+            graph_.patches[0].tree->locate_at(vertical ? 0 : 1, at, direction, vertical ? there[1] : there[0]);
+    } else {  // towards the chart above (t = 1) or below: right and left meet top at t = 1, bottom at t = -1
+      const Side neighbour = end > 0 ? Side::top : Side::bottom;
+      other = patch - chart_of(chart.side) + chart_of(neighbour);
+      const double at = chart.side == Side::right ? 1 : -1;
+      there[1] = at;
+      other_leaf = graph_.patches[other].tree->locate_at(1, at, at < 0 ? 1 : -1, there[0]);
+    }
+    const int crossing = add_crossing(patch, zero, box ? Crossing::Kind::box : Crossing::Kind::seam);
+    at_leaf_[patch][index].push_back({crossing, std::move(zero)});
+    if (box) return;
+    if (other_leaf < 0 || !has_curve(other, other_leaf)) return give_up_on(patch, index);
+    at_leaf_[other][other_leaf].push_back({crossing, std::move(there)});
+  }
+
+  /// Where the curve meets Q_j = 0: zeros of (N, Q_j) with s_j = 0.
+  void meet_rims(int patch) {
+    const SheetProgram& program = *graph_.patches[patch].program;
+    for (int j = 0; j < program.roots(); ++j) {
+      std::vector<Cell> seeds;
+      for (const Leaf& candidate : graph_.patches[patch].tree->leaves())
+        if (candidate.rim >> j & 1u) seeds.push_back(candidate.cell);
+      if (seeds.empty()) continue;
+      SheetProgram rim(on_rim(program.tower(), j), {without_variable(program.polynomials()[0], 2 + j),
+                                                    without_variable(program.tower().roots[j].square, 2 + j)});
+      if (graph_.patches[patch].chart.side == Side::plane) localise(rim, parts_);
+      core::WorkingMode mode = mode_;
+      mode.erase(mode.begin() + j);
+      const Cell& domain = graph_.patches[patch].domain;
+      const double size = std::max(domain.x.width(), domain.y.width());
+      FoundZeros found = ZeroSearch(rim, mode, {}).run(seeds, {1e-12 * size, most_rim_cells, accuracy * size});
+      for (const Cell& cell : found.undecided) {
+        unlucky_ = true;
+        graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));
+      }
+      for (std::vector<Interval>& zero : found.enclosures) {
+        const int index = graph_.patches[patch].tree->locate(zero[0], zero[1]);
+        const bool corner = std::any_of(zero.begin() + 2, zero.end(), [](const Interval& s) { return s.sign() == 0; });
+        zero.insert(zero.begin() + 2 + j, Interval(0.0));
+        if (index < 0 || corner) {
+          unlucky_ = true;
+          graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(Cell{zero[0], zero[1]}));
+          continue;
+        }
+        if (!has_curve(patch, index)) {
+          give_up_on(patch, index);
+          continue;
+        }
+        at_leaf_[patch][index].push_back({add_crossing(patch, zero, Crossing::Kind::rim), std::move(zero)});
+      }
+    }
+  }
+
+  /// In a graph leaf the crossings, sorted along its variable, bound the stretches in turn.
+  void pair_in_leaves(int patch) {
+    for (std::size_t l = 0; l < at_leaf_[patch].size(); ++l) {
+      const int index = static_cast<int>(l);
+      const Leaf& own = leaf(patch, index);
+      std::vector<Seen>& seen = at_leaf_[patch][index];
+      if (own.kind != LeafKind::graph) continue;
+      const int v = own.along;
+      std::sort(seen.begin(), seen.end(),
+                [&](const Seen& a, const Seen& b) { return a.enclosure[v].middle() < b.enclosure[v].middle(); });
+      bool clear = seen.size() % 2 == 0 && !open_[patch][index];
+      for (std::size_t i = 0; i + 1 < seen.size(); ++i)
+        clear = clear && seen[i].enclosure[v].upper() < seen[i + 1].enclosure[v].lower();
+      if (!clear) {
+        unlucky_ = true;
+        graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(own.cell));
+      }
+      for (std::size_t i = 0; i + 1 < seen.size(); i += 2)
+        graph_.stretches.push_back({patch, index, v, {{seen[i].crossing, seen[i].enclosure},
+                                                      {seen[i + 1].crossing, seen[i + 1].enclosure}}});
+    }
+  }
+
+  /// Undecided leaves that touch: two branches that reach them are taken for one that passes, more for a node.
+  void join_clusters(int patch) {
+    const std::vector<Leaf>& leaves = graph_.patches[patch].tree->leaves();
+    std::vector<int> parent(leaves.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto find = [&](int i) {
+      while (parent[i] != i) i = parent[i] = parent[parent[i]];
+      return i;
+    };
+    for (const auto& [p, a, b] : touching_)
+      if (p == patch) {
+        const int first = find(a), second = find(b);
+        parent[std::max(first, second)] = std::min(first, second);
+      }
+    const Chart& chart = graph_.patches[patch].chart;
+    std::map<int, std::vector<int>> members;
+    for (std::size_t l = 0; l < leaves.size(); ++l)
+      if (leaves[l].kind == LeafKind::undecided) members[find(static_cast<int>(l))].push_back(static_cast<int>(l));
+    for (const auto& [root, cells] : members) {
+      std::vector<Seen> branches;
+      Cell place = leaves[root].cell;
+      for (const int l : cells) {
+        branches.insert(branches.end(), at_leaf_[patch][l].begin(), at_leaf_[patch][l].end());
+        place = {hull(place.x, leaves[l].cell.x), hull(place.y, leaves[l].cell.y)};
+      }
+      graph_.undecided.push_back(chart.to_plane(place));
+      graph_.clusters.push_back({patch, place, -1, branches.empty()});
+      if (branches.size() == 2) {
+        graph_.stretches.push_back(
+            {patch, -1, 0, {{branches[0].crossing, branches[0].enclosure}, {branches[1].crossing, branches[1].enclosure}}});
+      } else if (!branches.empty()) {
+        std::vector<Interval> node = branches.front().enclosure;
+        node[0] = place.x.middle();
+        node[1] = place.y.middle();
+        const int crossing = add_crossing(patch, node, Crossing::Kind::node);
+        graph_.clusters.back().node = crossing;
+        for (const Seen& branch : branches)
+          graph_.stretches.push_back({patch, -1, 0, {{branch.crossing, branch.enclosure}, {crossing, node}}});
+      }
+    }
+  }
+
+  core::WorkingMode mode_;
+  const Partition& parts_;
+  TreeOptions options_;
+  bool last_attempt_;
+  bool unlucky_ = false;
+  CurveGraph graph_;
+  std::vector<std::vector<std::vector<Seen>>> at_leaf_;  // by patch and leaf
+  std::vector<std::vector<bool>> open_;                  // leaves at which something could not be told apart
+  struct Touching {
+    int patch, first, second;
+  };
+  std::vector<Touching> touching_;
+};
+
+}  // namespace
+
+LiftedPoint StretchEnd::middle() const {
+  LiftedPoint point;
+  for (const Interval& value : enclosure) point.push_back(value.middle());
+  return point;
+}
+
+core::Polynomial without_variable(const core::Polynomial& p, int variable) {
+  core::Polynomial result{p.variables - 1, {}};
+  for (core::Term term : p.terms) {
+    if (term.exponents[variable] != 0) continue;
+    term.exponents.erase(term.exponents.begin() + variable);
+    result.terms.push_back(std::move(term));
+  }
+  return result;
+}
+
+core::RootTower on_rim(const core::RootTower& tower, int root) {
+  core::RootTower result = tower;
+  result.roots.erase(result.roots.begin() + root);
+  for (core::Root& other : result.roots) other.square = without_variable(other.square, 2 + root);
+  result.denominators.clear();
+  for (const core::Polynomial& denominator : tower.denominators)
+    result.denominators.push_back(without_variable(denominator, 2 + root));
+  return result;
+}
+
+std::vector<Patch> make_patches(const core::RootTower& tower, const core::Polynomial& curve, const Partition& parts) {
+  std::vector<Patch> patches;
+  for (const Chart& chart : parts.charts) {
+    Patch patch;
+    patch.chart = chart;
+    const auto& d = parts.domain;
+    patch.domain = chart.side == Side::plane ? Cell{{d[0], d[1]}, {d[2], d[3]}} : Cell{{0, 1}, {-1, 1}};
+    ChartedSheet sheet = charted(tower, {curve}, chart, parts.stars);
+    patch.program = std::make_unique<SheetProgram>(sheet.tower, std::move(sheet.functions));
+    if (chart.side == Side::plane) localise(*patch.program, parts);
+    patches.push_back(std::move(patch));
+  }
+  return patches;
+}
+
+CurveGraph curve_graph(const core::RootTower& tower, const core::Polynomial& curve, const core::WorkingMode& mode,
+                       const Partition& parts, const TreeOptions& options) {
+  for (unsigned attempt = 0;; ++attempt) {
+    TreeOptions own = options;
+    own.attempt = attempt;
+    const bool stopped = options.stop && options.stop();
+    const bool last = attempt + 1 >= most_attempts || stopped;
+    if (auto graph = GraphBuilder(tower, curve, mode, parts, own, last).run()) {
+      graph->stopped = stopped;
+      return std::move(*graph);
+    }
+  }
+}
+
+bool cut_stretch(CurveGraph& graph, int patch, const std::vector<Interval>& enclosure, core::ArcEnd label) {
+  const int leaf = graph.patches[patch].tree->locate(enclosure[0], enclosure[1]);
+  if (leaf < 0) return false;
+  for (Stretch& stretch : graph.stretches) {
+    if (stretch.patch != patch || stretch.leaf != leaf) continue;
+    const Interval& key = enclosure[stretch.along];
+    if (!(stretch.ends[0].enclosure[stretch.along].upper() < key.lower() &&
+          key.upper() < stretch.ends[1].enclosure[stretch.along].lower()))
+      continue;
+    Crossing crossing;
+    crossing.kind = Crossing::Kind::cut;
+    crossing.label = label;
+    crossing.at = graph.patches[patch].chart.to_plane(enclosure[0].middle(), enclosure[1].middle());
+    graph.crossings.push_back(crossing);
+    Stretch rest = stretch;
+    rest.ends[0] = {static_cast<int>(graph.crossings.size()) - 1, enclosure};
+    stretch.ends[1] = rest.ends[0];
+    graph.stretches.push_back(std::move(rest));
+    return true;
+  }
+  return false;
+}
+
+}  // namespace clearloci::loci::sheet

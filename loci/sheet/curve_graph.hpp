@@ -1,0 +1,79 @@
+// The curve's topology: crossings (points where it meets cell edges, the box, the workspace boundary, stars) joined by
+// stretches, each inside one cell where it is proven to be a single graph over one variable.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "loci/sheet/cell_tree.hpp"
+#include "loci/sheet/patch.hpp"
+#include "loci/sheet/sheet_follower.hpp"
+
+namespace clearloci::loci::sheet {
+
+/// A chart with the program of the curve in its coordinates (function 0), and its subdivision.
+struct Patch {
+  Chart chart;
+  Cell domain;
+  std::unique_ptr<SheetProgram> program;
+  std::unique_ptr<CellTree> tree;
+};
+
+struct Crossing {
+  enum class Kind { seam, box, rim, star, node, cut };
+  Kind kind = Kind::seam;
+  core::Point2 at{};
+  int star = -1;                              ///< of a star
+  core::ArcEnd label = core::ArcEnd::none;  ///< of a cut; of a star where a cutter reaches it in the same direction
+};
+
+/// One end of a stretch: the crossing, enclosed in the coordinates and roots of the stretch's patch.
+struct StretchEnd {
+  int crossing = -1;
+  std::vector<Interval> enclosure;
+
+  LiftedPoint middle() const;
+};
+
+/// `leaf` -1: through or into an undecided cluster, where nothing is proven.
+struct Stretch {
+  int patch = 0;
+  int leaf = -1;
+  int along = 0;
+  StretchEnd ends[2];  ///< in ascending order of variable `along`
+};
+
+/// An undecided cluster: of size rounding, or what a spent budget left.
+struct Cluster {
+  int patch = 0;
+  Cell cell;      ///< in the patch's coordinates
+  int node = -1;  ///< crossing at which more than two branches meet in it
+  bool lonely = false;  ///< no branch reaches it
+};
+
+struct CurveGraph {
+  std::vector<Patch> patches;
+  std::vector<Crossing> crossings;
+  std::vector<Stretch> stretches;
+  std::vector<Cluster> clusters;
+  std::vector<Cell> undecided;  ///< in the plane, clusters included
+  bool stopped = false;         ///< by TreeOptions::stop or the budget
+};
+
+/// The patches of a sheet over a box, charted and compiled. `box`: x0, x1, y0, y1.
+std::vector<Patch> make_patches(const core::RootTower& tower, const core::Polynomial& curve, const Partition& parts);
+
+/// Subdivides the patches and joins what crosses. Tries again with other cuts where rounding leaves an incidence open;
+/// what remains open after that is in `undecided`.
+CurveGraph curve_graph(const core::RootTower& tower, const core::Polynomial& curve, const core::WorkingMode& mode,
+                       const Partition& parts, const TreeOptions& options);
+
+/// The tower and polynomial on Q_root = 0, where s_root = 0: variable 2 + root removed.
+core::RootTower on_rim(const core::RootTower& tower, int root);
+core::Polynomial without_variable(const core::Polynomial& p, int variable);
+
+/// Cuts the stretch that holds the place (in the coordinates of patch `patch`) at a new crossing. False: rounding does
+/// not tell which one that is.
+bool cut_stretch(CurveGraph& graph, int patch, const std::vector<Interval>& enclosure, core::ArcEnd label);
+
+}  // namespace clearloci::loci::sheet

@@ -1,0 +1,38 @@
+// Newton's method on the lifted curve {N = 0, s_j^2 = Q_j} in doubles. It proves nothing: what it finds is used where
+// enclosures have proven that there is only one thing to find.
+#pragma once
+
+#include <vector>
+
+#include "loci/sheet/sheet_program.hpp"
+
+namespace clearloci::loci::sheet {
+
+/// (p, q, s1...sm) in a patch's coordinates.
+using LiftedPoint = std::vector<double>;
+
+class SheetFollower {
+ public:
+  /// Function 0 of the program is the curve. `size`: of the region, sets the accuracy that counts as converged.
+  SheetFollower(const SheetProgram& program, double size);
+
+  /// Moves `point` to the curve in the hyperplane row . u = value. False: no convergence to within 1e-13 of the size.
+  bool correct(LiftedPoint& point, const LiftedPoint& row, double value);
+
+  /// Unit tangent of the lifted curve, of either orientation; empty where the curve is singular.
+  LiftedPoint tangent(const LiftedPoint& point);
+
+ private:
+  void evaluate(const LiftedPoint& point);
+
+  const SheetProgram* program_;
+  SheetProgram::Registers<double> registers_;
+  double size_;
+  int n_;                                     // variables
+  std::vector<double> residual_;  // of N, G_1 ... G_m
+  std::vector<std::vector<double>> matrix_;   // their gradients, one row more for the hyperplane
+};
+
+double dot(const LiftedPoint& a, const LiftedPoint& b);
+
+}  // namespace clearloci::loci::sheet

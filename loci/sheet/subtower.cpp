@@ -1,0 +1,67 @@
+#include "loci/sheet/subtower.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+void sort_terms(core::Polynomial& p) {
+  std::sort(p.terms.begin(), p.terms.end(),
+            [](const core::Term& a, const core::Term& b) { return a.exponents > b.exponents; });
+}
+
+}  // namespace
+
+Subtower subtower(const core::RootTower& whole, const core::WorkingMode& mode,
+                  const std::vector<core::Polynomial>& functions) {
+  const int m = static_cast<int>(whole.roots.size());
+  std::vector<bool> needed(m, false);
+  for (int j = m - 1; j >= 0; --j) {
+    for (const core::Polynomial& f : functions) needed[j] = needed[j] || core::depends_on(f, 2 + j);
+    for (int k = j + 1; k < m; ++k)
+      needed[j] = needed[j] || (needed[k] && core::depends_on(whole.roots[k].square, 2 + j));
+  }
+  Subtower part;
+  part.tower.coordinates = whole.coordinates;
+  for (int j = 0; j < m; ++j) (needed[j] ? part.kept : part.dropped).push_back(j);
+  for (const int j : part.kept) {
+    part.tower.roots.push_back(whole.roots[j]);
+    part.mode.push_back(mode[j]);
+  }
+  for (core::Root& root : part.tower.roots) root.square = narrowed(root.square, part);
+  for (const core::Polynomial& denominator : whole.denominators)
+    if (std::none_of(part.dropped.begin(), part.dropped.end(),
+                     [&](int j) { return core::depends_on(denominator, 2 + j); }))
+      part.tower.denominators.push_back(narrowed(denominator, part));
+  return part;
+}
+
+core::Polynomial narrowed(const core::Polynomial& p, const Subtower& part) {
+  core::Polynomial result{2 + static_cast<int>(part.kept.size()), {}};
+  for (const core::Term& term : p.terms) {
+    std::vector<int> exponents = {term.exponents[0], term.exponents[1]};
+    for (const int j : part.kept) exponents.push_back(term.exponents[2 + j]);
+    for (const int j : part.dropped) core::ensure(term.exponents[2 + j] == 0, "a dropped root does not occur");
+    result.terms.push_back({std::move(exponents), term.coefficient});
+  }
+  sort_terms(result);
+  return result;
+}
+
+core::Polynomial widened(const core::Polynomial& p, const Subtower& part, int variables) {
+  core::Polynomial result{variables, {}};
+  for (const core::Term& term : p.terms) {
+    std::vector<int> exponents(variables, 0);
+    exponents[0] = term.exponents[0];
+    exponents[1] = term.exponents[1];
+    for (std::size_t i = 0; i < part.kept.size(); ++i) exponents[2 + part.kept[i]] = term.exponents[2 + i];
+    result.terms.push_back({std::move(exponents), term.coefficient});
+  }
+  sort_terms(result);
+  return result;
+}
+
+}  // namespace clearloci::loci::sheet

@@ -1,0 +1,291 @@
+#include "loci/sheet/trace_sheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/errors.hpp"
+#include "loci/sheet/chains.hpp"
+#include "loci/sheet/critical_point.hpp"
+#include "loci/sheet/curve_graph.hpp"
+#include "loci/sheet/isolated_zeros.hpp"
+#include "loci/sheet/subtower.hpp"
+#include "loci/sheet/vertices.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+// The box is widened by this share, the same on no two sides, so that its edges are in general position.
+constexpr double box_margin = 1e-9;
+constexpr std::array<double, 4> margin_shares = {-1.137, 1.291, -1.073, 1.419};
+// Zeros of (N, cutter) closer than this, relative to the patch, are a touch; more live cells than this a shared curve.
+constexpr double smallest_cut = 1e-12;
+constexpr std::size_t most_cut_cells = 8192;
+// An arc shorter than this, relative to the region, is none.
+constexpr double same_place = 1e-10;
+
+/// Where arcs are cut; `keep`: only where the polynomial is positive does the curve belong to the result.
+struct Cut {
+  core::Polynomial sheet;
+  core::ArcEnd label;
+  bool keep;
+};
+
+class Tracer {
+ public:
+  Tracer(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<core::Rational>& lower,
+         const std::vector<core::Rational>& upper, const core::Polynomial& sheet, const SheetTraceOptions& options)
+      : tower_(tower), mode_(mode), options_(options), own_(subtower(tower, mode, {sheet})) {
+    curve_ = narrowed(sheet, own_);
+    Interval* const as_interval = nullptr;
+    const Interval x = hull(constant_as(lower[0], as_interval), constant_as(upper[0], as_interval));
+    const Interval y = hull(constant_as(lower[1], as_interval), constant_as(upper[1], as_interval));
+    box_ = {x.lower(), x.upper(), y.lower(), y.upper()};
+    size_ = std::max(x.width(), y.width());
+    wide_ = box_;
+    for (int i = 0; i < 4; ++i) wide_[i] += margin_shares[i] * box_margin * size_;
+  }
+
+  SheetTrace run(const std::vector<Cutter>& cutters) {
+    const Partition parts = partition(own_.tower, wide_);
+    TreeOptions tree;
+    tree.most_cells = options_.most_cells;
+    tree.stop = options_.stop;
+    graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+    std::vector<Cut> cuts;
+    for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
+    for (const int j : own_.dropped) cuts.push_back({tower_.roots[j].square, core::ArcEnd::boundary, true});
+    add_box_cuts(parts, cuts);
+    if (!graph_.stretches.empty())
+      for (const Cut& cut : cuts) apply(cut, parts);
+    SheetTrace trace;
+    settle_clusters(trace);
+    place_box_ends();
+    for (Chain& chain : chains(graph_)) {
+      const PlacedArc placed = place_vertices(graph_, own_.mode, chain.legs, options_.tolerance, size_);
+      if (!wanted(placed.inner, cuts)) continue;
+      core::Arc arc;
+      arc.closed = chain.closed;
+      arc.ends = chain.ends;
+      arc.length = placed.length;
+      arc.points = placed.points;
+      trace.arcs.push_back(std::move(arc));
+    }
+    for (const Cell& cell : clusters(graph_.undecided))
+      trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
+    trace.certified = trace.undecided.empty();
+    trace.stopped = graph_.stopped;
+    return trace;
+  }
+
+ private:
+  /// A star near the box's edge makes the domain reach across it.
+  void add_box_cuts(const Partition& parts, std::vector<Cut>& cuts) const {
+    const int n = tower_.variables();
+    for (int i = 0; i < 4; ++i) {
+      if (parts.domain[i] == wide_[i]) continue;
+      const core::Polynomial line =
+          core::variable_polynomial(n, i / 2) - core::constant_polynomial(n, core::Rational(wide_[i]));
+      const core::Polynomial sign = core::constant_polynomial(n, i % 2 == 0 ? 1 : -1);
+      cuts.push_back({sign * line, core::ArcEnd::box, true});
+    }
+  }
+
+  void apply(const Cut& cut, const Partition& parts) {
+    if (cut.sheet.is_constant()) return;
+    const Subtower both = subtower(tower_, mode_, {widened(curve_, own_, tower_.variables()), cut.sheet});
+    if (both.kept == own_.kept)
+      cut_in_patches(narrowed(cut.sheet, own_), cut.label, parts);
+    else
+      cut_in_plane(both, cut);
+  }
+
+  /// The cutter lives on the curve's own sheet: search the cells that hold the curve.
+  void cut_in_patches(const core::Polynomial& cutter, core::ArcEnd label, const Partition& parts) {
+    for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
+      const Patch& patch = graph_.patches[p];
+      std::vector<Cell> seeds;
+      for (const Leaf& leaf : patch.tree->leaves())
+        if (leaf.kind == LeafKind::graph) seeds.push_back(leaf.cell);
+      if (seeds.empty()) continue;
+      ChartedSheet sheet = charted(own_.tower, {curve_, cutter}, patch.chart, parts.stars);
+      SheetProgram program(sheet.tower, std::move(sheet.functions));
+      if (patch.chart.side == Chart::Side::plane) localise(program, parts);
+      const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
+      const FoundZeros found = ZeroSearch(program, own_.mode, {}).run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size});
+      std::vector<Cell> open = found.undecided;
+      for (const std::vector<Interval>& zero : found.enclosures)
+        if (!cut_stretch(graph_, static_cast<int>(p), zero, label)) open.push_back({zero[0], zero[1]});
+      for (const Cell& cell : clusters(std::move(open)))
+        if (!at_star(static_cast<int>(p), cell, label) && !at_end(patch.chart.to_plane(cell)))
+          graph_.undecided.push_back(patch.chart.to_plane(cell));
+    }
+  }
+
+  /// The cutter reaches a star in the direction of one of the curve's branches: that branch ends there with its label.
+  bool at_star(int patch, const Cell& cell, core::ArcEnd label) {
+    if (graph_.patches[patch].chart.side == Chart::Side::plane || cell.x.lower() > 0 || cell.x.upper() > same_place)
+      return false;
+    for (const Stretch& stretch : graph_.stretches) {
+      if (stretch.patch != patch) continue;
+      for (const StretchEnd& end : stretch.ends) {
+        Crossing& crossing = graph_.crossings[end.crossing];
+        if (crossing.kind != Crossing::Kind::star || disjoint(end.enclosure[1], cell.y)) continue;
+        crossing.label = label;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// The place is, to rounding, an end of the curve anyway: cutting there again would say nothing.
+  bool at_end(const Cell& place) const {
+    const double width = same_place * size_;
+    if (place.x.width() > width || place.y.width() > width) return false;
+    return std::any_of(graph_.crossings.begin(), graph_.crossings.end(), [&](const Crossing& crossing) {
+      if (crossing.kind == Crossing::Kind::seam || crossing.kind == Crossing::Kind::node) return false;
+      return std::abs(crossing.at[0] - place.x.middle()) <= width && std::abs(crossing.at[1] - place.y.middle()) <= width;
+    });
+  }
+
+  /// The cutter has roots that the curve does not: search the box on the sheet of both.
+  void cut_in_plane(const Subtower& both, const Cut& cut) {
+    const std::vector<core::Rational> lower = {wide_[0], wide_[2]}, upper = {wide_[1], wide_[3]};
+    const core::Polynomial curve = widened(curve_, own_, tower_.variables());
+    const ZeroSet found = isolated_zeros(both.tower, both.mode, narrowed(curve, both), narrowed(cut.sheet, both), lower,
+                                         upper, {.smallest = 1e-11});
+    std::vector<Cell> open = found.undecided;
+    for (const SheetZero& zero : found.zeros) {
+      const Cell place{{zero.x - zero.radius, zero.x + zero.radius}, {zero.y - zero.radius, zero.y + zero.radius}};
+      if (!cut_at(place, cut.label)) open.push_back(place);
+    }
+    for (const Cell& cell : clusters(std::move(open)))
+      if (!at_end(cell)) graph_.undecided.push_back(cell);
+  }
+
+  bool cut_at(const Cell& place, core::ArcEnd label) {
+    for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
+      const Patch& patch = graph_.patches[p];
+      const std::optional<Cell> local = patch.chart.from_plane(place);
+      if (!local) continue;
+      const int leaf = patch.tree->locate(local->x, local->y);
+      if (leaf < 0 || patch.tree->leaves()[leaf].kind == LeafKind::hole) continue;
+      SheetCell cell(*patch.program, own_.mode);
+      if (!cell.enter(local->x, local->y)) return false;
+      std::vector<Interval> enclosure = {local->x, local->y};
+      for (std::size_t j = 0; j < own_.mode.size(); ++j) enclosure.push_back(cell.root(static_cast<int>(j)));
+      return cut_stretch(graph_, static_cast<int>(p), enclosure, label);
+    }
+    return false;
+  }
+
+  /// Nodes and isolated points are critical points of N with N = 0 to rounding.
+  void settle_clusters(SheetTrace& trace) {
+    for (const Cluster& cluster : graph_.clusters) {
+      const Patch& patch = graph_.patches[cluster.patch];
+      const double width = std::max(cluster.cell.x.width(), cluster.cell.y.width());
+      const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
+      if (width > 1e-6 * size) continue;  // left by a spent budget: nothing to be seen yet
+      const std::optional<core::Point2> place = critical_point(*patch.program, own_.mode, cluster.cell, size);
+      if (!place) continue;
+      const core::Point2 at = patch.chart.to_plane((*place)[0], (*place)[1]);
+      if (cluster.node >= 0) graph_.crossings[cluster.node].at = at;
+      if (cluster.lonely) trace.isolated_points.push_back(at);
+    }
+  }
+
+  /// Ends on the widened box move along the curve to the edge itself, where the curve is not nearly parallel to it.
+  void place_box_ends() {
+    SheetFollower follower(*graph_.patches[0].program, size_);
+    for (const Stretch& stretch : graph_.stretches) {
+      if (stretch.patch != 0) continue;
+      for (const StretchEnd& end : stretch.ends) {
+        Crossing& crossing = graph_.crossings[end.crossing];
+        if (crossing.kind != Crossing::Kind::box) continue;
+        LiftedPoint point = end.middle();
+        for (int i = 0; i < 4; ++i) {
+          const double edge = box_[i];
+          const int axis = i / 2;
+          if (std::abs(point[axis] - wide_[i]) > 1e-3 * box_margin * size_) continue;
+          LiftedPoint row(point.size(), 0.0), moved = point;
+          row[axis] = 1;
+          if (!follower.correct(moved, row, edge)) continue;
+          const double distance = std::hypot(moved[0] - point[0], moved[1] - point[1]);
+          if (distance < 1e3 * box_margin * size_) crossing.at = {moved[0], moved[1]};
+        }
+      }
+    }
+  }
+
+  /// The arc is on the kept side of every region's edge.
+  bool wanted(const core::Point2& inner, const std::vector<Cut>& cuts) {
+    for (const Cut& cut : cuts) {
+      if (!cut.keep) continue;
+      const Subtower sub = subtower(tower_, mode_, {cut.sheet});
+      const SheetProgram program(sub.tower, {narrowed(cut.sheet, sub)});
+      const std::optional<int> sign = PointSign(program, sub.mode)(inner[0], inner[1]);
+      if (!sign || *sign < 0) return false;
+      if (*sign == 0) graph_.undecided.push_back({inner[0], inner[1]});
+    }
+    return true;
+  }
+
+  const core::RootTower& tower_;
+  core::WorkingMode mode_;
+  SheetTraceOptions options_;
+  Subtower own_;
+  core::Polynomial curve_;
+  std::array<double, 4> box_{}, wide_{};
+  double size_ = 0;
+  CurveGraph graph_;
+};
+
+bool divisible_by_variable(const core::Polynomial& p, int variable) {
+  return !p.is_zero() && std::all_of(p.terms.begin(), p.terms.end(),
+                                     [&](const core::Term& term) { return term.exponents[variable] > 0; });
+}
+
+void append(SheetTrace& all, SheetTrace part) {
+  all.arcs.insert(all.arcs.end(), part.arcs.begin(), part.arcs.end());
+  all.isolated_points.insert(all.isolated_points.end(), part.isolated_points.begin(), part.isolated_points.end());
+  all.undecided.insert(all.undecided.end(), part.undecided.begin(), part.undecided.end());
+  all.certified = all.certified && part.certified;
+  all.stopped = all.stopped || part.stopped;
+}
+
+}  // namespace
+
+SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mode,
+                       const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
+                       const core::Polynomial& sheet, const std::vector<Cutter>& cutters,
+                       const SheetTraceOptions& options) {
+  core::ensure(!sheet.is_zero(), "a curve's polynomial is not zero");
+  if (sheet.is_constant()) return {};
+  // s_j = 0 and Q_j = 0 are the workspace boundary: a curve of the plane below root j.
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    const int v = 2 + static_cast<int>(j);
+    const core::Polynomial& square = tower.roots[j].square;
+    const bool rim = core::primitive_part(sheet) == core::primitive_part(square);
+    if (!rim && !divisible_by_variable(sheet, v)) continue;
+    core::WorkingMode rest = mode;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(j));
+    std::vector<Cutter> on_boundary;
+    for (const Cutter& cutter : cutters) {
+      const core::Polynomial there = without_variable(cutter.sheet, v);
+      if (!there.is_constant()) on_boundary.push_back({there, cutter.label});
+    }
+    const core::RootTower below = on_rim(tower, static_cast<int>(j));
+    SheetTrace all = trace_sheet(below, rest, lower, upper,
+                                 without_denominators(without_variable(square, v), tower), on_boundary, options);
+    if (!rim) {
+      core::Polynomial quotient = sheet;
+      for (core::Term& term : quotient.terms) --term.exponents[v];
+      append(all, trace_sheet(tower, mode, lower, upper, quotient, cutters, options));
+    }
+    return all;
+  }
+  return Tracer(tower, mode, lower, upper, sheet, options).run(cutters);
+}
+
+}  // namespace clearloci::loci::sheet

@@ -1,0 +1,48 @@
+// The adaptive engine: one curve of one working mode, traced on the mode's sheet with proven topology.
+//
+// The box is subdivided into cells that are proven free of the curve or to meet it in graphs over a local coordinate;
+// crossings with cell edges, the box and the workspace boundary are isolated by Krawczyk's operator; sorted along the
+// coordinate they bound the pieces of curve in the cell (method.md section 8).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/locus_factor.hpp"
+#include "core/locus_map.hpp"
+
+namespace clearloci::loci::sheet {
+
+/// Another sheet polynomial at whose zeros arcs are cut, e.g. |A| with the label direct_singularity.
+struct Cutter {
+  core::Polynomial sheet;
+  core::ArcEnd label = core::ArcEnd::direct_singularity;
+};
+
+struct SheetTraceOptions {
+  double tolerance = 1e-5;     ///< chord deviation
+  int most_cells = 200000;     ///< budget of cells a patch
+  std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
+};
+
+/// A rectangle of the plane.
+struct Region {
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+};
+
+struct SheetTrace {
+  std::vector<core::Arc> arcs;
+  std::vector<core::Point2> isolated_points;  ///< where an undecided cell has the curve in one point to all appearance
+  bool certified = true;                      ///< topology proven: no undecided cell
+  bool stopped = false;
+  std::vector<Region> undecided;
+};
+
+/// All of N = 0 in the box and the mode's workspace. The box counts as wider by 1e-9 of its size on every side, so that
+/// a curve that touches an edge is one arc; ends at an edge lie on it.
+SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mode,
+                       const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
+                       const core::Polynomial& sheet, const std::vector<Cutter>& cutters = {},
+                       const SheetTraceOptions& options = {});
+
+}  // namespace clearloci::loci::sheet

@@ -1,0 +1,234 @@
+#include "loci/sheet/vertices.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+constexpr int most_trials = 14;
+// A step is long enough when its chord uses this share of the tolerance; aiming a little below it avoids rejections.
+constexpr double enough = 0.55, aim = 0.85;
+constexpr double most_growth = 3;
+constexpr std::array<double, 3> samples = {0.25, 0.5, 0.75};
+
+double distance_to_chord(const core::Point2& p, const core::Point2& a, const core::Point2& b) {
+  const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
+  const double px = p[0] - a[0], py = p[1] - a[1];
+  if (length == 0) return std::hypot(px, py);
+  const double along = std::clamp((px * dx + py * dy) / length, 0.0, length);
+  return std::hypot(px - along * dx / length, py - along * dy / length);
+}
+
+/// Places vertices along legs of one patch.
+class Run {
+ public:
+  Run(const CurveGraph& graph, const core::WorkingMode& mode, int patch, double tolerance, double size)
+      : mode_(mode),
+        chart_(&graph.patches[patch].chart),
+        tree_(graph.patches[patch].tree.get()),
+        follower_(*graph.patches[patch].program, chart_->side == Chart::Side::plane ? size : 1.0),
+        tolerance_(tolerance) {}
+
+  /// Appends the vertices after the first leg's start.
+  void follow(const std::vector<Leg>& legs, PlacedArc& arc) {
+    ends_.clear();
+    for (const Leg& leg : legs) {
+      const StretchEnd& end = leg.stretch->ends[leg.forward ? 1 : 0];
+      ends_.push_back(end.middle());
+    }
+    legs_ = &legs;
+    LiftedPoint at = legs.front().stretch->ends[legs.front().forward ? 0 : 1].middle();
+    std::size_t leg = 0;
+    double step = 0.02 * std::sqrt(tolerance_ / 1e-5);
+    while (leg < legs.size()) {
+      Target target = next(at, leg, step);
+      const core::Point2 from = plane(at), to = plane(target.point);
+      const double chord = std::hypot(to[0] - from[0], to[1] - from[1]);
+      // A shallow arc over a chord c with sagitta d is 8 d^2 / (3 c) longer than it.
+      if (chord > 0) arc.length += chord + 8 * target.deviation * target.deviation / (3 * chord);
+      if (target.has_inner) arc.inner = target.inner;
+      arc.points.push_back(to);
+      at = std::move(target.point);
+      leg = target.leg;
+      step = target.step;
+    }
+  }
+
+ private:
+  struct Target {
+    LiftedPoint point;
+    std::size_t leg = 0;   // where the next step starts
+    double step = 0;       // length to try next
+    double deviation = 0;  // of the chord, measured
+    bool has_inner = false;
+    core::Point2 inner{};
+  };
+
+  core::Point2 plane(const LiftedPoint& p) const { return chart_->to_plane(p[0], p[1]); }
+
+  /// The point proven to be the one on the leg: a solution in its cell, on its sheet, between its ends.
+  bool on_leg(const LiftedPoint& p, std::size_t leg) const {
+    const Stretch& stretch = *(*legs_)[leg].stretch;
+    if (stretch.leaf < 0) return false;
+    const Cell& cell = tree_->leaves()[stretch.leaf].cell;
+    if (!cell.x.contains(p[0]) || !cell.y.contains(p[1])) return false;
+    for (std::size_t j = 0; j < mode_.size(); ++j)
+      if (mode_[j] * p[2 + j] <= 0) return false;
+    const int v = stretch.along;
+    return stretch.ends[0].enclosure[v].upper() < p[v] && p[v] < stretch.ends[1].enclosure[v].lower();
+  }
+
+  LiftedPoint oriented_tangent(const LiftedPoint& at, std::size_t leg) {
+    LiftedPoint t = follower_.tangent(at);
+    const Leg& l = (*legs_)[leg];
+    if (t.empty() || l.stretch->leaf < 0) return {};
+    // The variable of the leg is monotone along it; where its share vanishes at the very end, the way to the end tells.
+    double direction = t[l.stretch->along] * (l.forward ? 1 : -1);
+    if (std::abs(t[l.stretch->along]) < 1e-6) {
+      LiftedPoint way = ends_[leg];
+      for (std::size_t i = 0; i < way.size(); ++i) way[i] -= at[i];
+      direction = dot(way, t);
+    }
+    if (direction < 0)
+      for (double& entry : t) entry = -entry;
+    return t;
+  }
+
+  double ahead(const LiftedPoint& p, const LiftedPoint& at, const LiftedPoint& tangent) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) sum += tangent[i] * (p[i] - at[i]);
+    return sum;
+  }
+
+  /// The curve's point at distance `h` ahead of `at` along its tangent, if it is proven to lie on `leg`.
+  bool point_ahead(const LiftedPoint& at, const LiftedPoint& tangent, double h, std::size_t leg, std::size_t first,
+                   LiftedPoint& point) {
+    // Start from the straight line between the leg's known ends: better than the tangent after a turn.
+    const LiftedPoint& start = leg == first ? at : ends_[leg - 1];
+    const double from = ahead(start, at, tangent), to = ahead(ends_[leg], at, tangent);
+    const double share = to > from ? std::clamp((h - from) / (to - from), 0.0, 1.0) : 0.5;
+    point = start;
+    for (std::size_t i = 0; i < point.size(); ++i) point[i] += share * (ends_[leg][i] - start[i]);
+    return follower_.correct(point, tangent, dot(tangent, at) + h) && on_leg(point, leg);
+  }
+
+  /// One trial step: up to `h` ahead. Returns the target; `forced`: it could not go farther for other reasons than h.
+  Target reach(const LiftedPoint& at, std::size_t first, const LiftedPoint& tangent, double h, bool& forced) {
+    forced = true;
+    Target target;
+    double reached = 0;
+    std::size_t leg = first;
+    for (; leg < legs_->size(); ++leg) {
+      if ((*legs_)[leg].stretch->leaf < 0) break;
+      const double end = ahead(ends_[leg], at, tangent);
+      if (end <= reached) break;  // the curve turns back: a vertex before this leg, or inside it
+      if (end > h) {
+        if (point_ahead(at, tangent, h, leg, first, target.point)) {
+          forced = false;
+          target.leg = leg;
+          return target;
+        }
+        break;
+      }
+      reached = end;
+    }
+    // Nothing inside: the last known end that is ahead, at least the end of the first leg.
+    target.leg = std::max(leg, first + 1);
+    target.point = ends_[target.leg - 1];
+    forced = leg == legs_->size() || leg == first;
+    return target;
+  }
+
+  /// Largest distance of known points of the curve between `at` and the target from the chord.
+  double deviation(const LiftedPoint& at, std::size_t first, const LiftedPoint& tangent, Target& target) {
+    const core::Point2 a = plane(at), b = plane(target.point);
+    double largest = 0;
+    for (std::size_t leg = first; leg < target.leg && leg < ends_.size(); ++leg)
+      largest = std::max(largest, distance_to_chord(plane(ends_[leg]), a, b));
+    const double h = ahead(target.point, at, tangent);
+    if (h <= 0) return largest;
+    LiftedPoint point;
+    for (const double share : samples) {
+      std::size_t leg = first;
+      while (leg + 1 < ends_.size() && leg < target.leg && ahead(ends_[leg], at, tangent) < share * h) ++leg;
+      if ((*legs_)[leg].stretch->leaf < 0 || !point_ahead(at, tangent, share * h, leg, first, point)) continue;
+      const core::Point2 p = plane(point);
+      largest = std::max(largest, distance_to_chord(p, a, b));
+      if (share == 0.5) target.inner = p, target.has_inner = true;
+    }
+    return largest;
+  }
+
+  Target next(const LiftedPoint& at, std::size_t leg, double step) {
+    const LiftedPoint tangent = oriented_tangent(at, leg);
+    Target best;
+    bool have_best = false;
+    if (tangent.empty()) {
+      best.point = ends_[leg];
+      best.leg = leg + 1;
+      best.step = step;
+      return best;
+    }
+    double h = step;
+    for (int trial = 0; trial < most_trials; ++trial) {
+      bool forced = false;
+      Target target = reach(at, leg, tangent, h, forced);
+      target.deviation = deviation(at, leg, tangent, target);
+      const double reached = ahead(target.point, at, tangent);
+      const double length = reached > 0 ? std::min(reached, h) : h;
+      const double ratio = target.deviation > 0 ? std::sqrt(aim * tolerance_ / target.deviation) : most_growth;
+      if (target.deviation <= tolerance_) {
+        const bool longer = !have_best || target.leg > best.leg || reached > ahead(best.point, at, tangent);
+        target.step = length * std::clamp(ratio, 0.2, most_growth);
+        if (longer) best = target, have_best = true;
+        if (forced || target.deviation >= enough * tolerance_ || !longer) break;
+        h = std::max(h, length) * std::clamp(ratio, 1.1, most_growth);
+      } else {
+        if (have_best) break;
+        h = length * std::clamp(ratio, 0.1, 0.9);
+      }
+    }
+    if (!have_best) {
+      // The curve bends within rounding of its own cells; their ends are on it.
+      best.point = ends_[leg];
+      best.leg = leg + 1;
+      best.step = step;
+    }
+    return best;
+  }
+
+  core::WorkingMode mode_;
+  const Chart* chart_;
+  const CellTree* tree_;
+  SheetFollower follower_;
+  double tolerance_;
+  const std::vector<Leg>* legs_ = nullptr;
+  std::vector<LiftedPoint> ends_;  // where each leg ends
+};
+
+}  // namespace
+
+PlacedArc place_vertices(const CurveGraph& graph, const core::WorkingMode& mode, const std::vector<Leg>& legs,
+                         double tolerance, double size) {
+  PlacedArc arc;
+  const auto crossing = [&](const Leg& leg, bool start) {
+    return graph.crossings[leg.stretch->ends[leg.forward == start ? 0 : 1].crossing].at;
+  };
+  arc.points.push_back(crossing(legs.front(), true));
+  arc.inner = crossing(legs[legs.size() / 2], true);
+  for (std::size_t begin = 0; begin < legs.size();) {
+    std::size_t end = begin;
+    while (end < legs.size() && legs[end].stretch->patch == legs[begin].stretch->patch) ++end;
+    Run run(graph, mode, legs[begin].stretch->patch, tolerance, size);
+    run.follow({legs.begin() + static_cast<std::ptrdiff_t>(begin), legs.begin() + static_cast<std::ptrdiff_t>(end)}, arc);
+    begin = end;
+  }
+  arc.points.back() = crossing(legs.back(), false);
+  return arc;
+}
+
+}  // namespace clearloci::loci::sheet

@@ -1,0 +1,28 @@
+// Polylines along proven stretches: vertices on the curve, chords within the tolerance, steps as long as that allows.
+#pragma once
+
+#include <vector>
+
+#include "core/locus_map.hpp"
+#include "loci/sheet/curve_graph.hpp"
+
+namespace clearloci::loci::sheet {
+
+/// A stretch in the direction of travel.
+struct Leg {
+  const Stretch* stretch;
+  bool forward;
+};
+
+struct PlacedArc {
+  core::Polyline points;
+  double length = 0;
+  core::Point2 inner{};  ///< a point of the curve between the ends
+};
+
+/// Along consecutive legs. Each step is as long as a chord that stays within `tolerance` allows (a chord of length h
+/// deviates kappa h^2 / 8), measured against points of the curve between its ends.
+PlacedArc place_vertices(const CurveGraph& graph, const core::WorkingMode& mode, const std::vector<Leg>& legs,
+                         double tolerance, double size);
+
+}  // namespace clearloci::loci::sheet

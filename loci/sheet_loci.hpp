@@ -1,0 +1,14 @@
+// The adaptive engine's share of a problem: factors whose implicit polynomials are too high in degree for the exact
+// arrangement, traced on the sheet of each mode.
+#pragma once
+
+#include "loci/trace.hpp"
+
+namespace clearloci::loci {
+
+/// Traces reaction and margin factors in every mode of the problem and appends their curves. Direct singularities of
+/// `problem` cut the arcs.
+void add_sheet_loci(const core::LocusProblem& problem, const std::vector<core::LocusFactor>& factors,
+                    const TraceOptions& options, core::LocusMap& map);
+
+}  // namespace clearloci::loci
