@@ -1,8 +1,10 @@
 #include "mechanism/yaml_input.hpp"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <map>
-#include <numeric>
+#include <sstream>
 
 namespace clearloci::mechanism {
 namespace {
@@ -51,17 +53,53 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+/// Where a document begins, and whether it holds nothing. yaml-cpp's own LoadAll never ends on a text that begins with
+/// a stray comma: it reads one empty document after the other.
+class DocumentStart : public YAML::EventHandler {
+ public:
+  YAML::Mark mark = YAML::Mark::null_mark();
+  bool is_null = false;
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& at, YAML::anchor_t) override {
+    if (mark.is_null()) is_null = true;
+    note(at);
+  }
+  void OnAlias(const YAML::Mark& at, YAML::anchor_t) override { note(at); }
+  void OnScalar(const YAML::Mark& at, const std::string&, YAML::anchor_t, const std::string&) override { note(at); }
+  void OnSequenceStart(const YAML::Mark& at, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    note(at);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& at, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    note(at);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void note(const YAML::Mark& at) {
+    if (mark.is_null()) mark = at;
+  }
+};
+
 }  // namespace
 
 Value parse_document(const std::string& text, const std::string& file) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty() || documents[0].IsNull())
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    DocumentStart first, second;
+    if (!parser.HandleNextDocument(first))
       throw InputError({file, 1, 1}, "the file is empty", "start with the line format: 1");
-    if (documents.size() > 1)
-      throw InputError(position(documents[1], file), "a second document in the file",
+    if (first.is_null)
+      throw InputError(position(first.mark, file), "no mechanism can be read from here",
+                       "start with the line format: 1");
+    if (parser.HandleNextDocument(second))
+      throw InputError(position(second.mark, file), "a second document in the file",
                        "remove the line --- and keep one mechanism a file");
-    return {documents[0], "the file", position(documents[0], file)};
+    const YAML::Node document = YAML::Load(text);
+    return {document, "the file", position(document, file)};
   } catch (const YAML::Exception& error) {
     throw InputError(position(error.mark, file), "not YAML: " + error.msg,
                      "check brackets, colons and indentation at this place");

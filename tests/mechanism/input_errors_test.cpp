@@ -69,6 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"OpenBracket", "points: [A1, B1]", "points: [A1, B1", 17, 34, "not YAML"},
         Mistake{"WrongIndentation", "  d: L", " d: L", 6, 2, "not YAML"},
         Mistake{"SecondDocument", "points:\n", "---\npoints:\n", 11, 1, "second document"},
+        Mistake{"CommaFirst", "format: 1", ",format: 1", 1, 1, "no mechanism can be read"},
         Mistake{"EmptyValue", "mass: 1}", "mass: }", 17, 28, "is empty"}),
     mistake_name);
 
