@@ -96,7 +96,8 @@ double PlaneCurve::Jet::slope() const { return std::hypot(fx, fy); }
 double PlaneCurve::Jet::curvature() const {
   const double g = slope();
   if (g == 0) return 0;
-  return std::abs(fxx * fy * fy - 2 * fxy * fx * fy + fyy * fx * fx) / (g * g * g);
+  const double tx = -fy / g, ty = fx / g;  // scaled before multiplying: g^3 may underflow
+  return std::abs(fxx * tx * tx + 2 * fxy * tx * ty + fyy * ty * ty) / g;
 }
 
 double PlaneCurve::Jet::distance() const {

@@ -43,6 +43,7 @@ struct Meaning {
 
 Meaning meaning_of(const LocusProblem& problem, const LocusFactor& factor) {
   if (factor.role == FactorRole::margin) return {LocusKind::margin, factor.vanishing};
+  if (factor.role == FactorRole::direct_singularity) return {LocusKind::direct_singularity, {}};
   const std::vector<core::Vanishing> vanishing = wanted_vanishing(problem, factor.vanishing);
   return {gravest_kind(vanishing), vanishing};
 }
@@ -71,8 +72,10 @@ void add_sheet_loci(const LocusProblem& problem, const std::vector<LocusFactor>&
     for (const core::WorkingMode& mode : problem.modes) {
       if (options.progress) options.progress(0.5 + 0.5 * done++ / all, "arcs of high degree");
       if (factor.role == FactorRole::reaction && meaning.vanishing.empty()) continue;
+      const bool cut = factor.role != FactorRole::direct_singularity;
       sheet::SheetTrace traced =
-          sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, factor.sheet, cutters, sheet_options);
+          sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, factor.sheet,
+                             cut ? cutters : std::vector<sheet::Cutter>{}, sheet_options);
       if (traced.stopped) map.complete = false;
       if (!traced.certified && !traced.stopped) {
         map.notes.push_back(std::to_string(traced.undecided.size()) + " undecided cells on " +

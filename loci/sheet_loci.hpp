@@ -6,8 +6,8 @@
 
 namespace clearloci::loci {
 
-/// Traces reaction and margin factors in every mode of the problem and appends their curves. Direct singularities of
-/// `problem` cut the arcs.
+/// Traces reaction, margin and direct-singularity factors in every mode of the problem and appends their curves. Direct
+/// singularities of `problem` cut the others' arcs.
 void add_sheet_loci(const core::LocusProblem& problem, const std::vector<core::LocusFactor>& factors,
                     const TraceOptions& options, core::LocusMap& map);
 

@@ -17,8 +17,10 @@ using core::LocusFactor;
 using core::LocusMap;
 using core::LocusProblem;
 
-/// The exact arrangement is quick up to this degree and slows down steeply beyond it (docs/performance.md).
+/// The exact arrangement is quick up to the first degree and slows down steeply beyond it (docs/performance.md). Direct
+/// singularities and boundaries end the other curves, so they stay exact for longer.
 constexpr int quick_degree = 8;
+constexpr int bearable_degree = 14;
 
 int highest_degree(const LocusFactor& factor) {
   int degree = -1;
@@ -26,10 +28,23 @@ int highest_degree(const LocusFactor& factor) {
   return degree;
 }
 
-bool belongs_to_sheets(const LocusFactor& factor, Engine engine) {
-  const bool traced = factor.role == FactorRole::reaction || factor.role == FactorRole::margin;
-  if (!traced || factor.implicit.empty() || engine == Engine::exact) return false;
-  return engine == Engine::adaptive || highest_degree(factor) > quick_degree;
+/// Which factors the adaptive engine takes.
+std::vector<bool> shares(const LocusProblem& problem, Engine engine) {
+  std::vector<bool> on_sheets(problem.factors.size(), false);
+  if (engine == Engine::exact) return on_sheets;
+  // Where the direct singularities are too much for the arrangement, it cannot end the other curves on them either.
+  const bool heavy = std::any_of(problem.factors.begin(), problem.factors.end(), [](const LocusFactor& factor) {
+    return factor.role == FactorRole::direct_singularity && highest_degree(factor) > bearable_degree;
+  });
+  for (std::size_t i = 0; i < problem.factors.size(); ++i) {
+    const LocusFactor& factor = problem.factors[i];
+    if (factor.implicit.empty()) continue;
+    if (factor.role == FactorRole::direct_singularity) on_sheets[i] = heavy;
+    if (factor.role == FactorRole::reaction || factor.role == FactorRole::margin) {
+      on_sheets[i] = heavy || engine == Engine::adaptive || highest_degree(factor) > quick_degree;
+    }
+  }
+  return on_sheets;
 }
 
 /// Gravest kinds first, then as the polynomials order them; ids follow.
@@ -54,8 +69,9 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
   LocusProblem exact = problem;
   std::vector<LocusFactor> on_sheets;
   exact.factors.clear();
-  for (const LocusFactor& factor : problem.factors) {
-    (belongs_to_sheets(factor, options.engine) ? on_sheets : exact.factors).push_back(factor);
+  const std::vector<bool> share = shares(problem, options.engine);
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    (share[i] ? on_sheets : exact.factors).push_back(problem.factors[i]);
   }
   LocusMap map;
   try {

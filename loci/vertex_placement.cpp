@@ -29,7 +29,7 @@ class Placement {
       if (fits(here, end_)) break;
       const PlaneCurve::Jet jet = curve_.jet(here);
       const double bend = jet.curvature();
-      if (jet.slope() > 0 && bend > 0) reach = std::sqrt(8 * tolerance_ / bend);
+      if (jet.slope() > 0 && bend > 0 && std::isfinite(bend)) reach = std::sqrt(8 * tolerance_ / bend);
       Point2 next = stride(line, jet, reach);
       if (next == here) next = step(here, jet, reach);
       if (next[0] <= here[0] || next[0] >= end_[0]) break;  // the rest is shorter than doubles resolve
@@ -111,7 +111,8 @@ class Placement {
       const double along = std::abs(jet.fy) / slope;
       dx = reach * along + 0.5 * jet.curvature() * reach * reach * (1 - along);
     }
-    dx = std::clamp(dx, 1e-15, 0.5 * (end_[0] - here[0]));
+    if (!std::isfinite(dx)) dx = reach;
+    dx = std::clamp(dx, std::min(1e-15, 0.25 * (end_[0] - here[0])), 0.5 * (end_[0] - here[0]));
     Point2 next = at(here[0] + dx);
     for (int attempt = 0; attempt < 60; ++attempt) {
       const double off = deviation(here, next);

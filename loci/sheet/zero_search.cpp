@@ -12,14 +12,17 @@ namespace {
 // Cells are examined this much larger on every side, relative to their width, so that a zero on a common edge lies well
 // inside the box of either neighbour and is certified there.
 constexpr double inflation = 0.1;
+// On lifted cells s^2 varies as much as x and y do, so that a box of their proportions does not contract however small
+// it is; wider ones in x and y do.
+constexpr double lifted_inflation = 1.5, root_inflation = 0.3;
 // Refinement converges quadratically in the end; a step that gains less than this factor gains nothing any more.
 constexpr double still_shrinking = 0.9;
 constexpr int most_refinements = 80;
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
 
-Interval inflated(const Interval& a) {
-  const double margin = inflation * a.width();
+Interval inflated(const Interval& a, double share) {
+  const double margin = share * a.width();
   return {a.lower() - margin, a.upper() + margin};
 }
 
@@ -59,7 +62,14 @@ void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
   const auto is_free = [&](int c) {
     return c >= 2 || std::find(system_.free.begin(), system_.free.end(), c) != system_.free.end();
   };
-  for (int c = 0; c < cell_.dimension(); ++c) box.push_back(is_free(c) ? inflated(cell_.local(c)) : cell_.local(c));
+  if (!lifted.empty()) {
+    cell_.differentiate();
+    if (excluded([&](int f) { return cell_.centred(f); })) return;
+  }
+  for (int c = 0; c < cell_.dimension(); ++c) {
+    const double share = lifted.empty() ? inflation : c < 2 ? lifted_inflation : root_inflation;
+    box.push_back(is_free(c) ? inflated(cell_.local(c), share) : cell_.local(c));
+  }
   if (cell_.enter_local(box, lifted)) {
     cell_.differentiate();
     if (width(cell) < near_smallest * limits_.smallest && std::any_of(system_.functions.begin(), system_.functions.end(),
