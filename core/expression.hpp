@@ -22,8 +22,8 @@ class Expression {
   static Expression apply(Kind kind, std::vector<Expression> arguments);
 
   Kind kind() const { return node_->kind; }
-  const Rational& value() const { return node_->value; }                        ///< of a number
-  const std::string& name() const { return node_->name; }                       ///< of a symbol
+  const Rational& value() const { return node_->value; }   ///< of a number
+  const std::string& name() const { return node_->name; }  ///< of a symbol
   const std::vector<Expression>& arguments() const { return node_->arguments; }
 
   /// True for a number equal to 0 (not for an expression that merely evaluates to 0).

@@ -45,13 +45,13 @@ struct LocusProblem {
   RootTower tower;
   std::vector<Rational> lower;  ///< box, one per coordinate
   std::vector<Rational> upper;
-  std::vector<WorkingMode> modes;     ///< the modes to trace
-  std::vector<LocusFactor> factors;   ///< reactions, margins, |A| and every Qj
-  std::vector<Quantity> quantities;   ///< kinds of reaction loci wanted: f (from fx and fy), M, fx, fy
-  std::vector<std::string> joints;    ///< joints wanted
+  std::vector<WorkingMode> modes;        ///< the modes to trace
+  std::vector<LocusFactor> factors;      ///< reactions, margins, |A| and every Qj
+  std::vector<Quantity> quantities;      ///< kinds of reaction loci wanted: f (from fx and fy), M, fx, fy
+  std::vector<std::string> joints;       ///< joints wanted
   std::vector<std::string> joint_order;  ///< every joint, in the file's order
   std::vector<Vanishing> always_zero;    ///< components that vanish in every pose
-  double tolerance = 1e-5;            ///< chord deviation, m
+  double tolerance = 1e-5;               ///< chord deviation, m
 };
 
 }  // namespace clearloci::core

@@ -48,11 +48,11 @@ struct CircleForm {
 
 /// A non-circular conic a x^2 + b x y + c y^2 + d x + e y + f = 0.
 struct ConicForm {
-  std::string type;                       ///< "ellipse", "hyperbola", "parabola"
-  std::array<Rational, 6> coefficients;   ///< a, b, c, d, e, f
-  std::optional<Point2> centre;           ///< absent for a parabola
+  std::string type;                                ///< "ellipse", "hyperbola", "parabola"
+  std::array<Rational, 6> coefficients;            ///< a, b, c, d, e, f
+  std::optional<Point2> centre;                    ///< absent for a parabola
   std::optional<std::array<double, 2>> semi_axes;  ///< ellipse, hyperbola: along `angle` and across
-  double angle = 0;                       ///< rad, of the first axis
+  double angle = 0;                                ///< rad, of the first axis; a parabola opens along it
 };
 
 using ClosedForm = std::variant<std::monostate, LineForm, CircleForm, ConicForm>;
@@ -65,9 +65,9 @@ struct LocusCurve {
   std::string id;  ///< "c1"
   LocusKind kind = LocusKind::contact_loss;
   std::vector<Vanishing> vanishing;
-  std::string factor;     ///< LocusFactor::expression
-  std::string cause;      ///< LocusFactor::cause
-  Polynomial implicit;    ///< in (x, y), primitive over Z
+  std::string factor;   ///< LocusFactor::expression
+  std::string cause;    ///< LocusFactor::cause
+  Polynomial implicit;  ///< in (x, y), primitive over Z
   ClosedForm closed_form;
   WorkingMode mode;
   bool certified = false;

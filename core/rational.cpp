@@ -111,7 +111,7 @@ Rational simplest_rational_near(const Rational& value, const Rational& tolerance
       break;
     }
     if (floor + 1 <= high) {
-      quotients.push_back(floor + 1);
+      quotients.emplace_back(floor + 1);
       break;
     }
     quotients.push_back(floor);

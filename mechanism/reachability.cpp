@@ -201,26 +201,29 @@ std::string metres(double value) {
   return text.str();
 }
 
+[[noreturn]] void refuse(const Mechanism& mechanism, const Point& point, const Interval& distances) {
+  const DyadPoint& dyad = std::get<DyadPoint>(point.form);
+  const std::string& from = mechanism.points[static_cast<std::size_t>(dyad.from)].name;
+  const std::string& to = mechanism.points[static_cast<std::size_t>(dyad.to)].name;
+  const Box whole = whole_box(mechanism);
+  const double a = bound(dyad.from_length, whole).high;
+  const double b = bound(dyad.to_length, whole).high;
+  throw core::InputError(point.where,
+                         "point " + point.name + " is unreachable in the whole box: |" + from + " " + to +
+                             "| runs from about " + metres(distances.low) + " to " + metres(distances.high) +
+                             " m, but the lengths " + metres(a) + " and " + metres(b) + " m reach from " +
+                             metres(std::abs(a - b)) + " to " + metres(a + b) + " m",
+                         "change the lengths, the points " + from + " and " + to + ", or the workspace");
+}
+
 }  // namespace
 
 void check_reachability(const Mechanism& mechanism) {
   if (!sample_postures(mechanism, 1).empty()) return;  // it closes: so does every dyad of it
-  const Box whole = whole_box(mechanism);
   for (const Point& point : mechanism.points) {
     const auto* dyad = std::get_if<DyadPoint>(&point.form);
     if (!dyad) continue;
-    const auto distances = proven_unreachable(mechanism, *dyad);
-    if (!distances) continue;
-    const std::string from = mechanism.points[static_cast<std::size_t>(dyad->from)].name;
-    const std::string to = mechanism.points[static_cast<std::size_t>(dyad->to)].name;
-    const double a = bound(dyad->from_length, whole).high;
-    const double b = bound(dyad->to_length, whole).high;
-    throw core::InputError(point.where,
-                           "point " + point.name + " is unreachable in the whole box: |" + from + " " + to +
-                               "| runs from about " + metres(distances->low) + " to " + metres(distances->high) +
-                               " m, but the lengths " + metres(a) + " and " + metres(b) + " m reach from " +
-                               metres(std::abs(a - b)) + " to " + metres(a + b) + " m",
-                           "change the lengths, the points " + from + " and " + to + ", or the workspace");
+    if (const auto distances = proven_unreachable(mechanism, *dyad)) refuse(mechanism, point, *distances);
   }
 }
 

@@ -37,20 +37,16 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const s
   return {part("radial"), part("angular")};
 }
 
-/// A pin is a point of both links that it joins.
-void check_joint_point(const Mechanism& mechanism, const Joint& joint, const Value& at) {
-  const std::string point = mechanism.points[static_cast<std::size_t>(joint.at)].name;
-  for (const LinkIndex link : {joint.from, joint.to}) {
-    if (is_on_link(mechanism, joint.at, link)) continue;
-    if (link == ground)
-      throw InputError(at.where,
-                       "joint " + joint.name + " is on the ground at " + point +
-                           ", which moves with the free coordinate " + *coordinates_of(mechanism, joint.at).begin(),
-                       "join the ground at a fixed point");
-    const std::string& name = mechanism.links[static_cast<std::size_t>(link)].name;
-    throw InputError(at.where, "joint " + joint.name + " is at " + point + ", which is no point of link " + name,
-                     "add " + point + " to the points of " + name + " or correct the joint");
-  }
+[[noreturn]] void refuse_joint_point(const Mechanism& mechanism, const Joint& joint, LinkIndex link, const Value& at) {
+  const std::string point = text_of(at);
+  if (link == ground)
+    throw InputError(at.where,
+                     "joint " + joint.name + " is on the ground at " + point +
+                         ", which moves with the free coordinate " + *coordinates_of(mechanism, joint.at).begin(),
+                     "join the ground at a fixed point");
+  const std::string& name = mechanism.links[static_cast<std::size_t>(link)].name;
+  throw InputError(at.where, "joint " + joint.name + " is at " + point + ", which is no point of link " + name,
+                   "add " + point + " to the points of " + name + " or correct the joint");
 }
 
 Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
@@ -72,7 +68,8 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
                      "name two different links");
   const Value at = mapping.at("at");
   joint.at = read_point_name(mechanism, at);
-  check_joint_point(mechanism, joint, at);
+  for (const LinkIndex link : {joint.from, joint.to})  // a pin is a point of both links that it joins
+    if (!is_on_link(mechanism, joint.at, link)) refuse_joint_point(mechanism, joint, link, at);
   if (const auto actuated = mapping.find("actuated")) joint.actuated = boolean_of(*actuated);
   if (const auto clearance = mapping.find("clearance"))
     joint.clearance = read_clearance(mechanism, *clearance, joint.name);

@@ -69,7 +69,7 @@ LinkIndex read_link_name(const Mechanism& mechanism, const Value& value, bool or
   if (name == "ground")
     throw InputError(value.where, value.what + " is the ground, which is fixed", "name a link that moves");
   std::vector<std::string> known;
-  if (or_ground) known.push_back("ground");
+  if (or_ground) known.emplace_back("ground");
   for (std::size_t i = 0; i < mechanism.links.size(); ++i) {
     if (mechanism.links[i].name == name) return static_cast<LinkIndex>(i);
     known.push_back(mechanism.links[i].name);

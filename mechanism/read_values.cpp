@@ -36,6 +36,19 @@ SourcePosition place_of_word(const Value& value, const std::string& word) {
   return place;
 }
 
+[[noreturn]] void refuse_name(const Mechanism& mechanism, const Value& value, Scope scope, const std::string& name) {
+  const SourcePosition place = place_of_word(value, name);
+  const bool is_coordinate = std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                                         [&name](const Coordinate& c) { return c.name == name; });
+  if (is_coordinate)
+    throw InputError(place, value.what + " depends on the free coordinate '" + name + "'",
+                     "only coordinates of points may; write a number or parameters here");
+  const bool both = scope == Scope::parameters_and_coordinates;
+  throw InputError(
+      place, value.what + ": '" + name + "' is neither a number nor a parameter" + (both ? " nor a coordinate" : ""),
+      suggest(name, names_in(mechanism, scope), both ? "parameters and coordinates" : "parameters"));
+}
+
 ExactValue evaluate_at(const Expression& expression, const Mechanism& mechanism, const Value& value) {
   try {
     return evaluate(expression, mechanism.parameters);
@@ -45,14 +58,23 @@ ExactValue evaluate_at(const Expression& expression, const Mechanism& mechanism,
   }
 }
 
+/// An override has no line in the file; it is shown as it was written.
+SourcePosition place_of(const Override& override) {
+  std::string text = "--set ";
+  text += override.first;
+  text += '=';
+  text += override.second;
+  return {text, 0, 0};
+}
+
 /// The value of a parameter: as in the file, or as overridden.
 Value parameter_value(const Entry& entry, const std::vector<Override>& overrides) {
   Value value = entry.value;
   value.what = "parameter " + entry.key;
-  for (const auto& [name, text] : overrides) {
-    if (name != entry.key) continue;
-    value.node = YAML::Node(text);
-    value.where = {"--set " + name + "=" + text, 0, 0};
+  for (const Override& override : overrides) {
+    if (override.first != entry.key) continue;
+    value.node = YAML::Node(override.second);
+    value.where = place_of(override);
   }
   return value;
 }
@@ -60,11 +82,21 @@ Value parameter_value(const Entry& entry, const std::vector<Override>& overrides
 void check_known_overrides(const std::vector<Entry>& parameters, const std::vector<Override>& overrides) {
   std::vector<std::string> known;
   for (const Entry& entry : parameters) known.push_back(entry.key);
-  for (const auto& [name, text] : overrides) {
+  for (const Override& override : overrides) {
+    const std::string& name = override.first;
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throw InputError({"--set " + name + "=" + text, 0, 0}, "there is no parameter '" + name + "' in the file",
+    throw InputError(place_of(override), "there is no parameter '" + name + "' in the file",
                      known.empty() ? "the file has no parameters" : "the parameters are " + join(known));
   }
+}
+
+/// A parameter that uses itself or one below it: known to the file, but not yet where it stands.
+[[noreturn]] void refuse_later(const std::string& name, const std::string& later, const Value& source) {
+  const SourcePosition place = place_of_word(source, later);
+  if (later == name)
+    throw InputError(place, source.what + " uses itself", "write it in numbers and the parameters above it");
+  throw InputError(place, source.what + " uses '" + later + "', which is written below it",
+                   "write " + later + " above " + name);
 }
 
 Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
@@ -98,21 +130,10 @@ Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
 }  // namespace
 
 Expression read_expression(const Mechanism& mechanism, const Value& value, Scope scope) {
-  const Expression expression = parse_expression(text_of(value), value.where);
+  Expression expression = parse_expression(text_of(value), value.where);
   const std::vector<std::string> known = names_in(mechanism, scope);
-  for (const std::string& name : symbols(expression)) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const SourcePosition place = place_of_word(value, name);
-    const bool is_coordinate = std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
-                                           [&name](const Coordinate& c) { return c.name == name; });
-    if (is_coordinate)
-      throw InputError(place, value.what + " depends on the free coordinate '" + name + "'",
-                       "only coordinates of points may; write a number or parameters here");
-    const bool both = scope == Scope::parameters_and_coordinates;
-    throw InputError(
-        place, value.what + ": '" + name + "' is neither a number nor a parameter" + (both ? " nor a coordinate" : ""),
-        suggest(name, known, both ? "parameters and coordinates" : "parameters"));
-  }
+  for (const std::string& name : symbols(expression))
+    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name(mechanism, value, scope, name);
   return expression;
 }
 
@@ -134,9 +155,9 @@ void check_identifier(const std::string& name, const SourcePosition& where, cons
   check_label(name, where, what);
   if (std::isdigit(static_cast<unsigned char>(name.front())))
     throw InputError(where, "the name '" + name + "' of " + what + " begins with a digit", "begin it with a letter");
-  for (const char* reserved : {"sqrt", "cos", "sin", "pi", "deg"})
-    if (name == reserved)
-      throw InputError(where, "'" + name + "' has a meaning in expressions and cannot name " + what, "rename it");
+  const std::set<std::string> reserved = {"sqrt", "cos", "sin", "pi", "deg"};
+  if (reserved.contains(name))
+    throw InputError(where, "'" + name + "' has a meaning in expressions and cannot name " + what, "rename it");
 }
 
 void check_label(const std::string& name, const SourcePosition& where, const std::string& what) {
@@ -147,24 +168,14 @@ void check_label(const std::string& name, const SourcePosition& where, const std
 void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Override>& overrides) {
   const std::vector<Entry> parameters = value && !value->node.IsNull() ? entries(*value) : std::vector<Entry>{};
   check_known_overrides(parameters, overrides);
-  for (const Entry& entry : parameters) {
-    check_identifier(entry.key, entry.where, "a parameter");
-    const Value source = parameter_value(entry, overrides);
+  for (auto entry = parameters.begin(); entry != parameters.end(); ++entry) {
+    check_identifier(entry->key, entry->where, "a parameter");
+    const Value source = parameter_value(*entry, overrides);
+    const std::set<std::string> used = symbols(parse_expression(text_of(source), source.where));
+    for (auto later = entry; later != parameters.end(); ++later)
+      if (used.contains(later->key)) refuse_later(entry->key, later->key, source);
     Parameter parameter;
-    parameter.name = entry.key;
-    parameter.expression = parse_expression(text_of(source), source.where);
-    // A parameter written further down is known to the file, but not yet here.
-    const std::set<std::string> used = symbols(parameter.expression);
-    for (const Entry& other : parameters) {
-      const bool above = std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(),
-                                     [&other](const Parameter& p) { return p.name == other.key; });
-      if (above || !used.contains(other.key)) continue;
-      throw InputError(place_of_word(source, other.key),
-                       other.key == entry.key ? source.what + " uses itself"
-                                              : source.what + " uses '" + other.key + "', which is written below it",
-                       other.key == entry.key ? "write it in numbers and the parameters above it"
-                                              : "write " + other.key + " above " + entry.key);
-    }
+    parameter.name = entry->key;
     parameter.expression = read_expression(mechanism, source, Scope::parameters);
     const ExactValue result = evaluate_at(parameter.expression, mechanism, source);
     parameter.value = result.value;

@@ -62,8 +62,8 @@ RC_GTEST_PROP(PolynomialRing, EvaluationIsAHomomorphism, ()) {
   const std::array<Rational, 2> at = {Rational(*rc::gen::inRange(-9, 10), 2), Rational(*rc::gen::inRange(-9, 10), 3)};
   std::array<Rational, 2> canonical = at;
   for (Rational& value : canonical) value.canonicalize();
-  RC_ASSERT(evaluate(p * q, canonical) == evaluate(p, canonical) * evaluate(q, canonical));
-  RC_ASSERT(evaluate(p + q, canonical) == evaluate(p, canonical) + evaluate(q, canonical));
+  RC_ASSERT((evaluate(p * q, canonical) == evaluate(p, canonical) * evaluate(q, canonical)));
+  RC_ASSERT((evaluate(p + q, canonical) == evaluate(p, canonical) + evaluate(q, canonical)));
 }
 
 RC_GTEST_PROP(PolynomialRing, DerivativeObeysTheProductRule, ()) {
@@ -87,12 +87,12 @@ RC_GTEST_PROP(PrimitivePart, IsTheSameForEveryMultiple, ()) {
   RC_ASSERT(primitive_part(p * constant(numerator, 7)) == primitive);
   Integer content = 0;
   for (const Term& term : primitive.terms) {
-    RC_ASSERT(term.coefficient.get_den() == 1);
+    RC_ASSERT((term.coefficient.get_den() == 1));
     content = gcd(content, term.coefficient.get_num());
   }
   if (!p.is_zero()) {
-    RC_ASSERT(content == 1);
-    RC_ASSERT(sgn(primitive.terms.front().coefficient) > 0);
+    RC_ASSERT((content == 1));
+    RC_ASSERT((sgn(primitive.terms.front().coefficient) > 0));
   }
 }
 

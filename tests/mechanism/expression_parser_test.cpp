@@ -146,8 +146,8 @@ RC_GTEST_PROP(ParseExpression, ReadsBackWhatIsPrinted, ()) {
   if (expected.exact && actual.exact)
     RC_ASSERT(actual.value == expected.value);
   else
-    RC_ASSERT(abs(actual.value - expected.value) <=
-              abs(expected.value) * fraction(1, 1000000000) + fraction(1, 1000000000));
+    RC_ASSERT((abs(actual.value - expected.value) <=
+               abs(expected.value) * fraction(1, 1000000000) + fraction(1, 1000000000)));
 }
 
 }  // namespace
