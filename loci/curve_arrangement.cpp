@@ -45,8 +45,7 @@ Bivariate bivariate(const core::Polynomial& p) {
   std::vector<std::pair<CGAL::Exponent_vector, Number>> terms;
   const core::Polynomial integral = core::primitive_part(p);
   for (const core::Term& term : integral.terms) {
-    terms.emplace_back(CGAL::Exponent_vector(term.exponents[0], term.exponents[1]),
-                       number(term.coefficient.get_num()));
+    terms.emplace_back(CGAL::Exponent_vector(term.exponents[0], term.exponents[1]), number(term.coefficient.get_num()));
   }
   return CGAL::Polynomial_traits_d<Bivariate>::Construct_polynomial()(terms.begin(), terms.end());
 }
@@ -123,7 +122,8 @@ void CurveArrangement::Implementation::build(const std::function<bool()>& interr
       const core::Point2 at = position(*point);
       if (!in_box(at, 0)) continue;
       const auto x = enclose_x(*point, sample_bits), y = enclose_y(*point, sample_bits);
-      points.push_back({static_cast<int>(i), at,
+      points.push_back({static_cast<int>(i),
+                        at,
                         {{rational(x.first), rational(y.first)}, {rational(x.second), rational(y.second)}}});
     }
   }

@@ -18,11 +18,12 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
 /// Sums the multiplicities of components that several factors make vanish.
 void merge(std::vector<Vanishing>& components, const std::vector<Vanishing>& more) {
   for (const Vanishing& v : more) {
-    const auto known = std::find_if(components.begin(), components.end(), [&](const Vanishing& w) {
-      return w.joint == v.joint && w.quantity == v.quantity;
-    });
-    if (known == components.end()) components.push_back(v);
-    else known->multiplicity += v.multiplicity;
+    const auto known = std::find_if(components.begin(), components.end(),
+                                    [&](const Vanishing& w) { return w.joint == v.joint && w.quantity == v.quantity; });
+    if (known == components.end())
+      components.push_back(v);
+    else
+      known->multiplicity += v.multiplicity;
   }
 }
 

@@ -80,7 +80,8 @@ class ExactTrace {
     Polyline& line = lines_[static_cast<std::size_t>(edge)];
     if (line.empty()) {
       const int curve = arrangement_.edges()[static_cast<std::size_t>(edge)].curve;
-      const auto [plane, fresh] = plane_curves_.try_emplace(curve, arrangement_.curves()[static_cast<std::size_t>(curve)]);
+      const auto [plane, fresh] =
+          plane_curves_.try_emplace(curve, arrangement_.curves()[static_cast<std::size_t>(curve)]);
       line = place_vertices(arrangement_, edge, plane->second, problem_.tolerance);
     }
     return line;
@@ -121,8 +122,8 @@ class ExactTrace {
       traced.points.insert(traced.points.end(), piece.begin() + (traced.points.empty() ? 0 : 1), piece.end());
     }
     for (std::size_t i = 1; i < traced.points.size(); ++i) {
-      traced.length += std::hypot(traced.points[i][0] - traced.points[i - 1][0],
-                                  traced.points[i][1] - traced.points[i - 1][1]);
+      traced.length +=
+          std::hypot(traced.points[i][0] - traced.points[i - 1][0], traced.points[i][1] - traced.points[i - 1][1]);
     }
     return traced;
   }
@@ -226,7 +227,8 @@ class ExactTrace {
       const bool boundary = std::any_of(edges[e].labels.begin(), edges[e].labels.end(), [](const EdgeLabel& label) {
         return label.kind == LocusKind::workspace_boundary;
       });
-      if (boundary || (edges[e].interior && is_box_side(arrangement_.edges()[e].curve))) rim.push_back(static_cast<int>(e));
+      if (boundary || (edges[e].interior && is_box_side(arrangement_.edges()[e].curve)))
+        rim.push_back(static_cast<int>(e));
     }
     core::WorkspaceRegion region{mode, {}};
     for (const EdgeWalk& ring : join_rings(arrangement_, rim)) {

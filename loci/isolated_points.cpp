@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "loci/edge_labels.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
@@ -29,9 +31,9 @@ bool makes_vanish(const core::LocusFactor& factor, const std::string& joint, Qua
 bool on_contact_loss_curve(const LocusMap& map, const WorkingMode& mode, const std::string& joint,
                            const core::Point2& at, double reach) {
   for (const core::LocusCurve& curve : map.curves) {
-    const bool own = curve.mode == mode && std::any_of(curve.vanishing.begin(), curve.vanishing.end(), [&](const auto& v) {
-                       return v.joint == joint && v.quantity == Quantity::f;
-                     });
+    const bool own =
+        curve.mode == mode && std::any_of(curve.vanishing.begin(), curve.vanishing.end(),
+                                          [&](const auto& v) { return v.joint == joint && v.quantity == Quantity::f; });
     if (!own) continue;
     for (const core::Arc& arc : curve.arcs) {
       for (std::size_t i = 1; i < arc.points.size(); ++i) {
@@ -77,9 +79,10 @@ std::vector<MultiInterval> on_sheet(const core::RootTower& tower, const WorkingM
 bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode, const sheet::SheetZero& zero) {
   const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
   const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
-  return !at.empty() && std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
-    return factor.role == FactorRole::direct_singularity && value(factor.sheet, at).sign() == 0;
-  });
+  return !at.empty() &&
+         std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+           return factor.role == FactorRole::direct_singularity && value(factor.sheet, at).sign() == 0;
+         });
 }
 
 /// Joins a joint to a point already found, or adds the point.
@@ -100,6 +103,37 @@ void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, dou
   map.isolated_points.push_back(point);
 }
 
+/// A common zero of two sheet polynomials by Newton's method in doubles, within `reach` of the start.
+std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMode& mode, const core::Polynomial& first,
+                                   const core::Polynomial& second, const core::Point2& start, double reach) {
+  const auto values = [&](const core::Point2& p) -> std::optional<core::Point2> {
+    std::vector<double> at = {p[0], p[1]};
+    at.resize(static_cast<std::size_t>(tower.variables()), 0.0);
+    for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+      const double square = core::evaluate(tower.roots[j].square, std::span<const double>(at));
+      if (!(square >= 0)) return std::nullopt;
+      at[2 + j] = mode[j] * std::sqrt(square);
+    }
+    return core::Point2{core::evaluate(first, std::span<const double>(at)),
+                        core::evaluate(second, std::span<const double>(at))};
+  };
+  core::Point2 p = start;
+  for (int i = 0; i < 30; ++i) {
+    const double h = std::max(1e-7 * reach, 1e-9);
+    const auto f = values(p), fx = values({p[0] + h, p[1]}), fy = values({p[0], p[1] + h});
+    if (!f || !fx || !fy) return std::nullopt;
+    const double a = ((*fx)[0] - (*f)[0]) / h, b = ((*fy)[0] - (*f)[0]) / h;
+    const double c = ((*fx)[1] - (*f)[1]) / h, d = ((*fy)[1] - (*f)[1]) / h;
+    const double determinant = a * d - b * c;
+    const core::Point2 step = {((*f)[0] * d - b * (*f)[1]) / determinant, (a * (*f)[1] - c * (*f)[0]) / determinant};
+    if (!std::isfinite(step[0]) || !std::isfinite(step[1])) return std::nullopt;
+    p = {p[0] - step[0], p[1] - step[1]};
+    if (std::hypot(p[0] - start[0], p[1] - start[1]) > reach) return std::nullopt;
+    if (std::hypot(step[0], step[1]) < 1e-13 * std::max(1.0, std::hypot(p[0], p[1]))) return p;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
@@ -118,16 +152,32 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       for (const core::LocusFactor* fy : y) {
         const sheet::ZeroSet found =
             sheet::isolated_zeros(problem.tower, mode, fx->sheet, fy->sheet, problem.lower, problem.upper);
-        const auto add = [&](double px, double py, bool certified) {
-          const core::Point2 at{px, py};
+        const auto add = [&](const core::Point2& at, bool certified) {
           if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
-          add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {px, py}, mode, certified},
-                    1e-12 * size);
+          add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
+                    1e-9 * size);
         };
         for (const sheet::SheetZero& zero : found.zeros) {
-          if (!on_direct_singularity(problem, mode, zero)) add(zero.x, zero.y, true);
+          if (!on_direct_singularity(problem, mode, zero)) add({zero.x, zero.y}, true);
         }
-        for (const sheet::Cell& cell : found.undecided) add(cell.x.middle(), cell.y.middle(), false);
+        // What no proof was had for is a point where Newton finds one, and else only worth a note.
+        std::size_t open = 0;
+        for (const sheet::Cell& cell : found.undecided) {
+          const core::Point2 centre{cell.x.middle(), cell.y.middle()};
+          const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
+          const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
+          if (!at) {
+            ++open;
+          } else if (!on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, 1e-12 * size})) {
+            add(*at, false);
+          }
+        }
+        if (open > 0) {
+          map.notes.push_back("contact loss of " + joint + ": " + std::to_string(open) +
+                              " places where an isolated point is neither proven nor excluded, the first near (" +
+                              std::to_string(found.undecided.front().x.middle()) + ", " +
+                              std::to_string(found.undecided.front().y.middle()) + ")");
+        }
       }
     }
   }

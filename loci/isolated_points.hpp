@@ -7,8 +7,8 @@
 
 namespace clearloci::loci {
 
-/// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no contact-loss curve of the map.
-/// Appended to the map; what stays undecided becomes a point that is not certified.
+/// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no contact-loss curve of the
+/// map. Appended to the map; what stays undecided becomes a point that is not certified.
 void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
 
 /// The isolated real points of the arrangement's curves that lie on the mode's sheet.

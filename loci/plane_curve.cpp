@@ -32,8 +32,10 @@ PlaneCurve::Derivatives<Number> PlaneCurve::derivatives(const Number& x, const N
   for (const Term& term : terms_) {
     const auto [i, j] = std::pair{static_cast<std::size_t>(term.i), static_cast<std::size_t>(term.j)};
     Number c{0.0};
-    if constexpr (std::is_same_v<Number, double>) c = term.coefficient;
-    else c = term.enclosure;
+    if constexpr (std::is_same_v<Number, double>)
+      c = term.coefficient;
+    else
+      c = term.enclosure;
     const Number zero(0.0);
     const Number x1 = i > 0 ? xs[i - 1] * Number(term.i) : zero, y1 = j > 0 ? ys[j - 1] * Number(term.j) : zero;
     const Number cy = c * ys[j], cx = c * xs[i];

@@ -21,7 +21,6 @@ class PlaneCurve {
     Number f{0.0}, fx{0.0}, fy{0.0}, fxx{0.0}, fxy{0.0}, fyy{0.0};
   };
   struct Jet : Derivatives<double> {
-
     double slope() const;      ///< |grad f|
     double curvature() const;  ///< of the level line through the point, 1/m, >= 0
     /// First-order distance of the point from the curve, m; negative where the gradient is too small to tell.

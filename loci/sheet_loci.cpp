@@ -73,9 +73,8 @@ void add_sheet_loci(const LocusProblem& problem, const std::vector<LocusFactor>&
       if (options.progress) options.progress(0.5 + 0.5 * done++ / all, "arcs of high degree");
       if (factor.role == FactorRole::reaction && meaning.vanishing.empty()) continue;
       const bool cut = factor.role != FactorRole::direct_singularity;
-      sheet::SheetTrace traced =
-          sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, factor.sheet,
-                             cut ? cutters : std::vector<sheet::Cutter>{}, sheet_options);
+      sheet::SheetTrace traced = sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, factor.sheet,
+                                                    cut ? cutters : std::vector<sheet::Cutter>{}, sheet_options);
       if (traced.stopped) map.complete = false;
       if (!traced.certified && !traced.stopped) {
         map.notes.push_back(std::to_string(traced.undecided.size()) + " undecided cells on " +

@@ -79,8 +79,8 @@ class Placement {
       tangent = {-tangent[0], -tangent[1]};
     }
     // Towards the centre of curvature: against the gradient where the second derivative along the tangent is positive.
-    const double second = jet.fxx * tangent[0] * tangent[0] + 2 * jet.fxy * tangent[0] * tangent[1] +
-                          jet.fyy * tangent[1] * tangent[1];
+    const double second =
+        jet.fxx * tangent[0] * tangent[0] + 2 * jet.fxy * tangent[0] * tangent[1] + jet.fyy * tangent[1] * tangent[1];
     const Point2 bend = {-second * jet.fx / (slope * slope), -second * jet.fy / (slope * slope)};
     reach = std::min(reach, 0.7 * distance(here, end_));
     Point2 best = here;

@@ -8,12 +8,11 @@ namespace clearloci::loci {
 
 /// From the edge's `from` to its `to`, both included. Every vertex is the exact root at its x (correct to 1e-16 of the
 /// box); chords deviate by at most `tolerance`.
-core::Polyline place_vertices(const CurveArrangement& arrangement, int edge, const PlaneCurve& curve,
-                              double tolerance);
+core::Polyline place_vertices(const CurveArrangement& arrangement, int edge, const PlaneCurve& curve, double tolerance);
 
 /// The arc of a circle through `start`, `via` and `end` in this order (all on it); a whole turn where start = end.
 /// Equal chords, as few as the tolerance allows.
-core::Polyline circle_arc(const core::Point2& centre, double radius, const core::Point2& start,
-                          const core::Point2& via, const core::Point2& end, double tolerance);
+core::Polyline circle_arc(const core::Point2& centre, double radius, const core::Point2& start, const core::Point2& via,
+                          const core::Point2& end, double tolerance);
 
 }  // namespace clearloci::loci

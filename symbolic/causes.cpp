@@ -42,10 +42,10 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
       for (std::size_t b = a + 1; b < points.size(); ++b) {
         const std::string& name = m.links[i].name;
         edges.push_back({i, points[a], points[b],
-                         points.size() == 2 ? "link " + name
-                                            : "line " + m.points[static_cast<std::size_t>(points[a])].name + "-" +
-                                                  m.points[static_cast<std::size_t>(points[b])].name + " of link " +
-                                                  name});
+                         points.size() == 2
+                             ? "link " + name
+                             : "line " + m.points[static_cast<std::size_t>(points[a])].name + "-" +
+                                   m.points[static_cast<std::size_t>(points[b])].name + " of link " + name});
       }
     }
   }

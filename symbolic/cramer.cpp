@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <ranges>
 
 #include "core/errors.hpp"
 
@@ -160,15 +161,17 @@ CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::
   for (std::size_t i = 0; i < core.size(); ++i) {
     numerators[static_cast<std::size_t>(core_columns[i])] = core[i].back();
   }
-  for (auto pivot = pivots.rbegin(); pivot != pivots.rend(); ++pivot) {
-    const SparseRow& row = rows[pivot->row];
+  for (const Pivot& pivot : std::views::reverse(pivots)) {
+    const SparseRow& row = rows[pivot.row];
     Poly sum(ring);
     for (const auto& [column, entry] : row) {
-      if (column == pivot->column) continue;
-      if (column == n) sum += entry * core_determinant;
-      else sum -= entry * numerators[static_cast<std::size_t>(column)];
+      if (column == pivot.column) continue;
+      if (column == n)
+        sum += entry * core_determinant;
+      else
+        sum -= entry * numerators[static_cast<std::size_t>(column)];
     }
-    numerators[static_cast<std::size_t>(pivot->column)] = sum.scaled(1 / row.at(pivot->column).constant());
+    numerators[static_cast<std::size_t>(pivot.column)] = sum.scaled(1 / row.at(pivot.column).constant());
   }
   for (Poly& numerator : numerators) result.numerators.push_back(numerator.scaled(scale));
   return result;

@@ -24,8 +24,8 @@ FactoredDeterminants factored_determinants(const Geometry& geometry) {
     result.factors = p.factors(result.constant);
     return result;
   };
-  FactoredDeterminants result{std::move(equations), cramer.determinant, std::move(cramer.numerators),
-                              factored(cramer.determinant), {}};
+  FactoredDeterminants result{
+      std::move(equations), cramer.determinant, std::move(cramer.numerators), factored(cramer.determinant), {}};
   for (const Poly& numerator : result.numerators) result.numerator_factors.push_back(factored(numerator));
   return result;
 }

@@ -1,6 +1,7 @@
 #include "symbolic/elimination.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "core/errors.hpp"
 
@@ -73,8 +74,7 @@ std::optional<Rational> Elimination::constant_over_tower(const Poly& natural) co
 }
 
 bool Elimination::is_denominator(const Poly& irreducible) const {
-  return std::find(denominator_factors_.begin(), denominator_factors_.end(), irreducible) !=
-         denominator_factors_.end();
+  return std::find(denominator_factors_.begin(), denominator_factors_.end(), irreducible) != denominator_factors_.end();
 }
 
 bool Elimination::has_free_coordinate(const Poly& p) const {
@@ -156,11 +156,10 @@ Poly Elimination::norm_on_line(const Poly& sheet) const {
     return p;
   };
   Poly p = on_line(sheet);
-  const auto& roots = geometry_->roots();
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-    std::vector<Poly> powers = p.coefficients(root->variable);
+  for (const TowerRoot& root : std::views::reverse(geometry_->roots())) {
+    const std::vector<Poly> powers = p.coefficients(root.variable);
     if (powers.size() == 1) continue;
-    const Poly square = on_line(root->square);
+    const Poly square = on_line(root.square);
     Poly even(ring), odd(ring), square_power(ring, 1);
     for (std::size_t k = 0; k < powers.size(); ++k) {
       (k % 2 == 0 ? even : odd) += powers[k] * square_power;

@@ -12,7 +12,7 @@ namespace clearloci::symbolic {
 
 /// A factor of a natural factor over the tower, with what its zeros look like in the plane.
 struct SheetFactor {
-  Poly sheet;                  ///< in the coordinates and roots, reduced, primitive
+  Poly sheet;  ///< in the coordinates and roots, reduced, primitive
   int multiplicity = 1;
   std::vector<Poly> implicit;  ///< irreducible, primitive, distinct; together they contain its zeros in every mode
 };

@@ -64,8 +64,8 @@ class SheetWriter {
 
   /// Several numerators share factors: each is eliminated once.
   const std::vector<ImplicitPolynomial>& implicit(const Poly& natural) {
-    const auto known = std::find_if(implicit_.begin(), implicit_.end(),
-                                    [&](const auto& entry) { return entry.first == natural; });
+    const auto known =
+        std::find_if(implicit_.begin(), implicit_.end(), [&](const auto& entry) { return entry.first == natural; });
     if (known != implicit_.end()) return known->second;
     std::vector<ImplicitPolynomial> list;
     const Poly sheet = elimination_.over_tower(natural);
@@ -104,8 +104,10 @@ class SheetWriter {
       const Poly squared = half_x * half_x + half_y * half_y - rest;
       Poly radius(p.ring());
       std::string size;
-      if (squared.square_root(radius)) size = "radius " + text(radius);
-      else if (!squared.is_constant() || squared.constant() > 0) size = "radius^2 " + text(squared);
+      if (squared.square_root(radius))
+        size = "radius " + text(radius);
+      else if (!squared.is_constant() || squared.constant() > 0)
+        size = "radius^2 " + text(squared);
       if (!size.empty()) return "circle: centre (" + text(half_x) + ", " + text(half_y) + "), " + size;
     }
     const std::vector<int> free{0, 1};
@@ -146,12 +148,13 @@ class SheetWriter {
       const Poly difference = a * a - b * b;
       lines.emplace_back(local("k"), difference.is_zero() ? local("D") : text(difference) + " + " + local("D"));
       const std::string side = dyad->side == mechanism::Side::left ? "" : "-";
-      lines.emplace_back(local("s"), side + root("(" + four_a2 + ")" + times + local("D") + " - " + squared(local("k"))));
+      lines.emplace_back(local("s"),
+                         side + root("(" + four_a2 + ")" + times + local("D") + " - " + squared(local("k"))));
       const std::string twice = "(2" + times + local("D") + ")";
-      lines.emplace_back(x, "(" + text(coordinate(dyad->from, 0)) + ") + (" + local("k") + times + "(" + text(u) + ") - " +
-                                local("s") + times + "(" + text(v) + "))/" + twice);
-      lines.emplace_back(y, "(" + text(coordinate(dyad->from, 1)) + ") + (" + local("k") + times + "(" + text(v) + ") + " +
-                                local("s") + times + "(" + text(u) + "))/" + twice);
+      lines.emplace_back(x, "(" + text(coordinate(dyad->from, 0)) + ") + (" + local("k") + times + "(" + text(u) +
+                                ") - " + local("s") + times + "(" + text(v) + "))/" + twice);
+      lines.emplace_back(y, "(" + text(coordinate(dyad->from, 1)) + ") + (" + local("k") + times + "(" + text(v) +
+                                ") + " + local("s") + times + "(" + text(u) + "))/" + twice);
     } else if (const auto* offset = std::get_if<mechanism::OffsetPoint>(&point.form)) {
       if (!geometry_.poly(geometry_.natural(c.point)[0]).depends_on(c.x)) return;  // linear in the two other points
       const Poly u = coordinate(offset->second, 0) - coordinate(offset->first, 0);
@@ -159,10 +162,10 @@ class SheetWriter {
       const std::string along = "(" + text(geometry_.expression(offset->along).expand()) + ")";
       const std::string left = "(" + text(geometry_.expression(offset->left).expand()) + ")";
       lines.emplace_back(local("l"), root(squared("(" + text(u) + ")") + " + " + squared("(" + text(v) + ")")));
-      lines.emplace_back(x, "(" + text(coordinate(offset->first, 0)) + ") + (" + along + times + "(" + text(u) + ") - " +
-                                left + times + "(" + text(v) + "))/" + local("l"));
-      lines.emplace_back(y, "(" + text(coordinate(offset->first, 1)) + ") + (" + along + times + "(" + text(v) + ") + " +
-                                left + times + "(" + text(u) + "))/" + local("l"));
+      lines.emplace_back(x, "(" + text(coordinate(offset->first, 0)) + ") + (" + along + times + "(" + text(u) +
+                                ") - " + left + times + "(" + text(v) + "))/" + local("l"));
+      lines.emplace_back(y, "(" + text(coordinate(offset->first, 1)) + ") + (" + along + times + "(" + text(v) +
+                                ") + " + left + times + "(" + text(u) + "))/" + local("l"));
     }
   }
 

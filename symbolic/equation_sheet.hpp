@@ -14,8 +14,8 @@ enum class Language { text, latex, c, python, matlab };
 
 struct ImplicitPolynomial {
   std::string polynomial;
-  int degree = 0;            ///< total degree in the free coordinates
-  std::string closed_form;   ///< "circle: centre (d, L), radius L"; empty where there is none
+  int degree = 0;           ///< total degree in the free coordinates
+  std::string closed_form;  ///< "circle: centre (d, L), radius L"; empty where there is none
 };
 
 struct DeterminantFactor {

@@ -132,7 +132,10 @@ void write_definitions(std::ostream& out, const EquationSheet& sheet, const Synt
 
 std::string arguments(const EquationSheet& sheet, const std::string& type) {
   std::string list;
-  for (const std::string& name : sheet.coordinates) list += (list.empty() ? "" : ", ") + type + name;
+  for (const std::string& name : sheet.coordinates) {
+    if (!list.empty()) list += ", ";
+    list.append(type).append(name);
+  }
   return list;
 }
 
@@ -176,7 +179,8 @@ std::string format_python(const EquationSheet& sheet) {
   out << "# " << sheet.mechanism << ": A w = -w_e\nfrom math import cos, pi, sin, sqrt\n\n";
   for (const auto& [name, value] : sheet.parameters) {
     std::string expression = value;
-    for (std::size_t at = 0; (at = expression.find('^', at)) != std::string::npos; at += 2) expression.replace(at, 1, "**");
+    for (std::size_t at = 0; (at = expression.find('^', at)) != std::string::npos; at += 2)
+      expression.replace(at, 1, "**");
     out << identifier(name) << " = " << expression << "\n";
   }
   out << "UNKNOWNS = [";

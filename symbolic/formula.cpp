@@ -74,9 +74,12 @@ std::string formula(const core::Polynomial& p, const std::vector<std::string>& n
     } else {
       result += negative ? " - " : " + ";
     }
-    if (monomial.empty()) result += number_text(magnitude, language);
-    else if (magnitude == 1) result += monomial;
-    else result += number_text(magnitude, language) + times(language) + monomial;
+    if (monomial.empty())
+      result += number_text(magnitude, language);
+    else if (magnitude == 1)
+      result += monomial;
+    else
+      result += number_text(magnitude, language) + times(language) + monomial;
   }
   return result;
 }

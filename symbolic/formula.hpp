@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/polynomial.hpp"
-#include "symbolic/equation_sheet.hpp"
 #include "symbolic/determinants.hpp"
+#include "symbolic/equation_sheet.hpp"
 
 namespace clearloci::symbolic {
 

@@ -1,6 +1,7 @@
 #include "symbolic/geometry.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 #include "mechanism/evaluate.hpp"
@@ -187,14 +188,14 @@ Poly Geometry::poly(const GiNaC::ex& e) const {
 Poly Geometry::reduce(const Poly& p) const {
   Poly result = p;
   // From the last root down: a square may hold earlier roots only.
-  for (auto root = roots_.rbegin(); root != roots_.rend(); ++root) {
-    if (result.degree(root->variable) < 2) continue;
-    const std::vector<Poly> powers = result.coefficients(root->variable);
-    const Poly s = Poly::variable(*ring_, root->variable);
+  for (const TowerRoot& root : std::views::reverse(roots_)) {
+    if (result.degree(root.variable) < 2) continue;
+    const std::vector<Poly> powers = result.coefficients(root.variable);
+    const Poly s = Poly::variable(*ring_, root.variable);
     Poly even(*ring_), odd(*ring_), square_power(*ring_, 1);
     for (std::size_t k = 0; k < powers.size(); ++k) {
       (k % 2 == 0 ? even : odd) += powers[k] * square_power;
-      if (k % 2 == 1) square_power *= root->square;
+      if (k % 2 == 1) square_power *= root.square;
     }
     result = even + odd * s;
   }
@@ -239,12 +240,12 @@ void Geometry::place_mean(PointIndex point, const MeanPoint& form) {
   for (std::size_t i = 0; i < 2; ++i) {
     natural_[index(point)][i] = ((natural(form.first)[i] + natural(form.second)[i]) / 2).expand();
   }
-  tower_[index(point)] = {reduce(a.x * b.w + b.x * a.w), reduce(a.y * b.w + b.y * a.w),
-                          reduce(a.w * b.w).scaled(2)};
+  tower_[index(point)] = {reduce(a.x * b.w + b.x * a.w), reduce(a.y * b.w + b.y * a.w), reduce(a.w * b.w).scaled(2)};
 }
 
 void Geometry::construct(PointIndex point) {
-  const auto own = std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
+  const auto own =
+      std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
   natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own->x))), GiNaC::ex(symbol(ring_->name(own->y)))};
 }
 

@@ -138,7 +138,8 @@ class Derivation {
       }
       if (always_zero) {
         if (selected(joint)) {
-          result_.notes.push_back(determinants_.equations.unknown_names[k] + " is zero in every pose: no load reaches it");
+          result_.notes.push_back(determinants_.equations.unknown_names[k] +
+                                  " is zero in every pose: no load reaches it");
         }
         result_.problem.always_zero.push_back({joint, quantity_of(unknown)});
         continue;
@@ -158,7 +159,8 @@ class Derivation {
     std::vector<std::size_t> list;
     for (std::size_t i = 0; i < factors_.size(); ++i) {
       const auto& v = factors_[i].vanishing;
-      if (std::any_of(v.begin(), v.end(), [&](const Vanishing& w) { return w.joint == joint && w.quantity == quantity; })) {
+      if (std::any_of(v.begin(), v.end(),
+                      [&](const Vanishing& w) { return w.joint == joint && w.quantity == quantity; })) {
         list.push_back(i);
       }
     }
@@ -281,9 +283,8 @@ class Derivation {
     const auto add_margin = [&](const std::string& joint, Quantity quantity, const Poly& polynomial,
                                 const core::Rational& bound) {
       const Poly natural = polynomial.primitive();
-      auto known = std::find_if(margins.begin(), margins.end(), [&](const Margin& m) {
-        return m.quantity == quantity && m.natural == natural;
-      });
+      auto known = std::find_if(margins.begin(), margins.end(),
+                                [&](const Margin& m) { return m.quantity == quantity && m.natural == natural; });
       if (known == margins.end()) known = margins.insert(known, {natural, quantity, bound, {}});
       if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
     };
@@ -308,7 +309,8 @@ class Derivation {
       }
       if (selection_.min_couple && couple != nullptr) {
         const Poly shared = gcd(*couple, determinant);
-        const Poly c = couple->exact_quotient(shared), d = determinant.exact_quotient(shared).scaled(*selection_.min_couple);
+        const Poly c = couple->exact_quotient(shared),
+                   d = determinant.exact_quotient(shared).scaled(*selection_.min_couple);
         add_margin(joint, Quantity::M, c - d, *selection_.min_couple);
         add_margin(joint, Quantity::M, c + d, *selection_.min_couple);
       }
@@ -318,15 +320,18 @@ class Derivation {
       std::string names;
       LocusFactor factor;
       for (const std::string& joint : margin.joints) {
-        names += (names.empty() ? "" : ", ") + joint;
+        if (!names.empty()) names += ", ";
+        names += joint;
         factor.vanishing.push_back({joint, margin.quantity, 1});
       }
       const std::string bound = core::to_string(margin.bound);
       factor.expression = text(margin.natural);
       factor.cause = (force ? "contact force of " : "couple of ") + names + " at " + bound + (force ? " N" : " N m");
       const Poly sheet = elimination_.over_tower(margin.natural);
-      if (sheet.is_zero()) result_.notes.push_back(factor.cause + " in every pose");
-      else add(FactorRole::margin, sheet, true, factor);
+      if (sheet.is_zero())
+        result_.notes.push_back(factor.cause + " in every pose");
+      else
+        add(FactorRole::margin, sheet, true, factor);
     }
   }
 

@@ -13,7 +13,7 @@ namespace clearloci::symbolic {
 
 /// What to trace.
 struct Selection {
-  std::vector<std::string> joints;           ///< empty: every joint with a clearance, or all where none has one
+  std::vector<std::string> joints;  ///< empty: every joint with a clearance, or all where none has one
   std::vector<core::Quantity> quantities = {core::Quantity::f, core::Quantity::M};
   std::optional<core::Rational> min_force;   ///< N: adds the margin curves |f_J| = min_force
   std::optional<core::Rational> min_couple;  ///< N m: adds the margin curves |M_J| = min_couple

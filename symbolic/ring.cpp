@@ -108,9 +108,7 @@ Poly Poly::pow(unsigned exponent) const {
   return result;
 }
 
-bool Poly::operator==(const Poly& other) const {
-  return fmpq_mpoly_equal(value_, other.value_, ring_->context()) != 0;
-}
+bool Poly::operator==(const Poly& other) const { return fmpq_mpoly_equal(value_, other.value_, ring_->context()) != 0; }
 
 bool Poly::is_zero() const { return fmpq_mpoly_is_zero(value_, ring_->context()) != 0; }
 

@@ -48,7 +48,7 @@ Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interv
   const auto inverse = approximate_inverse(std::move(middle));
   if (!inverse) return Verdict::unknown;
 
-  bool contracted = true;
+  bool contracted = true, none = false;
   for (int c = 0; c < cell.dimension(); ++c) image.push_back(cell.local(c));
   for (int i = 0; i < n; ++i) {
     const int own = coordinate(i);
@@ -63,11 +63,11 @@ Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interv
       const int c = coordinate(column);
       sum = sum + defect * (cell.local(c) - Interval(cell.middle(c)));
     }
-    if (disjoint(sum, cell.local(own))) return Verdict::none;
+    none = none || disjoint(sum, cell.local(own));
     contracted = contracted && inside(sum, cell.local(own));
     image[own] = sum;
   }
-  return contracted ? Verdict::unique : Verdict::unknown;
+  return none ? Verdict::none : contracted ? Verdict::unique : Verdict::unknown;
 }
 
 }  // namespace clearloci::loci::sheet

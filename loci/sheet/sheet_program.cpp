@@ -217,7 +217,7 @@ SheetProgram::SheetProgram(const SheetProgram& program, std::array<double, 2> or
 }
 
 const SheetProgram& SheetProgram::near(double x, double y, double width) const {
-  if (local_step_ == 0 || width > widest_local * local_step_) return *this;
+  if (local_step_ == 0 || width > widest_local * local_step_ || std::hypot(x, y) < local_step_) return *this;
   std::array<double, 2> origin = {(std::floor(x / local_step_) + 0.5) * local_step_,
                                   (std::floor(y / local_step_) + 0.5) * local_step_};
   double nearest = local_step_;

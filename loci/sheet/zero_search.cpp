@@ -1,6 +1,8 @@
 #include "loci/sheet/zero_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/errors.hpp"
@@ -14,10 +16,11 @@ namespace {
 constexpr double inflation = 0.1;
 // On lifted cells s^2 varies as much as x and y do, so that a box of their proportions does not contract however small
 // it is; wider ones in x and y do.
+constexpr int most_widenings = 4;
+constexpr double hopeless = 64;  // an image this much wider than its box comes from a singular Jacobian
 constexpr double lifted_inflation = 1.5, root_inflation = 0.3;
-// Refinement converges quadratically in the end; a step that gains less than this factor gains nothing any more.
-constexpr double still_shrinking = 0.9;
-constexpr int most_refinements = 80;
+constexpr int most_newton_steps = 30;
+constexpr int most_radii = 16;
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
 
@@ -77,14 +80,35 @@ void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
       cell_.sharpen_middle();
     if (excluded([&](int f) { return cell_.centred(f); })) return;
     std::vector<Interval> image;
-    const Verdict verdict = krawczyk(cell_, system_, image);
+    Verdict verdict = krawczyk(cell_, system_, image);
     if (verdict == Verdict::none) return;
+    for (int trial = 0; verdict == Verdict::unknown && trial < most_widenings; ++trial)
+      verdict = try_wider(box, lifted, image);
     if (verdict == Verdict::unique && accept(box, lifted, std::move(image), cell)) return;
   }
   if (width(cell) < limits_.smallest)
     undecided_.push_back(cell);
   else
     split(cell, next);
+}
+
+/// A box of the wrong proportions does not contract; one that also holds its image may. The box only grows, so that a
+/// verdict on it is one on the cell.
+Verdict ZeroSearch::try_wider(std::vector<Interval>& box, const std::vector<int>& lifted,
+                              std::vector<Interval>& image) {
+  if (image.empty()) return Verdict::unknown;
+  for (std::size_t c = 0; c < box.size(); ++c)
+    if (image[c].width() > hopeless * box[c].width()) {
+      image.clear();
+      return Verdict::unknown;
+    }
+  for (std::size_t c = 0; c < box.size(); ++c)
+    if (box[c].width() > 0) box[c] = inflated(hull(box[c], image[c]), inflation);
+  image.clear();
+  if (!cell_.enter_local(box, lifted)) return Verdict::unknown;
+  cell_.differentiate();
+  const Verdict verdict = krawczyk(cell_, system_, image);
+  return verdict == Verdict::none ? Verdict::unknown : verdict;
 }
 
 /// The box of `zero` holds whatever zero lies in `all` (an enclosure of all variables).
@@ -116,24 +140,49 @@ void ZeroSearch::split(const Cell& cell, std::vector<Cell>& next) const {
   }
 }
 
-/// Narrows the enclosure of a certified zero, in doubles and, where they do not get it narrow, in multi-precision.
+/// Narrows the enclosure of a certified zero: Newton's method from its middle, then the smallest box around the limit
+/// that is proven to hold a zero, which can only be this one; in multi-precision where doubles do not get it narrow.
 void ZeroSearch::shrink(std::vector<Interval>& enclosure, const std::vector<int>& lifted) {
-  bool sharp = false;
-  std::vector<Interval> image;
-  for (int step = 0; step < most_refinements; ++step) {
-    if (!cell_.enter_local(enclosure, lifted)) return;
-    cell_.differentiate();
-    if (sharp) cell_.sharpen_middle();
-    if (krawczyk(cell_, system_, image) == Verdict::none || image.empty()) return;
-    bool shrunk = false, wide = false;
-    for (std::size_t c = 0; c < enclosure.size(); ++c) {
-      const Interval smaller = meet(image[c], enclosure[c]);
-      shrunk = shrunk || smaller.width() < still_shrinking * enclosure[c].width();
-      enclosure[c] = smaller;
-      wide = wide || smaller.width() > limits_.accuracy;
+  std::vector<Interval> point(enclosure.size()), image, trial(enclosure.size());
+  const auto is_thin = [&](std::size_t c) { return enclosure[c].width() == 0; };
+  for (std::size_t c = 0; c < enclosure.size(); ++c) point[c] = is_thin(c) ? enclosure[c] : enclosure[c].middle();
+  for (const bool sharp : {false, true}) {
+    double step = 0, last = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_newton_steps; ++i, last = step) {
+      if (!cell_.enter_local(point, lifted)) return;
+      cell_.differentiate();
+      if (sharp) cell_.sharpen_middle();
+      krawczyk(cell_, system_, image);
+      if (image.empty()) return;
+      step = 0;
+      for (std::size_t c = 0; c < point.size(); ++c) {
+        step = std::max(step, std::abs(image[c].middle() - point[c].middle()));
+        if (!is_thin(c)) point[c] = image[c].middle();
+      }
+      if (step == 0 || step >= 0.5 * last) break;
     }
-    if (!shrunk && (sharp || !wide)) return;
-    sharp = sharp || !shrunk;
+    double radius = std::max(step, 0x1p-53 * limits_.accuracy);
+    bool narrow = false;
+    for (int i = 0; i < most_radii; ++i, radius *= 8) {
+      bool inside_enclosure = true;
+      for (std::size_t c = 0; c < point.size(); ++c) {
+        const double own = std::max(radius, 0x1p-51 * point[c].magnitude());
+        trial[c] = is_thin(c) ? enclosure[c] : Interval(point[c].lower() - own, point[c].upper() + own);
+        inside_enclosure = inside_enclosure && (is_thin(c) || inside(trial[c], enclosure[c]));
+      }
+      if (!inside_enclosure || !cell_.enter_local(trial, lifted)) break;
+      cell_.differentiate();
+      if (sharp) cell_.sharpen_middle();
+      if (krawczyk(cell_, system_, image) != Verdict::unique) continue;
+      narrow = true;
+      for (std::size_t c = 0; c < point.size(); ++c) {
+        enclosure[c] = meet(image[c], trial[c]);
+        narrow = narrow && enclosure[c].width() <= limits_.accuracy;
+        if (!is_thin(c)) point[c] = enclosure[c].middle();
+      }
+      break;
+    }
+    if (narrow) return;
   }
 }
 

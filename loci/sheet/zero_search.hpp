@@ -47,6 +47,7 @@ class ZeroSearch {
   };
 
   void examine(const Cell& cell, std::vector<Cell>& next);
+  Verdict try_wider(std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval>& image);
   bool owns(const CertifiedZero& zero, const std::vector<Interval>& all) const;
   bool known(const Cell& cell) const;
   void split(const Cell& cell, std::vector<Cell>& next) const;

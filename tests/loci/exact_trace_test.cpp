@@ -46,12 +46,14 @@ LocusMap traced(const Polynomial& curve, double tolerance = 1e-5) {
 /// Distance of a point from the curve, to first order.
 double off_curve(const Polynomial& curve, const core::Point2& p) {
   const std::array<Rational, 2> at = {Rational(p[0]), Rational(p[1])};
-  const auto value = [&](const Polynomial& q) { return core::to_double(core::evaluate(q, std::span<const Rational>(at))); };
+  const auto value = [&](const Polynomial& q) {
+    return core::to_double(core::evaluate(q, std::span<const Rational>(at)));
+  };
   return std::abs(value(curve)) / std::hypot(value(core::derivative(curve, 0)), value(core::derivative(curve, 1)));
 }
 
-const Polynomial oval = y * y - x * x * x + x;                                           // an oval and a branch
-const Polynomial ellipse = x * x + number(9) * y * y - number(1);                        // 1 by 1/3
+const Polynomial oval = y * y - x * x * x + x;                     // an oval and a branch
+const Polynomial ellipse = x * x + number(9) * y * y - number(1);  // 1 by 1/3
 const Polynomial quartic = x * x * x * x + y * y * y * y - number(2) * x * y - number(1);
 
 class VertexRules : public testing::TestWithParam<std::pair<Polynomial, double>> {};
@@ -99,7 +101,8 @@ TEST(ExactTrace, ComponentsOfAnOvalAndABranch) {
   const LocusMap map = traced(oval);
   ASSERT_EQ(map.curves.size(), 1u);
   ASSERT_EQ(map.curves[0].arcs.size(), 2u);
-  const auto closed = std::count_if(map.curves[0].arcs.begin(), map.curves[0].arcs.end(), [](auto& a) { return a.closed; });
+  const auto closed =
+      std::count_if(map.curves[0].arcs.begin(), map.curves[0].arcs.end(), [](auto& a) { return a.closed; });
   EXPECT_EQ(closed, 1);
   for (const core::Arc& arc : map.curves[0].arcs) {
     if (arc.closed) {
@@ -116,9 +119,11 @@ TEST(ExactTrace, ANodeEndsArcsInACrossing) {
   ASSERT_EQ(map.curves.size(), 1u);
   const auto& arcs = map.curves[0].arcs;
   EXPECT_EQ(arcs.size(), 3u);  // the loop and two branches
-  EXPECT_EQ(std::count_if(arcs.begin(), arcs.end(), [](const core::Arc& a) {
-              return a.ends[0] == core::ArcEnd::crossing && a.ends[1] == core::ArcEnd::crossing;
-            }), 1);
+  EXPECT_EQ(std::count_if(arcs.begin(), arcs.end(),
+                          [](const core::Arc& a) {
+                            return a.ends[0] == core::ArcEnd::crossing && a.ends[1] == core::ArcEnd::crossing;
+                          }),
+            1);
 }
 
 TEST(ExactTrace, ACircleIsRecognisedAndItsLengthExact) {
@@ -149,9 +154,7 @@ TEST(ExactTrace, AnIsolatedPointIsReported) {
   EXPECT_TRUE(map.isolated_points[0].certified);
 }
 
-TEST(ExactTrace, AnEmptyCurveGivesNothing) {
-  EXPECT_TRUE(traced(x * x + y * y + number(1)).curves.empty());
-}
+TEST(ExactTrace, AnEmptyCurveGivesNothing) { EXPECT_TRUE(traced(x * x + y * y + number(1)).curves.empty()); }
 
 /// x = s with s^2 = 1 - y^2: the half circle x >= 0 belongs to s > 0 only.
 TEST(ExactTrace, EachModeHasItsHalf) {

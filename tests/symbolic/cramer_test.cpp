@@ -29,10 +29,12 @@ class Worlds {
       auto& row = matrix_.emplace_back();
       for (std::size_t j = 0; j <= n; ++j) {
         const Entry e = random_entry();
-        const Poly p = Poly(ring_, e.constant) + Poly::variable(ring_, 0).scaled(e.x) +
-                       Poly::variable(ring_, 1).scaled(e.y);
-        if (j < n) row.push_back(p);
-        else right_.push_back(p);
+        const Poly p =
+            Poly(ring_, e.constant) + Poly::variable(ring_, 0).scaled(e.x) + Poly::variable(ring_, 1).scaled(e.y);
+        if (j < n)
+          row.push_back(p);
+        else
+          right_.push_back(p);
         full_(static_cast<unsigned>(i), static_cast<unsigned>(j)) = e.constant + e.x * x_ + e.y * y_;
       }
     }

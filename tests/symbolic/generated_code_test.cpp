@@ -19,7 +19,8 @@ std::filesystem::path scratch(const std::string& name) {
 }
 
 std::string program(const std::string& example, Language language, bool keep) {
-  const auto mechanism = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + example + ".yaml");
+  const auto mechanism =
+      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + example + ".yaml");
   return format(equation_sheet(mechanism, {language, keep}));
 }
 
@@ -62,7 +63,8 @@ class GeneratedCode : public testing::TestWithParam<std::tuple<std::string, bool
 TEST_P(GeneratedCode, PythonDeterminantsAreThoseOfItsMatrix) {
   const auto& [example, keep] = GetParam();
   const std::filesystem::path file = scratch(example + (keep ? "_kept" : "")) / "equations.py";
-  std::ofstream(file) << program(example, Language::python, keep) << "\nPOSES = [(0.25, -0.7), (0.3, 0.6), (0.1, -0.55)]\n"
+  std::ofstream(file) << program(example, Language::python, keep)
+                      << "\nPOSES = [(0.25, -0.7), (0.3, 0.6), (0.1, -0.55)]\n"
                       << python_check;
   EXPECT_EQ(std::system(("python3 " + file.string()).c_str()), 0);
 }
@@ -71,8 +73,10 @@ TEST_P(GeneratedCode, CCompilesWithoutAWarning) {
   const auto& [example, keep] = GetParam();
   const std::filesystem::path file = scratch(example + (keep ? "_kept" : "")) / "equations.c";
   std::ofstream(file) << program(example, Language::c, keep);
-  EXPECT_EQ(std::system(("cc -std=c99 -Wall -Werror -Wno-unused-variable -Wno-unused-const-variable -c " + file.string() +
-                         " -o " + file.string() + ".o").c_str()), 0);
+  EXPECT_EQ(std::system(("cc -std=c99 -Wall -Werror -Wno-unused-variable -Wno-unused-const-variable -c " +
+                         file.string() + " -o " + file.string() + ".o")
+                            .c_str()),
+            0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, GeneratedCode,

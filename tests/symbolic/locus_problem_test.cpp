@@ -69,9 +69,9 @@ TEST(LocusProblem, WithWeightsNoCurveOfForceIsWanted) {
   const auto derived = locus_problem(example("five_bar_weights"), {});
   for (const LocusFactor& factor : derived.problem.factors) {
     if (factor.role != FactorRole::reaction || factor.implicit.empty()) continue;
-    EXPECT_TRUE(std::all_of(factor.vanishing.begin(), factor.vanishing.end(),
-                            [](const core::Vanishing& v) { return v.quantity == Quantity::M; }))
-        << factor.expression;
+    EXPECT_TRUE(std::all_of(factor.vanishing.begin(), factor.vanishing.end(), [](const core::Vanishing& v) {
+      return v.quantity == Quantity::M;
+    })) << factor.expression;
   }
 }
 
