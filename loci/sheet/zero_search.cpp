@@ -21,6 +21,7 @@ constexpr double hopeless = 64;  // an image this much wider than its box comes 
 constexpr double lifted_inflation = 1.5, root_inflation = 0.3;
 constexpr int most_newton_steps = 30;
 constexpr int most_radii = 16;
+constexpr double first_radius = 0.02;  // relative to the accuracy wanted
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
 
@@ -82,6 +83,7 @@ void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
     std::vector<Interval> image;
     Verdict verdict = krawczyk(cell_, system_, image);
     if (verdict == Verdict::none) return;
+    if (getenv("DBG")) { printf("cell %g %g w %g S %g..%g lifted %zu: v %d", cell.x.lower()-1.302991071, cell.y.lower()-0.454548422, cell.x.width(), box.size()>2?box[2].lower():0, box.size()>2?box[2].upper():0, lifted.size(), (int)verdict); for (size_t c = 0; c < image.size(); ++c) printf(" %g*", image[c].width()/box[c].width()); puts(""); }
     for (int trial = 0; verdict == Verdict::unknown && trial < most_widenings; ++trial)
       verdict = try_wider(box, lifted, image);
     if (verdict == Verdict::unique && accept(box, lifted, std::move(image), cell)) return;
@@ -142,10 +144,11 @@ void ZeroSearch::split(const Cell& cell, std::vector<Cell>& next) const {
 
 /// Narrows the enclosure of a certified zero: Newton's method from its middle, then the smallest box around the limit
 /// that is proven to hold a zero, which can only be this one; in multi-precision where doubles do not get it narrow.
-void ZeroSearch::shrink(std::vector<Interval>& enclosure, const std::vector<int>& lifted) {
+void ZeroSearch::shrink(std::vector<Interval>& enclosure, const std::vector<Interval>& box,
+                        const std::vector<int>& lifted) {
   std::vector<Interval> point(enclosure.size()), image, trial(enclosure.size());
-  const auto is_thin = [&](std::size_t c) { return enclosure[c].width() == 0; };
-  for (std::size_t c = 0; c < enclosure.size(); ++c) point[c] = is_thin(c) ? enclosure[c] : enclosure[c].middle();
+  const auto is_thin = [&](std::size_t c) { return box[c].width() == 0; };
+  for (std::size_t c = 0; c < enclosure.size(); ++c) point[c] = enclosure[c].middle();
   for (const bool sharp : {false, true}) {
     double step = 0, last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_newton_steps; ++i, last = step) {
@@ -161,16 +164,16 @@ void ZeroSearch::shrink(std::vector<Interval>& enclosure, const std::vector<int>
       }
       if (step == 0 || step >= 0.5 * last) break;
     }
-    double radius = std::max(step, 0x1p-53 * limits_.accuracy);
+    double radius = std::max(2 * step, first_radius * limits_.accuracy);
     bool narrow = false;
     for (int i = 0; i < most_radii; ++i, radius *= 8) {
-      bool inside_enclosure = true;
+      bool inside_box = true;
       for (std::size_t c = 0; c < point.size(); ++c) {
         const double own = std::max(radius, 0x1p-51 * point[c].magnitude());
-        trial[c] = is_thin(c) ? enclosure[c] : Interval(point[c].lower() - own, point[c].upper() + own);
-        inside_enclosure = inside_enclosure && (is_thin(c) || inside(trial[c], enclosure[c]));
+        trial[c] = is_thin(c) ? box[c] : Interval(point[c].lower() - own, point[c].upper() + own);
+        inside_box = inside_box && (is_thin(c) || inside(trial[c], box[c]));
       }
-      if (!inside_enclosure || !cell_.enter_local(trial, lifted)) break;
+      if (!inside_box || !cell_.enter_local(trial, lifted)) break;
       cell_.differentiate();
       if (sharp) cell_.sharpen_middle();
       if (krawczyk(cell_, system_, image) != Verdict::unique) continue;
@@ -190,7 +193,7 @@ void ZeroSearch::shrink(std::vector<Interval>& enclosure, const std::vector<int>
 /// a new one.
 bool ZeroSearch::accept(const std::vector<Interval>& box, const std::vector<int>& lifted,
                         std::vector<Interval> enclosure, const Cell& cell) {
-  shrink(enclosure, lifted);
+  shrink(enclosure, box, lifted);
   if (disjoint(enclosure[0], cell.x) || disjoint(enclosure[1], cell.y)) return true;
   for (std::size_t l = 0; l < lifted.size(); ++l)
     if (enclosure[2 + l].sign() == -mode()[lifted[l]]) return true;

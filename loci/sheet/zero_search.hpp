@@ -52,7 +52,7 @@ class ZeroSearch {
   bool known(const Cell& cell) const;
   void split(const Cell& cell, std::vector<Cell>& next) const;
   double width(const Cell& cell) const;
-  void shrink(std::vector<Interval>& enclosure, const std::vector<int>& lifted);
+  void shrink(std::vector<Interval>& enclosure, const std::vector<Interval>& box, const std::vector<int>& lifted);
   bool accept(const std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval> enclosure,
               const Cell& cell);
 
