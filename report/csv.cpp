@@ -8,7 +8,7 @@ namespace {
 
 /// A field of RFC 4180: quoted where it holds a separator, a quote or a space at an end.
 std::string field(const std::string& text) {
-  const std::string clean = printable(text);
+  std::string clean = printable(text);
   const bool plain = clean.find_first_of(",\"") == std::string::npos &&
                      (clean.empty() || (clean.front() != ' ' && clean.back() != ' '));
   if (plain) return clean;

@@ -179,7 +179,7 @@ void DxfWriter::put_point(const core::Point2& at, bool with_z, int code) {
 
 std::string DxfWriter::put_handle(const std::string& owner, int handle_code) {
   if (!modern_) return "";
-  const std::string handle = next_handle();
+  std::string handle = next_handle();
   ++next_handle_;
   put(handle_code, handle);
   put(330, owner);
@@ -200,7 +200,7 @@ void DxfWriter::end_section() { put(0, "ENDSEC"); }
 std::string DxfWriter::begin_table(std::string_view name, int entries) {
   put(0, "TABLE");
   put(2, name);
-  const std::string handle = put_handle("0");
+  std::string handle = put_handle("0");
   put_class("AcDbSymbolTable");
   put(70, entries);
   return handle;

@@ -153,9 +153,9 @@ std::string notes(const core::LocusMap& map) {
   const auto uncertain = [](const auto& one) { return !one.certified; };
   if (std::any_of(map.curves.begin(), map.curves.end(), uncertain) ||
       std::any_of(map.isolated_points.begin(), map.isolated_points.end(), uncertain)) {
-    sentences.push_back("*: traced, but its topology is not certified.");
+    sentences.emplace_back("*: traced, but its topology is not certified.");
   }
-  if (!map.complete) sentences.push_back("Incomplete: the work was stopped at its time limit.");
+  if (!map.complete) sentences.emplace_back("Incomplete: the work was stopped at its time limit.");
   std::string out;
   for (const auto& sentence : sentences) {
     const auto lines = wrap(printable(sentence), table_width - 2, measure);

@@ -4,7 +4,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <ranges>
 
 #include "core/errors.hpp"
 
@@ -161,7 +160,8 @@ CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::
   for (std::size_t i = 0; i < core.size(); ++i) {
     numerators[static_cast<std::size_t>(core_columns[i])] = core[i].back();
   }
-  for (const Pivot& pivot : std::views::reverse(pivots)) {
+  for (auto next = pivots.rbegin(); next != pivots.rend(); ++next) {
+    const Pivot& pivot = *next;
     const SparseRow& row = rows[pivot.row];
     Poly sum(ring);
     for (const auto& [column, entry] : row) {

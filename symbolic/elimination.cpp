@@ -1,7 +1,6 @@
 #include "symbolic/elimination.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 #include "core/errors.hpp"
 
@@ -156,7 +155,9 @@ Poly Elimination::norm_on_line(const Poly& sheet) const {
     return p;
   };
   Poly p = on_line(sheet);
-  for (const TowerRoot& root : std::views::reverse(geometry_->roots())) {
+  const auto& roots = geometry_->roots();
+  for (auto next = roots.rbegin(); next != roots.rend(); ++next) {
+    const TowerRoot& root = *next;
     const std::vector<Poly> powers = p.coefficients(root.variable);
     if (powers.size() == 1) continue;
     const Poly square = on_line(root.square);

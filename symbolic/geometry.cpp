@@ -1,7 +1,6 @@
 #include "symbolic/geometry.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <set>
 
 #include "mechanism/evaluate.hpp"
@@ -188,7 +187,8 @@ Poly Geometry::poly(const GiNaC::ex& e) const {
 Poly Geometry::reduce(const Poly& p) const {
   Poly result = p;
   // From the last root down: a square may hold earlier roots only.
-  for (const TowerRoot& root : std::views::reverse(roots_)) {
+  for (auto next = roots_.rbegin(); next != roots_.rend(); ++next) {
+    const TowerRoot& root = *next;
     if (result.degree(root.variable) < 2) continue;
     const std::vector<Poly> powers = result.coefficients(root.variable);
     const Poly s = Poly::variable(*ring_, root.variable);
