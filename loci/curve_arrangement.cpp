@@ -27,8 +27,11 @@ using Arc = Traits::X_monotone_curve_2;
 using Point = Traits::Point_2;
 using Bivariate = Traits::Polynomial_2;
 
-/// Widths of enclosures: far below the distance at which anything in a mechanism's workspace differs.
+/// Widths of enclosures: far below the distance at which anything in a mechanism's workspace differs. How far CGAL has
+/// refined a root depends on what was asked before; rounding a much finer enclosure to `vertex_bits` makes the result
+/// the same from run to run.
 constexpr int vertex_bits = 56;
+constexpr int fine_bits = 90;
 constexpr int sample_bits = 100;
 
 Rational rational(const Bound& value) {
@@ -55,8 +58,16 @@ core::Polynomial side_of_box(int variable, const Rational& value) {
   return core::primitive_part(core::variable_polynomial(2, variable) - core::constant_polynomial(2, value));
 }
 
-double middle(const std::pair<Bound, Bound>& interval) {
-  return core::to_double((rational(interval.first) + rational(interval.second)) / 2);
+/// The point enclosed, rounded to a multiple of 2^-vertex_bits.
+double rounded(const std::pair<Bound, Bound>& interval) {
+  Rational value = (rational(interval.first) + rational(interval.second)) / 2;
+  mpq_mul_2exp(value.get_mpq_t(), value.get_mpq_t(), vertex_bits);
+  const Rational shifted = value + Rational(1, 2);
+  core::Integer whole;
+  mpz_fdiv_q(whole.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
+  Rational result(whole);
+  mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), vertex_bits);
+  return core::to_double(result);
 }
 
 }  // namespace
@@ -73,7 +84,7 @@ struct CurveArrangement::Implementation {
     return plane_kernel.approximate_absolute_y_2_object()(p.xy(), bits);
   }
   core::Point2 position(const Point& p) const {
-    return {middle(enclose_x(p, vertex_bits)), middle(enclose_y(p, vertex_bits))};
+    return {rounded(enclose_x(p, fine_bits)), rounded(enclose_y(p, fine_bits))};
   }
 
   bool in_box(const core::Point2& p, double slack) const {
@@ -196,7 +207,7 @@ double CurveArrangement::y_at(int edge, double x) const {
   const Implementation& self = *implementation_;
   const Arc& arc = self.arcs[static_cast<std::size_t>(edge)];
   auto line = arc.curve().status_line_at_exact_x(bound(Rational(x)));
-  return middle(self.plane_kernel.approximate_absolute_y_2_object()(line.algebraic_real_2(arc.arcno()), vertex_bits));
+  return rounded(self.plane_kernel.approximate_absolute_y_2_object()(line.algebraic_real_2(arc.arcno()), fine_bits));
 }
 
 bool CurveArrangement::divides(int divisor, const core::Polynomial& p) const {
