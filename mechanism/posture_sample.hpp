@@ -1,4 +1,5 @@
 // A mechanism's points in floating point, at poses spread over the box: for checks of the input, nothing else.
+// Private to mechanism/.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Numbers of the form  q0 + qp pi + sum of qn sqrt(n)  (q rational, n squarefree): what constant expressions of a
-// mechanism file come to before anything irrational has to be replaced by a rational.
+// mechanism file come to before anything irrational has to be replaced by a rational. Private to mechanism/.
 #pragma once
 
 #include <map>
