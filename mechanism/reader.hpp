@@ -1,5 +1,5 @@
 // The stages of reading a mechanism file, in the order in which they run. Each throws core::InputError for wrong input.
-// Internal to the reader. Private to mechanism/.
+// Private to mechanism/.
 #pragma once
 
 #include <set>

@@ -1,5 +1,5 @@
 // The YAML tree with its places: every complaint about it becomes a core::InputError that says where, what and how to
-// mend it. Internal to the reader. Private to mechanism/.
+// mend it. Private to mechanism/.
 #pragma once
 
 #include <yaml-cpp/yaml.h>

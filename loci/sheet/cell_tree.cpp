@@ -35,8 +35,7 @@ int steeper_axis(const SheetCell& cell) {
     const int c = 2 + static_cast<int>(l);
     const double whole = cell.slope(0, c).magnitude() * cell.local(c).width();
     double share[2];
-    for (const int v : {0, 1})
-      share[v] = cell.bond_slope(static_cast<int>(l), v).magnitude() * cell.local(v).width();
+    for (const int v : {0, 1}) share[v] = cell.bond_slope(static_cast<int>(l), v).magnitude() * cell.local(v).width();
     const double sum = share[0] + share[1];
     for (const int v : {0, 1}) variation[v] += sum > 0 ? whole * share[v] / sum : 0;
   }
@@ -99,9 +98,10 @@ void CellTree::build(SheetCell& evaluator, const TreeOptions& options) {
       leaf.kind = judgement.kind;
       leaf.along = judgement.along;
       const double widths[2] = {node.cell.x.width(), node.cell.y.width()};
-      const bool may_split = !stopped && static_cast<int>(nodes_.size()) < options.most_cells &&
-                             std::max(widths[0], widths[1]) > smallest_;
-      if (judgement.kind == LeafKind::undecided && may_split) {
+      const bool divisible = judgement.kind == LeafKind::undecided && std::max(widths[0], widths[1]) > smallest_;
+      const bool may_split = !stopped && static_cast<int>(nodes_.size()) < options.most_cells;
+      cut_short_ = cut_short_ || (divisible && !may_split);
+      if (divisible && may_split) {
         split = true;
         node.axis = widths[judgement.cut_axis] > smallest_ ? judgement.cut_axis : 1 - judgement.cut_axis;
         const Interval& range = node.axis == 0 ? node.cell.x : node.cell.y;
@@ -193,9 +193,12 @@ int CellTree::locate(const Interval& x, const Interval& y) const {
   while (nodes_[index].axis >= 0) {
     const Node& node = nodes_[index];
     const Interval& place = node.axis == 0 ? x : y;
-    if (place.upper() < node.cut) index = node.child[0];
-    else if (node.cut < place.lower()) index = node.child[1];
-    else return -1;
+    if (place.upper() < node.cut)
+      index = node.child[0];
+    else if (node.cut < place.lower())
+      index = node.child[1];
+    else
+      return -1;
   }
   return nodes_[index].leaf;
 }
@@ -207,9 +210,12 @@ int CellTree::locate_at(int axis, double at, int side, const Interval& other) co
     if (node.axis == axis) {
       index = node.child[side < 0 ? (at <= node.cut ? 0 : 1) : (at >= node.cut ? 1 : 0)];
     } else {
-      if (other.upper() < node.cut) index = node.child[0];
-      else if (node.cut < other.lower()) index = node.child[1];
-      else return -1;
+      if (other.upper() < node.cut)
+        index = node.child[0];
+      else if (node.cut < other.lower())
+        index = node.child[1];
+      else
+        return -1;
     }
   }
   return nodes_[index].leaf;

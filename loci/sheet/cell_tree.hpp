@@ -21,8 +21,8 @@ enum class LeafKind : std::uint8_t {
 struct Leaf {
   Cell cell;
   LeafKind kind = LeafKind::empty;
-  int along = 0;              ///< variable: 0, 1, or 2 + j for root j
-  std::uint32_t rim = 0;      ///< bit j: Q_j = 0 may pass through the cell
+  int along = 0;          ///< variable: 0, 1, or 2 + j for root j
+  std::uint32_t rim = 0;  ///< bit j: Q_j = 0 may pass through the cell
 };
 
 /// Two leaves side by side. `axis`: the coordinate that is constant on the common segment.
@@ -33,11 +33,11 @@ struct Seam {
 };
 
 struct TreeOptions {
-  double smallest = 2e-11;     ///< relative to the patch
-  int most_cells = 200000;     ///< examined; beyond it cells stay undecided
-  unsigned attempt = 0;        ///< moves the cuts, so that an unlucky one is not met twice
+  double smallest = 2e-11;                   ///< relative to the patch
+  int most_cells = 60000;                    ///< examined; beyond it cells stay undecided
+  unsigned attempt = 0;                      ///< moves the cuts, so that an unlucky one is not met twice
   std::vector<std::array<double, 4>> holes;  ///< x0, x1, y0, y1
-  std::function<bool()> stop;  ///< asked now and then; true: leave the rest undecided
+  std::function<bool()> stop;                ///< asked now and then; true: leave the rest undecided
 };
 
 class CellTree {
@@ -48,7 +48,8 @@ class CellTree {
   const Cell& domain() const { return nodes_.front().cell; }
   const std::vector<Leaf>& leaves() const { return leaves_; }
   std::vector<Seam> seams() const;
-  double smallest() const { return smallest_; }
+  /// The budget or TreeOptions::stop left cells undecided that could be subdivided.
+  bool cut_short() const { return cut_short_; }
 
   /// The leaf that surely contains the place; -1: rounding does not tell.
   int locate(const Interval& x, const Interval& y) const;
@@ -72,6 +73,7 @@ class CellTree {
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
   double smallest_ = 0;
+  bool cut_short_ = false;
 };
 
 }  // namespace clearloci::loci::sheet

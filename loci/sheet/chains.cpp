@@ -52,9 +52,12 @@ class Stringer {
   core::ArcEnd label(const Incidence& end) const {
     if (own_label(end) != core::ArcEnd::none) return own_label(end);
     switch (graph_.crossings[graph_.stretches[end.stretch].ends[end.end].crossing].kind) {
-      case Crossing::Kind::box: return core::ArcEnd::box;
-      case Crossing::Kind::rim: return core::ArcEnd::boundary;
-      default: return core::ArcEnd::crossing;
+      case Crossing::Kind::box:
+        return core::ArcEnd::box;
+      case Crossing::Kind::rim:
+        return core::ArcEnd::boundary;
+      default:
+        return core::ArcEnd::crossing;
     }
   }
 

@@ -40,6 +40,9 @@ class GraphBuilder {
       TreeOptions options = options_;
       if (patch.chart.side == Side::plane) options.holes = parts_.holes;
       patch.tree = std::make_unique<CellTree>(*patch.program, mode_, patch.domain, std::move(options));
+      // Other cuts do not help where the budget is what runs out.
+      graph_.stopped = graph_.stopped || patch.tree->cut_short();
+      last_attempt_ = last_attempt_ || graph_.stopped;
       at_leaf_.emplace_back(patch.tree->leaves().size());
       open_.emplace_back(patch.tree->leaves().size());
     }
@@ -175,8 +178,7 @@ class GraphBuilder {
       there[0] = vertical ? Interval(at) : place.x;
       there[1] = vertical ? place.y : Interval(at);
       if (!box)
-        other_leaf =
-            graph_.patches[0].tree->locate_at(vertical ? 0 : 1, at, direction, vertical ? there[1] : there[0]);
+        other_leaf = graph_.patches[0].tree->locate_at(vertical ? 0 : 1, at, direction, vertical ? there[1] : there[0]);
     } else {  // towards the chart above (t = 1) or below: right and left meet top at t = 1, bottom at t = -1
       const Side neighbour = end > 0 ? Side::top : Side::bottom;
       other = patch - chart_of(chart.side) + chart_of(neighbour);
@@ -247,8 +249,8 @@ class GraphBuilder {
         graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(own.cell));
       }
       for (std::size_t i = 0; i + 1 < seen.size(); i += 2)
-        graph_.stretches.push_back({patch, index, v, {{seen[i].crossing, seen[i].enclosure},
-                                                      {seen[i + 1].crossing, seen[i + 1].enclosure}}});
+        graph_.stretches.push_back(
+            {patch, index, v, {{seen[i].crossing, seen[i].enclosure}, {seen[i + 1].crossing, seen[i + 1].enclosure}}});
     }
   }
 
@@ -281,7 +283,10 @@ class GraphBuilder {
       graph_.clusters.push_back({patch, place, -1, branches.empty()});
       if (branches.size() == 2) {
         graph_.stretches.push_back(
-            {patch, -1, 0, {{branches[0].crossing, branches[0].enclosure}, {branches[1].crossing, branches[1].enclosure}}});
+            {patch,
+             -1,
+             0,
+             {{branches[0].crossing, branches[0].enclosure}, {branches[1].crossing, branches[1].enclosure}}});
       } else if (!branches.empty()) {
         std::vector<Interval> node = branches.front().enclosure;
         node[0] = place.x.middle();
@@ -356,12 +361,8 @@ CurveGraph curve_graph(const core::RootTower& tower, const core::Polynomial& cur
   for (unsigned attempt = 0;; ++attempt) {
     TreeOptions own = options;
     own.attempt = attempt;
-    const bool stopped = options.stop && options.stop();
-    const bool last = attempt + 1 >= most_attempts || stopped;
-    if (auto graph = GraphBuilder(tower, curve, mode, parts, own, last).run()) {
-      graph->stopped = stopped;
-      return std::move(*graph);
-    }
+    const bool last = attempt + 1 >= most_attempts || (options.stop && options.stop());
+    if (auto graph = GraphBuilder(tower, curve, mode, parts, own, last).run()) return std::move(*graph);
   }
 }
 

@@ -23,7 +23,7 @@ struct Crossing {
   enum class Kind { seam, box, rim, star, node, cut };
   Kind kind = Kind::seam;
   core::Point2 at{};
-  int star = -1;                              ///< of a star
+  int star = -1;                            ///< of a star
   core::ArcEnd label = core::ArcEnd::none;  ///< of a cut; of a star where a cutter reaches it in the same direction
 };
 
@@ -46,8 +46,8 @@ struct Stretch {
 /// An undecided cluster: of size rounding, or what a spent budget left.
 struct Cluster {
   int patch = 0;
-  Cell cell;      ///< in the patch's coordinates
-  int node = -1;  ///< crossing at which more than two branches meet in it
+  Cell cell;            ///< in the patch's coordinates
+  int node = -1;        ///< crossing at which more than two branches meet in it
   bool lonely = false;  ///< no branch reaches it
 };
 

@@ -218,7 +218,8 @@ std::optional<Cell> Chart::from_plane(const Cell& place) const {
   if (u.lower() <= 0 || u.upper() > 1) return std::nullopt;
   const Interval middle = along_x ? interval((rectangle[2] + rectangle[3]) / 2 - origin_y)
                                   : interval((rectangle[0] + rectangle[1]) / 2 - origin_x);
-  const Interval half = along_x ? interval((rectangle[3] - rectangle[2]) / 2) : interval((rectangle[1] - rectangle[0]) / 2);
+  const Interval half =
+      along_x ? interval((rectangle[3] - rectangle[2]) / 2) : interval((rectangle[1] - rectangle[0]) / 2);
   const Interval t = ((along_x ? y : x) * inverse(u) - middle) * inverse(half);
   if (t.lower() < -1 || t.upper() > 1) return std::nullopt;
   return Cell{u, t};

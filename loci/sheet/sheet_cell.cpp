@@ -59,7 +59,7 @@ void SheetCell::choose_context(const Interval& x, const Interval& y) {
   now_ = contexts_.back().get();
 }
 
-bool SheetCell::enter(const Interval& x, const Interval& y) {
+bool SheetCell::enter(const Interval& x, const Interval& y, const std::vector<Interval>& ranges) {
   choose_context(x, y);
   now_->over.set(0, x);
   now_->over.set(1, y);
@@ -69,7 +69,12 @@ bool SheetCell::enter(const Interval& x, const Interval& y) {
     now_->over.run_square(j);
     const Interval& square = now_->over.square(j);
     if (square.upper() < 0) return false;
-    now_->over.set(2 + j, signed_root(mode_[j], square));
+    Interval root = signed_root(mode_[j], square);
+    if (!ranges.empty()) {
+      if (disjoint(root, ranges[j])) return false;
+      root = meet(root, ranges[j]);
+    }
+    now_->over.set(2 + j, root);
     is_lifted_[j] = square.lower() <= lift_ratio * square.upper();
     if (is_lifted_[j]) {
       lifted_.push_back(j);

@@ -20,7 +20,9 @@ class SheetCell {
 
   /// Moves to the cell and encloses roots and values, choosing which roots to lift. False: proven to lie outside the
   /// workspace (some Q_j < 0 all over it).
-  bool enter(const Interval& x, const Interval& y);
+  bool enter(const Interval& x, const Interval& y) { return enter(x, y, {}); }
+  /// The same with the roots in given ranges; none where `ranges` is empty.
+  bool enter(const Interval& x, const Interval& y, const std::vector<Interval>& ranges);
 
   /// Moves to a box in given local coordinates. `lifted`: roots in ascending order; `local`: (x, y, lifted s_j ...),
   /// of either sign. False: another root is not proven to be away from 0, the box is too wide to work on.

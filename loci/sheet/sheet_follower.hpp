@@ -28,9 +28,9 @@ class SheetFollower {
   const SheetProgram* program_;
   SheetProgram::Registers<double> registers_;
   double size_;
-  int n_;                                     // variables
-  std::vector<double> residual_;  // of N, G_1 ... G_m
-  std::vector<std::vector<double>> matrix_;   // their gradients, one row more for the hyperplane
+  int n_;                                    // variables
+  std::vector<double> residual_;             // of N, G_1 ... G_m
+  std::vector<std::vector<double>> matrix_;  // their gradients, one row more for the hyperplane
 };
 
 double dot(const LiftedPoint& a, const LiftedPoint& b);

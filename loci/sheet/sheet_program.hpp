@@ -6,8 +6,8 @@
 // polynomials is; `near` gives programs for the same functions with origins all over a region.
 #pragma once
 
-#include <cstdint>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>

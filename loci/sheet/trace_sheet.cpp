@@ -113,7 +113,8 @@ class Tracer {
       SheetProgram program(sheet.tower, std::move(sheet.functions));
       if (patch.chart.side == Chart::Side::plane) localise(program, parts);
       const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
-      const FoundZeros found = ZeroSearch(program, own_.mode, {}).run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size});
+      const FoundZeros found =
+          ZeroSearch(program, own_.mode, {}).run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size});
       std::vector<Cell> open = found.undecided;
       for (const std::vector<Interval>& zero : found.enclosures)
         if (!cut_stretch(graph_, static_cast<int>(p), zero, label)) open.push_back({zero[0], zero[1]});
@@ -145,7 +146,8 @@ class Tracer {
     if (place.x.width() > width || place.y.width() > width) return false;
     return std::any_of(graph_.crossings.begin(), graph_.crossings.end(), [&](const Crossing& crossing) {
       if (crossing.kind == Crossing::Kind::seam || crossing.kind == Crossing::Kind::node) return false;
-      return std::abs(crossing.at[0] - place.x.middle()) <= width && std::abs(crossing.at[1] - place.y.middle()) <= width;
+      return std::abs(crossing.at[0] - place.x.middle()) <= width &&
+             std::abs(crossing.at[1] - place.y.middle()) <= width;
     });
   }
 
@@ -276,8 +278,8 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
       if (!there.is_constant()) on_boundary.push_back({there, cutter.label});
     }
     const core::RootTower below = on_rim(tower, static_cast<int>(j));
-    SheetTrace all = trace_sheet(below, rest, lower, upper,
-                                 without_denominators(without_variable(square, v), tower), on_boundary, options);
+    SheetTrace all = trace_sheet(below, rest, lower, upper, without_denominators(without_variable(square, v), tower),
+                                 on_boundary, options);
     if (!rim) {
       core::Polynomial quotient = sheet;
       for (core::Term& term : quotient.terms) --term.exponents[v];

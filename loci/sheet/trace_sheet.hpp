@@ -21,7 +21,7 @@ struct Cutter {
 
 struct SheetTraceOptions {
   double tolerance = 1e-5;     ///< chord deviation
-  int most_cells = 200000;     ///< budget of cells a patch
+  int most_cells = 60000;      ///< budget of cells a patch
   std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
 };
 

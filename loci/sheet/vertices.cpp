@@ -224,7 +224,8 @@ PlacedArc place_vertices(const CurveGraph& graph, const core::WorkingMode& mode,
     std::size_t end = begin;
     while (end < legs.size() && legs[end].stretch->patch == legs[begin].stretch->patch) ++end;
     Run run(graph, mode, legs[begin].stretch->patch, tolerance, size);
-    run.follow({legs.begin() + static_cast<std::ptrdiff_t>(begin), legs.begin() + static_cast<std::ptrdiff_t>(end)}, arc);
+    run.follow({legs.begin() + static_cast<std::ptrdiff_t>(begin), legs.begin() + static_cast<std::ptrdiff_t>(end)},
+               arc);
     begin = end;
   }
   arc.points.back() = crossing(legs.back(), false);

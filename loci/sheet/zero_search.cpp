@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "core/errors.hpp"
@@ -16,14 +17,17 @@ namespace {
 constexpr double inflation = 0.1;
 // On lifted cells s^2 varies as much as x and y do, so that a box of their proportions does not contract however small
 // it is; wider ones in x and y do.
-constexpr int most_widenings = 4;
-constexpr double hopeless = 64;  // an image this much wider than its box comes from a singular Jacobian
-constexpr double lifted_inflation = 1.5, root_inflation = 0.3;
+constexpr int most_widenings = 2;
+constexpr double hopeless = 16;         // an image this much wider than its box comes from a singular Jacobian
+constexpr double thinnest_root = 0.01;  // relative to the cell; then the cell is cut next
+constexpr double lifted_inflation = 0.6, root_inflation = 0.2;
 constexpr int most_newton_steps = 30;
 constexpr int most_radii = 16;
 constexpr double first_radius = 0.02;  // relative to the accuracy wanted
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
+
+const Interval everything(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 
 Interval inflated(const Interval& a, double share) {
   const double margin = share * a.width();
@@ -41,34 +45,44 @@ FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits)
   limits_ = limits;
   zeros_.clear();
   undecided_.clear();
-  std::vector<Cell> live = seeds, next;
+  std::vector<Box> live, next;
+  for (const Cell& seed : seeds) live.push_back({seed, {}});
   while (!live.empty() && live.size() <= limits_.most_cells + seeds.size()) {
     next.clear();
-    for (const Cell& cell : live) examine(cell, next);
+    for (const Box& box : live) examine(box, next);
     std::swap(live, next);
   }
   FoundZeros result;
   result.gave_up = !live.empty();
-  undecided_.insert(undecided_.end(), live.begin(), live.end());
+  for (const Box& box : live) undecided_.push_back(box.cell);
   result.undecided = std::move(undecided_);
   for (CertifiedZero& zero : zeros_) result.enclosures.push_back(std::move(zero.enclosure));
   return result;
 }
 
-void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
+void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
+  const Cell& cell = live.cell;
   const auto excluded = [&](auto&& enclosure) {
     return std::any_of(system_.functions.begin(), system_.functions.end(),
                        [&](int f) { return !enclosure(f).contains_zero(); });
   };
-  if (!cell_.enter(cell.x, cell.y) || excluded([&](int f) { return cell_.value(f); }) || known(cell)) return;
+  if (!cell_.enter(cell.x, cell.y, live.roots) || excluded([&](int f) { return cell_.value(f); }) || known(cell))
+    return;
   std::vector<Interval> box;
   const std::vector<int> lifted = cell_.lifted();
   const auto is_free = [&](int c) {
     return c >= 2 || std::find(system_.free.begin(), system_.free.end(), c) != system_.free.end();
   };
+  int axis = cell.x.width() > cell.y.width() ? 0 : 1;
   if (!lifted.empty()) {
     cell_.differentiate();
     if (excluded([&](int f) { return cell_.centred(f); })) return;
+    axis = axis_to_cut(cell);
+  }
+  std::vector<Interval> roots = live.roots;
+  for (const int j : lifted) {
+    roots.resize(program_->roots(), everything);
+    roots[j] = cell_.root(j);
   }
   for (int c = 0; c < cell_.dimension(); ++c) {
     const double share = lifted.empty() ? inflation : c < 2 ? lifted_inflation : root_inflation;
@@ -76,14 +90,14 @@ void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
   }
   if (cell_.enter_local(box, lifted)) {
     cell_.differentiate();
-    if (width(cell) < near_smallest * limits_.smallest && std::any_of(system_.functions.begin(), system_.functions.end(),
-                                                               [&](int f) { return cell_.rounding_dominates(f); }))
+    if (width(cell) < near_smallest * limits_.smallest &&
+        std::any_of(system_.functions.begin(), system_.functions.end(),
+                    [&](int f) { return cell_.rounding_dominates(f); }))
       cell_.sharpen_middle();
     if (excluded([&](int f) { return cell_.centred(f); })) return;
     std::vector<Interval> image;
     Verdict verdict = krawczyk(cell_, system_, image);
     if (verdict == Verdict::none) return;
-    if (getenv("DBG")) { printf("cell %g %g w %g S %g..%g lifted %zu: v %d", cell.x.lower()-1.302991071, cell.y.lower()-0.454548422, cell.x.width(), box.size()>2?box[2].lower():0, box.size()>2?box[2].upper():0, lifted.size(), (int)verdict); for (size_t c = 0; c < image.size(); ++c) printf(" %g*", image[c].width()/box[c].width()); puts(""); }
     for (int trial = 0; verdict == Verdict::unknown && trial < most_widenings; ++trial)
       verdict = try_wider(box, lifted, image);
     if (verdict == Verdict::unique && accept(box, lifted, std::move(image), cell)) return;
@@ -91,7 +105,21 @@ void ZeroSearch::examine(const Cell& cell, std::vector<Cell>& next) {
   if (width(cell) < limits_.smallest)
     undecided_.push_back(cell);
   else
-    split(cell, next);
+    split({cell, std::move(roots)}, axis, next);
+}
+
+/// A root whose range makes a function vary more than the cell's extent does is cut before the cell.
+int ZeroSearch::axis_to_cut(const Cell& cell) const {
+  for (std::size_t l = 0; l < cell_.lifted().size(); ++l) {
+    if (cell_.local(2 + static_cast<int>(l)).width() < thinnest_root * width(cell)) continue;
+    for (const int f : system_.functions) {
+      double plain = 0;
+      for (const int c : system_.free) plain += cell_.slope(f, c).magnitude() * cell_.local(c).width();
+      const int c = 2 + static_cast<int>(l);
+      if (cell_.slope(f, c).magnitude() * cell_.local(c).width() > 2 * plain) return 2 + cell_.lifted()[l];
+    }
+  }
+  return cell.x.width() > cell.y.width() ? 0 : 1;
 }
 
 /// A box of the wrong proportions does not contract; one that also holds its image may. The box only grows, so that a
@@ -132,14 +160,15 @@ bool ZeroSearch::known(const Cell& cell) const {
 
 double ZeroSearch::width(const Cell& cell) const { return std::max(cell.x.width(), cell.y.width()); }
 
-void ZeroSearch::split(const Cell& cell, std::vector<Cell>& next) const {
-  if (cell.x.width() > cell.y.width()) {
-    next.push_back({{cell.x.lower(), cell.x.middle()}, cell.y});
-    next.push_back({{cell.x.middle(), cell.x.upper()}, cell.y});
-  } else {
-    next.push_back({cell.x, {cell.y.lower(), cell.y.middle()}});
-    next.push_back({cell.x, {cell.y.middle(), cell.y.upper()}});
-  }
+void ZeroSearch::split(const Box& box, int axis, std::vector<Box>& next) {
+  Box halves[2] = {box, box};
+  const auto range = [&](Box& half) -> Interval& {
+    return axis == 0 ? half.cell.x : axis == 1 ? half.cell.y : half.roots[axis - 2];
+  };
+  const Interval whole = range(halves[0]);
+  range(halves[0]) = {whole.lower(), whole.middle()};
+  range(halves[1]) = {whole.middle(), whole.upper()};
+  for (Box& half : halves) next.push_back(std::move(half));
 }
 
 /// Narrows the enclosure of a certified zero: Newton's method from its middle, then the smallest box around the limit
@@ -209,7 +238,32 @@ bool ZeroSearch::accept(const std::vector<Interval>& box, const std::vector<int>
   return true;
 }
 
+namespace {
+
+/// Thousands of cells are merged on a raster first, so that comparing them stays cheap.
+std::vector<Cell> rastered(const std::vector<Cell>& cells) {
+  constexpr std::size_t few = 2000;
+  constexpr double raster = 64;
+  if (cells.size() <= few) return cells;
+  Cell all = cells.front();
+  for (const Cell& cell : cells) all = {hull(all.x, cell.x), hull(all.y, cell.y)};
+  const double step = std::max(all.x.width(), all.y.width()) / raster;
+  std::map<std::pair<int, int>, Cell> merged;
+  for (const Cell& cell : cells) {
+    const std::pair<int, int> place = {static_cast<int>((cell.x.middle() - all.x.lower()) / step),
+                                       static_cast<int>((cell.y.middle() - all.y.lower()) / step)};
+    const auto [it, added] = merged.try_emplace(place, cell);
+    if (!added) it->second = {hull(it->second.x, cell.x), hull(it->second.y, cell.y)};
+  }
+  std::vector<Cell> result;
+  for (const auto& [place, cell] : merged) result.push_back(cell);
+  return result;
+}
+
+}  // namespace
+
 std::vector<Cell> clusters(std::vector<Cell> cells) {
+  cells = rastered(cells);
   std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
     return a.x.lower() != b.x.lower() ? a.x.lower() < b.x.lower() : a.y.lower() < b.y.lower();
   });

@@ -46,11 +46,19 @@ class ZeroSearch {
     std::vector<Interval> enclosure;  // of all variables
   };
 
-  void examine(const Cell& cell, std::vector<Cell>& next);
+  /// A cell, and ranges of its roots (none: all that the cell allows). Next to Q_j = 0 a cell of width h has s_j up to
+  /// the root of h; halving that range too keeps boxes of good proportions.
+  struct Box {
+    Cell cell;
+    std::vector<Interval> roots;
+  };
+
+  void examine(const Box& live, std::vector<Box>& next);
+  int axis_to_cut(const Cell& cell) const;
   Verdict try_wider(std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval>& image);
   bool owns(const CertifiedZero& zero, const std::vector<Interval>& all) const;
   bool known(const Cell& cell) const;
-  void split(const Cell& cell, std::vector<Cell>& next) const;
+  static void split(const Box& box, int axis, std::vector<Box>& next);
   double width(const Cell& cell) const;
   void shrink(std::vector<Interval>& enclosure, const std::vector<Interval>& box, const std::vector<int>& lifted);
   bool accept(const std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval> enclosure,
