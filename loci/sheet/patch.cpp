@@ -66,7 +66,7 @@ Polynomial in_polar(const Polynomial& p, const Star& star, const Chart& chart, i
   std::vector<std::vector<Rational>> across;
   for (int n = 0; n <= std::max(0, core::degree_in(p, wide)); ++n) across.push_back(binomial_power(start, length, n));
   std::vector<Rational> depths = {1};
-  for (int n = 0; n < core::degree_in(p, deep); ++n) depths.push_back(depths.back() * depth);
+  for (int n = 0; n < core::degree_in(p, deep); ++n) depths.emplace_back(depths.back() * depth);
 
   Collected collected;
   for (const core::Term& term : p.terms) {
