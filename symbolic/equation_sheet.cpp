@@ -1,6 +1,8 @@
 #include "symbolic/equation_sheet.hpp"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 
 #include "core/locus_map.hpp"
 #include "mechanism/evaluate.hpp"
@@ -8,6 +10,7 @@
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/formula.hpp"
+#include "symbolic/formula_text.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -30,7 +33,7 @@ class SheetWriter {
     sheet.mechanism = mechanism_.name;
     sheet.language = language_;
     for (const auto& p : mechanism_.parameters) {
-      sheet.parameters.emplace_back(p.name, p.exact ? core::to_string(p.value) : core::to_string(p.expression));
+      sheet.parameters.emplace_back(p.name, parameter_text(p));
     }
     for (const auto& c : mechanism_.coordinates) sheet.coordinates.push_back(c.name);
     const NewtonEulerEquations& equations = determinants_.equations;
@@ -50,6 +53,15 @@ class SheetWriter {
   }
 
  private:
+  /// In C the value itself: an expression of integers would be divided as integers.
+  std::string parameter_text(const mechanism::Parameter& p) const {
+    if (p.exact) return number_text(p.value, language_);
+    if (language_ != Language::c) return core::to_string(p.expression);
+    std::ostringstream digits;
+    digits << std::setprecision(17) << core::to_double(p.value);
+    return digits.str();
+  }
+
   std::string text(const Poly& p) const { return formula(p.plain(), geometry_.ring().names(), language_); }
   std::string text(const GiNaC::ex& e) const { return text(geometry_.poly(e)); }
 
@@ -119,54 +131,62 @@ class SheetWriter {
     return "";
   }
 
+  using Lines = std::vector<std::pair<std::string, std::string>>;
+
   /// How a constructed point follows from the ones before it, in the formulas of method.md section 1.
-  void write_closure(const ConstructedPoint& c, std::vector<std::pair<std::string, std::string>>& lines) const {
+  void write_closure(const ConstructedPoint& c, Lines& lines) const {
     const mechanism::Point& point = mechanism_.points[static_cast<std::size_t>(c.point)];
-    const auto coordinate = [&](mechanism::PointIndex i, std::size_t axis) {
-      return geometry_.poly(geometry_.natural(i)[axis]);
-    };
-    const Ring& ring = geometry_.ring();
-    const std::string x = variable_text(ring.name(c.x), language_), y = variable_text(ring.name(c.y), language_);
-    const auto local = [&](const std::string& letter) { return variable_text(letter + point.name, language_); };
-    const std::string times = language_ == Language::latex ? " " : "*";
-    const auto square = [&](const std::string& base) {
-      return base + (language_ == Language::python ? "**2" : language_ == Language::latex ? "^{2}" : "^2");
-    };
-    const auto squared = [&](const std::string& base) {
-      return language_ == Language::c ? base + "*" + base : square(base);
-    };
-    const auto root = [&](const std::string& of) {
-      return language_ == Language::latex ? "\\sqrt{" + of + "}" : "sqrt(" + of + ")";
-    };
     if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&point.form)) {
-      const Poly u = coordinate(dyad->to, 0) - coordinate(dyad->from, 0);
-      const Poly v = coordinate(dyad->to, 1) - coordinate(dyad->from, 1);
-      const Poly a = geometry_.poly(geometry_.expression(dyad->from_length).expand());
-      const Poly b = geometry_.poly(geometry_.expression(dyad->to_length).expand());
-      const std::string four_a2 = text((a * a).scaled(4));
-      lines.emplace_back(local("D"), squared("(" + text(u) + ")") + " + " + squared("(" + text(v) + ")"));
-      const Poly difference = a * a - b * b;
-      lines.emplace_back(local("k"), difference.is_zero() ? local("D") : text(difference) + " + " + local("D"));
-      const std::string side = dyad->side == mechanism::Side::left ? "" : "-";
-      lines.emplace_back(local("s"),
-                         side + root("(" + four_a2 + ")" + times + local("D") + " - " + squared(local("k"))));
-      const std::string twice = "(2" + times + local("D") + ")";
-      lines.emplace_back(x, "(" + text(coordinate(dyad->from, 0)) + ") + (" + local("k") + times + "(" + text(u) +
-                                ") - " + local("s") + times + "(" + text(v) + "))/" + twice);
-      lines.emplace_back(y, "(" + text(coordinate(dyad->from, 1)) + ") + (" + local("k") + times + "(" + text(v) +
-                                ") + " + local("s") + times + "(" + text(u) + "))/" + twice);
+      write_dyad(c, point.name, *dyad, lines);
     } else if (const auto* offset = std::get_if<mechanism::OffsetPoint>(&point.form)) {
-      if (!geometry_.poly(geometry_.natural(c.point)[0]).depends_on(c.x)) return;  // linear in the two other points
-      const Poly u = coordinate(offset->second, 0) - coordinate(offset->first, 0);
-      const Poly v = coordinate(offset->second, 1) - coordinate(offset->first, 1);
-      const std::string along = "(" + text(geometry_.expression(offset->along).expand()) + ")";
-      const std::string left = "(" + text(geometry_.expression(offset->left).expand()) + ")";
-      lines.emplace_back(local("l"), root(squared("(" + text(u) + ")") + " + " + squared("(" + text(v) + ")")));
-      lines.emplace_back(x, "(" + text(coordinate(offset->first, 0)) + ") + (" + along + times + "(" + text(u) +
-                                ") - " + left + times + "(" + text(v) + "))/" + local("l"));
-      lines.emplace_back(y, "(" + text(coordinate(offset->first, 1)) + ") + (" + along + times + "(" + text(v) +
-                                ") + " + left + times + "(" + text(u) + "))/" + local("l"));
+      // Otherwise linear in the two other points.
+      if (geometry_.poly(geometry_.natural(c.point)[0]).depends_on(c.x)) write_offset(c, point.name, *offset, lines);
     }
+  }
+
+  void write_dyad(const ConstructedPoint& c, const std::string& name, const mechanism::DyadPoint& dyad,
+                  Lines& lines) const {
+    const FormulaWriter w(language_);
+    const FormulaText D = symbol_text("D" + name, language_), k = symbol_text("k" + name, language_),
+                      s = symbol_text("s" + name, language_);
+    const FormulaText u = difference(dyad.from, dyad.to, 0), v = difference(dyad.from, dyad.to, 1);
+    const Poly a = length(dyad.from_length), b = length(dyad.to_length);
+    lines.emplace_back(D.text, w.sum(w.squared(u), w.squared(v)).text);
+    lines.emplace_back(k.text, w.sum(as_text(a * a - b * b), D).text);
+    const FormulaText root = w.root(w.difference(w.product(as_text((a * a).scaled(4)), D), w.squared(k)));
+    lines.emplace_back(s.text, (dyad.side == mechanism::Side::left ? root : w.negated(root)).text);
+    write_place(c, dyad.from, w.quotient(w.difference(w.product(k, u), w.product(s, v)), w.twice(D)),
+                w.quotient(w.sum(w.product(k, v), w.product(s, u)), w.twice(D)), lines);
+  }
+
+  void write_offset(const ConstructedPoint& c, const std::string& name, const mechanism::OffsetPoint& offset,
+                    Lines& lines) const {
+    const FormulaWriter w(language_);
+    const FormulaText l = symbol_text("l" + name, language_);
+    const FormulaText u = difference(offset.first, offset.second, 0), v = difference(offset.first, offset.second, 1);
+    const FormulaText along = as_text(length(offset.along)), left = as_text(length(offset.left));
+    lines.emplace_back(l.text, w.root(w.sum(w.squared(u), w.squared(v))).text);
+    write_place(c, offset.first, w.quotient(w.difference(w.product(along, u), w.product(left, v)), l),
+                w.quotient(w.sum(w.product(along, v), w.product(left, u)), l), lines);
+  }
+
+  void write_place(const ConstructedPoint& c, mechanism::PointIndex from, const FormulaText& dx, const FormulaText& dy,
+                   Lines& lines) const {
+    const FormulaWriter w(language_);
+    const auto& names = geometry_.ring().names();
+    lines.emplace_back(variable_text(names[static_cast<std::size_t>(c.x)], language_),
+                       w.sum(as_text(coordinate(from, 0)), dx).text);
+    lines.emplace_back(variable_text(names[static_cast<std::size_t>(c.y)], language_),
+                       w.sum(as_text(coordinate(from, 1)), dy).text);
+  }
+
+  Poly coordinate(mechanism::PointIndex point, std::size_t axis) const {
+    return geometry_.poly(geometry_.natural(point)[axis]);
+  }
+  Poly length(const core::Expression& e) const { return geometry_.poly(geometry_.expression(e).expand()); }
+  FormulaText as_text(const Poly& p) const { return formula_text(p.plain(), geometry_.ring().names(), language_); }
+  FormulaText difference(mechanism::PointIndex from, mechanism::PointIndex to, std::size_t axis) const {
+    return as_text(coordinate(to, axis) - coordinate(from, axis));
   }
 
   const Mechanism& mechanism_;

@@ -70,15 +70,6 @@ std::string latex_name(const std::string& unknown) {
   return unknown.substr(0, 1) + "_{\\mathrm{" + unknown.substr(1) + "}}";
 }
 
-std::string latex_text(const std::string& plain) {
-  std::string result;
-  for (const char c : plain) {
-    if (std::string("#$%&_{}").find(c) != std::string::npos) result += '\\';
-    result += c;
-  }
-  return result;
-}
-
 std::string format_latex(const EquationSheet& sheet) {
   std::ostringstream out;
   out << "% " << sheet.mechanism << ": A w = -w_e\n% needs amsmath; for more than ten columns: "
@@ -100,7 +91,7 @@ std::string format_latex(const EquationSheet& sheet) {
       if (!factor.cause.empty()) out << "% " << factor.expression << ": " << factor.cause << "\n";
       for (const ImplicitPolynomial& implicit : factor.implicit) {
         out << "\\[ " << implicit.polynomial << " = 0 \\]";
-        if (!implicit.closed_form.empty()) out << " % " << latex_text(implicit.closed_form);
+        if (!implicit.closed_form.empty()) out << " % " << implicit.closed_form;
         out << "\n";
       }
     }

@@ -58,6 +58,50 @@ for at in POSES:
 assert checked > 0
 )";
 
+constexpr const char* c_check = R"(
+#include <stdio.h>
+
+#define N (int)(sizeof b / sizeof b[0])
+
+static double det(int n, double m[n][n]) {
+  double result = 1;
+  for (int k = 0; k < n; ++k) {
+    int p = k;
+    for (int i = k; i < n; ++i)
+      if (fabs(m[i][k]) > fabs(m[p][k])) p = i;
+    if (m[p][k] == 0) return 0;
+    for (int j = 0; j < n && p != k; ++j) {
+      const double kept = m[k][j];
+      m[k][j] = m[p][j];
+      m[p][j] = kept;
+    }
+    result *= p == k ? m[k][k] : -m[k][k];
+    for (int i = k + 1; i < n; ++i) {
+      const double q = m[i][k] / m[k][k];
+      for (int j = k; j < n; ++j) m[i][j] -= q * m[k][j];
+    }
+  }
+  return result;
+}
+
+int main(void) {
+  const double poses[3][2] = {{0.25, -0.7}, {0.3, 0.6}, {0.1, -0.55}};
+  double A[UNKNOWNS][UNKNOWNS], b[UNKNOWNS];
+  int seen = 0;
+  for (int i = 0; i < 3; ++i) {
+    newton_euler(poses[i][0], poses[i][1], A, b);
+    const double expected = determinant_A(poses[i][0], poses[i][1]);
+    const double found = det(N, A);
+    if (fabs(found - expected) > 1e-9 || !(fabs(expected) > 1e-9)) {
+      printf("%g %g: %g is not %g\n", poses[i][0], poses[i][1], found, expected);
+      return 1;
+    }
+    ++seen;
+  }
+  return seen != 3;
+}
+)";
+
 class GeneratedCode : public testing::TestWithParam<std::tuple<std::string, bool>> {};
 
 TEST_P(GeneratedCode, PythonDeterminantsAreThoseOfItsMatrix) {
@@ -69,14 +113,19 @@ TEST_P(GeneratedCode, PythonDeterminantsAreThoseOfItsMatrix) {
   EXPECT_EQ(std::system(("python3 " + file.string()).c_str()), 0);
 }
 
-TEST_P(GeneratedCode, CCompilesWithoutAWarning) {
+TEST_P(GeneratedCode, CCompilesWithoutAWarningAndItsDeterminantIsThatOfItsMatrix) {
   const auto& [example, keep] = GetParam();
   const std::filesystem::path file = scratch(example + (keep ? "_kept" : "")) / "equations.c";
-  std::ofstream(file) << program(example, Language::c, keep);
-  EXPECT_EQ(std::system(("cc -std=c99 -Wall -Werror -Wno-unused-variable -Wno-unused-const-variable -c " +
-                         file.string() + " -o " + file.string() + ".o")
+  const std::string source = program(example, Language::c, keep);
+  const std::size_t unknowns = source.find("double b[") + 9;
+  std::ofstream(file) << source << "\n#define UNKNOWNS "
+                      << source.substr(unknowns, source.find(']', unknowns) - unknowns) << c_check;
+  const std::string program = file.string() + ".out";
+  EXPECT_EQ(std::system(("cc -std=c99 -Wall -Werror -Wno-unused-variable -Wno-unused-const-variable " + file.string() +
+                         " -o " + program + " -lm")
                             .c_str()),
             0);
+  EXPECT_EQ(std::system(program.c_str()), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, GeneratedCode,
