@@ -75,8 +75,10 @@ void add_sheet_loci(const LocusProblem& problem, const std::vector<LocusFactor>&
       const bool cut = factor.role != FactorRole::direct_singularity;
       sheet::SheetTrace traced = sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, factor.sheet,
                                                     cut ? cutters : std::vector<sheet::Cutter>{}, sheet_options);
-      if (traced.stopped) map.complete = false;
-      if (!traced.certified && !traced.stopped) {
+      // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
+      const bool out_of_time = traced.stopped && sheet_options.stop && sheet_options.stop();
+      if (out_of_time) map.complete = false;
+      if (!traced.certified && !out_of_time) {
         map.notes.push_back(std::to_string(traced.undecided.size()) + " undecided cells on " +
                             (factor.cause.empty() ? factor.expression.substr(0, 60) : factor.cause));
       }
