@@ -112,7 +112,8 @@ core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociReque
   core::LocusMap map = derive_and_trace(mechanism, request);
   map.mechanism = mechanism.name;
   for (const mechanism::Parameter& parameter : mechanism.parameters)
-    map.parameters.emplace_back(parameter.name, core::to_string(parameter.value));
+    map.parameters.emplace_back(
+        parameter.name, parameter.exact ? core::to_string(parameter.value) : core::to_string(parameter.expression));
   map.tolerance = request.tolerance;
   return map;
 }
