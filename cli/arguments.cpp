@@ -77,13 +77,14 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 std::vector<core::Quantity> parse_quantities(const std::string& text) {
-  constexpr std::array all = {core::Quantity::f, core::Quantity::M, core::Quantity::fx, core::Quantity::fy};
+  constexpr auto all = core::all_quantities;
   std::vector<core::Quantity> quantities;
   for (const std::string& word : split(text)) {
     const auto* const found =
         std::find_if(all.begin(), all.end(), [&](core::Quantity quantity) { return to_string(quantity) == word; });
     if (found == all.end())
-      refuse("--quantity", fmt::format("unknown quantity '{}'", word), "choose from f, M, fx, fy");
+      refuse("--quantity", fmt::format("unknown quantity '{}'", word),
+             "choose from f, N, T, M, F, fx, fy, fz, mx, my, mz");
     if (std::find(quantities.begin(), quantities.end(), *found) == quantities.end()) quantities.push_back(*found);
   }
   return quantities;

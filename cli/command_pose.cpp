@@ -32,8 +32,6 @@ struct PoseResult {
   numeric::Reactions reactions;
 };
 
-constexpr std::array component_names = {"fx", "fy", "M"};
-
 /// JSON has no infinity: a reaction at a direct singularity is null.
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -48,9 +46,8 @@ Json pose_json(const mechanism::Mechanism& mechanism, const numeric::NumericMode
   for (const mechanism::Joint& joint : mechanism.joints) reactions[joint.name] = Json::object();
   for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
     const mechanism::Unknown& unknown = model.unknowns[k];
-    reactions[mechanism.joints[static_cast<std::size_t>(unknown.joint)].name]
-             [component_names[static_cast<std::size_t>(unknown.component)]] =
-                 number_json(pose.reactions.values[static_cast<Eigen::Index>(k)]);
+    reactions[mechanism.joints[static_cast<std::size_t>(unknown.joint)].name][core::to_string(unknown.quantity)] =
+        number_json(pose.reactions.values[static_cast<Eigen::Index>(k)]);
   }
   return {{"format", 1},
           {"mechanism", mechanism.name},

@@ -6,15 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "core/angle_chart.hpp"
 #include "core/polynomial.hpp"
+#include "core/quantity.hpp"
 #include "core/root_tower.hpp"
 
 namespace clearloci::core {
-
-/// What can vanish. `f`: both force components of a revolute joint; `M`: an actuator's couple.
-enum class Quantity { f, M, fx, fy };
-
-std::string to_string(Quantity quantity);
 
 /// A reaction that vanishes on a factor. `multiplicity`: how often the factor divides its numerator.
 struct Vanishing {
@@ -38,11 +35,17 @@ struct LocusFactor {
   /// Irreducible over Z in (x, y): together they contain its zeros in every mode. Empty where its curves are not
   /// wanted and it only takes part in isolated points.
   std::vector<Polynomial> implicit;
+  /// Its implicit polynomials were wanted but would be too large to be of use: `implicit` is empty, and the curves are
+  /// to be traced on the sheets.
+  bool implicit_too_heavy = false;
 };
 
-/// Everything needed to trace: no mechanism any more, only curves.
+/// Everything needed to trace: no mechanism any more, only curves. Where a coordinate is an angle, the variable of the
+/// polynomials, of the box and of `tower.coordinates` is the t of its chart, and the problem covers that chart alone.
 struct LocusProblem {
   RootTower tower;
+  /// One a coordinate: nothing for a length. Empty where no coordinate is an angle.
+  std::vector<std::optional<AngleChart>> charts;
   std::vector<Rational> lower;  ///< box, one per coordinate
   std::vector<Rational> upper;
   std::vector<WorkingMode> modes;        ///< the modes to trace

@@ -38,8 +38,9 @@ void append(std::string& list, const std::string& item) {
 LocusKind gravest_kind(const std::vector<Vanishing>& vanishing) {
   LocusKind kind = LocusKind::component;
   for (const Vanishing& v : vanishing) {
-    if (v.quantity == Quantity::f) kind = std::min(kind, LocusKind::contact_loss);
-    if (v.quantity == Quantity::M) kind = std::min(kind, LocusKind::backlash);
+    const Quantity q = v.quantity;
+    if (q == Quantity::f || q == Quantity::N || q == Quantity::T) kind = std::min(kind, LocusKind::contact_loss);
+    if (q == Quantity::M || q == Quantity::F) kind = std::min(kind, LocusKind::backlash);
   }
   return kind;
 }
@@ -72,7 +73,10 @@ std::vector<Vanishing> wanted_vanishing(const LocusProblem& problem, const std::
     const bool together = zero_x && zero_y && (x == y || x == 0 || y == 0);
     if (x > 0 && !together && wanted(Quantity::fx)) take(single, joint, Quantity::fx, x);
     if (y > 0 && !together && wanted(Quantity::fy)) take(single, joint, Quantity::fy, y);
-    if (const int m = multiplicity(joint, Quantity::M); m > 0) take(couples, joint, Quantity::M, m);
+    for (const Quantity quantity : {Quantity::N, Quantity::T})
+      if (const int times = multiplicity(joint, quantity); times > 0) take(forces, joint, quantity, times);
+    for (const Quantity quantity : {Quantity::M, Quantity::F})
+      if (const int times = multiplicity(joint, quantity); times > 0) take(couples, joint, quantity, times);
   }
   if (!any) return {};
   forces.insert(forces.end(), couples.begin(), couples.end());

@@ -2,20 +2,22 @@
 
 namespace clearloci::mechanism {
 
+using core::Quantity;
+
 std::vector<Unknown> unknowns(const Mechanism& mechanism) {
   std::vector<Unknown> columns;
   const int joints = static_cast<int>(mechanism.joints.size());
   for (JointIndex joint = 0; joint < joints; ++joint)
-    for (int component = 0; component < 2; ++component) columns.push_back({joint, component});
+    for (const Quantity quantity : {Quantity::fx, Quantity::fy}) columns.push_back({joint, quantity});
   for (JointIndex joint = 0; joint < joints; ++joint)
-    if (mechanism.joints[static_cast<std::size_t>(joint)].actuated) columns.push_back({joint, 2});
+    if (mechanism.joints[static_cast<std::size_t>(joint)].actuated) columns.push_back({joint, Quantity::M});
   return columns;
 }
 
 std::string unknown_name(const Mechanism& mechanism, const Unknown& unknown) {
   const std::string& joint = mechanism.joints.at(static_cast<std::size_t>(unknown.joint)).name;
-  if (unknown.component == 2) return "M" + joint;
-  return "f" + joint + (unknown.component == 0 ? "x" : "y");
+  const std::string quantity = core::to_string(unknown.quantity);
+  return quantity.substr(0, 1) + joint + quantity.substr(1);
 }
 
 std::vector<PointIndex> dyad_points(const Mechanism& mechanism) {

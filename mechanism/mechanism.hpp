@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/expression.hpp"
+#include "core/quantity.hpp"
 #include "core/rational.hpp"
 
 namespace clearloci::mechanism {
@@ -107,10 +108,10 @@ struct Load {
   core::SourcePosition where;
 };
 
-/// A scalar unknown of the Newton-Euler equations. `component`: 0 fx, 1 fy, 2 M (actuator's couple).
+/// A scalar unknown of the Newton-Euler equations: a component of the joint's reaction, or its actuator's.
 struct Unknown {
   JointIndex joint = 0;
-  int component = 0;
+  core::Quantity quantity = core::Quantity::fx;
 };
 
 struct Mechanism {

@@ -143,13 +143,14 @@ class ModelBuilder {
       const auto& unknown = model.unknowns[static_cast<std::size_t>(column)];
       const auto& joint = m_.joints[static_cast<std::size_t>(unknown.joint)];
       const Register one = t.constant(1.0);
-      const Register moment =
-          unknown.component == 2 ? one : lever(joint.at)[static_cast<std::size_t>(unknown.component)];
+      const bool force = unknown.quantity != core::Quantity::M;
+      const int component = unknown.quantity == core::Quantity::fx ? 0 : 1;
+      const Register moment = force ? lever(joint.at)[static_cast<std::size_t>(component)] : one;
       for (const bool receives : {true, false}) {
         const int link = receives ? joint.to : joint.from;
         if (link == mechanism::ground) continue;
         const auto signed_value = [&](Register r) { return receives ? r : t.negate(r); };
-        if (unknown.component != 2) accumulate(link, unknown.component, column, signed_value(one));
+        if (force) accumulate(link, component, column, signed_value(one));
         accumulate(link, 2, column, signed_value(moment));
       }
     }

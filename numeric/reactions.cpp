@@ -30,8 +30,8 @@ Eigen::MatrixXd newton_euler_matrix(const NumericModel& model, const Posture& po
     const auto& unknown = model.unknowns[static_cast<std::size_t>(column)];
     const auto& joint = model.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
     Eigen::Vector3d wrench(0, 0, 1);  // of a unit couple
-    if (unknown.component != 2) {
-      const Point2 force = unknown.component == 0 ? Point2{1, 0} : Point2{0, 1};
+    if (unknown.quantity != core::Quantity::M) {
+      const Point2 force = unknown.quantity == core::Quantity::fx ? Point2{1, 0} : Point2{0, 1};
       wrench = {force[0], force[1], moment(model, posture, point_of(posture, joint.at), force)};
     }
     if (joint.to != mechanism::ground) A.block<3, 1>(3 * joint.to, column) += wrench;

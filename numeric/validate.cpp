@@ -57,32 +57,23 @@ int weight(const LocusCurve& curve, const TracedReaction& reaction) {
     return found == curve.vanishing.end() ? 0 : found->multiplicity;
   };
   if (const int own = multiplicity(reaction.quantity)) return own;
-  if (reaction.quantity == Quantity::M) return 0;
   if (reaction.quantity == Quantity::f) return std::min(multiplicity(Quantity::fx), multiplicity(Quantity::fy));
-  return multiplicity(Quantity::f);
+  if (reaction.quantity == Quantity::fx || reaction.quantity == Quantity::fy) return multiplicity(Quantity::f);
+  return 0;
 }
 
 WitnessColumns columns_of(const NumericModel& model, const TracedReaction& reaction) {
-  const auto column = [&](int component) {
+  const auto column = [&](Quantity quantity) {
     for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
       const auto& joint = model.mechanism.joints[static_cast<std::size_t>(model.unknowns[k].joint)];
-      if (joint.name == reaction.joint && model.unknowns[k].component == component) return static_cast<int>(k);
+      if (joint.name == reaction.joint && model.unknowns[k].quantity == quantity) return static_cast<int>(k);
     }
     throw core::InputError({model.mechanism.file, 0, 0},
                            "joint " + reaction.joint + " has no reaction " + core::to_string(reaction.quantity),
                            "name a joint of the mechanism, and M only where it is actuated");
   };
-  switch (reaction.quantity) {
-    case Quantity::f:
-      return {column(0), column(1)};
-    case Quantity::fx:
-      return {column(0), -1};
-    case Quantity::fy:
-      return {column(1), -1};
-    case Quantity::M:
-      break;
-  }
-  return {column(2), -1};
+  if (reaction.quantity == Quantity::f) return {column(Quantity::fx), column(Quantity::fy)};
+  return {column(reaction.quantity), -1};
 }
 
 GridAxis axis(double lower, double upper, int nodes, double shift) {

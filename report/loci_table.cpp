@@ -80,9 +80,8 @@ std::string format_rows(const std::vector<Column>& heading, const std::vector<Ro
 
 /// "f: A1, B1, P; M: A1".
 std::string what_vanishes(const std::vector<core::Vanishing>& vanishing) {
-  constexpr std::array quantities = {core::Quantity::f, core::Quantity::M, core::Quantity::fx, core::Quantity::fy};
   std::string text;
-  for (const auto quantity : quantities) {
+  for (const auto quantity : core::all_quantities) {
     std::string joints;
     for (const auto& one : vanishing) {
       if (one.quantity == quantity) joints += (joints.empty() ? "" : ", ") + printable(one.joint);

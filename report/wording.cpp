@@ -79,9 +79,16 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
   const bool margin = kind == core::LocusKind::margin;
   const std::vector<std::pair<core::Quantity, std::string>> wordings = {
       {core::Quantity::f, margin ? "contact force at its minimum" : "contact lost"},
+      {core::Quantity::N, margin ? "normal force at its minimum" : "normal force zero"},
+      {core::Quantity::T, "couple zero"},
       {core::Quantity::M, margin ? "couple at its minimum" : "backlash"},
+      {core::Quantity::F, margin ? "axial force at its minimum" : "backlash along the axis"},
       {core::Quantity::fx, "fx = 0"},
-      {core::Quantity::fy, "fy = 0"}};
+      {core::Quantity::fy, "fy = 0"},
+      {core::Quantity::fz, "fz = 0"},
+      {core::Quantity::mx, "mx = 0"},
+      {core::Quantity::my, "my = 0"},
+      {core::Quantity::mz, "mz = 0"}};
   std::vector<std::string> parts;
   for (const auto& [quantity, words] : wordings) {
     const auto joints = joints_of(vanishing, quantity);

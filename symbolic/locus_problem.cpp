@@ -21,10 +21,6 @@ using mechanism::Mechanism;
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-Quantity quantity_of(const mechanism::Unknown& unknown) {
-  return unknown.component == 0 ? Quantity::fx : unknown.component == 1 ? Quantity::fy : Quantity::M;
-}
-
 std::vector<std::string> selected_joints(const Mechanism& m, const Selection& selection) {
   std::vector<std::string> known, with_clearance;
   for (const mechanism::Joint& joint : m.joints) {
@@ -141,7 +137,7 @@ class Derivation {
           result_.notes.push_back(determinants_.equations.unknown_names[k] +
                                   " is zero in every pose: no load reaches it");
         }
-        result_.problem.always_zero.push_back({joint, quantity_of(unknown)});
+        result_.problem.always_zero.push_back({joint, unknown.quantity});
         continue;
       }
       for (const PolyFactor& factor : numerator.factors) {
@@ -150,7 +146,7 @@ class Derivation {
         auto known = std::find_if(factors_.begin(), factors_.end(),
                                   [&](const SharedFactor& f) { return f.natural == factor.poly; });
         if (known == factors_.end()) known = factors_.insert(known, {factor.poly, {}});
-        known->vanishing.push_back({joint, quantity_of(unknown), multiplicity});
+        known->vanishing.push_back({joint, unknown.quantity, multiplicity});
       }
     }
   }
@@ -268,7 +264,7 @@ class Derivation {
     const auto numerator = [&](const std::string& joint, Quantity quantity) -> const Poly* {
       for (std::size_t k = 0; k < determinants_.equations.unknowns.size(); ++k) {
         const mechanism::Unknown& unknown = determinants_.equations.unknowns[k];
-        if (joint_name(unknown.joint) == joint && quantity_of(unknown) == quantity) return &determinants_.numerators[k];
+        if (joint_name(unknown.joint) == joint && unknown.quantity == quantity) return &determinants_.numerators[k];
       }
       return nullptr;
     };

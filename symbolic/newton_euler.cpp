@@ -50,8 +50,9 @@ NewtonEulerEquations newton_euler_equations(const Geometry& geometry) {
     const Vector r = arm(geometry, joint.at);
     for (const auto& [link, sign] : {std::pair{joint.to, 1}, std::pair{joint.from, -1}}) {
       if (link == mechanism::ground) continue;
-      if (unknown.component < 2) equations.matrix(row(link, static_cast<unsigned>(unknown.component)), column) = sign;
-      const GiNaC::ex moment = unknown.component == 0 ? GiNaC::ex(-r[1]) : unknown.component == 1 ? r[0] : GiNaC::ex(1);
+      const bool fx = unknown.quantity == core::Quantity::fx, fy = unknown.quantity == core::Quantity::fy;
+      if (fx || fy) equations.matrix(row(link, fx ? 0 : 1), column) = sign;
+      const GiNaC::ex moment = fx ? GiNaC::ex(-r[1]) : fy ? r[0] : GiNaC::ex(1);
       equations.matrix(row(link, 2), column) = (sign * moment).expand();
     }
   }

@@ -1,0 +1,33 @@
+#include "core/quantity.hpp"
+
+namespace clearloci::core {
+
+std::string to_string(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::f:
+      return "f";
+    case Quantity::M:
+      return "M";
+    case Quantity::F:
+      return "F";
+    case Quantity::N:
+      return "N";
+    case Quantity::T:
+      return "T";
+    case Quantity::fx:
+      return "fx";
+    case Quantity::fy:
+      return "fy";
+    case Quantity::fz:
+      return "fz";
+    case Quantity::mx:
+      return "mx";
+    case Quantity::my:
+      return "my";
+    case Quantity::mz:
+      return "mz";
+  }
+  return {};
+}
+
+}  // namespace clearloci::core
