@@ -40,7 +40,8 @@ void add_tracing_arguments(CLI::App& command, LociArguments& arguments) {
 }
 
 void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
-  command.add_option("--quantity", arguments.quantities, "What vanishes: f, M, fx, fy, several after commas")
+  command
+      .add_option("--quantity", arguments.quantities, "What vanishes: f, N, T, M, F, fx to mz, several after commas")
       ->type_name("LIST")
       ->capture_default_str();
   command.add_option("--min-force", arguments.min_force, "Also the curves on which a contact force has this value")

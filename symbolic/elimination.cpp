@@ -28,37 +28,16 @@ Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
   for (const Poly& denominator : geometry.denominators()) eliminate(denominator, found);
   denominator_factors_ = std::move(found);
   known_denominators_ = geometry.denominators();
+  // What vanishes nowhere is divided out like a denominator, but is no place where the mode may change.
+  const auto& units = geometry.positive_units();
+  known_denominators_.insert(known_denominators_.end(), units.begin(), units.end());
 }
 
 Poly Elimination::over_tower(const Poly& natural) const {
-  const Ring& ring = geometry_->ring();
   Poly result = natural;
-  for (const ConstructedPoint& c : geometry_->constructed()) {
-    if (!result.depends_on(c.x) && !result.depends_on(c.y)) continue;
-    const TowerPoint& position = geometry_->tower(c.point);
-    // Homogenise: a term of degree i in x and j in y takes X^i Y^j W^(degree - i - j).
-    std::vector<std::vector<Poly>> terms;
-    int degree = 0;
-    for (const Poly& by_x : result.coefficients(c.x)) {
-      terms.push_back(by_x.coefficients(c.y));
-      for (std::size_t j = 0; j < terms.back().size(); ++j) {
-        if (!terms.back()[j].is_zero()) degree = std::max(degree, static_cast<int>(terms.size() - 1 + j));
-      }
-    }
-    const auto powers = [&](const Poly& base) {
-      std::vector<Poly> list(1, Poly(ring, 1));
-      for (int i = 0; i < degree; ++i) list.push_back(geometry_->reduce(list.back() * base));
-      return list;
-    };
-    const std::vector<Poly> xs = powers(position.x), ys = powers(position.y), ws = powers(position.w);
-    Poly sum(ring);
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-      for (std::size_t j = 0; j < terms[i].size(); ++j) {
-        if (terms[i][j].is_zero()) continue;
-        sum += terms[i][j] * xs[i] * ys[j] * ws[static_cast<std::size_t>(degree) - i - j];
-      }
-    }
-    result = geometry_->reduce(sum);
+  for (const Substitution& pair : geometry_->substitutions()) {
+    if (!result.depends_on(pair.x) && !result.depends_on(pair.y)) continue;
+    result = geometry_->substituted(result, pair, Geometry::degree_in(result, pair));
   }
   return result;
 }

@@ -63,8 +63,15 @@ struct NotPolynomial {
 
 }  // namespace
 
-Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters)
-    : mechanism_(&mechanism), keep_parameters_(keep_parameters) {
+Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts charts)
+    : mechanism_(&mechanism), keep_parameters_(keep_parameters), charts_(std::move(charts)) {
+  charts_.resize(mechanism.coordinates.size());
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    if (!mechanism.coordinates[i].angle)
+      charts_[i].reset();
+    else if (!charts_[i])
+      charts_[i] = core::AngleChart{0};
+  }
   for (const PlacedExpression& placed : expressions_of(mechanism)) {
     try {
       (void)expression(placed.expression);
@@ -74,6 +81,7 @@ Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters)
     }
   }
   name_variables();
+  place_angles();
   const std::size_t count = mechanism.points.size();
   natural_.resize(count);
   tower_.resize(count, TowerPoint{Poly(*ring_), Poly(*ring_), Poly(*ring_)});
@@ -86,11 +94,9 @@ GiNaC::symbol Geometry::symbol(const std::string& name) const {
 
 GiNaC::ex Geometry::expression(const Expression& e) const {
   using Kind = Expression::Kind;
-  const std::set<std::string> names = core::symbols(e);
-  const bool free = std::any_of(mechanism_->coordinates.begin(), mechanism_->coordinates.end(),
-                                [&](const auto& coordinate) { return names.contains(coordinate.name); });
+  const bool free = is_free(e);
   if (!free && !keep_parameters_) return number(mechanism::value_of(e, *mechanism_));
-  if (names.empty() && mechanism::evaluate(e, mechanism_->parameters).exact) {
+  if (core::symbols(e).empty() && mechanism::evaluate(e, mechanism_->parameters).exact) {
     return number(mechanism::value_of(e, *mechanism_));
   }
   const auto kept = [&](const std::string& name) {
@@ -103,9 +109,10 @@ GiNaC::ex Geometry::expression(const Expression& e) const {
     case Kind::number:
       return number(e.value());
     case Kind::symbol: {
-      const bool coordinate = std::any_of(mechanism_->coordinates.begin(), mechanism_->coordinates.end(),
-                                          [&](const auto& c) { return c.name == e.name(); });
-      return coordinate ? GiNaC::ex(symbol(e.name())) : kept(e.name());
+      const auto coordinate = std::find_if(mechanism_->coordinates.begin(), mechanism_->coordinates.end(),
+                                           [&](const auto& c) { return c.name == e.name(); });
+      if (coordinate == mechanism_->coordinates.end() || coordinate->angle) return kept(e.name());
+      return GiNaC::ex(symbol(e.name()));
     }
     case Kind::add:
       return argument(0) + argument(1);
@@ -123,13 +130,56 @@ GiNaC::ex Geometry::expression(const Expression& e) const {
       if (exponent.info(GiNaC::info_flags::nonnegint)) return GiNaC::pow(argument(0), exponent);
       return kept("(" + core::to_string(e) + ")");
     }
-    case Kind::pi:
-    case Kind::sqrt:
     case Kind::cos:
     case Kind::sin:
+      if (free) return circle(e.arguments()[0])[e.kind() == Kind::cos ? 0 : 1];
+      return kept(core::to_string(e));
+    case Kind::pi:
+    case Kind::sqrt:
       return kept(core::to_string(e));
   }
   return 0;
+}
+
+bool Geometry::is_free(const Expression& e) const {
+  const std::set<std::string> names = core::symbols(e);
+  return std::any_of(mechanism_->coordinates.begin(), mechanism_->coordinates.end(),
+                     [&](const auto& coordinate) { return names.contains(coordinate.name); });
+}
+
+std::array<GiNaC::ex, 2> Geometry::circle(const Expression& angle) const {
+  using Kind = Expression::Kind;
+  using Pair = std::array<GiNaC::ex, 2>;
+  if (!is_free(angle)) {
+    return {expression(Expression::apply(Kind::cos, {angle})), expression(Expression::apply(Kind::sin, {angle}))};
+  }
+  const auto sum = [](const Pair& a, const Pair& b) {
+    return Pair{(a[0] * b[0] - a[1] * b[1]).expand(), (a[1] * b[0] + a[0] * b[1]).expand()};
+  };
+  const std::vector<Expression>& arguments = angle.arguments();
+  switch (angle.kind()) {
+    case Kind::symbol:
+      return {GiNaC::ex(symbol("cos(" + angle.name() + ")")), GiNaC::ex(symbol("sin(" + angle.name() + ")"))};
+    case Kind::add:
+      return sum(circle(arguments[0]), circle(arguments[1]));
+    case Kind::negate: {
+      const Pair turned = circle(arguments[0]);
+      return {turned[0], -turned[1]};
+    }
+    case Kind::multiply: {
+      const std::size_t free = is_free(arguments[0]) ? 0 : 1;
+      if (is_free(arguments[1 - free])) break;
+      const Rational factor = mechanism::value_of(arguments[1 - free], *mechanism_);
+      if (factor.get_den() != 1 || abs(factor) > 100) break;
+      Pair result = {GiNaC::ex(1), GiNaC::ex(0)}, step = circle(arguments[free]);
+      if (factor < 0) step[1] = -step[1];
+      for (Rational i = 0; i < abs(factor); ++i) result = sum(result, step);
+      return result;
+    }
+    default:
+      break;
+  }
+  throw NotPolynomial{core::to_string(angle)};
 }
 
 void Geometry::name_variables() {
@@ -139,7 +189,10 @@ void Geometry::name_variables() {
     names.push_back(name);
     return static_cast<int>(names.size()) - 1;
   };
-  for (const auto& coordinate : mechanism_->coordinates) variable_of_symbol_[coordinate.name] = add(coordinate.name);
+  for (std::size_t i = 0; i < mechanism_->coordinates.size(); ++i) {
+    const std::string& name = mechanism_->coordinates[i].name;
+    variable_of_symbol_[name] = add(charts_[i] ? core::parameter_name(*charts_[i], name) : name);
+  }
   std::set<std::string> taken(kept_.begin(), kept_.end());
   const auto add_untaken = [&](std::string name) {
     while (taken.contains(name)) name += '_';
@@ -152,6 +205,14 @@ void Geometry::name_variables() {
     const int y = add_untaken("y" + point.name);
     constructed_.push_back({i, x, y});
   }
+  std::vector<std::pair<std::string, std::array<int, 2>>> circles;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    if (!charts_[i]) continue;
+    const std::string& name = mechanism_->coordinates[i].name;
+    const int cosine = add("cos(" + name + ")");
+    circles.push_back({name, {cosine, add("sin(" + name + ")")}});
+  }
+  first_root_ = static_cast<int>(names.size());
   for (std::size_t i = 1; i <= constructed_.size(); ++i) add_untaken("s" + std::to_string(i));
   for (const std::string& name : kept_) variable_of_symbol_[name] = add(name);
   add_untaken("t");
@@ -159,6 +220,59 @@ void Geometry::name_variables() {
   for (const ConstructedPoint& c : constructed_) {
     for (const int variable : {c.x, c.y}) variable_of_symbol_[ring_->name(variable)] = variable;
   }
+  for (const auto& [name, variables] : circles) {
+    for (const int variable : variables) variable_of_symbol_[ring_->name(variable)] = variable;
+  }
+}
+
+void Geometry::place_angles() {
+  int variable = first_root_;
+  for (const auto& chart : charts_) variable -= chart ? 2 : 0;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    if (!charts_[i]) continue;
+    const Poly t = Poly::variable(*ring_, static_cast<int>(i));
+    const Poly one(*ring_, 1);
+    const int sign = charts_[i]->half_turns % 2 == 0 ? 1 : -1;
+    angles_.push_back({variable, variable + 1, {(one - t * t).scaled(sign), t.scaled(2 * sign), one + t * t}});
+    positive_units_.push_back(angles_.back().place.w);
+    variable += 2;
+  }
+}
+
+std::vector<Substitution> Geometry::substitutions() const {
+  std::vector<Substitution> list;
+  for (const ConstructedPoint& c : constructed_) list.push_back({c.x, c.y, tower(c.point)});
+  list.insert(list.end(), angles_.begin(), angles_.end());
+  return list;
+}
+
+int Geometry::degree_in(const Poly& natural, const Substitution& pair) {
+  int degree = 0;
+  const std::vector<Poly> by_x = natural.coefficients(pair.x);
+  for (std::size_t i = 0; i < by_x.size(); ++i) {
+    if (!by_x[i].is_zero()) degree = std::max(degree, static_cast<int>(i) + std::max(0, by_x[i].degree(pair.y)));
+  }
+  return degree;
+}
+
+Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int degree) const {
+  // A term of degree i in x and j in y takes X^i Y^j W^(degree - i - j).
+  const auto powers = [&](const Poly& base) {
+    std::vector<Poly> list(1, Poly(*ring_, 1));
+    for (int i = 0; i < degree; ++i) list.push_back(reduce(list.back() * base));
+    return list;
+  };
+  const std::vector<Poly> xs = powers(pair.place.x), ys = powers(pair.place.y), ws = powers(pair.place.w);
+  Poly sum(*ring_);
+  const std::vector<Poly> by_x = natural.coefficients(pair.x);
+  for (std::size_t i = 0; i < by_x.size(); ++i) {
+    const std::vector<Poly> by_y = by_x[i].coefficients(pair.y);
+    for (std::size_t j = 0; j < by_y.size(); ++j) {
+      if (by_y[j].is_zero()) continue;
+      sum += by_y[j] * xs[i] * ys[j] * ws[static_cast<std::size_t>(degree) - i - j];
+    }
+  }
+  return reduce(sum);
 }
 
 Poly Geometry::poly(const GiNaC::ex& e) const {
@@ -211,7 +325,7 @@ std::vector<int> Geometry::tower_variables() const {
 
 core::RootTower Geometry::plain_tower() const {
   core::RootTower tower;
-  for (const auto& coordinate : mechanism_->coordinates) tower.coordinates.push_back(coordinate.name);
+  for (int i = 0; i < coordinates(); ++i) tower.coordinates.push_back(ring_->name(i));
   const std::vector<int> variables = tower_variables();
   for (const TowerRoot& root : roots_) {
     tower.roots.push_back({"s" + std::to_string(tower.roots.size() + 1), mechanism_->points[index(root.point)].name,
@@ -231,7 +345,13 @@ void Geometry::place(PointIndex point) {
 
 void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
   for (std::size_t i = 0; i < 2; ++i) natural_[index(point)][i] = expression(form.coordinates[i]).expand();
-  tower_[index(point)] = {poly(natural_[index(point)][0]), poly(natural_[index(point)][1]), Poly(*ring_, 1)};
+  TowerPoint place{poly(natural_[index(point)][0]), poly(natural_[index(point)][1]), Poly(*ring_, 1)};
+  for (const Substitution& angle : angles_) {
+    const int degree = std::max(degree_in(place.x, angle), degree_in(place.y, angle));
+    place = {substituted(place.x, angle, degree), substituted(place.y, angle, degree),
+             place.w * angle.place.w.pow(static_cast<unsigned>(degree))};
+  }
+  tower_[index(point)] = place;
 }
 
 void Geometry::place_mean(PointIndex point, const MeanPoint& form) {
@@ -263,7 +383,7 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   const Poly d = reduce(u * u + v * v);
   const Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + d);
   const Poly square = reduce((from_length * from_length * d * w2).scaled(4) - kn * kn);
-  const int variable = static_cast<int>(roots_.size()) + coordinates() + 2 * static_cast<int>(constructed_.size());
+  const int variable = first_root_ + static_cast<int>(roots_.size());
   roots_.push_back({point, variable, RootRole::working_mode, square});
   denominators_.push_back(d);
   const Poly s = Poly::variable(*ring_, variable);
@@ -322,7 +442,7 @@ void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
     return;
   }
   // A varying distance (a telescopic leg): s = |AB| w, always positive. 1 / |AB| = s w / d.
-  const int variable = static_cast<int>(roots_.size()) + coordinates() + 2 * static_cast<int>(constructed_.size());
+  const int variable = first_root_ + static_cast<int>(roots_.size());
   roots_.push_back({point, variable, RootRole::length, d});
   denominators_.push_back(d);
   tower_[index(point)] = offset_over_tower(form, d, reduce(Poly::variable(*ring_, variable) * w));

@@ -13,9 +13,11 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/angle_chart.hpp"
 #include "core/root_tower.hpp"
 #include "mechanism/mechanism.hpp"
 #include "symbolic/ring.hpp"
@@ -41,13 +43,24 @@ struct ConstructedPoint {
   int x = 0, y = 0;  ///< ring variables
 };
 
+/// Two natural coordinates and the place that they stand for over the tower: a constructed point, or the cosine and
+/// sine of an angle, which are a point of the unit circle.
+struct Substitution {
+  int x = 0, y = 0;  ///< ring variables
+  TowerPoint place;
+};
+
+/// One a coordinate: the chart of an angle, nothing for a length.
+using Charts = std::vector<std::optional<core::AngleChart>>;
+
 /// All the algebra of one mechanism lives in one ring:
 /// free coordinates, coordinates of constructed points, roots, parameters kept symbolic, an auxiliary variable.
 class Geometry {
  public:
   /// With `keep_parameters` the parameters, and irrational expressions in them, stay symbols; otherwise their exact
-  /// values are put in. Throws core::InputError where a point is no polynomial in the free coordinates.
-  Geometry(const mechanism::Mechanism& mechanism, bool keep_parameters);
+  /// values are put in. An angle is written in the t of its chart (core/angle_chart.hpp); without `charts`, of the half
+  /// turn about 0. Throws core::InputError where a point is no polynomial in the free coordinates.
+  Geometry(const mechanism::Mechanism& mechanism, bool keep_parameters, Charts charts = {});
 
   const mechanism::Mechanism& mechanism() const { return *mechanism_; }
   const Ring& ring() const { return *ring_; }
@@ -60,6 +73,15 @@ class Geometry {
   const std::vector<TowerRoot>& roots() const { return roots_; }
   /// The numerators of the squared distances divided by, reduced.
   const std::vector<Poly>& denominators() const { return denominators_; }
+  /// Polynomials that places divide by and that vanish nowhere: 1 + t^2 of every angle.
+  const std::vector<Poly>& positive_units() const { return positive_units_; }
+
+  const Charts& charts() const { return charts_; }
+  /// What over_tower puts in, in an order in which no place holds a coordinate that is still to be replaced.
+  std::vector<Substitution> substitutions() const;
+  /// A natural polynomial with one pair replaced, times W^degree; `degree` is at least its degree in the pair.
+  Poly substituted(const Poly& natural, const Substitution& pair, int degree) const;
+  static int degree_in(const Poly& natural, const Substitution& pair);
 
   /// A ring variable that occurs in nothing else, for telling two polynomials of one computation apart.
   int auxiliary() const { return ring().size() - 1; }
@@ -79,6 +101,10 @@ class Geometry {
   static std::size_t index(mechanism::PointIndex point) { return static_cast<std::size_t>(point); }
   GiNaC::symbol symbol(const std::string& name) const;
   void name_variables();
+  void place_angles();
+  /// cos and sin of a sum of whole multiples of angles and constants.
+  std::array<GiNaC::ex, 2> circle(const core::Expression& angle) const;
+  bool is_free(const core::Expression& expression) const;
   void place(mechanism::PointIndex point);
   void place_explicit(mechanism::PointIndex point, const mechanism::ExplicitPoint& form);
   void place_mean(mechanism::PointIndex point, const mechanism::MeanPoint& form);
@@ -100,6 +126,10 @@ class Geometry {
   std::vector<ConstructedPoint> constructed_;
   std::vector<TowerRoot> roots_;
   std::vector<Poly> denominators_;
+  std::vector<Poly> positive_units_;
+  Charts charts_;
+  std::vector<Substitution> angles_;
+  int first_root_ = 0;  ///< ring variable
 };
 
 }  // namespace clearloci::symbolic

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/errors.hpp"
+#include "symbolic/angle_range.hpp"
 #include "symbolic/causes.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
@@ -52,12 +53,38 @@ struct SharedFactor {
   bool wanted_point = false;  ///< it takes part in an isolated contact loss
 };
 
+/// `pieces`: one an angle, in the order of the coordinates.
+Charts charts_of(const Mechanism& m, const std::vector<ChartRange>& pieces) {
+  Charts charts(m.coordinates.size());
+  auto piece = pieces.begin();
+  for (std::size_t i = 0; i < charts.size(); ++i)
+    if (m.coordinates[i].angle) charts[i] = (piece++)->chart;
+  return charts;
+}
+
+/// Every choice of one piece an angle, the last angle's fastest.
+std::vector<std::vector<ChartRange>> all_pieces(const Mechanism& m) {
+  std::vector<std::vector<ChartRange>> all(1);
+  for (const auto& coordinate : m.coordinates) {
+    if (!coordinate.angle) continue;
+    std::vector<std::vector<ChartRange>> longer;
+    for (const auto& chosen : all) {
+      for (const ChartRange& range : chart_ranges(m, coordinate)) {
+        longer.push_back(chosen);
+        longer.back().push_back(range);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
 class Derivation {
  public:
-  Derivation(const Mechanism& m, const Selection& selection)
+  Derivation(const Mechanism& m, const Selection& selection, const std::vector<ChartRange>& pieces)
       : mechanism_(m),
         selection_(selection),
-        geometry_(m, false),
+        geometry_(m, false, charts_of(m, pieces)),
         determinants_(factored_determinants(geometry_)),
         elimination_(geometry_),
         causes_(geometry_) {
@@ -66,10 +93,13 @@ class Derivation {
     result_.problem.quantities = selection.quantities;
     result_.problem.modes = {file_mode()};
     for (const mechanism::Joint& joint : m.joints) result_.problem.joint_order.push_back(joint.name);
+    auto piece = pieces.begin();
     for (const auto& coordinate : m.coordinates) {
-      result_.problem.lower.push_back(coordinate.lower);
-      result_.problem.upper.push_back(coordinate.upper);
+      result_.problem.lower.push_back(coordinate.angle ? piece->lower : coordinate.lower);
+      result_.problem.upper.push_back(coordinate.angle ? piece->upper : coordinate.upper);
+      if (coordinate.angle) ++piece;
     }
+    if (!pieces.empty()) result_.problem.charts = geometry_.charts();
   }
 
   DerivedProblem run() {
@@ -343,13 +373,26 @@ class Derivation {
 
 }  // namespace
 
+std::vector<DerivedProblem> locus_problems(const Mechanism& mechanism, const Selection& selection) {
+  std::vector<DerivedProblem> problems;
+  for (const std::vector<ChartRange>& pieces : all_pieces(mechanism)) {
+    const auto start = Clock::now();
+    Derivation derivation(mechanism, selection, pieces);
+    const double preparation = seconds_since(start);
+    problems.push_back(derivation.run());
+    problems.back().symbolic_seconds += preparation;
+  }
+  return problems;
+}
+
 DerivedProblem locus_problem(const Mechanism& mechanism, const Selection& selection) {
-  const auto start = Clock::now();
-  Derivation derivation(mechanism, selection);
-  const double preparation = seconds_since(start);
-  DerivedProblem result = derivation.run();
-  result.symbolic_seconds += preparation;
-  return result;
+  for (const auto& coordinate : mechanism.coordinates) {
+    if (coordinate.angle && chart_ranges(mechanism, coordinate).size() > 1)
+      throw core::InputError({mechanism.file},
+                             "the range of the angle '" + coordinate.name + "' needs more than one chart",
+                             "keep it between two odd multiples of 90 deg");
+  }
+  return std::move(locus_problems(mechanism, selection).front());
 }
 
 }  // namespace clearloci::symbolic

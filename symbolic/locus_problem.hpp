@@ -29,6 +29,12 @@ struct DerivedProblem {
 /// The factors of every wanted numerator, of |A| and of every Qj, over the root tower, with their implicit
 /// polynomials. Throws core::InputError for an unknown joint, a non-square system or a determinant that vanishes in
 /// every pose.
+///
+/// Every angle among the coordinates is cut into charts (core/angle_chart.hpp): one problem for each choice of charts,
+/// in the order of the angles; a single problem where no coordinate is an angle.
+std::vector<DerivedProblem> locus_problems(const mechanism::Mechanism& mechanism, const Selection& selection);
+
+/// The one problem of a mechanism without angles. Throws core::InputError where there are several.
 DerivedProblem locus_problem(const mechanism::Mechanism& mechanism, const Selection& selection);
 
 }  // namespace clearloci::symbolic

@@ -41,7 +41,7 @@ class WrongCalls(InOwnFolder):
         self.assertIn("A1, B1, P, B2, A2", self.complaint("loci", FIVE_BAR, "--joint", "A7"))
 
     def test_unknown_quantity(self):
-        self.assertIn("f, M, fx, fy", self.complaint("loci", FIVE_BAR, "--quantity", "f,Q"))
+        self.assertIn("choose from f, N, T, M, F", self.complaint("loci", FIVE_BAR, "--quantity", "f,Q"))
 
     def test_unknown_export_format(self):
         message = self.complaint("loci", FIVE_BAR, "--export", "svg,jpeg")
