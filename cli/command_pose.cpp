@@ -1,5 +1,6 @@
-// clearloci pose: posture, reactions and condition number at one pose.
+// clearloci pose: posture, reactions, take-up of the clearances and pose error at one pose.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -10,7 +11,8 @@
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
 #include "core/errors.hpp"
-#include "numeric/reactions.hpp"
+#include "numeric/displaced.hpp"
+#include "numeric/pose_error.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 
@@ -23,17 +25,49 @@ struct Arguments {
   CommonArguments common;
   std::string at;
   std::string working_mode;
+  bool iterate = false;
 };
 
 struct PoseResult {
   std::vector<double> at;
   DyadSides sides;
   numeric::Posture posture;
-  numeric::Reactions reactions;
+  numeric::Accuracy accuracy;
+  std::optional<numeric::ActualPose> actual;  ///< if asked for
 };
 
 /// JSON has no infinity: a reaction at a direct singularity is null.
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json error_json(const numeric::PoseError& error) {
+  return {{"dalpha", error.dalpha}, {"dx", error.dx}, {"dy", error.dy}};
+}
+
+/// Joints with a clearance; null where the take-up is undefined.
+Json take_up_json(const numeric::NumericModel& model, const std::vector<numeric::TakeUp>& take_up) {
+  const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(model.mechanism);
+  Json all = Json::object();
+  for (std::size_t j = 0; j < take_up.size(); ++j) {
+    const numeric::TakeUp& t = take_up[j];
+    const auto& [radial, angular] = clearances[j];
+    if (radial == 0 && angular == 0) continue;
+    Json& joint = all[model.mechanism.joints[j].name] = Json::object();
+    const bool lost = t.force_vanishes && radial > 0;
+    joint["dx"] = lost ? Json(nullptr) : Json(t.displacement[0]);
+    joint["dy"] = lost ? Json(nullptr) : Json(t.displacement[1]);
+    joint["beta"] = t.beta ? Json(*t.beta) : Json(nullptr);
+    if (angular > 0) joint["dtheta"] = t.couple_vanishes ? Json(nullptr) : Json(t.rotation);
+  }
+  return all;
+}
+
+Json actual_json(const numeric::NumericModel& model, const numeric::ActualPose& actual) {
+  return {{"pose_error", error_json(actual.error)},
+          {"beyond_linear", error_json(actual.beyond_linear)},
+          {"take_up", take_up_json(model, actual.take_up)},
+          {"iterations", actual.iterations},
+          {"residual", actual.residual}};
+}
 
 Json pose_json(const mechanism::Mechanism& mechanism, const numeric::NumericModel& model, const PoseResult& pose) {
   Json mode = Json::object();
@@ -47,22 +81,67 @@ Json pose_json(const mechanism::Mechanism& mechanism, const numeric::NumericMode
   for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
     const mechanism::Unknown& unknown = model.unknowns[k];
     reactions[mechanism.joints[static_cast<std::size_t>(unknown.joint)].name][core::to_string(unknown.quantity)] =
-        number_json(pose.reactions.values[static_cast<Eigen::Index>(k)]);
+        number_json(pose.accuracy.reactions.values[static_cast<Eigen::Index>(k)]);
   }
-  return {{"format", 1},
-          {"mechanism", mechanism.name},
-          {"at", pose.at},
-          {"working_mode", std::move(mode)},
-          {"posture", std::move(posture)},
-          {"reactions", std::move(reactions)},
-          {"determinant", pose.reactions.determinant},
-          {"condition", number_json(pose.reactions.condition)}};
+  const numeric::Accuracy& accuracy = pose.accuracy;
+  const numeric::WorstCase& worst = accuracy.worst;
+  Json result = {{"format", 1},
+                 {"mechanism", mechanism.name},
+                 {"at", pose.at},
+                 {"working_mode", std::move(mode)},
+                 {"posture", std::move(posture)},
+                 {"reactions", std::move(reactions)},
+                 {"determinant", pose.accuracy.reactions.determinant},
+                 {"condition", number_json(accuracy.reactions.condition)},
+                 {"take_up", take_up_json(model, accuracy.take_up)},
+                 {"pose_error", accuracy.undefined.empty() ? error_json(accuracy.error) : Json(nullptr)},
+                 {"undefined_take_up", accuracy.undefined},
+                 {"worst_case",
+                  {{"dalpha", number_json(worst.dalpha)},
+                   {"dx", number_json(worst.dx)},
+                   {"dy", number_json(worst.dy)},
+                   {"dp", number_json(worst.dp)}}}};
+  if (pose.actual) result["iterated"] = actual_json(model, *pose.actual);
+  return result;
+}
+
+std::string number(const Json& value) {
+  return value.is_null() ? std::string("unbounded") : fmt::format("{:.9g}", value.get<double>() + 0.0);  // no -0
+}
+
+std::string error_row(const std::string& what, const Json& error) {
+  return fmt::format("{:<18}{:>16}{:>18}{:>18}\n", what, number(error["dx"]), number(error["dy"]),
+                     number(error["dalpha"]));
+}
+
+void print_accuracy(const Json& pose) {
+  const auto entry = [](const Json& joint, const char* key) {
+    if (!joint.contains(key)) return std::string();
+    return joint[key].is_null() ? std::string("undefined") : number(joint[key]);
+  };
+  if (pose["take_up"].empty()) return;
+  fmt::print("\n{:<12}{:>18}{:>18}{:>18}{:>18}\n", "take-up", "dx [m]", "dy [m]", "beta [rad]", "dtheta [rad]");
+  for (const auto& [name, joint] : pose["take_up"].items())
+    fmt::print("{:<12}{:>18}{:>18}{:>18}{:>18}\n", name, entry(joint, "dx"), entry(joint, "dy"), entry(joint, "beta"),
+               entry(joint, "dtheta"));
+  fmt::print("\n{:<18}{:>16}{:>18}{:>18}\n", "pose error", "dx [m]", "dy [m]", "dalpha [rad]");
+  if (pose["pose_error"].is_null())
+    fmt::print("undefined: contact is lost at {}\n",
+               fmt::join(pose["undefined_take_up"].get<std::vector<std::string>>(), ", "));
+  else
+    fmt::print("{}", error_row("linear", pose["pose_error"]));
+  if (pose.contains("iterated")) {
+    const Json& iterated = pose["iterated"];
+    fmt::print("{}{}", error_row("iterated", iterated["pose_error"]),
+               error_row("  difference", iterated["beyond_linear"]));
+    fmt::print("  {} iterations, closure within {:.2g}\n", iterated["iterations"].get<int>(),
+               iterated["residual"].get<double>());
+  }
+  fmt::print("{}", error_row("worst, any load", pose["worst_case"]));
+  fmt::print("{:<18}{:>16}  largest distance\n", "", number(pose["worst_case"]["dp"]));
 }
 
 void print_table(const Json& pose) {
-  const auto number = [](const Json& value) {
-    return value.is_null() ? std::string("unbounded") : fmt::format("{:.9g}", value.get<double>() + 0.0);  // no -0
-  };
   fmt::print("{} at (", pose["mechanism"].get<std::string>());
   for (std::size_t i = 0; i < pose["at"].size(); ++i) fmt::print("{}{}", i == 0 ? "" : ", ", number(pose["at"][i]));
   fmt::print(")");
@@ -79,12 +158,24 @@ void print_table(const Json& pose) {
                reaction.contains("M") ? number(reaction["M"]) : "");
   }
   fmt::print("\n|A| = {}, condition number {}\n", number(pose["determinant"]), number(pose["condition"]));
+  print_accuracy(pose);
+}
+
+/// A pose that was written in decimals stands for its exact value, which is no double: a pose on a locus is one.
+std::vector<numeric::Bounded> with_rounding(const std::vector<core::Rational>& exact) {
+  std::vector<numeric::Bounded> pose;
+  for (const core::Rational& value : exact) {
+    const double nearest = core::to_double(value);
+    pose.emplace_back(nearest, core::Rational(nearest) == value ? 0.0 : numeric::unit_roundoff * std::abs(nearest));
+  }
+  return pose;
 }
 
 PoseResult solve(const Arguments& arguments, const mechanism::Mechanism& mechanism,
                  const numeric::NumericModel& model) {
   PoseResult pose;
-  for (const core::Rational& value : parse_pose(arguments.at, mechanism)) pose.at.push_back(core::to_double(value));
+  const std::vector<numeric::Bounded> at = with_rounding(parse_pose(arguments.at, mechanism));
+  for (const numeric::Bounded& value : at) pose.at.push_back(value.value);
   pose.sides = arguments.working_mode.empty() ? mechanism::working_mode(mechanism)
                                               : parse_working_mode(arguments.working_mode, mechanism);
   pose.posture = numeric::posture(model, pose.at, pose.sides);
@@ -93,7 +184,12 @@ PoseResult solve(const Arguments& arguments, const mechanism::Mechanism& mechani
     throw core::InputError({.file = "--at"}, fmt::format("the pose is out of reach: point {} cannot be placed", name),
                            "choose a pose inside the workspace");
   }
-  pose.reactions = numeric::solve_reactions(model, pose.posture);
+  pose.accuracy = numeric::pose_accuracy(model, pose.posture, numeric::vanishing_unknowns(model, at, pose.sides));
+  if (!arguments.iterate) return pose;
+  pose.actual = numeric::actual_pose(model, pose.posture, pose.accuracy);
+  if (!pose.actual->converged)
+    throw core::InputError({.file = "--iterate"}, "the pose error cannot be iterated: " + pose.actual->reason,
+                           "leave --iterate out, choose another pose or smaller clearances");
   return pose;
 }
 
@@ -113,7 +209,8 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 Command add_pose_command(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("pose", "Posture, reactions and condition number at one pose");
+  CLI::App* app =
+      program.add_subcommand("pose", "Posture, reactions, take-up of clearances and pose error at one pose");
   const auto arguments = std::make_shared<Arguments>();
   add_common_arguments(*app, arguments->common);
   app->add_option("--at", arguments->at, "The pose: one value for each free coordinate, e.g. 0.25,-0.7")
@@ -122,8 +219,10 @@ Command add_pose_command(CLI::App& program) {
   app->add_option("--working-mode", arguments->working_mode,
                   "left or right for every dyad, e.g. right,left (default: the file's)")
       ->type_name("SIDES");
+  app->add_flag("--iterate", arguments->iterate,
+                "Also the pose error beyond the linear step: the mechanism closed with its clearances taken up");
   app->footer(
-      "Example: clearloci pose examples/five_bar.yaml --at 0.25,-0.7\n"
+      "Example: clearloci pose examples/five_bar.yaml --at 0.25,-0.7 --iterate\n"
       "With -o, DIR/pose.json is written.");
   return {app, [arguments] { return run(*arguments); }};
 }

@@ -53,7 +53,11 @@ Eigen::VectorXd load_column(const NumericModel& model, const Posture& posture) {
 Reactions solve_reactions(const NumericModel& model, const Posture& posture) {
   const Eigen::MatrixXd A = newton_euler_matrix(model, posture);
   const Eigen::VectorXd b = load_column(model, posture);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A);
+  return solve_reactions(A, b, Eigen::PartialPivLU<Eigen::MatrixXd>(A));
+}
+
+Reactions solve_reactions(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
+                          const Eigen::PartialPivLU<Eigen::MatrixXd>& lu) {
   Reactions r;
   r.values = lu.solve(b);
   r.determinant = lu.determinant();
@@ -191,6 +195,11 @@ void reaction_field(const NumericModel& model, std::span<const double> poses, st
 }
 
 BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const double> pose,
+                                     std::span<const int> mode) {
+  return bounded_numerators(model, std::vector<Bounded>(pose.begin(), pose.end()), mode);
+}
+
+BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const Bounded> pose,
                                      std::span<const int> mode) {
   core::ensure(pose.size() == model.box.size(), "a pose has one value for each free coordinate");
   Evaluator<Bounded, 1> evaluator(model, mode);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct Reactions {
 
 /// By LU with partial pivoting of the full matrix: the plain route.
 Reactions solve_reactions(const NumericModel& model, const Posture& posture);
+
+/// The same where A is factorised already.
+Reactions solve_reactions(const Eigen::MatrixXd& A, const Eigen::VectorXd& load_column,
+                          const Eigen::PartialPivLU<Eigen::MatrixXd>& lu);
 
 /// Reactions of many poses by the route of elimination.hpp. Arrays of `poses` values, one an unknown, unknown after
 /// unknown; NaN at unreachable poses.
@@ -56,6 +61,9 @@ struct BoundedNumerators {
 };
 
 BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const double> pose,
+                                     std::span<const int> mode);
+/// The same at every pose within the errors of the given one.
+BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const Bounded> pose,
                                      std::span<const int> mode);
 
 /// Whether every point can be placed.

@@ -121,6 +121,13 @@ MechanismBuilder& MechanismBuilder::gravity(double gx, double gy) {
   return *this;
 }
 
+MechanismBuilder& MechanismBuilder::clearance(const std::string& joint, double radial, double angular) {
+  for (auto& j : m_.joints) {
+    if (j.name == joint) j.clearance = mechanism::Clearance{number(radial), number(angular)};
+  }
+  return *this;
+}
+
 Mechanism MechanismBuilder::finish() {
   for (auto& link : m_.links) {
     link.centre_of_mass = static_cast<int>(m_.points.size());
@@ -141,6 +148,12 @@ Mechanism five_bar(const FiveBar& d) {
   b.end_effector("PB2", "P").load("PB2", "P", d.fx, d.fy, d.couple);
   if (d.weighs) b.gravity(0, -9.81);
   return b.finish();
+}
+
+Mechanism with_clearances(Mechanism m, double radial, double angular) {
+  for (auto& joint : m.joints)
+    joint.clearance = mechanism::Clearance{number(radial), number(joint.actuated ? angular : 0.0)};
+  return m;
 }
 
 Mechanism three_rrr(double turn, double fx, double fy, double couple, bool weighs) {

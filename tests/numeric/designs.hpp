@@ -42,6 +42,8 @@ class MechanismBuilder {
   MechanismBuilder& load(const std::string& link, const std::string& at, double fx, double fy, double couple = 0);
   MechanismBuilder& load(const std::string& link, const std::string& at, const Expression& fx, const Expression& fy);
   MechanismBuilder& gravity(double gx, double gy);
+  /// `angular`: for the actuated joints.
+  MechanismBuilder& clearance(const std::string& joint, double radial, double angular = 0);
 
   mechanism::Mechanism finish();
 
@@ -65,6 +67,9 @@ struct FiveBar {
 };
 
 mechanism::Mechanism five_bar(const FiveBar& design = {});
+
+/// The same clearances in every joint, m, and in every actuator, rad.
+mechanism::Mechanism with_clearances(mechanism::Mechanism mechanism, double radial, double angular);
 
 /// 3-RRR platform held at orientation `turn` (rad): 21 equations, a core of three.
 mechanism::Mechanism three_rrr(double turn, double fx, double fy, double couple, bool weighs);

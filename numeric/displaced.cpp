@@ -1,0 +1,212 @@
+#include "numeric/displaced.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+
+namespace clearloci::numeric {
+
+namespace {
+
+constexpr int most_iterations = 200;
+
+/// A step below this many unit roundoffs of the mechanism's size is rounding: the pose is a fixed point.
+constexpr double settled = 32 * unit_roundoff;
+
+/// Beyond this condition number the take-up moves the end effector by more than 1e6 times itself or so: what is left of
+/// the linear step is no starting point.
+constexpr double most_condition = 1e12;
+
+class DisplacedMechanism {
+ public:
+  DisplacedMechanism(const NumericModel& model, const Posture& posture, const Eigen::VectorXd& u)
+      : model_(model), posture_(posture), u_(u) {}
+
+  Point2 reference() const { return posture_.points[static_cast<std::size_t>(model_.mechanism.end_effector_point)]; }
+
+  /// p' - (E + t_i): the arm of a point of link i; of the ground, p - E.
+  Point2 arm(mechanism::LinkIndex link, const Point2& p) const {
+    const Point2 E = reference();
+    const Point2 r = {p[0] - E[0], p[1] - E[1]};
+    if (link == mechanism::ground) return r;
+    const double c = std::cos(u_(3 * link + 2)), s = std::sin(u_(3 * link + 2));
+    return {c * r[0] - s * r[1], s * r[0] + c * r[1]};
+  }
+
+  /// p' - E. Differences of such points keep the digits that absolute coordinates would lose.
+  Point2 moved(mechanism::LinkIndex link, const Point2& p) const {
+    const Point2 r = arm(link, p);
+    return link == mechanism::ground ? r : Point2{r[0] + u_(3 * link), r[1] + u_(3 * link + 1)};
+  }
+
+  Eigen::MatrixXd matrix() const {
+    const auto size = static_cast<Eigen::Index>(model_.unknowns.size());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index column = 0; column < size; ++column) {
+      const mechanism::Unknown& unknown = model_.unknowns[static_cast<std::size_t>(column)];
+      const mechanism::Joint& joint = model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
+      for (const int sign : {1, -1}) {
+        const mechanism::LinkIndex link = sign > 0 ? joint.to : joint.from;
+        if (link == mechanism::ground) continue;
+        const Point2 r = arm(link, posture_.points[static_cast<std::size_t>(joint.at)]);
+        const Eigen::Vector3d wrench = unknown.quantity == core::Quantity::fx   ? Eigen::Vector3d(1, 0, -r[1])
+                                       : unknown.quantity == core::Quantity::fy ? Eigen::Vector3d(0, 1, r[0])
+                                                                                : Eigen::Vector3d(0, 0, 1);
+        A.block<3, 1>(3 * link, column) += sign * wrench;
+      }
+    }
+    return A;
+  }
+
+  Eigen::VectorXd load_column() const {
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.unknowns.size()));
+    for (const AppliedLoad& load : posture_.loads) {
+      const Point2 r = arm(load.link, load.at);
+      w.segment<3>(3 * load.link) -=
+          Eigen::Vector3d(load.force[0], load.force[1], load.couple + r[0] * load.force[1] - r[1] * load.force[0]);
+    }
+    return w;
+  }
+
+  /// Relative displacements of the joints minus those that the take-up wants.
+  Eigen::VectorXd closure(const Eigen::VectorXd& wanted) const {
+    Eigen::VectorXd r = -wanted;
+    for (Eigen::Index k = 0; k < r.size(); ++k) {
+      const mechanism::Unknown& unknown = model_.unknowns[static_cast<std::size_t>(k)];
+      const mechanism::Joint& joint = model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
+      const Point2& p = posture_.points[static_cast<std::size_t>(joint.at)];
+      const auto value = [&](mechanism::LinkIndex link) {
+        if (unknown.quantity == core::Quantity::M) return link == mechanism::ground ? 0.0 : u_(3 * link + 2);
+        return moved(link, p)[unknown.quantity == core::Quantity::fx ? 0 : 1];
+      };
+      r(k) += value(joint.to) - value(joint.from);
+    }
+    return r;
+  }
+
+ private:
+  const NumericModel& model_;
+  const Posture& posture_;
+  const Eigen::VectorXd& u_;
+};
+
+/// Couples of clearance joints that changed sign between two iterates.
+std::string reversed_couple(const NumericModel& model, const std::vector<TakeUp>& a, const std::vector<TakeUp>& b) {
+  for (std::size_t j = 0; j < a.size(); ++j)
+    if (a[j].rotation * b[j].rotation < 0) return model.mechanism.joints[j].name;
+  return {};
+}
+
+std::string names(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& name : list) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::vector<std::vector<Point2>> displaced_points(const NumericModel& model, const Posture& posture,
+                                                  const DisplacedMechanism& displaced) {
+  std::vector<std::vector<Point2>> all;
+  const Point2 E = displaced.reference();
+  for (std::size_t i = 0; i < model.mechanism.links.size(); ++i) {
+    std::vector<Point2> points;
+    for (const mechanism::PointIndex p : model.mechanism.links[i].points) {
+      const Point2 r = displaced.moved(static_cast<int>(i), posture.points[static_cast<std::size_t>(p)]);
+      points.push_back({E[0] + r[0], E[1] + r[1]});
+    }
+    all.push_back(std::move(points));
+  }
+  return all;
+}
+
+class Iteration {
+ public:
+  Iteration(const NumericModel& model, const Posture& posture, const Accuracy& linear)
+      : model_(model), posture_(posture), clearances_(joint_clearances(model.mechanism)), linear_(linear) {
+    size_ = typical_length(model, posture);
+  }
+
+  ActualPose run() {
+    if (!linear_.undefined.empty()) return refuse("the take-up of " + names(linear_.undefined) + " is undefined here");
+    if (!(linear_.reactions.condition < most_condition)) return refuse("the pose is at a direct singularity");
+    u_ = linear_.link_displacements;
+    result_.take_up = linear_.take_up;
+    for (result_.iterations = 1; result_.iterations <= most_iterations; ++result_.iterations) {
+      const double step = advance();
+      if (!result_.reason.empty()) return refuse(result_.reason);
+      if (step <= settled * (1 + u_.cwiseAbs().maxCoeff() / size_)) return finish();
+    }
+    result_.iterations = most_iterations;
+    if (!reversed_.empty())
+      return refuse("the couple of " + reversed_ + " changes its sign as the clearances are taken up, again and again");
+    return refuse("the take-up does not settle: a reaction turns faster than the geometry follows");
+  }
+
+ private:
+  ActualPose refuse(const std::string& reason) {
+    result_.converged = false;
+    result_.reason = reason;
+    return result_;
+  }
+
+  /// One step; its size in units of the mechanism's (lengths) and in rad.
+  double advance() {
+    const DisplacedMechanism displaced(model_, posture_, u_);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(displaced.matrix());
+    const double determinant = lu.determinant();
+    if (!std::isfinite(determinant) || determinant * linear_.reactions.determinant <= 0) {
+      result_.reason = "taking up the clearances leads through a direct singularity";
+      return 0;
+    }
+    result_.reactions = lu.solve(displaced.load_column());
+    std::vector<TakeUp> next = take_up(model_, clearances_, result_.reactions);
+    if (const auto undefined = undefined_take_up(model_, clearances_, next); !undefined.empty()) {
+      result_.reason = "the take-up of " + names(undefined) + " becomes undefined in the displaced geometry";
+      return 0;
+    }
+    reversed_ = reversed_couple(model_, result_.take_up, next);
+    result_.take_up = std::move(next);
+    const Eigen::VectorXd residual = displaced.closure(clearance_displacements(model_, result_.take_up));
+    const Eigen::VectorXd step = lu.transpose().solve(residual);
+    u_ -= step;
+    double most = 0;
+    for (Eigen::Index i = 0; i < step.size(); ++i) most = std::max(most, std::abs(step(i)) / (i % 3 == 2 ? 1 : size_));
+    // A link that turns by a radian has left the neighbourhood in which the linear step means anything.
+    if (!(u_.cwiseAbs().maxCoeff() < 1e3 * size_) || !std::isfinite(most))
+      result_.reason = "the displaced mechanism cannot be closed near this pose";
+    return most;
+  }
+
+  ActualPose finish() {
+    const DisplacedMechanism displaced(model_, posture_, u_);
+    result_.converged = true;
+    result_.residual = displaced.closure(clearance_displacements(model_, result_.take_up)).cwiseAbs().maxCoeff();
+    result_.displacements = u_;
+    const Eigen::Vector3d own = u_.segment<3>(3 * model_.mechanism.end_effector_link);
+    result_.error = {own(2), own(0), own(1)};
+    const PoseError& linear = linear_.error;
+    result_.beyond_linear = {result_.error.dalpha - linear.dalpha, result_.error.dx - linear.dx,
+                             result_.error.dy - linear.dy};
+    result_.link_points = displaced_points(model_, posture_, displaced);
+    return result_;
+  }
+
+  const NumericModel& model_;
+  const Posture& posture_;
+  std::vector<JointClearance> clearances_;
+  const Accuracy& linear_;
+  double size_ = 1;
+  Eigen::VectorXd u_;
+  std::string reversed_;
+  ActualPose result_;
+};
+
+}  // namespace
+
+ActualPose actual_pose(const NumericModel& model, const Posture& posture, const Accuracy& linear) {
+  core::ensure(posture.reachable(), "the posture is reachable");
+  return Iteration(model, posture, linear).run();
+}
+
+}  // namespace clearloci::numeric

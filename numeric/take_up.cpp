@@ -1,0 +1,99 @@
+#include "numeric/take_up.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanism/evaluate.hpp"
+
+namespace clearloci::numeric {
+
+std::vector<JointClearance> joint_clearances(const mechanism::Mechanism& mechanism) {
+  std::vector<JointClearance> clearances;
+  for (const mechanism::Joint& joint : mechanism.joints) {
+    JointClearance clearance;
+    if (joint.clearance) {
+      clearance.radial = core::to_double(mechanism::value_of(joint.clearance->radial, mechanism));
+      if (joint.actuated) clearance.angular = core::to_double(mechanism::value_of(joint.clearance->angular, mechanism));
+    }
+    clearances.push_back(clearance);
+  }
+  return clearances;
+}
+
+bool any_clearance(const std::vector<JointClearance>& clearances) {
+  return std::any_of(clearances.begin(), clearances.end(),
+                     [](const JointClearance& c) { return c.radial > 0 || c.angular > 0; });
+}
+
+std::vector<JointColumns> joint_columns(const NumericModel& model) {
+  std::vector<JointColumns> columns(model.mechanism.joints.size());
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+    JointColumns& joint = columns[static_cast<std::size_t>(model.unknowns[k].joint)];
+    const core::Quantity quantity = model.unknowns[k].quantity;
+    int& column = quantity == core::Quantity::fx ? joint.fx : quantity == core::Quantity::fy ? joint.fy : joint.couple;
+    column = static_cast<int>(k);
+  }
+  return columns;
+}
+
+std::vector<bool> vanishing_unknowns(const NumericModel& model, std::span<const Bounded> pose,
+                                     std::span<const int> mode) {
+  const BoundedNumerators numerators = bounded_numerators(model, pose, mode);
+  const auto zero = [](const Bounded& b) { return !(std::abs(b.value) > b.error); };
+  std::vector<bool> vanishing;
+  for (const Bounded& numerator : numerators.values)
+    vanishing.push_back(zero(numerators.determinant) || zero(numerator));
+  return vanishing;
+}
+
+std::vector<TakeUp> take_up(const NumericModel& model, const std::vector<JointClearance>& clearances,
+                            const Eigen::VectorXd& reactions, const std::vector<bool>& vanishing) {
+  const std::vector<JointColumns> columns = joint_columns(model);
+  const auto vanishes = [&](int column) {
+    const double value = reactions(column);
+    return !std::isfinite(value) || value == 0 || (!vanishing.empty() && vanishing[static_cast<std::size_t>(column)]);
+  };
+  std::vector<TakeUp> result;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const auto& [fx, fy, couple] = columns[j];
+    TakeUp t;
+    t.force_vanishes = fx < 0 || fy < 0 || (vanishes(fx) && vanishes(fy));
+    if (!t.force_vanishes) {
+      const double x = reactions(fx), y = reactions(fy), size = std::hypot(x, y);
+      t.beta = std::atan2(x, y);
+      // Without a clearance the displacement is 0, not -0.
+      if (clearances[j].radial > 0)
+        t.displacement = {-clearances[j].radial * x / size, -clearances[j].radial * y / size};
+    }
+    t.couple_vanishes = couple >= 0 && vanishes(couple);
+    if (couple >= 0 && !t.couple_vanishes && clearances[j].angular > 0)
+      t.rotation = -std::copysign(clearances[j].angular, reactions(couple));
+    result.push_back(t);
+  }
+  return result;
+}
+
+std::vector<std::string> undefined_take_up(const NumericModel& model, const std::vector<JointClearance>& clearances,
+                                           const std::vector<TakeUp>& take_up) {
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < take_up.size(); ++j) {
+    const bool force = take_up[j].force_vanishes && clearances[j].radial > 0;
+    const bool couple = take_up[j].couple_vanishes && clearances[j].angular > 0;
+    if (force || couple) names.push_back(model.mechanism.joints[j].name);
+  }
+  return names;
+}
+
+Eigen::VectorXd clearance_displacements(const NumericModel& model, const std::vector<TakeUp>& take_up) {
+  Eigen::VectorXd displacements(static_cast<Eigen::Index>(model.unknowns.size()));
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+    const TakeUp& t = take_up[static_cast<std::size_t>(model.unknowns[k].joint)];
+    const core::Quantity quantity = model.unknowns[k].quantity;
+    displacements(static_cast<Eigen::Index>(k)) = quantity == core::Quantity::fx   ? t.displacement[0]
+                                                  : quantity == core::Quantity::fy ? t.displacement[1]
+                                                                                   : t.rotation;
+  }
+  return displacements;
+}
+
+}  // namespace clearloci::numeric
