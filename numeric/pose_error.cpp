@@ -67,7 +67,6 @@ double farthest(const Reach& reach, double accuracy) {
     best = std::max({best, last, next});
     last = next;
   }
-  if (!std::isfinite(best)) return best;
   while (!open.empty()) {
     const Sector s = open.back();
     open.pop_back();
@@ -89,6 +88,8 @@ PoseError pose_error(const Influence& H, const Eigen::VectorXd& clearance_displa
 
 WorstCase worst_case(const Influence& H, const std::vector<JointColumns>& columns,
                      const std::vector<JointClearance>& clearances, double accuracy) {
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  if (!H.allFinite()) return {unbounded, unbounded, unbounded, unbounded};
   Eigen::Vector3d most = Eigen::Vector3d::Zero();
   for (std::size_t j = 0; j < columns.size(); ++j) {
     const auto& [fx, fy, couple] = columns[j];

@@ -38,7 +38,7 @@ struct WorstCase {
 /// Componentwise in closed form: |dx| <= Σ ρ_J |(H_x,fxJ, H_x,fyJ)| + Σ δ_J |H_x,MJ|, and so on. |Δp| is the largest
 /// value of the support function h(n) = Σ ρ_J |Hᵀn|_fJ + Σ δ_J |Hᵀn|_MJ over unit vectors n, found by branch and bound:
 /// h is sublinear, so on directions between n1 and n2 it is at most that of the corner where the two support lines
-/// meet. `accuracy`: relative, of dp.
+/// meet. `accuracy`: relative, of dp. Infinite where H is (a direct singularity).
 WorstCase worst_case(const Influence& H, const std::vector<JointColumns>& columns,
                      const std::vector<JointClearance>& clearances, double accuracy = 1e-9);
 

@@ -153,6 +153,46 @@ class Pose(InOwnFolder):
         self.assertNotIn("-0 ", text)
 
 
+class PoseError(InOwnFolder):
+    def pose(self, at, *words):
+        return json.loads(self.run_program("pose", FIVE_BAR, "--at", at, "--json", *words).stdout)
+
+    def test_take_up_and_pose_error(self):
+        pose = self.pose("0.25,-0.7")
+        self.assertEqual(list(pose["take_up"]), ["A1", "B1", "P", "B2", "A2"])
+        self.assertEqual(set(pose["take_up"]["A1"]), {"dx", "dy", "beta", "dtheta"})
+        self.assertEqual(set(pose["take_up"]["B1"]), {"dx", "dy", "beta"})
+        self.assertEqual(set(pose["pose_error"]), {"dalpha", "dx", "dy"})
+        self.assertLess(pose["pose_error"]["dy"], 0)
+        for key in ("dalpha", "dx", "dy"):
+            self.assertLessEqual(abs(pose["pose_error"][key]), pose["worst_case"][key] * (1 + 1e-9))
+        self.assertNotIn("iterated", pose)
+
+    def test_iterated(self):
+        iterated = self.pose("0.25,-0.7", "--iterate")["iterated"]
+        self.assertLess(iterated["residual"], 1e-12)
+        linear = self.pose("0.25,-0.7")["pose_error"]
+        for key, value in linear.items():
+            self.assertAlmostEqual(iterated["pose_error"][key] - value, iterated["beyond_linear"][key], delta=1e-15)
+
+    def test_undefined_on_a_locus(self):
+        # PB2 is vertical here: leg 1 bears nothing.
+        pose = self.pose("0.8,-0.1")
+        self.assertEqual(pose["undefined_take_up"], ["A1", "B1", "P"])
+        self.assertIsNone(pose["pose_error"])
+        self.assertIsNone(pose["take_up"]["P"]["beta"])
+        process = self.run_program("pose", FIVE_BAR, "--at", "0.8,-0.1")
+        self.assertIn("contact is lost at A1, B1, P", process.stdout)
+        process = self.run_program("pose", FIVE_BAR, "--at", "0.8,-0.1", "--iterate", status=2)
+        self.assertIn("undefined", process.stderr)
+
+    def test_without_clearances(self):
+        bare = self.model(lambda text: re.sub(r", +clearance: \{[^}]*\}", "", text))
+        pose = json.loads(self.run_program("pose", bare, "--at", "0.25,-0.7", "--json").stdout)
+        self.assertEqual(pose["take_up"], {})
+        self.assertEqual(pose["pose_error"], {"dalpha": 0, "dx": 0, "dy": 0})
+
+
 class Validate(InOwnFolder):
     def test_the_shipped_example_holds(self):
         verdict = json.loads(self.run_program("validate", FIVE_BAR, "--grid", "60x60", "--json").stdout)
