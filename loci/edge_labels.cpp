@@ -84,6 +84,19 @@ std::vector<Vanishing> wanted_vanishing(const LocusProblem& problem, const std::
   return forces;
 }
 
+EdgeLabel reaction_label(const LocusProblem& problem, const std::vector<const core::LocusFactor*>& factors) {
+  EdgeLabel label;
+  std::vector<Vanishing> components;
+  for (const core::LocusFactor* factor : factors) {
+    merge(components, factor->vanishing);
+    append(label.factor, factor->expression);
+    append(label.cause, factor->cause);
+  }
+  label.vanishing = wanted_vanishing(problem, components);
+  label.kind = gravest_kind(label.vanishing);
+  return label;
+}
+
 std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::WorkingMode& mode,
                                     const CurveArrangement& arrangement,
                                     const std::vector<std::vector<int>>& curves_of_factor, SheetSigns& signs,
@@ -99,8 +112,7 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
       if (sign <= 0) edge.interior = false;
     }
     if (!edge.in_workspace) continue;
-    std::vector<Vanishing> components;
-    std::string factors, causes;
+    std::vector<const core::LocusFactor*> reactions;
     for (std::size_t f = 0; f < problem.factors.size(); ++f) {
       const core::LocusFactor& factor = problem.factors[f];
       const auto& curves = curves_of_factor[f];
@@ -109,9 +121,7 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
       if (signs.sign(sheet_of_factor[f], mode, index) != 0) continue;
       switch (factor.role) {
         case FactorRole::reaction:
-          merge(components, factor.vanishing);
-          append(factors, factor.expression);
-          append(causes, factor.cause);
+          reactions.push_back(&factor);
           break;
         case FactorRole::margin:
           edge.labels.push_back({LocusKind::margin, factor.vanishing, factor.expression, factor.cause});
@@ -126,8 +136,8 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
           break;
       }
     }
-    const std::vector<Vanishing> vanishing = wanted_vanishing(problem, components);
-    if (!vanishing.empty()) edge.labels.push_back({gravest_kind(vanishing), vanishing, factors, causes});
+    EdgeLabel label = reaction_label(problem, reactions);
+    if (!label.vanishing.empty()) edge.labels.push_back(std::move(label));
   }
   return result;
 }

@@ -36,6 +36,9 @@ std::vector<core::Vanishing> wanted_vanishing(const core::LocusProblem& problem,
 /// The kind a curve takes from what vanishes on it: the gravest.
 core::LocusKind gravest_kind(const std::vector<core::Vanishing>& vanishing);
 
+/// What vanishes where all of the given reaction factors do; nothing is vanishing where none of it is wanted.
+EdgeLabel reaction_label(const core::LocusProblem& problem, const std::vector<const core::LocusFactor*>& factors);
+
 /// For every edge, in one mode. `curve_of`: arrangement curve of each factor's implicit polynomials.
 std::vector<EdgeInMode> label_edges(const core::LocusProblem& problem, const core::WorkingMode& mode,
                                     const CurveArrangement& arrangement,

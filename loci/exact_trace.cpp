@@ -62,6 +62,10 @@ class ExactTrace {
   LocusMap run() {
     report(0.5, "working modes");
     for (std::size_t m = 0; m < problem_.modes.size(); ++m) {
+      if (options_.deadline && std::chrono::steady_clock::now() > *options_.deadline) {
+        map_.complete = false;
+        break;
+      }
       trace_mode(problem_.modes[m]);
       report(0.5 + 0.4 * static_cast<double>(m + 1) / static_cast<double>(problem_.modes.size()), "arcs");
     }
@@ -155,6 +159,21 @@ class ExactTrace {
     return marks;
   }
 
+  /// A curve does not end on the boundary that it is itself.
+  VertexMarks without_boundary_of(int curve, VertexMarks marks, const std::vector<EdgeInMode>& edges) const {
+    if (!owned_by(curve, FactorRole::workspace_boundary)) return marks;
+    marks.boundary.assign(marks.boundary.size(), false);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const ArrangementEdge& edge = arrangement_.edges()[e];
+      if (edge.curve == curve) continue;
+      for (const EdgeLabel& label : edges[e].labels)
+        if (label.kind == LocusKind::workspace_boundary)
+          marks.boundary[static_cast<std::size_t>(edge.from)] = marks.boundary[static_cast<std::size_t>(edge.to)] =
+              true;
+    }
+    return marks;
+  }
+
   double scale() const {
     return std::max(core::to_double(problem_.upper[0] - problem_.lower[0]),
                     core::to_double(problem_.upper[1] - problem_.lower[1]));
@@ -210,7 +229,8 @@ class ExactTrace {
       curve.mode = mode;
       curve.certified = true;
       const bool ends_on_singularities = curve.kind < LocusKind::direct_singularity;
-      for (const EdgeWalk& walk : join_edges(arrangement_, group.edges, marks, ends_on_singularities)) {
+      const VertexMarks own = without_boundary_of(group.curve, marks, edges);
+      for (const EdgeWalk& walk : join_edges(arrangement_, group.edges, own, ends_on_singularities)) {
         Traced traced = polyline(walk, curve.closed_form);
         curve.arcs.push_back({walk.closed, walk.ends, traced.length, std::move(traced.points)});
       }

@@ -1,12 +1,18 @@
 #include "loci/sheet_loci.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <mutex>
+#include <thread>
 
 #include "loci/edge_labels.hpp"
 #include "loci/plane_curve.hpp"
-#include "loci/sheet/trace_sheet.hpp"
+#include "loci/sheet/sheet_program.hpp"
+#include "loci/sheet/subtower.hpp"
+#include "loci/vertex_placement.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -17,90 +23,290 @@ using core::LocusFactor;
 using core::LocusKind;
 using core::LocusMap;
 using core::LocusProblem;
+using core::Point2;
+using sheet::TracedArc;
 
-/// A factor may have several implicit polynomials: the one that an arc lies on.
-std::size_t implicit_of(const core::Arc& arc, const std::vector<PlaneCurve>& curves) {
-  std::size_t best = 0;
+// A point is on a curve where the curve is this near, relative to the box, to first order.
+constexpr double on_curve = 1e-9;
+
+bool shares_curve(const LocusFactor& a, const LocusFactor& b) {
+  return std::any_of(a.implicit.begin(), a.implicit.end(), [&](const core::Polynomial& p) {
+    return std::find(b.implicit.begin(), b.implicit.end(), p) != b.implicit.end();
+  });
+}
+
+/// What vanishes where all the given factors do.
+EdgeLabel label_of(const LocusProblem& problem, const std::vector<int>& factors) {
+  const LocusFactor& first = problem.factors[static_cast<std::size_t>(factors.front())];
+  switch (first.role) {
+    case FactorRole::margin:
+      return {LocusKind::margin, first.vanishing, first.expression, first.cause};
+    case FactorRole::direct_singularity:
+      return {LocusKind::direct_singularity, {}, first.expression, first.cause};
+    case FactorRole::workspace_boundary:
+      return {LocusKind::workspace_boundary, {}, first.expression, first.cause};
+    default:
+      break;
+  }
+  std::vector<const LocusFactor*> all;
+  for (const int f : factors) all.push_back(&problem.factors[static_cast<std::size_t>(f)]);
+  return reaction_label(problem, all);
+}
+
+/// Curves of the factor are asked for: alone, or where others vanish too.
+bool is_wanted(const LocusProblem& problem, std::size_t f) {
+  const LocusFactor& factor = problem.factors[f];
+  if (factor.implicit.empty() && !factor.implicit_too_heavy) return false;
+  if (factor.role == FactorRole::construction) return false;
+  if (factor.role != FactorRole::reaction) return true;
+  std::vector<int> together = {static_cast<int>(f)};
+  for (std::size_t k = 0; k < problem.factors.size(); ++k) {
+    const LocusFactor& other = problem.factors[k];
+    if (k != f && other.role == FactorRole::reaction && shares_curve(factor, other))
+      together.push_back(static_cast<int>(k));
+  }
+  return !label_of(problem, together).vanishing.empty();
+}
+
+/// The curve of a list that a point lies on.
+int nearest_curve(const std::vector<PlaneCurve>& curves, const Point2& at) {
+  int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    double off = 0;
-    for (std::size_t k = 1; k + 1 < arc.points.size() || k == 1; k += 1 + arc.points.size() / 8) {
-      const PlaneCurve::Jet jet = curves[i].jet(arc.points[std::min(k, arc.points.size() - 1)]);
-      off = std::max(off, jet.slope() > 0 ? std::abs(jet.f) / jet.slope() : std::abs(jet.f));
-    }
+    const PlaneCurve::Jet jet = curves[i].jet(at);
+    const double off = jet.slope() > 0 ? std::abs(jet.f) / jet.slope() : std::abs(jet.f);
     if (off < least) {
       least = off;
-      best = i;
+      best = static_cast<int>(i);
     }
   }
   return best;
 }
 
-struct Meaning {
-  LocusKind kind;
-  std::vector<core::Vanishing> vanishing;
+bool is_line_or_circle(const core::ClosedForm& form) {
+  return std::holds_alternative<core::LineForm>(form) || std::holds_alternative<core::CircleForm>(form);
+}
+
+sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
+                              const std::vector<sheet::Cutter>& cutters, sheet::SheetTraceOptions options) {
+  std::vector<PlaneCurve> curves;
+  for (const core::Polynomial& p : factor.implicit) {
+    options.closed_form.push_back(is_line_or_circle(core::recognise_closed_form(p)));
+    if (factor.implicit.size() > 1) curves.emplace_back(p);
+  }
+  if (curves.size() > 1) options.colour = [&curves](const Point2& at) { return nearest_curve(curves, at); };
+  const bool cut = factor.role == FactorRole::reaction || factor.role == FactorRole::margin;
+  return sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, factor.sheet,
+                            cut ? cutters : std::vector<sheet::Cutter>{}, options);
+}
+
+/// Whether a sheet polynomial vanishes along an arc that lies on a factor of its norm: where it does not, it is zero at
+/// a few points at most.
+class VanishesAlong {
+ public:
+  VanishesAlong(const LocusProblem& problem, const core::WorkingMode& mode, const core::Polynomial& p)
+      : part_(sheet::subtower(problem.tower, mode, {p})),
+        program_(part_.tower, {sheet::narrowed(p, part_)}),
+        registers_(program_.registers<double>()),
+        size_(core::to_double(problem.upper[0] - problem.lower[0])) {}
+
+  bool operator()(const TracedArc& traced) {
+    const core::Polyline& points = traced.arc.points;
+    return at(traced.inner) && at(points[points.size() / 3]) && at(points[2 * points.size() / 3]);
+  }
+
+ private:
+  bool at(const Point2& p) {
+    for (const int v : {0, 1}) registers_.set(v, p[static_cast<std::size_t>(v)]);
+    for (int j = 0; j < program_.roots(); ++j) {
+      registers_.run_square(j);
+      registers_.set(2 + j, part_.mode[static_cast<std::size_t>(j)] * std::sqrt(std::max(0.0, registers_.square(j))));
+    }
+    registers_.run_values();
+    registers_.run_gradients();
+    double slope = 0;
+    for (int v = 0; v < program_.variables(); ++v) slope = std::max(slope, std::abs(registers_.partial(0, v)));
+    return std::abs(registers_.value(0)) <= on_curve * size_ * slope;
+  }
+
+  sheet::Subtower part_;
+  sheet::SheetProgram program_;
+  sheet::SheetProgram::Registers<double> registers_;
+  double size_;
 };
 
-Meaning meaning_of(const LocusProblem& problem, const LocusFactor& factor) {
-  if (factor.role == FactorRole::margin) return {LocusKind::margin, factor.vanishing};
-  if (factor.role == FactorRole::direct_singularity) return {LocusKind::direct_singularity, {}};
-  const std::vector<core::Vanishing> vanishing = wanted_vanishing(problem, factor.vanishing);
-  return {gravest_kind(vanishing), vanishing};
+double length_of(const core::Polyline& line) {
+  double sum = 0;
+  for (std::size_t i = 1; i < line.size(); ++i)
+    sum += std::hypot(line[i][0] - line[i - 1][0], line[i][1] - line[i - 1][1]);
+  return sum;
 }
+
+/// The vertices of lines and circles from their closed forms; other arcs have theirs.
+core::Arc finished(const TracedArc& traced, const core::ClosedForm& form, double tolerance) {
+  core::Arc arc = traced.arc;
+  if (std::holds_alternative<core::LineForm>(form)) {
+    arc.points = {arc.points.front(), arc.points.back()};
+    arc.length = length_of(arc.points);
+  }
+  if (const auto* circle = std::get_if<core::CircleForm>(&form)) {
+    const Point2 centre = {core::to_double(circle->centre[0]), core::to_double(circle->centre[1])};
+    const double radius = std::sqrt(core::to_double(circle->radius_squared));
+    const auto on_circle = [&](const Point2& p) -> Point2 {
+      const double distance = std::hypot(p[0] - centre[0], p[1] - centre[1]);
+      return {centre[0] + radius * (p[0] - centre[0]) / distance, centre[1] + radius * (p[1] - centre[1]) / distance};
+    };
+    const Point2 start = on_circle(arc.points.front());
+    const Point2 end = arc.closed ? start : on_circle(arc.points.back());
+    arc.points = circle_arc(centre, radius, start, traced.inner, end, tolerance);
+    arc.length = 0;
+    for (std::size_t i = 1; i < arc.points.size(); ++i) {
+      const double chord = std::hypot(arc.points[i][0] - arc.points[i - 1][0], arc.points[i][1] - arc.points[i - 1][1]);
+      arc.length += 2 * radius * std::asin(std::min(1.0, chord / (2 * radius)));
+    }
+  }
+  return arc;
+}
+
+/// Collects the arcs of one mode into curves.
+class Gathering {
+ public:
+  Gathering(const LocusProblem& problem, const std::vector<const SheetShare*>& shares, LocusMap& map)
+      : problem_(problem), shares_(shares), map_(map) {}
+
+  void run() {
+    for (const SheetShare* share : shares_) {
+      note(*share);
+      for (const TracedArc& traced : share->traced.arcs) take(*share, traced);
+    }
+    for (LocusCurve& curve : curves_) map_.curves.push_back(std::move(curve));
+  }
+
+ private:
+  const LocusFactor& factor(const SheetShare& share) const {
+    return problem_.factors[static_cast<std::size_t>(share.factor)];
+  }
+  const core::WorkingMode& mode(const SheetShare& share) const {
+    return problem_.modes[static_cast<std::size_t>(share.mode)];
+  }
+
+  void note(const SheetShare& share) {
+    const LocusFactor& own = factor(share);
+    if (share.traced.stopped) map_.complete = false;
+    if (!share.traced.certified && !share.traced.stopped) {
+      map_.notes.push_back(std::to_string(share.traced.undecided.size()) + " undecided cells on " +
+                           (own.cause.empty() ? own.expression.substr(0, 60) : own.cause));
+    }
+    const EdgeLabel label = label_of(problem_, {share.factor});
+    if (own.role == FactorRole::reaction && label.vanishing.empty()) return;
+    if (own.role == FactorRole::workspace_boundary) return;
+    for (const Point2& at : share.traced.isolated_points) {
+      map_.isolated_points.push_back({label.kind, label.vanishing, {at[0], at[1]}, mode(share), false});
+    }
+  }
+
+  void take(const SheetShare& share, const TracedArc& traced) {
+    const LocusFactor& own = factor(share);
+    const core::Polynomial implicit =
+        own.implicit.empty() ? core::Polynomial{2, {}} : own.implicit[static_cast<std::size_t>(traced.colour)];
+    std::vector<int> together = {share.factor};
+    bool certified = share.traced.certified;
+    if (own.role == FactorRole::reaction && !own.implicit.empty()) {
+      for (const SheetShare* other : shares_) {
+        if (other == &share || factor(*other).role != FactorRole::reaction) continue;
+        const auto& list = factor(*other).implicit;
+        if (std::find(list.begin(), list.end(), implicit) == list.end()) continue;
+        if (!VanishesAlong(problem_, mode(share), factor(*other).sheet)(traced)) continue;
+        if (other->factor < share.factor) return;  // it is among the other's arcs
+        together.push_back(other->factor);
+        certified = certified && other->traced.certified;
+      }
+    }
+    const EdgeLabel label = label_of(problem_, together);
+    if (own.role == FactorRole::reaction && label.vanishing.empty()) return;
+    auto curve = std::find_if(curves_.begin(), curves_.end(), [&](const LocusCurve& c) {
+      return c.implicit == implicit && EdgeLabel{c.kind, c.vanishing, c.factor, c.cause} == label;
+    });
+    if (curve == curves_.end()) {
+      curve = curves_.insert(curve, LocusCurve{});
+      curve->kind = label.kind;
+      curve->vanishing = label.vanishing;
+      curve->factor = label.factor;
+      curve->cause = label.cause;
+      curve->implicit = implicit;
+      if (!implicit.is_zero()) curve->closed_form = core::recognise_closed_form(implicit);
+      curve->mode = mode(share);
+      curve->certified = true;
+    }
+    curve->certified = curve->certified && certified;
+    curve->arcs.push_back(finished(traced, curve->closed_form, problem_.tolerance));
+  }
+
+  const LocusProblem& problem_;
+  const std::vector<const SheetShare*>& shares_;
+  LocusMap& map_;
+  std::vector<LocusCurve> curves_;
+};
 
 }  // namespace
 
-void add_sheet_loci(const LocusProblem& problem, const std::vector<LocusFactor>& factors, const TraceOptions& options,
-                    LocusMap& map) {
+std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const TraceOptions& options) {
   std::vector<sheet::Cutter> cutters;
-  for (const LocusFactor& factor : problem.factors) {
-    if (factor.role == FactorRole::direct_singularity) {
+  for (const LocusFactor& factor : problem.factors)
+    if (factor.role == FactorRole::direct_singularity)
       cutters.push_back({factor.sheet, core::ArcEnd::direct_singularity});
-    }
-  }
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
-  if (options.deadline) {
+  if (options.deadline)
     sheet_options.stop = [deadline = *options.deadline] { return std::chrono::steady_clock::now() > deadline; };
-  }
-  double done = 0;
-  const double all = static_cast<double>(factors.size() * problem.modes.size());
-  for (const LocusFactor& factor : factors) {
-    const Meaning meaning = meaning_of(problem, factor);
-    std::vector<PlaneCurve> curves;
-    for (const core::Polynomial& p : factor.implicit) curves.emplace_back(p);
-    for (const core::WorkingMode& mode : problem.modes) {
-      if (options.progress) options.progress(0.5 + 0.5 * done++ / all, "arcs of high degree");
-      if (factor.role == FactorRole::reaction && meaning.vanishing.empty()) continue;
-      const bool cut = factor.role != FactorRole::direct_singularity;
-      sheet::SheetTrace traced = sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, factor.sheet,
-                                                    cut ? cutters : std::vector<sheet::Cutter>{}, sheet_options);
-      // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
-      const bool out_of_time = traced.stopped && sheet_options.stop && sheet_options.stop();
-      if (out_of_time) map.complete = false;
-      if (!traced.certified && !out_of_time) {
-        map.notes.push_back(std::to_string(traced.undecided.size()) + " undecided cells on " +
-                            (factor.cause.empty() ? factor.expression.substr(0, 60) : factor.cause));
-      }
-      std::vector<LocusCurve> own(curves.size());
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        own[i].kind = meaning.kind;
-        own[i].vanishing = meaning.vanishing;
-        own[i].factor = factor.expression;
-        own[i].cause = factor.cause;
-        own[i].implicit = factor.implicit[i];
-        own[i].closed_form = core::recognise_closed_form(factor.implicit[i]);
-        own[i].mode = mode;
-        own[i].certified = traced.certified;
-      }
-      for (core::Arc& arc : traced.arcs) own[implicit_of(arc, curves)].arcs.push_back(std::move(arc));
-      for (LocusCurve& curve : own) {
-        if (!curve.arcs.empty()) map.curves.push_back(std::move(curve));
-      }
-      for (const core::Point2& at : traced.isolated_points) {
-        map.isolated_points.push_back({meaning.kind, meaning.vanishing, {at[0], at[1]}, mode, false});
+
+  std::vector<SheetShare> shares;
+  for (std::size_t m = 0; m < problem.modes.size(); ++m)
+    for (std::size_t f = 0; f < problem.factors.size(); ++f)
+      if (is_wanted(problem, f)) shares.push_back({static_cast<int>(f), static_cast<int>(m), {}});
+
+  // Long work first, so that the cores end together.
+  std::vector<std::size_t> order(shares.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto effort = [&](std::size_t i) {
+    return problem.factors[static_cast<std::size_t>(shares[i].factor)].sheet.terms.size();
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return effort(a) > effort(b); });
+
+  std::atomic<std::size_t> next = 0, done = 0;
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < shares.size(); i = next++) {
+      SheetShare& share = shares[order[i]];
+      try {
+        share.traced = trace_share(problem, problem.factors[static_cast<std::size_t>(share.factor)],
+                                   problem.modes[static_cast<std::size_t>(share.mode)], cutters, sheet_options);
+        const std::lock_guard lock(mutex);
+        if (options.progress)
+          options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = shares.size();
       }
     }
+  };
+  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::thread> helpers;
+  for (std::size_t i = 1; i < std::min(cores, shares.size()); ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  if (failure) std::rethrow_exception(failure);
+  return shares;
+}
+
+void add_sheet_loci(const LocusProblem& problem, const std::vector<SheetShare>& shares, LocusMap& map) {
+  for (std::size_t m = 0; m < problem.modes.size(); ++m) {
+    std::vector<const SheetShare*> own;
+    for (const SheetShare& share : shares)
+      if (share.mode == static_cast<int>(m)) own.push_back(&share);
+    Gathering(problem, own, map).run();
   }
 }
 

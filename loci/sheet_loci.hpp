@@ -1,14 +1,27 @@
-// The adaptive engine's share of a problem: factors whose implicit polynomials are too high in degree for the exact
-// arrangement, traced on the sheet of each mode.
+// The adaptive engine: every factor of a problem traced on the sheet of each mode, both cores at work.
 #pragma once
 
+#include <utility>
+#include <vector>
+
+#include "loci/sheet/trace_sheet.hpp"
 #include "loci/trace.hpp"
 
 namespace clearloci::loci {
 
-/// Traces reaction, margin and direct-singularity factors in every mode of the problem and appends their curves. Direct
-/// singularities of `problem` cut the others' arcs.
-void add_sheet_loci(const core::LocusProblem& problem, const std::vector<core::LocusFactor>& factors,
-                    const TraceOptions& options, core::LocusMap& map);
+/// One factor in one mode.
+struct SheetShare {
+  int factor = 0;  ///< of the problem
+  int mode = 0;    ///< of the problem
+  sheet::SheetTrace traced;
+};
+
+/// Traces every factor that has curves, except those whose curves nobody wants, in every mode. Shares come in the order
+/// of modes, then factors.
+std::vector<SheetShare> trace_on_sheets(const core::LocusProblem& problem, const TraceOptions& options);
+
+/// Appends the curves, points and notes of shares to the map. Shares of factors that have a curve in common belong
+/// together: a curve carries everything that vanishes on it.
+void add_sheet_loci(const core::LocusProblem& problem, const std::vector<SheetShare>& shares, core::LocusMap& map);
 
 }  // namespace clearloci::loci

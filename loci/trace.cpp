@@ -7,6 +7,7 @@
 #include "loci/exact_trace.hpp"
 #include "loci/isolated_points.hpp"
 #include "loci/sheet_loci.hpp"
+#include "loci/workspace_rings.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -17,9 +18,7 @@ using core::LocusFactor;
 using core::LocusMap;
 using core::LocusProblem;
 
-/// The exact arrangement is quick up to the first degree and slows down steeply beyond it (docs/performance.md). Direct
-/// singularities and boundaries end the other curves, so they stay exact for longer.
-constexpr int quick_degree = 8;
+/// Beyond this degree the exact arrangement does not end in useful time (docs/performance.md).
 constexpr int bearable_degree = 14;
 
 int highest_degree(const LocusFactor& factor) {
@@ -28,23 +27,88 @@ int highest_degree(const LocusFactor& factor) {
   return degree;
 }
 
-/// Which factors the adaptive engine takes.
-std::vector<bool> shares(const LocusProblem& problem, Engine engine) {
-  std::vector<bool> on_sheets(problem.factors.size(), false);
-  if (engine == Engine::exact) return on_sheets;
-  // Where the direct singularities are too much for the arrangement, it cannot end the other curves on them either.
-  const bool heavy = std::any_of(problem.factors.begin(), problem.factors.end(), [](const LocusFactor& factor) {
-    return factor.role == FactorRole::direct_singularity && highest_degree(factor) > bearable_degree;
+bool is_context(const LocusFactor& factor) {
+  return factor.role == FactorRole::direct_singularity || factor.role == FactorRole::workspace_boundary ||
+         factor.role == FactorRole::construction;
+}
+
+bool have_common_curve(const LocusFactor& a, const LocusFactor& b) {
+  return std::any_of(a.implicit.begin(), a.implicit.end(), [&](const core::Polynomial& p) {
+    return std::find(b.implicit.begin(), b.implicit.end(), p) != b.implicit.end();
   });
-  for (std::size_t i = 0; i < problem.factors.size(); ++i) {
-    const LocusFactor& factor = problem.factors[i];
-    if (factor.implicit.empty()) continue;
-    if (factor.role == FactorRole::direct_singularity) on_sheets[i] = heavy;
-    if (factor.role == FactorRole::reaction || factor.role == FactorRole::margin) {
-      on_sheets[i] = heavy || engine == Engine::adaptive || highest_degree(factor) > quick_degree;
-    }
+}
+
+core::LocusKind kind_of(FactorRole role, core::LocusKind reaction) {
+  switch (role) {
+    case FactorRole::margin:
+      return core::LocusKind::margin;
+    case FactorRole::direct_singularity:
+      return core::LocusKind::direct_singularity;
+    case FactorRole::workspace_boundary:
+      return core::LocusKind::workspace_boundary;
+    default:
+      return std::min(reaction, core::LocusKind::component);
   }
-  return on_sheets;
+}
+
+/// Whether a curve of the exact engine is one that an uncertified share stands for.
+bool replaces(const LocusCurve& curve, const LocusProblem& problem, const SheetShare& share) {
+  const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share.factor)];
+  return curve.mode == problem.modes[static_cast<std::size_t>(share.mode)] &&
+         curve.kind == kind_of(factor.role, curve.kind) &&
+         std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
+}
+
+/// The exact engine on what the adaptive one left open: shares that have a curve in common go together. Takes those
+/// out of `shares` that it settled.
+void settle_exactly(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares,
+                    LocusMap& map) {
+  const auto factor_of = [&](const SheetShare& share) -> const LocusFactor& {
+    return problem.factors[static_cast<std::size_t>(share.factor)];
+  };
+  std::vector<SheetShare> open, settled;
+  for (const SheetShare& share : shares) {
+    const bool is_open = std::any_of(shares.begin(), shares.end(), [&](const SheetShare& other) {
+      return other.mode == share.mode && !other.traced.certified && factor_of(other).role == factor_of(share).role &&
+             have_common_curve(factor_of(other), factor_of(share));
+    });
+    (is_open ? open : settled).push_back(share);
+  }
+  if (open.empty()) return;
+  LocusProblem rest = problem;
+  rest.factors.clear();
+  rest.modes.clear();
+  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+    const bool own = std::any_of(open.begin(), open.end(),
+                                 [&](const SheetShare& share) { return share.factor == static_cast<int>(f); });
+    if (!own && !is_context(problem.factors[f])) continue;
+    if (highest_degree(problem.factors[f]) > bearable_degree || problem.factors[f].implicit_too_heavy) return;
+    rest.factors.push_back(problem.factors[f]);
+  }
+  for (const SheetShare& share : open) {
+    const core::WorkingMode& mode = problem.modes[static_cast<std::size_t>(share.mode)];
+    if (std::find(rest.modes.begin(), rest.modes.end(), mode) == rest.modes.end()) rest.modes.push_back(mode);
+  }
+  LocusMap exact = trace_exactly(rest, options);
+  if (!exact.complete) throw core::LimitReached("the time limit was reached");
+  for (LocusCurve& curve : exact.curves) {
+    if (std::any_of(open.begin(), open.end(), [&](const SheetShare& share) { return replaces(curve, problem, share); }))
+      map.curves.push_back(std::move(curve));
+  }
+  for (core::IsolatedPoint& point : exact.isolated_points) map.isolated_points.push_back(std::move(point));
+  shares = std::move(settled);
+}
+
+/// The adaptive engine, with the exact one behind it.
+void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
+  std::vector<SheetShare> shares = trace_on_sheets(problem, options);
+  try {
+    settle_exactly(problem, options, shares, map);
+  } catch (const core::LimitReached&) {
+    map.complete = false;  // what is open stays so
+  }
+  add_sheet_loci(problem, shares, map);
+  for (const core::WorkingMode& mode : problem.modes) map.workspace.push_back(workspace_region(problem, mode, map));
 }
 
 /// Gravest kinds first, then as the polynomials order them; ids follow.
@@ -66,18 +130,17 @@ void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
 
 LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
   core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
-  LocusProblem exact = problem;
-  std::vector<LocusFactor> on_sheets;
-  exact.factors.clear();
-  const std::vector<bool> share = shares(problem, options.engine);
-  for (std::size_t i = 0; i < share.size(); ++i) {
-    (share[i] ? on_sheets : exact.factors).push_back(problem.factors[i]);
-  }
   LocusMap map;
   try {
-    map = trace_exactly(exact, options);
-    add_sheet_loci(problem, on_sheets, options, map);
-    for (const core::WorkingMode& mode : problem.modes) add_contact_loss_points(problem, mode, map);
+    if (options.engine == Engine::exact)
+      map = trace_exactly(problem, options);
+    else
+      trace_adaptively(problem, options, map);
+    for (const core::WorkingMode& mode : problem.modes) {
+      if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
+        throw core::LimitReached("the time limit was reached");
+      add_contact_loss_points(problem, mode, map);
+    }
   } catch (const core::LimitReached&) {
     map.complete = false;
   }

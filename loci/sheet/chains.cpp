@@ -1,5 +1,6 @@
 #include "loci/sheet/chains.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace clearloci::loci::sheet {
@@ -40,9 +41,15 @@ class Stringer {
 
   bool passes(int crossing) const {
     const Crossing::Kind kind = graph_.crossings[crossing].kind;
-    if ((kind != Crossing::Kind::seam && kind != Crossing::Kind::star) || meeting_[crossing].size() != 2) return false;
-    return own_label(meeting_[crossing][0]) == core::ArcEnd::none &&
-           own_label(meeting_[crossing][1]) == core::ArcEnd::none;
+    return kind == Crossing::Kind::seam && meeting_[crossing].size() == 2;
+  }
+
+  /// Where the end may be joined to others; -1: it is an end whatever else is there.
+  int open_junction(const Incidence& end) {
+    const int at = junction(end.stretch, end.end);
+    const Crossing::Kind kind = graph_.crossings[at].kind;
+    const bool open = kind == Crossing::Kind::star || kind == Crossing::Kind::node;
+    return open && own_label(end) == core::ArcEnd::none ? at : -1;
   }
 
   core::ArcEnd own_label(const Incidence& end) const {
@@ -78,7 +85,10 @@ class Stringer {
       from = next.end;
     }
     chain.closed = at == start && passes(start);
-    if (!chain.closed) chain.ends = {label(first), label({stretch, 1 - from})};
+    if (!chain.closed) {
+      chain.ends = {label(first), label({stretch, 1 - from})};
+      chain.junctions = {open_junction(first), open_junction({stretch, 1 - from})};
+    }
     return chain;
   }
 
@@ -91,5 +101,64 @@ class Stringer {
 }  // namespace
 
 std::vector<Chain> chains(const CurveGraph& graph) { return Stringer(graph).run(); }
+
+namespace {
+
+struct ChainEnd {
+  int chain, end;
+};
+
+Chain reversed(Chain chain) {
+  std::reverse(chain.legs.begin(), chain.legs.end());
+  for (Leg& leg : chain.legs) leg.forward = !leg.forward;
+  std::swap(chain.ends[0], chain.ends[1]);
+  std::swap(chain.junctions[0], chain.junctions[1]);
+  return chain;
+}
+
+}  // namespace
+
+std::vector<Chain> join_at_junctions(const CurveGraph& graph, std::vector<Chain> parts) {
+  std::map<std::pair<int, int>, std::vector<ChainEnd>> meeting;  // by junction and colour
+  for (std::size_t c = 0; c < parts.size(); ++c)
+    for (const int end : {0, 1})
+      if (const int at = parts[c].junctions[end]; at >= 0)
+        meeting[{at, parts[c].colour}].push_back({static_cast<int>(c), end});
+  std::vector<std::array<ChainEnd, 2>> next(parts.size(), {ChainEnd{-1, 0}, ChainEnd{-1, 0}});
+  for (const auto& [place, ends] : meeting) {
+    if (ends.size() == 2) {
+      next[ends[0].chain][ends[0].end] = ends[1];
+      next[ends[1].chain][ends[1].end] = ends[0];
+      continue;
+    }
+    // Where the construction is undefined the sheet ends in a point.
+    const bool star = graph.crossings[place.first].kind == Crossing::Kind::star;
+    for (const ChainEnd& end : ends)
+      parts[end.chain].ends[end.end] = star && ends.size() == 1 ? core::ArcEnd::boundary : core::ArcEnd::crossing;
+  }
+  std::vector<Chain> result;
+  std::vector<bool> used(parts.size(), false);
+  for (const bool closed : {false, true})
+    for (std::size_t c = 0; c < parts.size(); ++c)
+      for (const int start : {0, 1}) {
+        if (used[c] || (!closed && next[c][start].chain >= 0)) continue;
+        Chain whole;
+        ChainEnd at = {static_cast<int>(c), start};
+        while (at.chain >= 0 && !used[at.chain]) {
+          used[at.chain] = true;
+          const Chain piece = at.end == 0 ? parts[at.chain] : reversed(parts[at.chain]);
+          if (whole.legs.empty())
+            whole = piece;
+          else
+            whole.legs.insert(whole.legs.end(), piece.legs.begin(), piece.legs.end());
+          whole.ends[1] = piece.ends[1];
+          at = next[at.chain][1 - at.end];
+        }
+        whole.closed = whole.closed || at.chain >= 0;
+        if (whole.closed) whole.ends = {core::ArcEnd::none, core::ArcEnd::none};
+        result.push_back(std::move(whole));
+      }
+  return result;
+}
 
 }  // namespace clearloci::loci::sheet

@@ -109,28 +109,23 @@ std::optional<Star> double_point(const Polynomial& d) {
   return Star{a, b, {}};
 }
 
-/// Quotient by a divisor whose leading coefficient in x is a number; none: not divisible.
-std::optional<Polynomial> exact_quotient(Polynomial p, const Polynomial& divisor) {
-  const int n = core::degree_in(divisor, 0);
-  Rational leading;
-  for (const core::Term& term : divisor.terms)
-    if (term.exponents[0] == n) {
-      for (std::size_t v = 1; v < term.exponents.size(); ++v)
-        if (term.exponents[v] != 0) return std::nullopt;
-      leading = term.coefficient;
-    }
+}  // namespace
+
+std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& divisor) {
+  core::ensure(!divisor.is_zero(), "a divisor is not zero");
+  const core::Term& leading = divisor.terms.front();
   Collected rest, quotient;
-  for (const core::Term& term : p.terms) rest[term.exponents] = term.coefficient;
+  for (const core::Term& term : p.terms) rest.emplace_hint(rest.end(), term.exponents, term.coefficient);
   while (!rest.empty()) {
     const auto [exponents, coefficient] = *rest.begin();
     if (coefficient == 0) {
       rest.erase(rest.begin());
       continue;
     }
-    if (exponents[0] < n) return std::nullopt;
     std::vector<int> factor = exponents;
-    factor[0] -= n;
-    const Rational scale = coefficient / leading;
+    for (std::size_t v = 0; v < factor.size(); ++v)
+      if ((factor[v] -= leading.exponents[v]) < 0) return std::nullopt;
+    const Rational scale = coefficient / leading.coefficient;
     quotient[factor] += scale;
     for (const core::Term& term : divisor.terms) {
       std::vector<int> place = factor;
@@ -140,8 +135,6 @@ std::optional<Polynomial> exact_quotient(Polynomial p, const Polynomial& divisor
   }
   return as_polynomial(p.variables, quotient);
 }
-
-}  // namespace
 
 std::vector<Star> stars(const core::RootTower& tower) {
   std::vector<Star> result;

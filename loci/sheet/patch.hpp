@@ -47,6 +47,9 @@ struct ChartedSheet {
 ChartedSheet charted(const core::RootTower& tower, const std::vector<core::Polynomial>& functions, const Chart& chart,
                      const std::vector<Star>& stars);
 
+/// p / divisor where that is a polynomial; none: not divisible.
+std::optional<core::Polynomial> exact_quotient(const core::Polynomial& p, const core::Polynomial& divisor);
+
 /// The functions without the tower's denominators as factors, which say nothing about the curve.
 core::Polynomial without_denominators(core::Polynomial function, const core::RootTower& tower);
 

@@ -21,7 +21,9 @@ constexpr double box_margin = 1e-9;
 constexpr std::array<double, 4> margin_shares = {-1.137, 1.291, -1.073, 1.419};
 // Zeros of (N, cutter) closer than this, relative to the patch, are a touch; more live cells than this a shared curve.
 constexpr double smallest_cut = 1e-12;
-constexpr std::size_t most_cut_cells = 8192;
+constexpr std::size_t most_cut_cells = 8192, most_star_cells = 256;
+// Nearer than this, relative to the region, a point is on the curve to rounding.
+constexpr double at_rounding = 1e-14;
 // An arc shorter than this, relative to the region, is none.
 constexpr double same_place = 1e-10;
 
@@ -52,34 +54,54 @@ class Tracer {
     TreeOptions tree;
     tree.most_cells = options_.most_cells;
     tree.stop = options_.stop;
+    own_stars_ = parts.stars;
     graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
     std::vector<Cut> cuts;
     for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
-    for (const int j : own_.dropped) cuts.push_back({tower_.roots[j].square, core::ArcEnd::boundary, true});
+    for (const int j : own_.dropped)
+      cuts.push_back({without_denominators(tower_.roots[j].square, tower_), core::ArcEnd::boundary, true});
     add_box_cuts(parts, cuts);
     if (!graph_.stretches.empty())
       for (const Cut& cut : cuts) apply(cut, parts);
     SheetTrace trace;
     settle_clusters(trace);
     place_box_ends();
+    std::vector<Chain> pieces;
     for (Chain& chain : chains(graph_)) {
-      const PlacedArc placed = place_vertices(graph_, own_.mode, chain.legs, options_.tolerance, size_);
-      if (!wanted(placed.inner, cuts)) continue;
-      core::Arc arc;
-      arc.closed = chain.closed;
-      arc.ends = chain.ends;
-      arc.length = placed.length;
-      arc.points = placed.points;
-      trace.arcs.push_back(std::move(arc));
+      const core::Point2 inner = point_inside(graph_, chain.legs, size_);
+      if (!wanted(inner, cuts)) continue;
+      if (options_.colour) chain.colour = options_.colour(inner);
+      pieces.push_back(std::move(chain));
     }
+    for (const Chain& chain : join_at_junctions(graph_, std::move(pieces))) trace.arcs.push_back(place(chain));
     for (const Cell& cell : clusters(graph_.undecided))
       trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
     trace.certified = trace.undecided.empty();
-    trace.stopped = graph_.stopped;
+    // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
+    trace.stopped = graph_.stopped && options_.stop && options_.stop();
     return trace;
   }
 
  private:
+  TracedArc place(const Chain& chain) const {
+    TracedArc traced;
+    traced.colour = chain.colour;
+    traced.inner = point_inside(graph_, chain.legs, size_);
+    traced.arc.closed = chain.closed;
+    traced.arc.ends = chain.ends;
+    const auto colour = static_cast<std::size_t>(chain.colour);
+    if (colour < options_.closed_form.size() && options_.closed_form[colour]) {
+      const Leg &first = chain.legs.front(), &last = chain.legs.back();
+      traced.arc.points = {graph_.crossings[first.stretch->ends[first.forward ? 0 : 1].crossing].at, traced.inner,
+                           graph_.crossings[last.stretch->ends[last.forward ? 1 : 0].crossing].at};
+      return traced;
+    }
+    PlacedArc placed = place_vertices(graph_, own_.mode, chain.legs, options_.tolerance, size_);
+    traced.arc.length = placed.length;
+    traced.arc.points = std::move(placed.points);
+    return traced;
+  }
+
   /// A star near the box's edge makes the domain reach across it.
   void add_box_cuts(const Partition& parts, std::vector<Cut>& cuts) const {
     const int n = tower_.variables();
@@ -95,14 +117,15 @@ class Tracer {
   void apply(const Cut& cut, const Partition& parts) {
     if (cut.sheet.is_constant()) return;
     const Subtower both = subtower(tower_, mode_, {widened(curve_, own_, tower_.variables()), cut.sheet});
+    if (!cut.keep) cut_at_stars(both, cut);
     if (both.kept == own_.kept)
-      cut_in_patches(narrowed(cut.sheet, own_), cut.label, parts);
+      cut_in_patches(narrowed(cut.sheet, own_), cut, parts);
     else
       cut_in_plane(both, cut);
   }
 
   /// The cutter lives on the curve's own sheet: search the cells that hold the curve.
-  void cut_in_patches(const core::Polynomial& cutter, core::ArcEnd label, const Partition& parts) {
+  void cut_in_patches(const core::Polynomial& cutter, const Cut& cut, const Partition& parts) {
     for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
       const Patch& patch = graph_.patches[p];
       std::vector<Cell> seeds;
@@ -117,25 +140,56 @@ class Tracer {
           ZeroSearch(program, own_.mode, {}).run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size});
       std::vector<Cell> open = found.undecided;
       for (const std::vector<Interval>& zero : found.enclosures)
-        if (!cut_stretch(graph_, static_cast<int>(p), zero, label)) open.push_back({zero[0], zero[1]});
+        if (!cut_stretch(graph_, static_cast<int>(p), zero, cut.label)) open.push_back({zero[0], zero[1]});
       for (const Cell& cell : clusters(std::move(open)))
-        if (!at_star(static_cast<int>(p), cell, label) && !at_end(patch.chart.to_plane(cell)))
+        if ((cut.keep || !at_star(static_cast<int>(p), cell)) && !at_end(patch.chart.to_plane(cell)))
           graph_.undecided.push_back(patch.chart.to_plane(cell));
     }
   }
 
-  /// The cutter reaches a star in the direction of one of the curve's branches: that branch ends there with its label.
-  bool at_star(int patch, const Cell& cell, core::ArcEnd label) {
-    if (graph_.patches[patch].chart.side == Chart::Side::plane || cell.x.lower() > 0 || cell.x.upper() > same_place)
-      return false;
-    for (const Stretch& stretch : graph_.stretches) {
-      if (stretch.patch != patch) continue;
-      for (const StretchEnd& end : stretch.ends) {
-        Crossing& crossing = graph_.crossings[end.crossing];
-        if (crossing.kind != Crossing::Kind::star || disjoint(end.enclosure[1], cell.y)) continue;
-        crossing.label = label;
-        return true;
-      }
+  /// The cutter reaches a star in the direction of a branch: cut_at_stars has seen to it.
+  bool at_star(int patch, const Cell& cell) const {
+    return graph_.patches[patch].chart.side != Chart::Side::plane && cell.x.lower() <= 0 &&
+           cell.x.upper() <= same_place;
+  }
+
+  /// Branches that reach a star end there where the cutter reaches it too, in whatever direction.
+  void cut_at_stars(const Subtower& both, const Cut& cut) {
+    const Partition parts = partition(both.tower, wide_);
+    for (std::size_t i = 0; i < parts.stars.size(); ++i) {
+      const Star& star = parts.stars[i];
+      std::vector<Crossing*> ends;
+      for (Crossing& crossing : graph_.crossings)
+        if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].x == star.x &&
+            own_stars_[crossing.star].y == star.y)
+          ends.push_back(&crossing);
+      const core::Point2 at = {core::to_double(star.x), core::to_double(star.y)};
+      const bool passes = ends.empty() && passes_through(at);
+      if ((ends.empty() && !passes) || !reaches(both, cut, parts, static_cast<int>(i))) continue;
+      for (Crossing* end : ends) end->label = cut.label;
+      const double r = at_rounding * size_;
+      if (passes) cut_at({{at[0] - r, at[0] + r}, {at[1] - r, at[1] + r}}, cut.label);
+    }
+  }
+
+  /// The curve passes through a point to rounding.
+  bool passes_through(const core::Point2& at) const {
+    const SheetProgram& program = *graph_.patches[0].program;
+    SheetCell here(program, own_.mode);
+    if (!here.enter(at[0], at[1]) || !here.lifted().empty()) return false;
+    here.differentiate();
+    const double slope = std::hypot(here.slope(0, 0).middle(), here.slope(0, 1).middle());
+    return std::abs(here.value(0).middle()) <= at_rounding * size_ * slope;
+  }
+
+  bool reaches(const Subtower& both, const Cut& cut, const Partition& parts, int star) {
+    for (const Chart& chart : parts.charts) {
+      if (chart.side == Chart::Side::plane || chart.star != star) continue;
+      ChartedSheet sheet = charted(both.tower, {narrowed(cut.sheet, both)}, chart, parts.stars);
+      const SheetProgram program(sheet.tower, std::move(sheet.functions));
+      const FoundZeros found =
+          ZeroSearch(program, both.mode, {{0}, {1}}).run({{0.0, {-1, 1}}}, {smallest_cut, most_star_cells, 1e-13});
+      if (!found.enclosures.empty() || !found.undecided.empty()) return true;
     }
     return false;
   }
@@ -240,6 +294,7 @@ class Tracer {
   core::Polynomial curve_;
   std::array<double, 4> box_{}, wide_{};
   double size_ = 0;
+  std::vector<Star> own_stars_;
   CurveGraph graph_;
 };
 
@@ -264,11 +319,11 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
                        const SheetTraceOptions& options) {
   core::ensure(!sheet.is_zero(), "a curve's polynomial is not zero");
   if (sheet.is_constant()) return {};
-  // s_j = 0 and Q_j = 0 are the workspace boundary: a curve of the plane below root j.
+  // s_j = 0 and the factors of Q_j are the workspace boundary: curves of the plane below root j.
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
     const int v = 2 + static_cast<int>(j);
     const core::Polynomial& square = tower.roots[j].square;
-    const bool rim = core::primitive_part(sheet) == core::primitive_part(square);
+    const bool rim = !core::depends_on(sheet, v) && exact_quotient(square, sheet);
     if (!rim && !divisible_by_variable(sheet, v)) continue;
     core::WorkingMode rest = mode;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(j));
@@ -278,8 +333,8 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
       if (!there.is_constant()) on_boundary.push_back({there, cutter.label});
     }
     const core::RootTower below = on_rim(tower, static_cast<int>(j));
-    SheetTrace all = trace_sheet(below, rest, lower, upper, without_denominators(without_variable(square, v), tower),
-                                 on_boundary, options);
+    const core::Polynomial boundary = rim ? sheet : without_denominators(square, tower);
+    SheetTrace all = trace_sheet(below, rest, lower, upper, without_variable(boundary, v), on_boundary, options);
     if (!rim) {
       core::Polynomial quotient = sheet;
       for (core::Term& term : quotient.terms) --term.exponents[v];

@@ -20,7 +20,11 @@ struct Cutter {
 };
 
 struct SheetTraceOptions {
-  double tolerance = 1e-5;     ///< chord deviation
+  double tolerance = 1e-5;  ///< chord deviation
+  /// Which of several plane curves a point of the sheet curve lies on, where it is made of several; may be empty.
+  std::function<int(const core::Point2&)> colour;
+  /// Whether a plane curve is wanted as ends and a point between only, its vertices being known in closed form.
+  std::vector<bool> closed_form;
   int most_cells = 60000;      ///< budget of cells a patch
   std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
 };
@@ -30,11 +34,17 @@ struct Region {
   double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
 };
 
+struct TracedArc {
+  core::Arc arc;
+  int colour = 0;
+  core::Point2 inner{};  ///< a point between the ends
+};
+
 struct SheetTrace {
-  std::vector<core::Arc> arcs;
+  std::vector<TracedArc> arcs;
   std::vector<core::Point2> isolated_points;  ///< where an undecided cell has the curve in one point to all appearance
   bool certified = true;                      ///< topology proven: no undecided cell
-  bool stopped = false;
+  bool stopped = false;  ///< by SheetTraceOptions::stop
   std::vector<Region> undecided;
 };
 

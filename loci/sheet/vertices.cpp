@@ -50,7 +50,6 @@ class Run {
       const double chord = std::hypot(to[0] - from[0], to[1] - from[1]);
       // A shallow arc over a chord c with sagitta d is 8 d^2 / (3 c) longer than it.
       if (chord > 0) arc.length += chord + 8 * target.deviation * target.deviation / (3 * chord);
-      if (target.has_inner) arc.inner = target.inner;
       arc.points.push_back(to);
       at = std::move(target.point);
       leg = target.leg;
@@ -64,8 +63,6 @@ class Run {
     std::size_t leg = 0;   // where the next step starts
     double step = 0;       // length to try next
     double deviation = 0;  // of the chord, measured
-    bool has_inner = false;
-    core::Point2 inner{};
   };
 
   core::Point2 plane(const LiftedPoint& p) const { return chart_->to_plane(p[0], p[1]); }
@@ -144,7 +141,7 @@ class Run {
   }
 
   /// Largest distance of known points of the curve between `at` and the target from the chord.
-  double deviation(const LiftedPoint& at, std::size_t first, const LiftedPoint& tangent, Target& target) {
+  double deviation(const LiftedPoint& at, std::size_t first, const LiftedPoint& tangent, const Target& target) {
     const core::Point2 a = plane(at), b = plane(target.point);
     double largest = 0;
     for (std::size_t leg = first; leg < target.leg && leg < ends_.size(); ++leg)
@@ -156,9 +153,7 @@ class Run {
       std::size_t leg = first;
       while (leg + 1 < ends_.size() && leg < target.leg && ahead(ends_[leg], at, tangent) < share * h) ++leg;
       if ((*legs_)[leg].stretch->leaf < 0 || !point_ahead(at, tangent, share * h, leg, first, point)) continue;
-      const core::Point2 p = plane(point);
-      largest = std::max(largest, distance_to_chord(p, a, b));
-      if (share == 0.5) target.inner = p, target.has_inner = true;
+      largest = std::max(largest, distance_to_chord(plane(point), a, b));
     }
     return largest;
   }
@@ -212,6 +207,22 @@ class Run {
 
 }  // namespace
 
+core::Point2 point_inside(const CurveGraph& graph, const std::vector<Leg>& legs, double size) {
+  const Stretch& stretch = *legs[legs.size() / 2].stretch;
+  const Patch& patch = graph.patches[stretch.patch];
+  LiftedPoint point = stretch.ends[0].middle();
+  const LiftedPoint other = stretch.ends[1].middle();
+  for (std::size_t i = 0; i < point.size(); ++i) point[i] = 0.5 * (point[i] + other[i]);
+  if (stretch.leaf >= 0) {
+    LiftedPoint row(point.size(), 0.0);
+    row[stretch.along] = 1;
+    LiftedPoint moved = point;
+    SheetFollower follower(*patch.program, patch.chart.side == Chart::Side::plane ? size : 1.0);
+    if (follower.correct(moved, row, point[stretch.along])) return patch.chart.to_plane(moved[0], moved[1]);
+  }
+  return graph.crossings[legs[legs.size() / 2].stretch->ends[0].crossing].at;
+}
+
 PlacedArc place_vertices(const CurveGraph& graph, const core::WorkingMode& mode, const std::vector<Leg>& legs,
                          double tolerance, double size) {
   PlacedArc arc;
@@ -219,7 +230,6 @@ PlacedArc place_vertices(const CurveGraph& graph, const core::WorkingMode& mode,
     return graph.crossings[leg.stretch->ends[leg.forward == start ? 0 : 1].crossing].at;
   };
   arc.points.push_back(crossing(legs.front(), true));
-  arc.inner = crossing(legs[legs.size() / 2], true);
   for (std::size_t begin = 0; begin < legs.size();) {
     std::size_t end = begin;
     while (end < legs.size() && legs[end].stretch->patch == legs[begin].stretch->patch) ++end;

@@ -17,8 +17,10 @@ struct Leg {
 struct PlacedArc {
   core::Polyline points;
   double length = 0;
-  core::Point2 inner{};  ///< a point of the curve between the ends
 };
+
+/// A point of the curve between the ends of consecutive legs.
+core::Point2 point_inside(const CurveGraph& graph, const std::vector<Leg>& legs, double size);
 
 /// Along consecutive legs. Each step is as long as a chord that stays within `tolerance` allows (a chord of length h
 /// deviates kappa h^2 / 8), measured against points of the curve between its ends.
