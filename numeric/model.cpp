@@ -37,7 +37,14 @@ class ModelBuilder {
       model.gravity = {gx, compile(m_.gravity.at(1))};
     }
     model.posture_size = tape_.size();
-    model.elimination = eliminate(tape_, equations(model));
+    const SparseEquations matrix = matrix_rows(model);
+    model.elimination = eliminate(tape_, with_loads(matrix, model));
+    model.reaction_size = tape_.size();
+    for (int c = 0; c < 3; ++c) {
+      SparseEquations unit = matrix;
+      add(unit, m_.end_effector_link, c, unit.unknowns, tape_.constant(1.0));
+      model.unit_wrenches[static_cast<std::size_t>(c)] = eliminate(tape_, std::move(unit));
+    }
     model.tape = tape_.tape();
     return model;
   }
@@ -127,18 +134,20 @@ class ModelBuilder {
     return {tape_.negate(r[1]), r[0]};
   }
 
-  /// The augmented equations [A | -w_e] of method.md section 2, sparse.
-  SparseEquations equations(const NumericModel& model) {
+  void add(SparseEquations& e, int link, int row, int column, Register value) {
+    auto& entries = e.rows[3 * static_cast<std::size_t>(link) + static_cast<std::size_t>(row)];
+    const auto [place, fresh] = entries.try_emplace(column, value);
+    if (!fresh) place->second = tape_.add(place->second, value);
+    if (tape_.is_exactly(place->second, 0)) entries.erase(place);
+  }
+
+  /// A of method.md section 2, sparse; no right-hand side yet.
+  SparseEquations matrix_rows(const NumericModel& model) {
     auto& t = tape_;
     SparseEquations e;
     e.unknowns = static_cast<int>(model.unknowns.size());
     e.rows.resize(3 * m_.links.size());
-    const auto accumulate = [&](int link, int row, int column, Register value) {
-      auto& entries = e.rows[3 * static_cast<std::size_t>(link) + static_cast<std::size_t>(row)];
-      const auto [place, fresh] = entries.try_emplace(column, value);
-      if (!fresh) place->second = t.add(place->second, value);
-      if (t.is_exactly(place->second, 0)) entries.erase(place);
-    };
+    const auto accumulate = [&](int link, int row, int column, Register value) { add(e, link, row, column, value); };
     for (int column = 0; column < e.unknowns; ++column) {
       const auto& unknown = model.unknowns[static_cast<std::size_t>(column)];
       const auto& joint = m_.joints[static_cast<std::size_t>(unknown.joint)];
@@ -154,15 +163,21 @@ class ModelBuilder {
         accumulate(link, 2, column, signed_value(moment));
       }
     }
+    return e;
+  }
+
+  /// The augmented equations [A | -w_e].
+  SparseEquations with_loads(SparseEquations e, const NumericModel& model) {
+    auto& t = tape_;
     for (const auto& load : model.loads) {
       Register moment = load.couple;
       if (load.at) {
         const Pair arm = lever(*load.at);
         moment = t.add(moment, t.add(t.multiply(arm[0], load.fx), t.multiply(arm[1], load.fy)));
       }
-      accumulate(load.link, 0, e.unknowns, t.negate(load.fx));
-      accumulate(load.link, 1, e.unknowns, t.negate(load.fy));
-      accumulate(load.link, 2, e.unknowns, t.negate(moment));
+      add(e, load.link, 0, e.unknowns, t.negate(load.fx));
+      add(e, load.link, 1, e.unknowns, t.negate(load.fy));
+      add(e, load.link, 2, e.unknowns, t.negate(moment));
     }
     return e;
   }

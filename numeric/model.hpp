@@ -27,15 +27,17 @@ struct LoadRegisters {
 
 struct NumericModel {
   mechanism::Mechanism mechanism;
-  std::vector<mechanism::Unknown> unknowns;  ///< columns of A
-  std::vector<mechanism::PointIndex> dyads;  ///< the working mode has a sign for each
-  std::vector<std::array<double, 2>> box;    ///< lower, upper of each free coordinate, m or rad
-  Tape tape;                                 ///< inputs: free coordinates, then the signs of the working mode
-  int posture_size = 0;                      ///< instructions that compute points and loads; the rest serve reactions
+  std::vector<mechanism::Unknown> unknowns;     ///< columns of A
+  std::vector<mechanism::PointIndex> dyads;     ///< the working mode has a sign for each
+  std::vector<std::array<double, 2>> box;       ///< lower, upper of each free coordinate, m or rad
+  Tape tape;                                    ///< inputs: free coordinates, then the signs of the working mode
+  int posture_size = 0;                         ///< instructions that compute points and loads
+  int reaction_size = 0;                        ///< and with them the reactions; the rest serves the unit wrenches
   std::vector<std::array<Register, 2>> points;  ///< of every point
   std::vector<LoadRegisters> loads;             ///< the file's loads in order, then the weights
   std::optional<std::array<Register, 2>> gravity;
   Elimination elimination;
+  std::array<Elimination, 3> unit_wrenches;  ///< the same matrix under a unit fx, fy, couple on the end effector
 
   int inputs() const { return static_cast<int>(box.size() + dyads.size()); }
 };

@@ -1,0 +1,256 @@
+#include "numeric/error_map.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "numeric/evaluator.hpp"
+
+namespace clearloci::numeric {
+
+namespace {
+
+constexpr int lanes = 32;  // as in reaction_field
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using Lane = std::array<double, lanes>;
+
+/// Errors of up to `lanes` poses at once.
+class BatchAccuracy {
+ public:
+  BatchAccuracy(const NumericModel& model, std::span<const int> mode)
+      : model_(model),
+        columns_(joint_columns(model)),
+        clearances_(joint_clearances(model.mechanism)),
+        evaluator_(model, mode, static_cast<int>(model.tape.code.size())),
+        loads_((model.unknowns.size() + 1) * lanes) {
+    for (auto& unit : units_) unit.resize((model.unknowns.size() + 1) * lanes);
+  }
+
+  double& input(std::size_t coordinate, int lane) { return evaluator_.input(coordinate, lane); }
+  bool reachable(int lane) const { return evaluator_.reachable(lane); }
+
+  void evaluate() {
+    evaluator_.run_tape();
+    for (std::size_t c = 0; c < 3; ++c) evaluator_.solve(model_.unit_wrenches[c], units_[c].data());
+  }
+
+  /// dx, dy, dα under the loads. |A| H Δ_C / |A|; the take-up needs the signs of N/|A| alone.
+  std::array<Lane, 3> under_load() {
+    evaluator_.solve(model_.elimination, loads_.data());
+    std::array<Lane, 3> error{};
+    const double* const determinant = row(loads_, model_.elimination.unknowns);
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      const auto& [fx, fy, couple] = columns_[j];
+      if (clearances_[j].radial > 0) add_force(fx, fy, clearances_[j].radial, determinant, error);
+      if (clearances_[j].angular > 0 && couple >= 0) add_couple(couple, clearances_[j].angular, determinant, error);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double* const d = row(units_[c], model_.elimination.unknowns);
+      for (std::size_t l = 0; l < lanes; ++l) error[c][l] /= d[l];
+    }
+    return error;
+  }
+
+  WorstCase worst(int lane, double accuracy) const {
+    const auto l = static_cast<std::size_t>(lane);
+    Influence H(3, static_cast<Eigen::Index>(model_.unknowns.size()));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double determinant = row(units_[c], model_.elimination.unknowns)[l];
+      for (Eigen::Index k = 0; k < H.cols(); ++k)
+        H(static_cast<Eigen::Index>(c), k) = row(units_[c], static_cast<int>(k))[l] / determinant;
+    }
+    return worst_case(H, columns_, clearances_, accuracy);
+  }
+
+ private:
+  static const double* row(const std::vector<double>& numerators, int unknown) {
+    return numerators.data() + static_cast<std::ptrdiff_t>(unknown) * lanes;
+  }
+
+  /// 0/0 where the force vanishes: the error is then not a number, as it should.
+  void add_force(int fx, int fy, double radial, const double* determinant, std::array<Lane, 3>& error) const {
+    const double *x = row(loads_, fx), *y = row(loads_, fy);
+    Lane scale;
+    for (std::size_t l = 0; l < lanes; ++l)
+      scale[l] = -std::copysign(radial, determinant[l]) / std::sqrt(x[l] * x[l] + y[l] * y[l]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double *hx = row(units_[c], fx), *hy = row(units_[c], fy);
+      for (std::size_t l = 0; l < lanes; ++l) error[c][l] += scale[l] * (x[l] * hx[l] + y[l] * hy[l]);
+    }
+  }
+
+  void add_couple(int couple, double angular, const double* determinant, std::array<Lane, 3>& error) const {
+    const double* m = row(loads_, couple);
+    Lane turn;
+    for (std::size_t l = 0; l < lanes; ++l)
+      turn[l] = m[l] == 0 ? nan : -std::copysign(angular, m[l]) * std::copysign(1.0, determinant[l]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double* h = row(units_[c], couple);
+      for (std::size_t l = 0; l < lanes; ++l) error[c][l] += turn[l] * h[l];
+    }
+  }
+
+  const NumericModel& model_;
+  std::vector<JointColumns> columns_;
+  std::vector<JointClearance> clearances_;
+  Evaluator<double, lanes> evaluator_;
+  std::vector<double> loads_;
+  std::array<std::vector<double>, 3> units_;
+};
+
+/// Joints with a clearance whose reaction is decided at none of some reachable cells.
+std::vector<std::string> joints_never_loaded(const NumericModel& model, std::span<const int> mode,
+                                             const core::FieldMap& map) {
+  constexpr int samples = 24;  // along each coordinate
+  const std::vector<JointColumns> columns = joint_columns(model);
+  const std::vector<JointClearance> clearances = joint_clearances(model.mechanism);
+  std::vector<bool> loaded(columns.size(), false);
+  bool any = false;
+  for (int j = 0; j < samples; ++j) {
+    for (int i = 0; i < samples; ++i) {
+      const std::array pose = {map.x(i * map.nx / samples), map.y(j * map.ny / samples)};
+      if (!reachable(model, pose, mode)) continue;
+      any = true;
+      const std::vector<bool> zero = vanishing_unknowns(model, std::vector<Bounded>(pose.begin(), pose.end()), mode);
+      const auto bears = [&](int column) { return column >= 0 && !zero[static_cast<std::size_t>(column)]; };
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        const bool force = clearances[k].radial == 0 || bears(columns[k].fx) || bears(columns[k].fy);
+        const bool couple = clearances[k].angular == 0 || bears(columns[k].couple);
+        if (force && couple) loaded[k] = true;
+      }
+    }
+  }
+  std::vector<std::string> names;
+  for (std::size_t k = 0; any && k < columns.size(); ++k)
+    if (!loaded[k]) names.push_back(model.mechanism.joints[k].name);
+  return names;
+}
+
+void check_model(const NumericModel& model, const ErrorGrid& grid) {
+  const auto refuse = [&](const std::string& problem, const std::string& mend) {
+    throw core::InputError({model.mechanism.file, 0, 0}, problem, mend);
+  };
+  if (grid.nx < 1 || grid.ny < 1) throw core::InputError({}, "the grid has no cells", "ask for 1x1 at least");
+  if (model.box.size() != 2)
+    refuse("an error map needs two free coordinates, and the workspace has " + std::to_string(model.box.size()),
+           "write the others as parameters, or use clearloci pose");
+  if (!any_clearance(joint_clearances(model.mechanism)))
+    refuse("no joint has a clearance, so there is no error", "write such as clearance: {radial: 10e-6} at a joint");
+}
+
+}  // namespace
+
+ErrorSamples error_samples(const NumericModel& model, std::span<const double> poses, std::span<const int> mode,
+                           bool under_load, bool worst_case, double worst_case_accuracy) {
+  const std::size_t coordinates = model.box.size();
+  core::ensure(coordinates > 0 && poses.size() % coordinates == 0, "a pose has one value for each free coordinate");
+  const std::size_t count = poses.size() / coordinates;
+  ErrorSamples s;
+  for (auto* values : {&s.dx, &s.dy, &s.dalpha}) values->assign(under_load ? count : 0, nan);
+  for (auto* values : {&s.worst_dx, &s.worst_dy, &s.worst_dalpha, &s.worst_dp})
+    values->assign(worst_case ? count : 0, nan);
+  s.reachable.assign(count, false);
+  BatchAccuracy batch(model, mode);
+  for (std::size_t first = 0; first < count; first += lanes) {
+    const int used = static_cast<int>(std::min<std::size_t>(lanes, count - first));
+    for (int l = 0; l < lanes; ++l) {
+      const std::size_t pose = first + static_cast<std::size_t>(std::min(l, used - 1));
+      for (std::size_t c = 0; c < coordinates; ++c) batch.input(c, l) = poses[pose * coordinates + c];
+    }
+    batch.evaluate();
+    const std::array<Lane, 3> error = under_load ? batch.under_load() : std::array<Lane, 3>{};
+    for (int l = 0; l < used; ++l) {
+      const std::size_t pose = first + static_cast<std::size_t>(l);
+      if (!batch.reachable(l)) continue;
+      s.reachable[pose] = true;
+      if (under_load) {
+        const auto lane = static_cast<std::size_t>(l);
+        const bool defined = std::isfinite(error[0][lane]) && std::isfinite(error[1][lane]);
+        s.dx[pose] = defined ? error[0][lane] : nan;
+        s.dy[pose] = defined ? error[1][lane] : nan;
+        s.dalpha[pose] = defined ? error[2][lane] : nan;
+      }
+      if (worst_case) {
+        const WorstCase w = batch.worst(l, worst_case_accuracy);
+        s.worst_dx[pose] = w.dx;
+        s.worst_dy[pose] = w.dy;
+        s.worst_dalpha[pose] = w.dalpha;
+        s.worst_dp[pose] = w.dp;
+      }
+    }
+  }
+  return s;
+}
+
+ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid) {
+  check_model(model, grid);
+  ErrorMap result;
+  core::FieldMap& map = result.map;
+  map.mechanism = model.mechanism.name;
+  map.nx = grid.nx;
+  map.ny = grid.ny;
+  for (std::size_t c = 0; c < 2; ++c) {
+    map.coordinates[c] = model.mechanism.coordinates[c].name;
+    map.lower[c] = model.box[c][0];
+    map.upper[c] = model.box[c][1];
+  }
+  result.never_loaded = joints_never_loaded(model, mode, map);
+  const bool under_load = result.never_loaded.empty();
+  const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny);
+  const auto add = [&](const char* name, const char* label, const char* unit, bool is_signed) {
+    map.fields.push_back({name, label, unit, is_signed, std::vector<double>(cells, nan)});
+  };
+  if (under_load) {
+    add("dx", "error in x", "m", true);
+    add("dy", "error in y", "m", true);
+    add("dalpha", "error in orientation", "rad", true);
+    add("dp", "distance from the nominal place", "m", false);
+  }
+  if (grid.worst_case) {
+    add("worst_dx", "largest error in x under any load", "m", false);
+    add("worst_dy", "largest error in y under any load", "m", false);
+    add("worst_dalpha", "largest error in orientation under any load", "rad", false);
+    add("worst_dp", "largest distance from the nominal place under any load", "m", false);
+  }
+
+  std::vector<std::array<std::size_t, 2>> counts(static_cast<std::size_t>(grid.ny));  // reachable, undefined
+  tbb::task_arena arena(grid.threads > 0 ? grid.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(0, grid.ny, [&](int j) {
+      std::vector<double> poses;
+      poses.reserve(2 * static_cast<std::size_t>(grid.nx));
+      for (int i = 0; i < grid.nx; ++i) poses.insert(poses.end(), {map.x(i), map.y(j)});
+      const ErrorSamples s = error_samples(model, poses, mode, under_load, grid.worst_case, grid.worst_case_accuracy);
+      std::size_t next = 0;
+      const auto store = [&](const std::vector<double>& values) {
+        std::copy(values.begin(), values.end(),
+                  map.fields[next++].values.begin() + static_cast<std::ptrdiff_t>(map.index(0, j)));
+      };
+      if (under_load) {
+        std::vector<double> distance(s.dx.size());
+        for (std::size_t i = 0; i < distance.size(); ++i)
+          distance[i] = std::sqrt(s.dx[i] * s.dx[i] + s.dy[i] * s.dy[i]);
+        for (const auto* values : {&s.dx, &s.dy, &s.dalpha, &std::as_const(distance)}) store(*values);
+      }
+      if (grid.worst_case)
+        for (const auto* values : {&s.worst_dx, &s.worst_dy, &s.worst_dalpha, &s.worst_dp}) store(*values);
+      for (std::size_t i = 0; i < s.reachable.size(); ++i) {
+        if (!s.reachable[i]) continue;
+        ++counts[static_cast<std::size_t>(j)][0];
+        if (under_load && std::isnan(s.dx[i])) ++counts[static_cast<std::size_t>(j)][1];
+      }
+    });
+  });
+  for (const auto& [reachable, undefined] : counts) {
+    result.reachable += reachable;
+    result.undefined += undefined;
+  }
+  return result;
+}
+
+}  // namespace clearloci::numeric

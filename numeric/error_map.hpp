@@ -1,0 +1,44 @@
+// Pose errors over the workspace, by the compiled elimination: reactions, take-up and H Δ_C of many poses at once.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/field_map.hpp"
+#include "numeric/pose_error.hpp"
+
+namespace clearloci::numeric {
+
+struct ErrorGrid {
+  int nx = 400, ny = 400;
+  int threads = 0;                    ///< 0: as many as the machine has
+  bool worst_case = true;             ///< also the worst case over all take-ups
+  double worst_case_accuracy = 1e-4;  ///< relative, of the largest |Δp|
+};
+
+struct ErrorMap {
+  core::FieldMap map;         ///< dx, dy, dalpha, dp; worst_dx, worst_dy, worst_dalpha, worst_dp
+  std::size_t reachable = 0;  ///< cells with a posture
+  std::size_t undefined = 0;  ///< of those, cells on a locus to the last bit: no error there
+  /// Joints whose reaction is zero in every pose, to rounding: their take-up is undefined everywhere, and the map has
+  /// the worst case alone.
+  std::vector<std::string> never_loaded;
+};
+
+/// `mode`: a sign a dyad. Fields are NaN outside the workspace. Throws core::InputError where the mechanism has no
+/// clearance or not two free coordinates.
+ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid = {});
+
+/// Pose errors along a list of poses: one row of the map. NaN where unreachable or undefined.
+struct ErrorSamples {
+  std::vector<double> dx, dy, dalpha;
+  std::vector<double> worst_dx, worst_dy, worst_dalpha, worst_dp;  ///< empty unless asked for
+  std::vector<bool> reachable;
+};
+
+/// `poses`: pose after pose, one value a free coordinate. `under_load`: dx, dy, dalpha are wanted too.
+ErrorSamples error_samples(const NumericModel& model, std::span<const double> poses, std::span<const int> mode,
+                           bool under_load, bool worst_case, double worst_case_accuracy = 1e-4);
+
+}  // namespace clearloci::numeric
