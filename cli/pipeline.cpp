@@ -14,22 +14,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The tower may hold lengths between the dyads' roots; those have no side to choose.
-core::WorkingMode mode_of(const DyadSides& sides, const core::RootTower& tower) {
-  core::WorkingMode mode;
-  std::size_t dyad = 0;
-  for (const core::Root& root : tower.roots) {
-    if (root.role != core::RootRole::working_mode) {
-      mode.push_back(1);
-      continue;
-    }
-    core::ensure(dyad < sides.size(), "the tower has one working_mode root a dyad");
-    mode.push_back(sides[dyad++]);
-  }
-  core::ensure(dyad == sides.size(), "the tower has one working_mode root a dyad");
-  return mode;
-}
-
 std::vector<core::WorkingMode> modes_to_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
                                               const core::RootTower& tower) {
   if (request.all_working_modes)
@@ -50,12 +34,8 @@ void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& reque
 
 /// The map of work that a deadline ended before there was a curve to show.
 core::LocusMap nothing_known(const mechanism::Mechanism& mechanism, const std::string& reason) {
-  core::LocusMap map;
-  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
-    map.tower.coordinates.push_back(coordinate.name);
-    map.lower.push_back(coordinate.lower);
-    map.upper.push_back(coordinate.upper);
-  }
+  core::LocusMap map = empty_map(mechanism);
+  map.tower.roots.clear();
   map.complete = false;
   map.notes = {reason};
   return map;
@@ -106,6 +86,51 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
 }
 
 }  // namespace
+
+core::WorkingMode mode_of(const DyadSides& sides, const core::RootTower& tower) {
+  core::WorkingMode mode;
+  std::size_t dyad = 0;
+  for (const core::Root& root : tower.roots) {
+    if (root.role != core::RootRole::working_mode) {
+      mode.push_back(1);
+      continue;
+    }
+    core::ensure(dyad < sides.size(), "the tower has one working_mode root a dyad");
+    mode.push_back(sides[dyad++]);
+  }
+  core::ensure(dyad == sides.size(), "the tower has one working_mode root a dyad");
+  return mode;
+}
+
+std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  const DyadSides own = mechanism::working_mode(mechanism);
+  if (!request.all_working_modes && !request.working_modes.empty()) return request.working_modes;
+  if (!request.all_working_modes) return {own};
+  std::vector<DyadSides> modes = {own};
+  for (std::size_t pattern = 0; pattern < std::size_t{1} << own.size(); ++pattern) {
+    DyadSides sides;
+    for (std::size_t j = 0; j < own.size(); ++j) sides.push_back((pattern >> j & 1) != 0 ? -1 : 1);
+    if (sides != own) modes.push_back(sides);
+  }
+  return modes;
+}
+
+core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
+  core::LocusMap map;
+  map.mechanism = mechanism.name;
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
+    map.tower.coordinates.push_back(coordinate.name);
+    map.lower.push_back(coordinate.lower);
+    map.upper.push_back(coordinate.upper);
+  }
+  for (const mechanism::PointIndex dyad : mechanism::dyad_points(mechanism)) {
+    core::Root root;
+    root.point = mechanism.points[static_cast<std::size_t>(dyad)].name;
+    root.role = core::RootRole::working_mode;
+    map.tower.roots.push_back(std::move(root));
+  }
+  return map;
+}
 
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   check_sides(mechanism, request);

@@ -35,6 +35,15 @@ struct LociRequest {
 /// vanishes in every pose, an unknown joint, a working mode of the wrong length.
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
 
+/// The working modes that a request means, as sides of the dyads: the file's own where it names none.
+std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, const LociRequest& request);
+
+/// Sides of the dyads as a mode of the tower, whose roots of lengths have no side to choose.
+core::WorkingMode mode_of(const DyadSides& sides, const core::RootTower& tower);
+
+/// A map without loci: the box, the coordinates and the names of the working mode, for pictures of something else.
+core::LocusMap empty_map(const mechanism::Mechanism& mechanism);
+
 /// The scalar reactions (fx, fy, and M where actuated) of the joints that a selection means, in the file's order.
 /// `selection.joints` empty: every joint with a clearance, or all where none has one.
 std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,

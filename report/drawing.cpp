@@ -1,7 +1,12 @@
 #include "report/drawing.hpp"
 
+#include <cairomm/pattern.h>
+#include <cairomm/surface.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <numbers>
 
 #include "report/mechanism_drawing.hpp"
@@ -17,6 +22,12 @@ constexpr Colour faded_ink{0.40, 0.40, 0.40};
 constexpr Colour frame{0.45, 0.45, 0.45};
 constexpr Colour workspace_fill{0.925, 0.941, 0.957};
 constexpr Colour grid{0.86, 0.86, 0.86};
+
+/// Opaque, as ARGB32 wants it.
+std::uint32_t pixel_of(const Colour& colour) {
+  const auto channel = [](double value) { return static_cast<std::uint32_t>(std::lround(255 * value)); };
+  return 0xFF000000U | channel(colour.red) << 16 | channel(colour.green) << 8 | channel(colour.blue);
+}
 
 void trace_path(const Context& context, const Layout& layout, const core::Polyline& points) {
   for (const auto& point : points) {
@@ -62,18 +73,53 @@ void draw_search_box(const Context& context, const Box& box) {
   context->unset_dash();
 }
 
-/// Lines at the ticks, and the searched box where the plot shows more than that.
-void draw_grid(const Context& context, const Layout& layout) {
+/// The field as an image of two pixels a point: cell edges stay sharp, and every format shows the same.
+void draw_field(const Context& context, const FieldLayer& layer, const Layout& layout) {
+  constexpr int pixels_per_point = 2;
+  const int width = static_cast<int>(std::lround(layout.plot.width * pixels_per_point));
+  const int height = static_cast<int>(std::lround(layout.plot.height * pixels_per_point));
+  const auto image = Cairo::ImageSurface::create(Cairo::ImageSurface::Format::ARGB32, width, height);
+  const core::FieldMap& map = *layer.map;
+  const auto cell = [](double at, double low, double high, int cells) {
+    const double place = (at - low) / (high - low) * cells;
+    return place < 0 || place >= cells ? -1 : static_cast<int>(place);
+  };
+  for (int row = 0; row < height; ++row) {
+    unsigned char* const pixels = image->get_data() + static_cast<std::ptrdiff_t>(row) * image->get_stride();
+    const double y = layout.high[1] - (row + 0.5) / pixels_per_point / layout.scale;
+    const int j = cell(y, map.lower[1], map.upper[1], map.ny);
+    for (int column = 0; column < width; ++column) {
+      const double x = layout.low[0] + (column + 0.5) / pixels_per_point / layout.scale;
+      const int i = cell(x, map.lower[0], map.upper[0], map.nx);
+      const double value = i < 0 || j < 0 ? NAN : layer.field->values[map.index(i, j)];
+      std::uint32_t pixel = 0;
+      if (!std::isnan(value)) pixel = pixel_of(layer.scale.colour(value));
+      std::memcpy(pixels + 4 * static_cast<std::ptrdiff_t>(column), &pixel, sizeof pixel);
+    }
+  }
+  image->mark_dirty();
+  context->save();
+  context->translate(layout.plot.x, layout.plot.y);
+  context->scale(1.0 / pixels_per_point, 1.0 / pixels_per_point);
+  const auto pattern = Cairo::SurfacePattern::create(image);
+  pattern->set_filter(Cairo::SurfacePattern::Filter::NEAREST);
+  context->set_source(pattern);
+  context->paint();
+  context->restore();
+}
+
+/// `lines` at the ticks, and the searched box where the plot shows more than that.
+void draw_grid(const Context& context, const Layout& layout, bool lines) {
   context->unset_dash();
   context->set_line_width(0.4);
   set_colour(context, grid, 0.8);
-  for (const auto& tick : layout.x_ticks) {
-    context->move_to(tick.at, layout.plot.y);
-    context->line_to(tick.at, layout.plot.bottom());
+  for (std::size_t i = 0; lines && i < layout.x_ticks.size(); ++i) {
+    context->move_to(layout.x_ticks[i].at, layout.plot.y);
+    context->line_to(layout.x_ticks[i].at, layout.plot.bottom());
   }
-  for (const auto& tick : layout.y_ticks) {
-    context->move_to(layout.plot.x, tick.at);
-    context->line_to(layout.plot.right(), tick.at);
+  for (std::size_t i = 0; lines && i < layout.y_ticks.size(); ++i) {
+    context->move_to(layout.plot.x, layout.y_ticks[i].at);
+    context->line_to(layout.plot.right(), layout.y_ticks[i].at);
   }
   context->stroke();
   const Point2 low = layout.page(layout.search_low), high = layout.page(layout.search_high);
@@ -124,10 +170,23 @@ void draw_marker(const Context& context, const Point2& at, const Marker& marker)
   context->fill();
 }
 
-/// Thin lines first, what matters most last.
+/// Thinner, so that the field's own jumps stay in sight.
+Stroke over_field(Stroke stroke) {
+  constexpr double thinner = 0.55;
+  stroke.width *= thinner;
+  for (double& length : stroke.dash) length *= thinner;
+  return stroke;
+}
+
+/// Thin lines first, what matters most last. Over a field every line has a white casing.
 void draw_loci(const Context& context, const Subject& subject, const Layout& layout) {
   for (auto group = subject.groups.curves.rbegin(); group != subject.groups.curves.rend(); ++group) {
-    apply(context, group->stroke);
+    const Stroke stroke = subject.layer != nullptr ? over_field(group->stroke) : group->stroke;
+    if (subject.layer != nullptr) {
+      apply(context, {{1, 1, 1}, stroke.width + 1.2, {}, true});
+      for (const auto* curve : group->curves) draw_curve(context, layout, *curve);
+    }
+    apply(context, stroke);
     for (const auto* curve : group->curves) draw_curve(context, layout, *curve);
   }
 }
@@ -177,7 +236,36 @@ void draw_axes(const Context& context, const Layout& layout) {
   context->restore();
 }
 
-void draw_sample(const Context& context, const LegendEntry& entry) {
+void draw_colour_bar(const Context& context, const FieldScale& scale, const Box& box) {
+  const double top = box.bottom() - colour_bar_room + 4;
+  const auto at = [&](double value) { return box.x + (value - scale.low) / (scale.high - scale.low) * box.width; };
+  constexpr int steps = 256;
+  for (int i = 0; i < steps; ++i) {
+    set_colour(context, scale.colour(scale.low + (i + 0.5) / steps * (scale.high - scale.low)));
+    // Each step reaches under the next one: no seams between them.
+    context->rectangle(box.x + i * box.width / steps, top, std::min(2, steps - i) * box.width / steps,
+                       colour_bar_height);
+    context->fill();
+  }
+  context->unset_dash();
+  context->set_line_width(0.6);
+  set_colour(context, frame);
+  context->rectangle(box.x, top, box.width, colour_bar_height);
+  context->stroke();
+  for (const double value : scale_ticks(scale)) {
+    set_colour(context, frame);
+    context->move_to(at(value), top + colour_bar_height);
+    context->line_to(at(value), top + colour_bar_height + 3);
+    context->stroke();
+    set_colour(context, ink);
+    const Align align = at(value) > box.right() - 8 ? Align::right
+                        : at(value) < box.x + 8     ? Align::left
+                                                    : Align::centre;
+    write_text(context, scale.shown(value), at(value), top + colour_bar_height + 12, tick_font, align);
+  }
+}
+
+void draw_sample(const Context& context, const LegendEntry& entry, const FieldLayer* layer) {
   const double x = entry.box.x, y = entry.box.y + legend_line_height / 2, end = x + legend_sample_width;
   switch (entry.sample) {
     case SampleKind::curve:
@@ -203,18 +291,22 @@ void draw_sample(const Context& context, const LegendEntry& entry) {
     case SampleKind::load:
       draw_load_arrow(context, {x + 2, y}, {end - 2, y});
       break;
+    case SampleKind::colour_bar:
+      draw_colour_bar(context, layer->scale, entry.box);
+      break;
     case SampleKind::remark:
       break;
   }
 }
 
-void draw_legend(const Context& context, const Layout& layout) {
+void draw_legend(const Context& context, const Layout& layout, const FieldLayer* layer) {
   for (const auto& entry : layout.legend) {
-    draw_sample(context, entry);
+    draw_sample(context, entry, layer);
+    const double indent = entry.sample == SampleKind::colour_bar ? 0 : legend_sample_width + legend_sample_gap;
     double baseline = entry.box.y + 0.5 * legend_line_height + 0.36 * legend_font.size;
     for (const auto& line : entry.lines) {
       set_colour(context, line.secondary ? faded_ink : ink);
-      write_text(context, line.text, entry.box.x + legend_sample_width + legend_sample_gap, baseline, legend_font);
+      write_text(context, line.text, entry.box.x + indent, baseline, legend_font);
       baseline += legend_line_height;
     }
   }
@@ -230,8 +322,11 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   context->save();
   context->rectangle(layout.plot.x, layout.plot.y, layout.plot.width, layout.plot.height);
   context->clip();
-  draw_workspace(context, subject, layout);
-  draw_grid(context, layout);
+  if (subject.layer != nullptr)
+    draw_field(context, *subject.layer, layout);
+  else
+    draw_workspace(context, subject, layout);
+  draw_grid(context, layout, subject.layer == nullptr);
   if (subject.sketch != nullptr) draw_links(context, layout, *subject.sketch);
   draw_loci(context, subject, layout);
   if (subject.sketch != nullptr) draw_joints(context, layout, *subject.sketch);
@@ -242,7 +337,7 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   draw_axes(context, layout);
   set_colour(context, ink);
   for (const auto& line : layout.title) write_text(context, line.text, line.x, line.y, line.font);
-  draw_legend(context, layout);
+  draw_legend(context, layout, subject.layer);
 }
 
 }  // namespace clearloci::report

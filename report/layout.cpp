@@ -107,13 +107,18 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
     if (!reason.empty()) entry.lines.push_back({reason, true});
     return entries.emplace_back(std::move(entry));
   };
+  if (subject.layer != nullptr) {
+    const FieldLayer& layer = *subject.layer;
+    add(SampleKind::colour_bar, layer.field->label + " (" + layer.scale.unit + ")", saturation_words(layer.scale));
+  }
   for (const auto& group : subject.groups.curves) {
     add(SampleKind::curve, group.what, group.why).stroke = group.stroke;
   }
   for (const auto& group : subject.groups.points) add(SampleKind::point, group.label).marker = group.marker;
   const core::LocusMap& map = *subject.map;
   const auto& regions = map.workspace;
-  if (std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
+  if (subject.layer == nullptr &&
+      std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
     add(SampleKind::workspace, "workspace");
   }
   if (map.lower.size() > 1 && shows_more_than_searched(layout)) add(SampleKind::searched_box, "searched box");
@@ -134,13 +139,16 @@ double place_legend(std::vector<LegendEntry>& entries, double x, double y, doubl
   for (auto& entry : entries) {
     std::vector<LegendLine> wrapped;
     for (const auto& line : entry.lines) {
-      for (auto& piece : wrap(line.text, width - legend_sample_width - legend_sample_gap, measure)) {
+      const bool has_sample = entry.sample != SampleKind::colour_bar;  // the bar stands below its label
+      for (auto& piece :
+           wrap(line.text, has_sample ? width - legend_sample_width - legend_sample_gap : width, measure)) {
         wrapped.push_back({std::move(piece), line.secondary});
       }
     }
     entry.lines = std::move(wrapped);
     entry.box.width = width;
     entry.box.height = legend_line_height * static_cast<double>(entry.lines.size());
+    if (entry.sample == SampleKind::colour_bar) entry.box.height += colour_bar_room;
     total += entry.box.height + entry_gap;
   }
   // Columns are filled one after the other; each takes entries until it has its share of the height.

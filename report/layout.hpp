@@ -7,6 +7,7 @@
 
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
+#include "report/field_scale.hpp"
 #include "report/groups.hpp"
 #include "report/typesetting.hpp"
 
@@ -20,7 +21,7 @@ struct Box {
 };
 
 /// What a legend entry shows a sample of.
-enum class SampleKind { curve, point, workspace, searched_box, mechanism, load, remark };
+enum class SampleKind { curve, point, workspace, searched_box, mechanism, load, remark, colour_bar };
 
 struct LegendLine {
   std::string text;
@@ -64,12 +65,13 @@ struct Layout {
   }
 };
 
-/// What a picture shows. The pointers outlive it; `sketch` may be null.
+/// What a picture shows. The pointers outlive it; `sketch` and `layer` may be null.
 struct Subject {
   const core::LocusMap* map = nullptr;
   core::WorkingMode mode;
   Groups groups;  ///< of this mode
   const core::Sketch* sketch = nullptr;
+  const FieldLayer* layer = nullptr;  ///< drawn in the place of the shaded workspace
 };
 
 Layout lay_out(const Subject& subject);
@@ -77,6 +79,8 @@ Layout lay_out(const Subject& subject);
 inline constexpr double legend_sample_width = 32;   ///< pt
 inline constexpr double legend_sample_gap = 8;      ///< pt, between a sample and its label
 inline constexpr double legend_line_height = 11.5;  ///< pt
+inline constexpr double colour_bar_height = 10;     ///< pt
+inline constexpr double colour_bar_room = 32;       ///< pt, below the label: bar, ticks and their labels
 inline constexpr Font legend_font{8.5, false, false};
 inline constexpr Font tick_font{8.5, false, false};
 inline constexpr Font label_font{9.5, false, true};

@@ -25,7 +25,9 @@ Cairo::Surface::SlotWriteFunc append_to(std::string& bytes) {
 
 std::string title_of(const Subject& subject) {
   const std::string mode = mode_words(subject.map->tower, subject.mode);
-  return printable("Discontinuity loci: " + subject.map->mechanism + (mode.empty() ? "" : ", " + mode));
+  const std::string what =
+      subject.layer == nullptr ? "Discontinuity loci" : "Pose error, " + subject.layer->field->label;
+  return printable(what + ": " + subject.map->mechanism + (mode.empty() ? "" : ", " + mode));
 }
 
 std::string legend_of(const Groups& groups) {
@@ -70,11 +72,7 @@ std::string png(const Subject& subject, const Layout& layout) {
   return encode_png(surface->get_data(), width, height, surface->get_stride(), 72.0 * pixels_per_point);
 }
 
-}  // namespace
-
-std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
-                    PictureFormat format) {
-  const Subject subject{&map, mode, groups_of_mode(group_loci(map), mode), sketch};
+std::string drawn(const Subject& subject, PictureFormat format) {
   const Layout layout = lay_out(subject);
   switch (format) {
     case PictureFormat::svg:
@@ -84,6 +82,19 @@ std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, co
     default:
       return png(subject, layout);
   }
+}
+
+}  // namespace
+
+std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
+                    PictureFormat format) {
+  return drawn({&map, mode, groups_of_mode(group_loci(map), mode), sketch, nullptr}, format);
+}
+
+std::string field_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::FieldMap& fields,
+                          const core::Field& field, PictureFormat format) {
+  const FieldLayer layer{&fields, &field, scale_of(field.values, field.is_signed, field.unit)};
+  return drawn({&map, mode, groups_of_mode(group_loci(map), mode), nullptr, &layer}, format);
 }
 
 std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode) {

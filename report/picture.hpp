@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/field_map.hpp"
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
 
@@ -17,6 +18,11 @@ enum class PictureFormat { svg, pdf, png };
 /// The same map gives the same bytes. PNG has 2 pixels a point.
 std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
                     PictureFormat format);
+
+/// A field of `fields` in colours over the workspace, the loci and singularities of the mode drawn over it. Nothing is
+/// painted where the field is not a number.
+std::string field_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::FieldMap& fields,
+                          const core::Field& field, PictureFormat format);
 
 /// The legend's labels, unwrapped, in order: also the description inside the SVG.
 std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode);

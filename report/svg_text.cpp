@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <map>
 #include <string_view>
 
 namespace clearloci::report {
@@ -46,6 +47,26 @@ void drop_surface_identifier(std::string& svg) {
   }
 }
 
+/// Cairo numbers images through the whole process too: "image17" becomes "image1" in the order of appearance. Only
+/// identifiers and references are meant, not what an image's own bytes happen to spell.
+void renumber_images(std::string& svg) {
+  constexpr std::string_view start = "image";
+  std::map<std::string, std::string> numbers;
+  std::string out;
+  std::size_t done = 0;
+  for (std::size_t at = svg.find(start); at != std::string::npos; at = svg.find(start, at + 1)) {
+    const std::size_t digits = at + start.size();
+    std::size_t end = digits;
+    while (end < svg.size() && is_digit(svg[end])) ++end;
+    const bool named = at > 0 && (svg[at - 1] == '"' || svg[at - 1] == '#') && end > digits && svg[end] == '"';
+    if (!named) continue;
+    out += svg.substr(done, digits - done);
+    out += numbers.try_emplace(svg.substr(digits, end - digits), std::to_string(numbers.size() + 1)).first->second;
+    done = end;
+  }
+  svg = out + svg.substr(done);
+}
+
 }  // namespace
 
 std::string escape_xml(const std::string& text) {
@@ -77,6 +98,7 @@ std::string escape_xml(const std::string& text) {
 std::string finish_svg(const std::string& svg, const std::string& title, const std::string& description) {
   std::string out = round_numbers(svg);
   drop_surface_identifier(out);
+  renumber_images(out);
   const std::size_t root = out.find("<svg "), end = out.find(">\n", root);
   out.insert(end + 2, "<title>" + escape_xml(title) + "</title>\n<desc>" + escape_xml(description) + "</desc>\n");
   out.insert(end, " role=\"img\"");

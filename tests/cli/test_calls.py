@@ -1,5 +1,6 @@
 """Wrong calls and wrong inputs: one line on standard error that says what and how to mend it, and the right status."""
 
+import re
 import unittest
 
 from program import FIVE_BAR, InOwnFolder
@@ -22,7 +23,7 @@ class WrongCalls(InOwnFolder):
         self.assertIn("loci, equations, validate, pose", message)
 
     def test_no_model(self):
-        for command in ("loci", "equations", "validate", "pose"):
+        for command in ("loci", "equations", "validate", "pose", "error"):
             self.assertIn("MODEL", self.complaint(command))
 
     def test_unknown_option(self):
@@ -80,6 +81,12 @@ class WrongCalls(InOwnFolder):
         for wrong in ("400", "0x10", "axb", "-4x4", "1x1"):
             self.assertIn("--grid", self.complaint("validate", FIVE_BAR, f"--grid={wrong}"))
 
+    def test_error(self):
+        self.assertIn("vtk", self.complaint("error", FIVE_BAR, "--export", "jpeg"))
+        self.assertIn("--grid", self.complaint("error", FIVE_BAR, "--grid", "many"))
+        bare = self.model(lambda text: re.sub(r", +clearance: \{[^}]*\}", "", text))
+        self.assertIn("no joint has a clearance", self.complaint("error", bare))
+
     def test_output_that_cannot_be_written(self):
         (self.folder / "taken").write_text("a file, not a folder")
         self.complaint("loci", FIVE_BAR, "-o", "taken")
@@ -106,7 +113,7 @@ class WrongCalls(InOwnFolder):
 class Help(InOwnFolder):
     def test_every_command_has_an_example(self):
         self.assertIn("Exit status", self.run_program("--help").stdout)
-        for command in ("loci", "equations", "validate", "pose"):
+        for command in ("loci", "equations", "validate", "pose", "error"):
             process = self.run_program(command, "--help")
             self.assertIn(f"Example: clearloci {command} ", process.stdout)
             self.assertEqual(process.stderr, "")

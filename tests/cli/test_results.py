@@ -193,6 +193,40 @@ class PoseError(InOwnFolder):
         self.assertEqual(pose["pose_error"], {"dalpha": 0, "dx": 0, "dy": 0})
 
 
+class Error(InOwnFolder):
+    def test_files(self):
+        formats = ("--export", "png,svg,pdf,csv,vtk", "--grid", "40x60")
+        for folder in ("first", "second"):
+            process = self.run_program("error", FIVE_BAR, *formats, "-o", folder)
+            self.assertIn("error in x", process.stdout)
+        names = sorted(path.name for path in (self.folder / "first").iterdir())
+        self.assertEqual(len(names), 8 * 3 + 3)
+        for name in names:
+            first, second = ((self.folder / folder / name).read_bytes() for folder in ("first", "second"))
+            self.assertEqual(first, second, name)
+        with open(self.folder / "first" / "error.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        result = json.loads((self.folder / "first" / "error.json").read_text(encoding="utf-8"))
+        self.assertEqual(result["grid"], [40, 60])
+        self.assertEqual(len(rows), result["modes"][0]["reachable"])
+        for row in rows:
+            for name in ("dx", "dy", "dalpha"):
+                self.assertLessEqual(abs(float(row[name])), float(row["worst_" + name]) * (1 + 1e-9))
+            self.assertLessEqual(float(row["dp"]), float(row["worst_dp"]) * (1 + 1.1e-4))
+        # The row of a pose is what `pose` says there.
+        row = rows[len(rows) // 2]
+        pose = json.loads(self.run_program("pose", FIVE_BAR, "--at", f"{row['x']},{row['y']}", "--json").stdout)
+        self.assertAlmostEqual(float(row["dx"]), pose["pose_error"]["dx"], delta=1e-12)
+        self.assertAlmostEqual(float(row["worst_dalpha"]), pose["worst_case"]["dalpha"], delta=1e-12)
+
+    def test_all_working_modes(self):
+        options = ("--working-mode", "all", "--grid", "20x20", "--no-loci", "--no-worst-case", "--json")
+        result = json.loads(self.run_program("error", FIVE_BAR, *options).stdout)
+        self.assertEqual(len(result["modes"]), 4)
+        self.assertEqual(set(result["modes"][0]["fields"]), {"dx", "dy", "dalpha", "dp"})
+        self.assertEqual(len(list((self.folder / "out" / "five_bar").glob("error-dx-*.png"))), 4)
+
+
 class Validate(InOwnFolder):
     def test_the_shipped_example_holds(self):
         verdict = json.loads(self.run_program("validate", FIVE_BAR, "--grid", "60x60", "--json").stdout)

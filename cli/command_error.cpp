@@ -1,0 +1,206 @@
+// clearloci error: the pose error that the clearances cause, over the workspace.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/commands.hpp"
+#include "cli/loci_arguments.hpp"
+#include "cli/program.hpp"
+#include "cli/progress.hpp"
+#include "core/errors.hpp"
+#include "numeric/error_map.hpp"
+#include "report/field_exports.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/picture.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  CommonArguments common;
+  LociArguments loci;
+  std::string grid = "400x400";
+  std::string formats = "png";
+  bool without_loci = false;
+  bool without_worst_case = false;
+};
+
+const std::vector<std::string> format_names = {"png", "svg", "pdf", "csv", "vtk"};
+
+std::set<std::string> parse_formats(const std::string& text) {
+  std::set<std::string> formats;
+  for (const std::string& word : split(text)) {
+    if (std::find(format_names.begin(), format_names.end(), word) == format_names.end())
+      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
+                             fmt::format("choose from {}", fmt::join(format_names, ", ")));
+    formats.insert(word);
+  }
+  return formats;
+}
+
+/// One working mode with its errors.
+struct ModeErrors {
+  core::WorkingMode mode;
+  numeric::ErrorMap errors;
+};
+
+/// Typical sizes: near direct singularities errors grow without bound, so means say nothing.
+Json sizes_json(const core::FieldMap& map, const core::Field& field) {
+  std::vector<double> sizes;
+  std::size_t at = 0;
+  double largest = -1;
+  for (std::size_t k = 0; k < field.values.size(); ++k) {
+    const double size = std::abs(field.values[k]);
+    if (!std::isfinite(size)) continue;
+    sizes.push_back(size);
+    if (size > largest) {
+      largest = size;
+      at = k;
+    }
+  }
+  if (sizes.empty()) return {{"unit", field.unit}, {"median", nullptr}};
+  std::sort(sizes.begin(), sizes.end());
+  const auto part = [&](double p) {
+    return sizes[static_cast<std::size_t>(p * static_cast<double>(sizes.size() - 1))];
+  };
+  const auto width = static_cast<std::size_t>(map.nx);
+  return {{"unit", field.unit},
+          {"median", part(0.5)},
+          {"percentile_90", part(0.9)},
+          {"percentile_99", part(0.99)},
+          {"largest", field.values[at]},
+          {"at", {map.x(static_cast<int>(at % width)), map.y(static_cast<int>(at / width))}}};
+}
+
+Json result_json(const core::LocusMap& loci, const std::vector<ModeErrors>& modes) {
+  Json all = Json::array();
+  for (const ModeErrors& one : modes) {
+    const numeric::ErrorMap& errors = one.errors;
+    Json fields = Json::object();
+    for (const core::Field& field : errors.map.fields) fields[field.name] = sizes_json(errors.map, field);
+    all.push_back({{"working_mode", report::mode_object(loci.tower, one.mode)},
+                   {"reachable", errors.reachable},
+                   {"undefined", errors.undefined},
+                   {"never_loaded", errors.never_loaded},
+                   {"fields", std::move(fields)}});
+  }
+  const core::FieldMap& map = modes.front().errors.map;
+  return {{"format", 1},
+          {"mechanism", map.mechanism},
+          {"coordinates", map.coordinates},
+          {"box", {{map.lower[0], map.upper[0]}, {map.lower[1], map.upper[1]}}},
+          {"grid", {map.nx, map.ny}},
+          {"modes", std::move(all)}};
+}
+
+void print_table(const core::LocusMap& loci, const std::vector<ModeErrors>& modes) {
+  for (const ModeErrors& one : modes) {
+    const numeric::ErrorMap& errors = one.errors;
+    const std::string mode = report::mode_words(loci.tower, one.mode);
+    fmt::print("{}: pose error over {} x {} cells{}\n", errors.map.mechanism, errors.map.nx, errors.map.ny,
+               mode.empty() ? "" : "; " + mode);
+    if (!errors.never_loaded.empty())
+      fmt::print("No error under the load: {} bear{} nothing in any pose, so the take-up is undefined.\n",
+                 fmt::join(errors.never_loaded, ", "), errors.never_loaded.size() == 1 ? "s" : "");
+    fmt::print("\n{:<56}{:>12}{:>12}{:>12}  at\n", "absolute values", "median", "90 %", "largest");
+    for (const core::Field& field : errors.map.fields) {
+      const Json sizes = sizes_json(errors.map, field);
+      if (sizes["median"].is_null()) continue;
+      fmt::print("{:<56}{:>12.4g}{:>12.4g}{:>12.4g}  ({:.4g}, {:.4g})\n",
+                 fmt::format("{} [{}]", field.label, field.unit), sizes["median"].get<double>(),
+                 sizes["percentile_90"].get<double>(), std::abs(sizes["largest"].get<double>()),
+                 sizes["at"][0].get<double>(), sizes["at"][1].get<double>());
+    }
+    fmt::print("\n{} cells in the workspace, {} on a locus to the last bit\n\n", errors.reachable, errors.undefined);
+  }
+}
+
+std::vector<std::string> write_files(const std::set<std::string>& formats, const std::filesystem::path& folder,
+                                     const core::LocusMap& loci, const std::vector<ModeErrors>& modes) {
+  std::vector<std::string> names;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    report::write_atomically(folder / name, bytes);
+    names.push_back(name);
+  };
+  write("error.json", report::json_text(result_json(loci, modes)));
+  for (const ModeErrors& one : modes) {
+    const core::FieldMap& map = one.errors.map;
+    const std::string which = modes.size() > 1 ? "-" + report::mode_slug(loci.tower, one.mode) : "";
+    for (const core::Field& field : map.fields) {
+      const auto picture = [&](const char* ending, report::PictureFormat format) {
+        std::string name = field.name;
+        std::replace(name.begin(), name.end(), '_', '-');
+        write("error-" + name + which + ending, report::field_picture(loci, one.mode, map, field, format));
+      };
+      if (formats.contains("png")) picture(".png", report::PictureFormat::png);
+      if (formats.contains("svg")) picture(".svg", report::PictureFormat::svg);
+      if (formats.contains("pdf")) picture(".pdf", report::PictureFormat::pdf);
+    }
+    if (formats.contains("csv")) write("error" + which + ".csv", report::field_csv(map));
+    if (formats.contains("vtk")) write("error" + which + ".vti", report::vti(map));
+  }
+  return names;
+}
+
+int run(const Arguments& arguments) {
+  const std::set<std::string> formats = parse_formats(arguments.formats);
+  const mechanism::Mechanism mechanism = read_model(arguments.common);
+  const auto [nx, ny] = parse_grid(arguments.grid);
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  Progress progress(arguments.common.quiet);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress);
+
+  std::vector<ModeErrors> modes;
+  const core::LocusMap loci = arguments.without_loci ? empty_map(mechanism) : trace_loci(mechanism, request);
+  const numeric::ErrorGrid grid = {.nx = nx, .ny = ny, .worst_case = !arguments.without_worst_case};
+  for (const DyadSides& sides : requested_modes(mechanism, request)) {
+    progress.show(0.9, "errors");
+    modes.push_back(
+        {loci.tower.roots.empty() ? sides : mode_of(sides, loci.tower), numeric::error_map(model, sides, grid)});
+  }
+  progress.clear();
+
+  const std::filesystem::path folder = output_folder(arguments.common);
+  const std::vector<std::string> names = write_files(formats, folder, loci, modes);
+  if (arguments.common.json) {
+    fmt::print("{}", report::json_text(result_json(loci, modes)));
+  } else if (!arguments.common.quiet) {
+    print_table(loci, modes);
+    fmt::print("Written to {}: {}\n", folder.string(), fmt::join(names, ", "));
+  }
+  if (loci.complete) return exit_done;
+  throw core::LimitReached("the time limit was reached; the loci in the pictures are incomplete, the errors are not");
+}
+
+}  // namespace
+
+Command add_error_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("error", "Map the pose error that the clearances cause over the workspace");
+  const auto arguments = std::make_shared<Arguments>();
+  add_common_arguments(*app, arguments->common);
+  add_tracing_arguments(*app, arguments->loci);
+  app->add_option("--grid", arguments->grid, "Cells along each coordinate")->type_name("NXxNY")->capture_default_str();
+  app->add_option("--export", arguments->formats,
+                  fmt::format("Files besides error.json, several after commas: {}", fmt::join(format_names, ", ")))
+      ->type_name("LIST")
+      ->capture_default_str();
+  app->add_flag("--no-loci", arguments->without_loci, "Pictures without the loci drawn over them");
+  app->add_flag("--no-worst-case", arguments->without_worst_case, "Only the error under the file's load");
+  app->footer(
+      "Example: clearloci error examples/five_bar.yaml --grid 300x400 --export png,csv,vtk\n"
+      "Writes error.json, a picture for each component (error-dx.png, ...) and for the worst case over all take-ups\n"
+      "(error-worst-dx.png, ...) to ./out/<name of MODEL>, or to the folder of -o.");
+  return {app, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace clearloci::cli

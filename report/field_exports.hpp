@@ -1,0 +1,17 @@
+// A FieldMap in the formats of other programs; the bytes of the file.
+#pragma once
+
+#include <string>
+
+#include "core/field_map.hpp"
+
+namespace clearloci::report {
+
+/// One row a cell that has a value in some field: both coordinates of its middle, then the fields by name, SI units,
+/// empty where there is none.
+std::string field_csv(const core::FieldMap& map);
+
+/// VTK XML ImageData, one point in the middle of each cell, point data of 64-bit numbers, NaN where there is none.
+std::string vti(const core::FieldMap& map);
+
+}  // namespace clearloci::report

@@ -1,0 +1,112 @@
+// The batched error maps against the plain route, pose by pose.
+#include "numeric/error_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "tests/numeric/designs.hpp"
+
+namespace clearloci::numeric {
+namespace {
+
+const core::Field& field(const core::FieldMap& map, const std::string& name) {
+  for (const core::Field& f : map.fields)
+    if (f.name == name) return f;
+  throw std::out_of_range(name);
+}
+
+class ErrorMaps : public testing::TestWithParam<int> {};
+
+mechanism::Mechanism design(int number) {
+  switch (number) {
+    case 0:
+      return test::with_clearances(test::five_bar({.weighs = true}), 1e-5, 5e-4);
+    case 1:
+      return test::with_clearances(test::five_bar({.base_x = 0.7, .a1 = 0.6, .b1 = 0.45, .fx = 40, .couple = 2}), 1e-4,
+                                   0);
+    case 2:
+      return test::with_clearances(test::three_rrr(0.3, 5, -8, 0.4, true), 1e-4, 1e-3);
+    default:
+      return test::with_clearances(test::driven_five_bar(4, -7, true), 2e-4, 1e-3);
+  }
+}
+
+TEST_P(ErrorMaps, AgreeWithThePlainRoute) {
+  const NumericModel model = compile(design(GetParam()));
+  const auto mode = mechanism::working_mode(model.mechanism);
+  const ErrorMap errors = error_map(model, mode, {.nx = 41, .ny = 23});
+  const core::FieldMap& map = errors.map;
+  ASSERT_EQ(map.fields.size(), 8u);
+  std::size_t compared = 0, reached = 0;
+  for (int j = 0; j < map.ny; ++j) {
+    for (int i = 0; i < map.nx; ++i) {
+      const auto p = posture(model, std::array{map.x(i), map.y(j)}, mode);
+      const auto value = [&](const char* name) { return field(map, name).values[map.index(i, j)]; };
+      if (!p.reachable()) {
+        EXPECT_TRUE(std::isnan(value("dx")) && std::isnan(value("worst_dp")));
+        continue;
+      }
+      ++reached;
+      const Accuracy a = pose_accuracy(model, p);
+      if (a.reactions.condition > 1e6) continue;
+      ++compared;
+      const double slack = 1e-13 * a.reactions.condition * a.worst.dp;
+      EXPECT_NEAR(value("dx"), a.error.dx, slack);
+      EXPECT_NEAR(value("dy"), a.error.dy, slack);
+      EXPECT_NEAR(value("dalpha"), a.error.dalpha, 10 * slack);
+      EXPECT_NEAR(value("dp"), a.error.dp(), slack);
+      EXPECT_NEAR(value("worst_dx"), a.worst.dx, slack);
+      EXPECT_NEAR(value("worst_dy"), a.worst.dy, slack);
+      EXPECT_NEAR(value("worst_dalpha"), a.worst.dalpha, 10 * slack);
+      EXPECT_LE(value("worst_dp"), a.worst.dp * (1 + 1e-9));
+      EXPECT_GE(value("worst_dp"), a.worst.dp * (1 - 1.1e-4));
+    }
+  }
+  EXPECT_EQ(reached, errors.reachable);
+  EXPECT_GT(compared, 50u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Designs, ErrorMaps, testing::Values(0, 1, 2, 3));
+
+TEST(ErrorMap, IsTheSameForAnyNumberOfThreads) {
+  const NumericModel model = compile(design(2));
+  const auto mode = mechanism::working_mode(model.mechanism);
+  const ErrorMap one = error_map(model, mode, {.nx = 30, .ny = 30, .threads = 1});
+  const ErrorMap two = error_map(model, mode, {.nx = 30, .ny = 30, .threads = 2});
+  for (std::size_t f = 0; f < one.map.fields.size(); ++f)
+    for (std::size_t k = 0; k < one.map.fields[f].values.size(); ++k) {
+      const double a = one.map.fields[f].values[k], b = two.map.fields[f].values[k];
+      EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b)));
+    }
+}
+
+TEST(ErrorMap, NamesJointsThatNeverBearAnything) {
+  // No load and no weight: every reaction is zero. The bound over all take-ups stands.
+  const NumericModel model = compile(test::with_clearances(test::five_bar({.fy = 0}), 1e-5, 5e-4));
+  const ErrorMap errors = error_map(model, mechanism::working_mode(model.mechanism), {.nx = 10, .ny = 10});
+  EXPECT_EQ(errors.never_loaded, (std::vector<std::string>{"A1", "B1", "P", "B2", "A2"}));
+  EXPECT_EQ(errors.map.fields.front().name, "worst_dx");
+}
+
+TEST(ErrorMap, LeavesCellsOnALocusOut) {
+  // A crank that lies along the x axis at y = 0, loaded along itself: its couple is zero on the middle row exactly.
+  test::MechanismBuilder b;
+  b.box(0.5, 1.5, -1.5, 1.5).point("O", 0, 0).point("P", test::symbol("x"), test::symbol("y"));
+  b.link("crank", {"O", "P"}).joint("O", "ground", "crank", "O", true).clearance("O", 0, 1e-3);
+  const NumericModel model = compile(b.end_effector("crank", "P").load("crank", "P", 5, 0).finish());
+  const ErrorMap errors = error_map(model, {}, {.nx = 4, .ny = 3});
+  EXPECT_EQ(errors.reachable, 12u);
+  EXPECT_EQ(errors.undefined, 4u);
+  EXPECT_TRUE(std::isnan(field(errors.map, "dy").values[errors.map.index(0, 1)]));
+  EXPECT_EQ(field(errors.map, "dalpha").values[errors.map.index(0, 0)], 1e-3 * 1);
+  EXPECT_EQ(field(errors.map, "dalpha").values[errors.map.index(0, 2)], -1e-3 * 1);
+}
+
+TEST(ErrorMap, RefusesWhatHasNoMap) {
+  EXPECT_THROW(error_map(compile(test::five_bar()), std::array{-1, 1}), core::InputError);  // no clearance
+}
+
+}  // namespace
+}  // namespace clearloci::numeric
