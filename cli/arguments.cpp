@@ -27,6 +27,17 @@ std::vector<std::string> dyad_names(const mechanism::Mechanism& mechanism) {
   return names;
 }
 
+/// "left", "right" where there is a dyad, "ahead", "behind" where there is a slider.
+std::vector<std::string> side_choices(const mechanism::Mechanism& mechanism) {
+  std::vector<std::string> choices;
+  for (const mechanism::PointIndex point : mechanism::dyad_points(mechanism))
+    for (const int sign : {1, -1}) {
+      const std::string side = mechanism::side_name(mechanism, point, sign);
+      if (std::find(choices.begin(), choices.end(), side) == choices.end()) choices.push_back(side);
+    }
+  return choices;
+}
+
 std::optional<int> whole_number(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -95,14 +106,18 @@ DyadSides parse_working_mode(const std::string& text, const mechanism::Mechanism
   const std::vector<std::string> words = split(text);
   if (names.empty())
     refuse("--working-mode", "the mechanism has no dyad, so there is one working mode only", "leave the option out");
-  const std::string mend = fmt::format("give left or right for each of {} ({}), or all", fmt::join(names, ","),
+  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(mechanism);
+  const std::string choice = fmt::format("{}", fmt::join(side_choices(mechanism), " or "));
+  const std::string mend = fmt::format("give {} for each of {} ({}), or all", choice, fmt::join(names, ","),
                                        names.size() == 1 ? "1 dyad" : fmt::format("{} dyads", names.size()));
   if (words.size() != names.size())
     refuse("--working-mode", fmt::format("'{}' has {} side{}", text, words.size(), words.size() == 1 ? "" : "s"), mend);
   DyadSides sides;
-  for (const std::string& word : words) {
-    if (word != "left" && word != "right") refuse("--working-mode", fmt::format("'{}' is not a side", word), mend);
-    sides.push_back(word == "left" ? 1 : -1);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string plus = mechanism::side_name(mechanism, points[i], 1);
+    if (words[i] != plus && words[i] != mechanism::side_name(mechanism, points[i], -1))
+      refuse("--working-mode", fmt::format("'{}' is not a side of {}", words[i], names[i]), mend);
+    sides.push_back(words[i] == plus ? 1 : -1);
   }
   return sides;
 }

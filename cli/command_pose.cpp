@@ -72,7 +72,8 @@ Json actual_json(const numeric::NumericModel& model, const numeric::ActualPose& 
 Json pose_json(const mechanism::Mechanism& mechanism, const numeric::NumericModel& model, const PoseResult& pose) {
   Json mode = Json::object();
   for (std::size_t j = 0; j < model.dyads.size(); ++j)
-    mode[mechanism.points[static_cast<std::size_t>(model.dyads[j])].name] = pose.sides[j] > 0 ? "left" : "right";
+    mode[mechanism.points[static_cast<std::size_t>(model.dyads[j])].name] =
+        mechanism::side_name(mechanism, model.dyads[j], pose.sides[j]);
   Json posture = Json::object();
   for (std::size_t i = 0; i < mechanism.points.size(); ++i)
     if (!mechanism.points[i].auxiliary) posture[mechanism.points[i].name] = pose.posture.points[i];

@@ -154,16 +154,17 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
     const bool wanted = named.empty() ? joint.clearance.has_value() || !any_clearance
                                       : std::find(named.begin(), named.end(), joint.name) != named.end();
     if (!wanted) continue;
-    reactions.push_back({joint.name, core::Quantity::fx});
-    reactions.push_back({joint.name, core::Quantity::fy});
-    if (joint.actuated) reactions.push_back({joint.name, core::Quantity::M});
+    for (const core::Quantity quantity : mechanism::reaction_components(mechanism, joint))
+      reactions.push_back({joint.name, quantity});
+    if (joint.actuated && mechanism.space == mechanism::Space::planar)
+      reactions.push_back({joint.name, mechanism::actuator_quantity(joint)});
   }
   return reactions;
 }
 
 LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                              const numeric::GridSpec& grid) {
-  request.selection.quantities = {core::Quantity::f, core::Quantity::M, core::Quantity::fx, core::Quantity::fy};
+  request.selection.quantities.assign(core::all_quantities.begin(), core::all_quantities.end());
   core::LocusMap map = trace_loci(mechanism, request);
   if (!map.complete)
     throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");

@@ -43,7 +43,7 @@ std::vector<std::pair<std::string, std::string>> describe_mode(const RootTower& 
   std::vector<std::pair<std::string, std::string>> described;
   for (std::size_t j = 0; j < mode.size(); ++j)
     if (tower.roots[j].role == RootRole::working_mode)
-      described.emplace_back(tower.roots[j].point, mode[j] > 0 ? "left" : "right");
+      described.emplace_back(tower.roots[j].point, tower.roots[j].sides[mode[j] > 0 ? 0 : 1]);
   return described;
 }
 

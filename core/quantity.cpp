@@ -26,6 +26,14 @@ std::string to_string(Quantity quantity) {
       return "my";
     case Quantity::mz:
       return "mz";
+    case Quantity::f1:
+      return "f1";
+    case Quantity::f2:
+      return "f2";
+    case Quantity::m1:
+      return "m1";
+    case Quantity::m2:
+      return "m2";
   }
   return {};
 }

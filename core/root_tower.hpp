@@ -3,6 +3,7 @@
 // A point on a sheet of the tower is a pose; the signs of the roots are the working mode.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Root {
   std::string point;  ///< constructed point, e.g. "B1"
   RootRole role = RootRole::working_mode;
   Polynomial square;  ///< in (coordinates..., s1...sm), where only earlier roots occur; a positive multiple of Q_j
+  /// What the signs + and - of a working mode are called.
+  std::array<std::string, 2> sides = {"left", "right"};
 };
 
 struct RootTower {

@@ -19,7 +19,16 @@ std::vector<PointIndex> bases(const PointForm& form) {
   if (const auto* dyad = std::get_if<DyadPoint>(&form)) return {dyad->from, dyad->to};
   if (const auto* offset = std::get_if<OffsetPoint>(&form)) return {offset->first, offset->second};
   if (const auto* mean = std::get_if<MeanPoint>(&form)) return {mean->first, mean->second};
+  if (const auto* slider = std::get_if<SliderPoint>(&form)) {
+    std::set<PointIndex> used = points_of(slider->along);
+    used.insert({slider->base, slider->from});
+    return {used.begin(), used.end()};
+  }
   return {};
+}
+
+double distance(const std::array<double, 3>& p, const std::array<double, 3>& q) {
+  return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
 }
 
 bool is_explicit(const Point& point) { return std::holds_alternative<ExplicitPoint>(point.form); }
@@ -61,20 +70,51 @@ bool is_on_link(const Mechanism& mechanism, PointIndex point, LinkIndex link) {
   const Link& body = mechanism.links[static_cast<std::size_t>(link)];
   if (std::find(body.points.begin(), body.points.end(), point) != body.points.end()) return true;
   const PointForm& form = point_at(mechanism, point).form;
-  if (std::holds_alternative<DyadPoint>(form) || std::holds_alternative<ExplicitPoint>(form)) return false;
+  if (!std::holds_alternative<OffsetPoint>(form) && !std::holds_alternative<MeanPoint>(form)) return false;
   const std::vector<PointIndex> built_from = bases(form);
   return std::all_of(built_from.begin(), built_from.end(),
                      [&](PointIndex base) { return is_on_link(mechanism, base, link); });
 }
 
+namespace {
+
+/// "2 for each of 5 joints, 2 actuators"; by type where the joints differ in what they bear.
+std::string count_unknowns(const Mechanism& mechanism) {
+  struct Kind {
+    std::size_t unknowns;
+    std::string name;
+    std::size_t count;
+  };
+  std::vector<Kind> kinds;
+  std::size_t actuators = 0;
+  for (const Joint& joint : mechanism.joints) {
+    if (joint.actuated) ++actuators;
+    Joint passive = joint;
+    passive.actuated = false;
+    const std::size_t unknowns = reaction_components(mechanism, passive).size();
+    const bool alike = mechanism.space == Space::planar;  // every planar joint bears two
+    const std::string name = alike ? "joint" : to_string(joint.type) + " joint";
+    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
+    if (known == kinds.end())
+      kinds.push_back({unknowns, name, 1});
+    else
+      ++known->count;
+  }
+  std::string text;
+  for (const Kind& kind : kinds)
+    text += std::to_string(kind.unknowns) + " for each of " + std::to_string(kind.count) + " " + kind.name + "s, ";
+  return text + std::to_string(actuators) + " actuators";
+}
+
+}  // namespace
+
 void check_square(const Mechanism& mechanism, const core::SourcePosition& joints) {
-  const std::size_t equations = 3 * mechanism.links.size();
+  const std::size_t equations = equations_per_link(mechanism) * mechanism.links.size();
   const std::size_t columns = unknowns(mechanism).size();
   if (equations == columns) return;
-  const std::size_t actuators = columns - 2 * mechanism.joints.size();
-  const std::string counts = std::to_string(columns) + " unknowns (2 for each of " +
-                             std::to_string(mechanism.joints.size()) + " joints, " + std::to_string(actuators) +
-                             " actuators) but " + std::to_string(equations) + " equations (3 for each of " +
+  const std::string counts = std::to_string(columns) + " unknowns (" + count_unknowns(mechanism) + ") but " +
+                             std::to_string(equations) + " equations (" +
+                             std::to_string(equations_per_link(mechanism)) + " for each of " +
                              std::to_string(mechanism.links.size()) + " links)";
   if (columns > equations)
     throw InputError(
@@ -95,7 +135,7 @@ void check_names(const Mechanism& mechanism) {
   };
   for (const Point& point : mechanism.points) {
     if (is_explicit(point)) continue;
-    for (const char* axis : {"x", "y"})
+    for (const char* axis : {"x", "y", "z"})
       if (is_used(axis + point.name))
         throw InputError(point.where,
                          "'" + (axis + point.name) + "' names a coordinate of point " + point.name +
@@ -118,7 +158,7 @@ void check_distinct_bases(const Mechanism& mechanism) {
   constexpr std::size_t poses = 16;
   for (const Point& point : mechanism.points) {
     const std::vector<PointIndex> pair = bases(point.form);
-    if (pair.size() != 2 || std::holds_alternative<MeanPoint>(point.form)) continue;
+    if (!std::holds_alternative<DyadPoint>(point.form) && !std::holds_alternative<OffsetPoint>(point.form)) continue;
     bool coincide = false;
     bool apart = false;
     for (const std::vector<double>& pose : spread_poses(mechanism, poses)) {
@@ -127,8 +167,8 @@ void check_distinct_bases(const Mechanism& mechanism) {
       const auto& q = placed[static_cast<std::size_t>(pair[1])];
       if (!p || !q) continue;
       // Relative to the coordinates: what rounding leaves of a distance that is zero.
-      const double size = std::hypot((*p)[0], (*p)[1]) + std::hypot((*q)[0], (*q)[1]);
-      const bool together = std::hypot((*q)[0] - (*p)[0], (*q)[1] - (*p)[1]) <= 1e-12 * size;
+      const double size = distance(*p, {}) + distance(*q, {});
+      const bool together = distance(*p, *q) <= 1e-12 * size;
       (together ? coincide : apart) = true;
     }
     if (!coincide || apart) continue;
@@ -136,6 +176,43 @@ void check_distinct_bases(const Mechanism& mechanism) {
                      "point " + point.name + " has no direction to build on: " + point_at(mechanism, pair[0]).name +
                          " and " + point_at(mechanism, pair[1]).name + " coincide in every pose",
                      "build it on two different places");
+  }
+}
+
+void check_axes(const Mechanism& mechanism) {
+  constexpr std::size_t poses = 16;
+  for (const Joint& joint : mechanism.joints) {
+    for (std::size_t i = 0; i < joint.axes.size(); ++i) {
+      const std::string name = joint.axes.size() == 1 ? "the axis" : i == 0 ? "the first axis" : "the second axis";
+      bool zero = true;
+      double least = 1, greatest = -1;
+      std::optional<std::array<double, 3>> first;
+      bool sampled = false;
+      for (const std::vector<double>& pose : spread_poses(mechanism, poses)) {
+        const auto axis = sample_vector(mechanism, joint.axes[i], pose);
+        if (!axis) continue;
+        const double length = distance(*axis, {});
+        zero = zero && length <= 1e-12;
+        sampled = true;
+        if (length <= 1e-12) continue;
+        if (!first) first = axis;
+        const double cosine = ((*axis)[0] * (*first)[0] + (*axis)[1] * (*first)[1] + (*axis)[2] * (*first)[2]) /
+                              (length * distance(*first, {}));
+        least = std::min(least, cosine);
+        greatest = std::max(greatest, cosine);
+      }
+      if (sampled && zero)
+        throw InputError(joint.where, name + " of joint " + joint.name + " is zero in every pose",
+                         "write a vector with a direction");
+      // An axis that the ground holds stands still: of a universal joint the ground's own, of others the one axis.
+      const LinkIndex holder = joint.type == JointType::universal ? (i == 0 ? joint.from : joint.to)
+                               : joint.from == ground             ? joint.from
+                                                                  : joint.to;
+      if (sampled && holder == ground && greatest - least > 1e-9)
+        throw InputError(joint.where,
+                         name + " of joint " + joint.name + " is fixed in the ground, but turns over the workspace",
+                         "write a direction that stands still");
+    }
   }
 }
 
@@ -150,9 +227,9 @@ void check_rigidity(const Mechanism& mechanism) {
       for (const PosturePoints& posture : postures) {
         const auto& p = posture[static_cast<std::size_t>(pair.first)];
         const auto& q = posture[static_cast<std::size_t>(pair.second)];
-        const double distance = std::hypot(q[0] - p[0], q[1] - p[1]);
-        pair.least = std::min(pair.least, distance);
-        pair.greatest = std::max(pair.greatest, distance);
+        const double apart = distance(p, q);
+        pair.least = std::min(pair.least, apart);
+        pair.greatest = std::max(pair.greatest, apart);
       }
       if (postures.empty() || pair.greatest - pair.least <= tolerance * pair.greatest) continue;
       const Point& second = point_at(mechanism, pair.second);
@@ -160,7 +237,7 @@ void check_rigidity(const Mechanism& mechanism) {
                        "link " + link.name + " is not rigid: the distance between " +
                            point_at(mechanism, pair.first).name + " and " +
                            (second.auxiliary ? "its centre of mass" : second.name) + " changes over the workspace",
-                       "list only points that move together, each tied to the others by a dyad, on or mean");
+                       "list only points that move together, each tied to the others by a dyad, slider, on or mean");
     }
   }
 }

@@ -47,6 +47,15 @@ enum class Side { left, right };
 struct ExplicitPoint {
   std::vector<Expression> coordinates;  ///< 2 (planar) or 3 (spatial)
 };
+/// A vector as the user wrote it: components, or made from points, such as `cross([1, 0, 0], B - A)`.
+struct VectorExpression {
+  enum class Kind { components, point, add, negate, scale, cross };
+  Kind kind = Kind::components;
+  std::vector<Expression> numbers;          ///< the components, 2 or 3; of `scale` the one factor
+  PointIndex point = 0;                     ///< of `point`: its place
+  std::vector<VectorExpression> arguments;  ///< two of add and cross, one of negate and scale
+};
+
 /// The point at distance `from_length` from `from` and `to_length` from `to`, on the named side of from -> to.
 struct DyadPoint {
   PointIndex from, to;
@@ -61,7 +70,15 @@ struct OffsetPoint {
 struct MeanPoint {
   PointIndex first, second;
 };
-using PointForm = std::variant<ExplicitPoint, DyadPoint, OffsetPoint, MeanPoint>;
+/// On the line through `base` along `along`, at distance `length` from `from`: of the two places the one farther along
+/// (`ahead`) or the other. Planar.
+struct SliderPoint {
+  PointIndex base, from;
+  VectorExpression along;
+  Expression length;
+  bool ahead = true;
+};
+using PointForm = std::variant<ExplicitPoint, DyadPoint, OffsetPoint, MeanPoint, SliderPoint>;
 
 /// Points are in an order in which each uses only earlier ones. `auxiliary` points (centres of mass) were not named by
 /// the user; they stand last.
@@ -81,20 +98,30 @@ struct Link {
   core::SourcePosition where;
 };
 
-/// Clearances of a joint, m and rad; 0 where absent.
+/// Clearances of a joint, m and rad; 0 where absent. A prismatic joint touches its guide in two places, `half_length`
+/// to both sides of its point, each free to move by `gap` to either side; `axial` is the play of its actuator.
 struct Clearance {
   Expression radial;
   Expression angular;
+  Expression gap;
+  Expression half_length;
+  Expression axial;
 };
 
-enum class JointType { revolute };
+enum class JointType { revolute, prismatic, universal, spherical, cylindrical };
 
-/// The reaction is what link `from` exerts on link `to`, at point `at`.
+/// "revolute", ..., the key of the file.
+std::string to_string(JointType type);
+
+/// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical
+/// joint and of a spatial revolute one, two of a universal joint (the one fixed in `from` first), none otherwise. Their
+/// lengths are of no consequence.
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
   LinkIndex from = ground, to = ground;
   PointIndex at = 0;
+  std::vector<VectorExpression> axes;
   bool actuated = false;
   std::optional<Clearance> clearance;
   core::SourcePosition where;
@@ -102,9 +129,10 @@ struct Joint {
 
 struct Load {
   LinkIndex link = 0;
-  std::optional<PointIndex> at;   ///< required with `force`
-  std::vector<Expression> force;  ///< empty or 2 components, N
-  Expression couple;              ///< N m, counter-clockwise
+  std::optional<PointIndex> at;           ///< required with `force`
+  std::vector<Expression> force;          ///< empty, 2 or (spatial) 3 components, N
+  Expression couple;                      ///< N m, counter-clockwise; planar
+  std::vector<Expression> couple_vector;  ///< empty or 3 components, N m; spatial
   core::SourcePosition where;
 };
 
@@ -129,16 +157,37 @@ struct Mechanism {
   std::vector<Expression> gravity;  ///< empty: links are weightless
 };
 
-/// Unknowns in column order: fx, fy of every joint in the file's order, then the couples of the actuated ones.
+/// Unknowns in column order. Planar: fx, fy of every revolute joint and N, T of every prismatic one in the file's
+/// order, then M or F of the actuated ones. Spatial: the components of every joint's force, then of its couple. A force
+/// or couple that may have any direction has components x, y, z; one across an axis has two, 1 and 2; the couple of a
+/// universal joint, across both of its axes, is T. The actuator of a revolute or prismatic joint fills up its couple or
+/// force.
 std::vector<Unknown> unknowns(const Mechanism& mechanism);
+
+/// The columns of one joint, without a planar joint's actuator.
+std::vector<core::Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint);
+
+/// What the actuator of a joint exerts: M or F.
+core::Quantity actuator_quantity(const Joint& joint);
+
+/// Force components that vanish together where contact is lost; empty for a planar prismatic joint.
+std::vector<core::Quantity> force_components(const Mechanism& mechanism, const Joint& joint);
+
+inline std::size_t dimension(const Mechanism& mechanism) { return mechanism.space == Space::spatial ? 3 : 2; }
+
+/// Equations of one link: 3, or 6 in space.
+inline std::size_t equations_per_link(const Mechanism& mechanism) { return mechanism.space == Space::spatial ? 6 : 3; }
 
 /// "fA1x", "MA1".
 std::string unknown_name(const Mechanism& mechanism, const Unknown& unknown);
 
-/// Indices of the dyad points, in order: root j of the tower places the j-th of them.
+/// Indices of the dyad and slider points, in order: each has two places, and the working mode a side for it.
 std::vector<PointIndex> dyad_points(const Mechanism& mechanism);
 
-/// The file's working mode: +1 left, -1 right, one a dyad point.
+/// The file's working mode: +1 left or ahead, -1 right or behind, one a point of dyad_points.
 std::vector<int> working_mode(const Mechanism& mechanism);
+
+/// "left", "right"; of a slider "ahead", "behind".
+std::string side_name(const Mechanism& mechanism, PointIndex point, int sign);
 
 }  // namespace clearloci::mechanism

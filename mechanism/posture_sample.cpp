@@ -7,7 +7,7 @@
 namespace clearloci::mechanism {
 namespace {
 
-using Vector = std::array<double, 2>;
+using Vector = std::array<double, 3>;
 using Values = std::map<std::string, double>;
 using MaybePoints = std::vector<std::optional<Vector>>;
 
@@ -41,12 +41,53 @@ double value_at(const Expression& expression, const Values& values) {
   return 0;
 }
 
+Vector difference(const Vector& p, const Vector& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+Vector cross(const Vector& p, const Vector& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
+double dot(const Vector& p, const Vector& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+/// p + a q + b J q, J turning the plane a quarter to the left.
+Vector moved(const Vector& p, const Vector& q, double a, double b) {
+  return {p[0] + a * q[0] - b * q[1], p[1] + a * q[1] + b * q[0], p[2] + a * q[2]};
+}
+
+std::optional<Vector> value_at(const VectorExpression& vector, const MaybePoints& points, const Values& values) {
+  using Kind = VectorExpression::Kind;
+  std::vector<Vector> arguments;
+  for (const VectorExpression& argument : vector.arguments) {
+    const auto value = value_at(argument, points, values);
+    if (!value) return std::nullopt;
+    arguments.push_back(*value);
+  }
+  const Vector zero{};
+  switch (vector.kind) {
+    case Kind::components: {
+      Vector result{};
+      for (std::size_t i = 0; i < vector.numbers.size(); ++i) result[i] = value_at(vector.numbers[i], values);
+      return result;
+    }
+    case Kind::point:
+      return points[static_cast<std::size_t>(vector.point)];
+    case Kind::add:
+      return moved(arguments[0], arguments[1], 1, 0);
+    case Kind::negate:
+      return moved(zero, arguments[0], -1, 0);
+    case Kind::scale:
+      return moved(zero, arguments[0], value_at(vector.numbers[0], values), 0);
+    case Kind::cross:
+      return cross(arguments[0], arguments[1]);
+  }
+  return std::nullopt;
+}
+
 class Placement {
  public:
   Placement(const MaybePoints& points, const Values& values) : points_(points), values_(values) {}
 
   std::optional<Vector> operator()(const ExplicitPoint& point) const {
-    return Vector{value_at(point.coordinates[0], values_), value_at(point.coordinates[1], values_)};
+    Vector place{};
+    for (std::size_t i = 0; i < point.coordinates.size(); ++i) place[i] = value_at(point.coordinates[i], values_);
+    return place;
   }
 
   /// method.md section 1: B = A + (k (P - A) +- s J (P - A)) / (2 D).
@@ -56,30 +97,41 @@ class Placement {
     const auto& [base, along] = *bases;
     const double a = value_at(point.from_length, values_);
     const double b = value_at(point.to_length, values_);
-    const double d = along[0] * along[0] + along[1] * along[1];
+    const double d = dot(along, along);
     const double k = a * a - b * b + d;
     const double q = 4 * a * a * d - k * k;
     if (!(q > 0)) return std::nullopt;
     const double s = point.side == Side::left ? std::sqrt(q) : -std::sqrt(q);
-    return Vector{base[0] + (k * along[0] - s * along[1]) / (2 * d), base[1] + (k * along[1] + s * along[0]) / (2 * d)};
+    return moved(base, along, k / (2 * d), s / (2 * d));
   }
 
   std::optional<Vector> operator()(const OffsetPoint& point) const {
     const auto bases = frame(point.first, point.second);
     if (!bases) return std::nullopt;
     const auto& [base, along] = *bases;
-    const double length = std::hypot(along[0], along[1]);
+    const double length = std::sqrt(dot(along, along));
     if (!(length > 0)) return std::nullopt;
-    const double u = value_at(point.along, values_) / length;
-    const double v = value_at(point.left, values_) / length;
-    return Vector{base[0] + u * along[0] - v * along[1], base[1] + u * along[1] + v * along[0]};
+    return moved(base, along, value_at(point.along, values_) / length, value_at(point.left, values_) / length);
   }
 
   std::optional<Vector> operator()(const MeanPoint& point) const {
     const auto bases = frame(point.first, point.second);
     if (!bases) return std::nullopt;
-    const auto& [base, along] = *bases;
-    return Vector{base[0] + along[0] / 2, base[1] + along[1] / 2};
+    return moved(bases->first, bases->second, 0.5, 0);
+  }
+
+  /// S = Q + (p +- s) u / U,  p = u . (C - Q), U = u . u, s^2 = l^2 U - (u x (C - Q))^2.
+  std::optional<Vector> operator()(const SliderPoint& point) const {
+    const auto bases = frame(point.base, point.from);
+    const auto along = value_at(point.along, points_, values_);
+    if (!bases || !along) return std::nullopt;
+    const double u = dot(*along, *along);
+    const double l = value_at(point.length, values_);
+    const double across = (*along)[0] * bases->second[1] - (*along)[1] * bases->second[0];
+    const double q = l * l * u - across * across;
+    if (!(u > 0) || !(q > 0)) return std::nullopt;
+    const double s = point.ahead ? std::sqrt(q) : -std::sqrt(q);
+    return moved(bases->first, *along, (dot(*along, bases->second) + s) / u, 0);
   }
 
  private:
@@ -88,7 +140,7 @@ class Placement {
     const auto& p = points_[static_cast<std::size_t>(first)];
     const auto& q = points_[static_cast<std::size_t>(second)];
     if (!p || !q) return std::nullopt;
-    return std::pair{*p, Vector{(*q)[0] - (*p)[0], (*q)[1] - (*p)[1]}};
+    return std::pair{*p, difference(*q, *p)};
   }
 
   const MaybePoints& points_;
@@ -118,10 +170,24 @@ std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::s
   return poses;
 }
 
-MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
+namespace {
+
+Values values_of(const Mechanism& mechanism, const std::vector<double>& pose) {
   Values values;
   for (const Parameter& parameter : mechanism.parameters) values[parameter.name] = core::to_double(parameter.value);
   for (std::size_t i = 0; i < pose.size(); ++i) values[mechanism.coordinates[i].name] = pose[i];
+  return values;
+}
+
+}  // namespace
+
+std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, const VectorExpression& vector,
+                                                   const std::vector<double>& pose) {
+  return value_at(vector, sample_points(mechanism, pose), values_of(mechanism, pose));
+}
+
+MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
+  const Values values = values_of(mechanism, pose);
   MaybePoints points;
   for (const Point& point : mechanism.points) points.push_back(std::visit(Placement(points, values), point.form));
   return points;

@@ -10,14 +10,18 @@
 
 namespace clearloci::mechanism {
 
-using PosturePoints = std::vector<std::array<double, 2>>;  ///< one a point, m
+using PosturePoints = std::vector<std::array<double, 3>>;  ///< one a point, m; z = 0 in the plane
 
 /// Poses (one value a coordinate) spread evenly over the box: the first `count` of one fixed sequence.
 std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::size_t count);
 
 /// Every point at a pose, in the file's working mode; nothing for a point that cannot be built there.
-std::vector<std::optional<std::array<double, 2>>> sample_points(const Mechanism& mechanism,
+std::vector<std::optional<std::array<double, 3>>> sample_points(const Mechanism& mechanism,
                                                                 const std::vector<double>& pose);
+
+/// A vector at a pose; nothing where a point of it cannot be built.
+std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, const VectorExpression& vector,
+                                                   const std::vector<double>& pose);
 
 /// Up to `count` complete postures; fewer where the mechanism closes in few of 4096 poses.
 std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count);

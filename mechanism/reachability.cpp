@@ -130,6 +130,8 @@ Interval distance(const Mechanism& mechanism, PointIndex p, PointIndex q, const 
     const Interval whole = distance(mechanism, mean->first, mean->second, box);
     return around(mechanism, mean->first, outward(whole.low / 2, whole.high / 2), q, box);
   }
+  if (const auto* slider = std::get_if<SliderPoint>(&form_of(mechanism, p)))
+    return around(mechanism, slider->from, bound(slider->length, box), q, box);
   const ExplicitPoint& first = std::get<ExplicitPoint>(form_of(mechanism, p));
   const ExplicitPoint& second = std::get<ExplicitPoint>(form_of(mechanism, q));
   Interval sum{0, 0};
@@ -169,20 +171,18 @@ Box whole_box(const Mechanism& mechanism) {
   return box;
 }
 
-/// The distances |AP| over a box in which the dyad closes nowhere; nothing where that is not proven.
-std::optional<Interval> proven_unreachable(const Mechanism& mechanism, const DyadPoint& dyad) {
+/// The values of a measure over the whole box where all of them are proven to miss `reach`; nothing where that is not
+/// so.
+template <class Measure>
+std::optional<Interval> proven_outside(const Mechanism& mechanism, const Interval& reach, Measure measure) {
   constexpr int most_boxes = 4096;
-  const Box whole = whole_box(mechanism);
-  const Interval a = bound(dyad.from_length, whole);
-  const Interval b = bound(dyad.to_length, whole);
-  const Interval reach{std::max({0.0, a.low - b.high, b.low - a.high}), (a + b).high};
   Interval found{INFINITY, 0};
-  std::vector<Box> open = {whole};
+  std::vector<Box> open = {whole_box(mechanism)};
   for (int count = 0; !open.empty(); ++count) {
     if (count == most_boxes) return std::nullopt;
     const Box box = open.back();
     open.pop_back();
-    const Interval d = distance(mechanism, dyad.from, dyad.to, box);
+    const Interval d = measure(box);
     if (d.low > reach.high || d.high < reach.low) {
       found = {std::min(found.low, d.low), std::max(found.high, d.high)};
       continue;
@@ -192,6 +192,33 @@ std::optional<Interval> proven_unreachable(const Mechanism& mechanism, const Dya
     for (Box& half : halves(mechanism, box)) open.push_back(std::move(half));
   }
   return found;
+}
+
+/// The distances |AP| over a box in which the dyad closes nowhere; nothing where that is not proven.
+std::optional<Interval> proven_unreachable(const Mechanism& mechanism, const DyadPoint& dyad) {
+  const Box whole = whole_box(mechanism);
+  const Interval a = bound(dyad.from_length, whole);
+  const Interval b = bound(dyad.to_length, whole);
+  const Interval reach{std::max({0.0, a.low - b.high, b.low - a.high}), (a + b).high};
+  return proven_outside(mechanism, reach, [&](const Box& box) { return distance(mechanism, dyad.from, dyad.to, box); });
+}
+
+/// The distances of `from` to the slider's line where they are all too long; nothing where that is not proven.
+std::optional<Interval> proven_unreachable(const Mechanism& mechanism, const SliderPoint& slider) {
+  const auto* base = std::get_if<ExplicitPoint>(&form_of(mechanism, slider.base));
+  const auto* from = std::get_if<ExplicitPoint>(&form_of(mechanism, slider.from));
+  if (!base || !from || slider.along.kind != VectorExpression::Kind::components) return std::nullopt;
+  const Box whole = whole_box(mechanism);
+  const Interval ux = bound(slider.along.numbers[0], whole), uy = bound(slider.along.numbers[1], whole);
+  const Interval size = root(square(ux) + square(uy));
+  if (!(size.low > 0)) return std::nullopt;
+  const Interval per_length = outward(1 / size.high, 1 / size.low);
+  const auto to_line = [&](const Box& box) {
+    const Interval x = bound(from->coordinates[0], box) - bound(base->coordinates[0], box);
+    const Interval y = bound(from->coordinates[1], box) - bound(base->coordinates[1], box);
+    return root(square((ux * y - uy * x) * per_length));
+  };
+  return proven_outside(mechanism, {0, bound(slider.length, whole).high}, to_line);
 }
 
 std::string metres(double value) {
@@ -216,14 +243,26 @@ std::string metres(double value) {
                          "change the lengths, the points " + from + " and " + to + ", or the workspace");
 }
 
+[[noreturn]] void refuse_slider(const Mechanism& mechanism, const Point& point, const Interval& distances) {
+  const SliderPoint& slider = std::get<SliderPoint>(point.form);
+  const std::string& from = mechanism.points[static_cast<std::size_t>(slider.from)].name;
+  throw core::InputError(point.where,
+                         "point " + point.name + " is unreachable in the whole box: " + from + " is from about " +
+                             metres(distances.low) + " to " + metres(distances.high) +
+                             " m off its line, but the length is " +
+                             metres(bound(slider.length, whole_box(mechanism)).high) + " m",
+                         "change the length, the line, the point " + from + ", or the workspace");
+}
+
 }  // namespace
 
 void check_reachability(const Mechanism& mechanism) {
   if (!sample_postures(mechanism, 1).empty()) return;  // it closes: so does every dyad of it
   for (const Point& point : mechanism.points) {
-    const auto* dyad = std::get_if<DyadPoint>(&point.form);
-    if (!dyad) continue;
-    if (const auto distances = proven_unreachable(mechanism, *dyad)) refuse(mechanism, point, *distances);
+    if (const auto* dyad = std::get_if<DyadPoint>(&point.form))
+      if (const auto distances = proven_unreachable(mechanism, *dyad)) refuse(mechanism, point, *distances);
+    if (const auto* slider = std::get_if<SliderPoint>(&point.form))
+      if (const auto distances = proven_unreachable(mechanism, *slider)) refuse_slider(mechanism, point, *distances);
   }
 }
 

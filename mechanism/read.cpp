@@ -25,13 +25,12 @@ std::string read_name(const std::optional<Value>& value, const std::string& file
   return value ? text_of(*value) : std::filesystem::path(file).stem().string();
 }
 
-void check_space(const std::optional<Value>& value) {
-  if (!value) return;
+Space read_space(const std::optional<Value>& value) {
+  if (!value) return Space::planar;
   const std::string text = text_of(*value);
-  if (text == "planar") return;
-  if (text == "spatial")
-    throw InputError(value->where, "spatial mechanisms are not read by this version", "describe a planar mechanism");
-  throw InputError(value->where, "the space is '" + text + "'", "write space: planar");
+  if (text == "planar") return Space::planar;
+  if (text == "spatial") return Space::spatial;
+  throw InputError(value->where, "the space is '" + text + "'", "write space: planar or space: spatial");
 }
 
 }  // namespace
@@ -42,9 +41,9 @@ Mechanism parse_mechanism(const std::string& text, const std::string& file, cons
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
   const Mapping root(document, top_keys);
   check_format(root.at("format"));
-  check_space(root.find("space"));
 
   Mechanism mechanism;
+  mechanism.space = read_space(root.find("space"));
   mechanism.file = file;
   mechanism.name = read_name(root.find("name"), file);
   read_parameters(mechanism, root.find("parameters"), overrides);
@@ -61,6 +60,7 @@ Mechanism parse_mechanism(const std::string& text, const std::string& file, cons
   check_square(mechanism, root.at("joints").where);
   check_distinct_bases(mechanism);
   check_reachability(mechanism);
+  check_axes(mechanism);
   check_rigidity(mechanism);
   return mechanism;
 }

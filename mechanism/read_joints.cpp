@@ -9,32 +9,93 @@ namespace {
 
 using core::InputError;
 
-const std::vector<std::string> joint_keys = {"revolute", "at", "actuated", "clearance"};
+const std::vector<JointType> joint_types = {JointType::revolute, JointType::prismatic, JointType::universal,
+                                            JointType::spherical, JointType::cylindrical};
 
 std::string link_text(const Mechanism& mechanism, LinkIndex link) {
   return link == ground ? "ground" : "link " + mechanism.links[static_cast<std::size_t>(link)].name;
 }
 
-/// Forms of the format that this version does not read: prismatic joints, and the joints of spatial mechanisms.
-void refuse_other_joints(const Entry& entry) {
-  if (!entry.value.is_map()) return;
-  for (const Entry& part : entries(entry.value)) {
-    const std::string problem = "joint " + entry.key + " is " + part.key + ", which this version does not read";
-    if (part.key == "prismatic") throw InputError(part.where, problem, "use revolute joints");
-    for (const char* spatial : {"universal", "spherical", "cylindrical"})
-      if (part.key == spatial) throw InputError(part.where, problem, "use revolute joints in a planar mechanism");
+/// The type of a joint, by the key that names its links.
+JointType read_type(const Mechanism& mechanism, const Entry& entry) {
+  std::vector<std::string> known;
+  std::optional<JointType> found;
+  for (const JointType type : joint_types) {
+    known.push_back(to_string(type));
+    if (!entry.value.is_map()) continue;
+    for (const Entry& part : entries(entry.value)) {
+      if (part.key != known.back()) continue;
+      if (found)
+        throw InputError(part.where, "joint " + entry.key + " is " + to_string(*found) + " and " + part.key,
+                         "describe one joint an entry");
+      found = type;
+      if (mechanism.space == Space::planar && type != JointType::revolute && type != JointType::prismatic)
+        throw InputError(part.where, "joint " + entry.key + " is " + part.key + ", a joint of spatial mechanisms",
+                         "use revolute and prismatic joints in the plane, or write space: spatial");
+    }
   }
+  // Without any of the keys the revolute one is asked for, which says what is missing or misspelt.
+  return found.value_or(JointType::revolute);
 }
 
-Clearance read_clearance(const Mechanism& mechanism, const Value& value, const std::string& joint) {
-  const Mapping mapping(value, {"radial", "angular"});
+std::vector<std::string> joint_keys(const Mechanism& mechanism, JointType type) {
+  std::vector<std::string> keys = {to_string(type), "at"};
+  const bool planar = mechanism.space == Space::planar;
+  if (type == JointType::universal)
+    keys.emplace_back("axes");
+  else if (type == JointType::prismatic || (!planar && type != JointType::spherical))
+    keys.emplace_back("axis");
+  if (type == JointType::revolute || type == JointType::prismatic) keys.emplace_back("actuated");
+  keys.emplace_back("clearance");
+  return keys;
+}
+
+std::vector<VectorExpression> read_axes(const Mechanism& mechanism, const Joint& joint, const Mapping& mapping) {
+  if (joint.type == JointType::spherical) return {};
+  if (mechanism.space == Space::planar && joint.type == JointType::revolute) return {};
+  if (joint.type != JointType::universal) {
+    Value axis = mapping.at("axis");
+    return {read_vector_expression(mechanism, axis)};
+  }
+  std::vector<VectorExpression> axes;
+  for (Value& axis : elements(mapping.at("axes"), 2)) {
+    axis.what = "an axis of joint " + joint.name;
+    axes.push_back(read_vector_expression(mechanism, axis));
+  }
+  return axes;
+}
+
+/// Which clearances a joint may have.
+std::vector<std::string> clearance_keys(const Mechanism& mechanism, const Joint& joint) {
+  switch (joint.type) {
+    case JointType::revolute:
+      return {"radial", "angular"};
+    case JointType::prismatic:
+      if (mechanism.space == Space::planar) return {"gap", "half_length", "axial"};
+      return {"axial"};
+    case JointType::universal:
+    case JointType::spherical:
+    case JointType::cylindrical:
+      return {"radial"};
+  }
+  return {};
+}
+
+Clearance read_clearance(const Mechanism& mechanism, const Value& value, const Joint& joint) {
+  const std::vector<std::string> keys = clearance_keys(mechanism, joint);
+  const Mapping mapping(value, keys);
   const auto part = [&](const std::string& key) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) return Expression();
     std::optional<Value> written = mapping.find(key);
     if (!written) return Expression();
-    written->what = "the " + key + " clearance of joint " + joint;
-    return read_number(mechanism, *written, Sign::not_negative).expression;
+    written->what = "the " + key + " clearance of joint " + joint.name;
+    return read_number(mechanism, *written, key == "half_length" ? Sign::positive : Sign::not_negative).expression;
   };
-  return {part("radial"), part("angular")};
+  if (joint.type == JointType::prismatic && mechanism.space == Space::planar && mapping.find("gap") &&
+      !mapping.find("half_length"))
+    throw InputError(value.where, "joint " + joint.name + " has a gap but no half_length",
+                     "add half_length: the distance from its point to either end of its contact, m");
+  return {part("radial"), part("angular"), part("gap"), part("half_length"), part("axial")};
 }
 
 [[noreturn]] void refuse_joint_point(const Mechanism& mechanism, const Joint& joint, LinkIndex link, const Value& at) {
@@ -49,15 +110,23 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const s
                    "add " + point + " to the points of " + name + " or correct the joint");
 }
 
+/// A pin is a point of both links that it joins; a slider's point travels along one of them.
+void check_place(const Mechanism& mechanism, const Joint& joint, const Value& at) {
+  const bool slides = joint.type == JointType::prismatic || joint.type == JointType::cylindrical;
+  const bool on_from = is_on_link(mechanism, joint.at, joint.from), on_to = is_on_link(mechanism, joint.at, joint.to);
+  if (slides ? on_from || on_to : on_from && on_to) return;
+  refuse_joint_point(mechanism, joint, on_from ? joint.to : joint.from, at);
+}
+
 Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
-  refuse_other_joints(entry);
-  Value described = entry.value;
-  described.what = "joint " + entry.key;
-  const Mapping mapping(described, joint_keys);
   Joint joint;
+  joint.type = read_type(mechanism, entry);
   joint.name = entry.key;
   joint.where = entry.where;
-  const Value links = mapping.at("revolute");
+  Value described = entry.value;
+  described.what = "joint " + entry.key;
+  const Mapping mapping(described, joint_keys(mechanism, joint.type));
+  const Value links = mapping.at(to_string(joint.type));
   std::vector<Value> names = elements(links, 2);
   for (Value& name : names) name.what = described.what;
   joint.from = read_link_name(mechanism, names[0], true);
@@ -68,17 +137,18 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
                      "name two different links");
   const Value at = mapping.at("at");
   joint.at = read_point_name(mechanism, at);
-  for (const LinkIndex link : {joint.from, joint.to})  // a pin is a point of both links that it joins
-    if (!is_on_link(mechanism, joint.at, link)) refuse_joint_point(mechanism, joint, link, at);
-  if (const auto actuated = mapping.find("actuated")) joint.actuated = boolean_of(*actuated);
-  if (const auto clearance = mapping.find("clearance"))
-    joint.clearance = read_clearance(mechanism, *clearance, joint.name);
+  check_place(mechanism, joint, at);
+  joint.axes = read_axes(mechanism, joint, mapping);
+  const bool may_be_actuated = joint.type == JointType::revolute || joint.type == JointType::prismatic;
+  if (const auto actuated = may_be_actuated ? mapping.find("actuated") : std::nullopt)
+    joint.actuated = boolean_of(*actuated);
+  if (const auto clearance = mapping.find("clearance")) joint.clearance = read_clearance(mechanism, *clearance, joint);
   return joint;
 }
 
 std::vector<Expression> read_vector(const Mechanism& mechanism, const Value& value) {
   std::vector<Expression> vector;
-  for (const Value& component : elements(value, 2))
+  for (const Value& component : elements(value, static_cast<int>(dimension(mechanism))))
     vector.push_back(read_number(mechanism, component, Sign::any).expression);
   return vector;
 }
@@ -122,7 +192,10 @@ void read_loads(Mechanism& mechanism, const std::optional<Value>& value) {
         throw InputError(described.where, described.what + " has a force but no point where it acts", "add at: ...");
     }
     const auto couple = mapping.find("couple");
-    if (couple) load.couple = read_number(mechanism, *couple, Sign::any).expression;
+    if (couple && mechanism.space == Space::spatial)
+      load.couple_vector = read_vector(mechanism, *couple);
+    else if (couple)
+      load.couple = read_number(mechanism, *couple, Sign::any).expression;
     if (!couple && load.force.empty())
       throw InputError(described.where, described.what + " has neither a force nor a couple",
                        "add force: [fx, fy] or couple: m");

@@ -46,8 +46,10 @@ PointIndex read_centre_of_mass(Mechanism& mechanism, const Link& link, const std
   }
   if (value->is_scalar()) return read_point_name(mechanism, *value);
   PointForm form = read_point_form(mechanism, *value);
-  if (std::holds_alternative<DyadPoint>(form))
-    throw InputError(value->where, value->what + " is a dyad", "name a point, or write {on: ...} or {mean: ...}");
+  if (std::holds_alternative<DyadPoint>(form) || std::holds_alternative<SliderPoint>(form))
+    throw InputError(value->where,
+                     value->what + " is a " + (std::holds_alternative<DyadPoint>(form) ? "dyad" : "slider"),
+                     "name a point, or write {on: ...} or {mean: ...}");
   return add_auxiliary(mechanism, link, std::move(form), value->where);
 }
 

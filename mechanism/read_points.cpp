@@ -129,7 +129,7 @@ class PolynomialCheck {
 
 ExplicitPoint read_explicit(const Mechanism& mechanism, const Value& value) {
   ExplicitPoint point;
-  for (const Value& coordinate : elements(value, 2)) {
+  for (const Value& coordinate : elements(value, static_cast<int>(dimension(mechanism)))) {
     point.coordinates.push_back(read_expression(mechanism, coordinate, Scope::parameters_and_coordinates));
     PolynomialCheck(mechanism, coordinate)(point.coordinates.back());
   }
@@ -161,10 +161,38 @@ DyadPoint read_dyad(const Mechanism& mechanism, const Value& value) {
           side_text == "left" ? Side::left : Side::right};
 }
 
+SliderPoint read_slider(const Mechanism& mechanism, const Value& value) {
+  const Mapping mapping(value, {"slider", "from", "length", "side"});
+  const std::vector<Value> line = elements(mapping.at("slider"), 2);
+  SliderPoint slider;
+  slider.base = read_point_name(mechanism, line[0]);
+  Value along = line[1];
+  along.what = "the direction of " + value.what;
+  slider.along = read_vector_expression(mechanism, along);
+  slider.from = read_point_name(mechanism, mapping.at("from"));
+  Value length = mapping.at("length");
+  length.what = "the length of " + value.what;
+  slider.length = read_number(mechanism, length, Sign::positive).expression;
+  const Value side = mapping.at("side");
+  const std::string side_text = text_of(side);
+  if (side_text != "ahead" && side_text != "behind")
+    throw InputError(side.where, side.what + " is '" + side_text + "'", "write ahead or behind");
+  slider.ahead = side_text == "ahead";
+  return slider;
+}
+
 OffsetPoint read_offset(const Mechanism& mechanism, const Value& value) {
   const Mapping mapping(value, {"on", "offset"});
   const auto [first, second] = read_pair(mechanism, mapping.at("on"));
-  const std::vector<Value> offset = elements(mapping.at("offset"), 2);
+  const Value written = mapping.at("offset");
+  const std::vector<Value> offset = elements(written);
+  if (mechanism.space == Space::spatial) {
+    if (offset.size() != 1)
+      throw InputError(written.where, written.what + " has " + std::to_string(offset.size()) + " numbers",
+                       "in space write offset: [u], u m along the line of the two points");
+    return {first, second, read_number(mechanism, offset[0], Sign::any).expression, Expression()};
+  }
+  (void)elements(written, 2);
   return {first, second, read_number(mechanism, offset[0], Sign::any).expression,
           read_number(mechanism, offset[1], Sign::any).expression};
 }
@@ -176,10 +204,12 @@ std::vector<Value> mentioned_points(const Value& value) {
   std::vector<Value> mentioned;
   if (!value.is_map()) return mentioned;
   for (const Entry& entry : entries(value)) {
-    if (entry.key != "dyad" && entry.key != "on" && entry.key != "mean") continue;
+    if (entry.key == "from" && entry.value.is_scalar()) mentioned.push_back(entry.value);
+    if (entry.key != "dyad" && entry.key != "on" && entry.key != "mean" && entry.key != "slider") continue;
     if (!entry.value.is_sequence()) continue;
-    for (const Value& name : elements(entry.value))
-      if (name.is_scalar()) mentioned.push_back(name);
+    const std::vector<Value> parts = elements(entry.value);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (parts[i].is_scalar() && (entry.key != "slider" || i == 0)) mentioned.push_back(parts[i]);
   }
   return mentioned;
 }
@@ -250,21 +280,24 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
   if (value.is_sequence()) return read_explicit(mechanism, value);
   if (!value.is_map())
     throw InputError(value.where, value.what + " is neither coordinates nor a construction",
-                     "write [x, y], {dyad: ...}, {on: ...} or {mean: ...}");
+                     "write [x, y], {dyad: ...}, {slider: ...}, {on: ...} or {mean: ...}");
+  for (const char* planar : {"dyad", "slider"})
+    if (mechanism.space == Space::spatial && has_key(value, planar))
+      throw InputError(value.where, value.what + " is a " + planar + ", which is a construction of the plane",
+                       "write [x, y, z], {on: ...} or {mean: ...}");
   if (has_key(value, "dyad")) return read_dyad(mechanism, value);
   if (has_key(value, "on")) return read_offset(mechanism, value);
   if (has_key(value, "mean")) {
     const auto [first, second] = read_pair(mechanism, Mapping(value, {"mean"}).at("mean"));
     return MeanPoint{first, second};
   }
-  if (has_key(value, "slider"))
-    throw InputError(value.where, value.what + " is a slider, which this version does not read",
-                     "use [x, y], dyad, on or mean");
-  const std::vector<std::string> forms = {"dyad", "on", "mean"};
+  if (has_key(value, "slider")) return read_slider(mechanism, value);
+  const std::vector<std::string> forms = {"dyad", "slider", "on", "mean"};
   const std::vector<Entry> written = entries(value);
   if (written.empty())
-    throw InputError(value.where, value.what + " is empty", "write [x, y], {dyad: ...}, {on: ...} or {mean: ...}");
-  throw InputError(written.front().where, value.what + " has none of the forms dyad, on, mean",
+    throw InputError(value.where, value.what + " is empty",
+                     "write [x, y], {dyad: ...}, {slider: ...}, {on: ...} or {mean: ...}");
+  throw InputError(written.front().where, value.what + " has none of the forms dyad, slider, on, mean",
                    suggest(written.front().key, forms, "forms"));
 }
 

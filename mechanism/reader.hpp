@@ -37,6 +37,12 @@ PointIndex read_point_name(const Mechanism& mechanism, const Value& value);
 PointForm read_point_form(const Mechanism& mechanism, const Value& value);
 void read_points(Mechanism& mechanism, const Value& value);
 
+// --- read_vectors.cpp
+/// [ux, uy], [ux, uy, uz], [A, B] for B - A, or an expression such as cross([1, 0, 0], B - A).
+VectorExpression read_vector_expression(const Mechanism& mechanism, const Value& value);
+/// The points that a vector is made from.
+std::set<PointIndex> points_of(const VectorExpression& vector);
+
 // --- read_links.cpp
 LinkIndex read_link_name(const Mechanism& mechanism, const Value& value, bool or_ground);
 void read_links(Mechanism& mechanism, const Value& value);
@@ -60,6 +66,8 @@ void check_names(const Mechanism& mechanism);
 void check_coordinates_used(const Mechanism& mechanism, const core::SourcePosition& workspace);
 /// The two points that a dyad or `on` builds on do not coincide in every pose.
 void check_distinct_bases(const Mechanism& mechanism);
+/// No axis is zero, and none that the ground holds turns.
+void check_axes(const Mechanism& mechanism);
 /// The points of a link keep their distances.
 void check_rigidity(const Mechanism& mechanism);
 

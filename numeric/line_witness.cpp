@@ -65,6 +65,25 @@ Parity LineWitness::sign_changes(const WitnessColumns& columns, double a, double
   return odd % 2 == 0 ? Parity::even : Parity::odd;
 }
 
+bool LineWitness::cancels(const WitnessColumns& columns, double a, double b) {
+  if (columns.second >= 0) return false;
+  const auto sign = [this](double position) {
+    const Bounded& d = at(position).determinant;
+    return std::abs(d.value) <= d.error ? 0 : d.value > 0 ? 1 : -1;
+  };
+  const int first = sign(a);
+  if (first * sign(b) >= 0) return false;
+  constexpr int halvings = 60;  // more than a double has digits
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (a + b) / 2;
+    if (middle == a || middle == b || !reachable(middle)) break;
+    const int here = sign(middle);
+    if (here == 0) return !decided(columns, middle);
+    (here == first ? a : b) = middle;
+  }
+  return (pair(columns, a)[0] > 0) != (pair(columns, b)[0] > 0) || !decided(columns, a) || !decided(columns, b);
+}
+
 /// A direction that merely turns does so by little between near enough positions; one that flips does not, however near
 /// they are.
 Parity LineWitness::flips(const WitnessColumns& columns, double a, double b) {

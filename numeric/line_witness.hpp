@@ -51,6 +51,10 @@ class LineWitness {
   /// Unknown where a force's direction cannot be followed in between.
   Parity sign_changes(const WitnessColumns& columns, double a, double b);
 
+  /// Whether |A| changes sign between a and b and the numerator does at the same place: there the reaction, their
+  /// quotient, stays finite and is no zero. For a single component.
+  bool cancels(const WitnessColumns& columns, double a, double b);
+
  private:
   using Pair = std::array<double, 2>;
   Pair pair(const WitnessColumns& columns, double position);

@@ -32,6 +32,8 @@ class ModelBuilder {
     for (std::size_t i = 0; i < m_.points.size(); ++i) points_.push_back(place(static_cast<int>(i)));
     model.points = points_;
     model.loads = loads();
+    for (const auto& joint : m_.joints) axes_.push_back(axis(joint));
+    model.axes = axes_;
     if (!m_.gravity.empty()) {
       const Register gx = compile(m_.gravity.at(0));
       model.gravity = {gx, compile(m_.gravity.at(1))};
@@ -85,6 +87,7 @@ class ModelBuilder {
       const Register along = compile(o->along);
       return offset(point(o->first), {tape_.divide(r[0], length), tape_.divide(r[1], length)}, along, compile(o->left));
     }
+    if (const auto* s = std::get_if<mechanism::SliderPoint>(&form)) return slider(*s, sign_of_.at(index));
     const auto& mean = std::get<mechanism::MeanPoint>(form);
     const Pair p = point(mean.first), q = point(mean.second);
     const Register half = tape_.constant(0.5);
@@ -104,6 +107,74 @@ class ModelBuilder {
     const Register s = t.multiply(sign, t.sqrt(Q));
     const Register twice_D = t.add(D, D);
     return offset(point(form.from), r, t.divide(k, twice_D), t.divide(s, twice_D));
+  }
+
+  Pair unit(Pair v) {
+    const Register length = tape_.sqrt(squared_length(v));
+    return {tape_.divide(v[0], length), tape_.divide(v[1], length)};
+  }
+
+  Pair vector(const mechanism::VectorExpression& v) {
+    using Kind = mechanism::VectorExpression::Kind;
+    auto& t = tape_;
+    std::vector<Pair> a;
+    for (const auto& argument : v.arguments) a.push_back(vector(argument));
+    switch (v.kind) {
+      case Kind::components: {
+        const Register x = compile(v.numbers.at(0));
+        return {x, compile(v.numbers.at(1))};
+      }
+      case Kind::point:
+        return point(v.point);
+      case Kind::add:
+        return {t.add(a[0][0], a[1][0]), t.add(a[0][1], a[1][1])};
+      case Kind::negate:
+        return {t.negate(a[0][0]), t.negate(a[0][1])};
+      case Kind::scale: {
+        const Register factor = compile(v.numbers.at(0));
+        return {t.multiply(factor, a[0][0]), t.multiply(factor, a[0][1])};
+      }
+      case Kind::cross:
+        break;
+    }
+    core::ensure(false, "a vector of the plane");
+    return {};
+  }
+
+  /// With the unit vector u of the line, r = C - Q and its parts along and across the line:
+  ///     S = Q + (r · u ± sqrt((l - |r × u|) (l + |r × u|))) u
+  Pair slider(const mechanism::SliderPoint& form, Register sign) {
+    auto& t = tape_;
+    const Pair u = unit(vector(form.along));
+    const Pair r = minus(point(form.from), point(form.base));
+    const Register along = t.add(t.multiply(r[0], u[0]), t.multiply(r[1], u[1]));
+    const Register across = t.subtract(t.multiply(r[0], u[1]), t.multiply(r[1], u[0]));
+    const Register l = compile(form.length);
+    const Register s = t.sqrt(t.multiply(t.subtract(l, across), t.add(l, across)));
+    return offset(point(form.base), u, t.add(along, t.multiply(sign, s)), t.constant(0.0));
+  }
+
+  std::optional<Pair> axis(const mechanism::Joint& joint) {
+    if (joint.axes.empty()) return std::nullopt;
+    return unit(vector(joint.axes.front()));
+  }
+
+  /// Force x, y and moment about the end-effector point of a unit of an unknown.
+  std::array<Register, 3> wrench(const mechanism::Unknown& unknown) {
+    using core::Quantity;
+    auto& t = tape_;
+    const auto& joint = m_.joints[static_cast<std::size_t>(unknown.joint)];
+    const Register zero = t.constant(0.0), one = t.constant(1.0);
+    const Pair arm = lever(joint.at);
+    const auto& u = axes_[static_cast<std::size_t>(unknown.joint)];
+    const auto force = [&](Register x, Register y) {
+      return std::array{x, y, t.add(t.multiply(arm[0], x), t.multiply(arm[1], y))};
+    };
+    if (unknown.quantity == Quantity::fx) return {one, zero, arm[0]};
+    if (unknown.quantity == Quantity::fy) return {zero, one, arm[1]};
+    if (unknown.quantity == Quantity::N) return force(t.negate((*u)[1]), (*u)[0]);
+    if (unknown.quantity == Quantity::F) return force((*u)[0], (*u)[1]);
+    return {zero, zero, one};
   }
 
   std::vector<LoadRegisters> loads() {
@@ -151,16 +222,14 @@ class ModelBuilder {
     for (int column = 0; column < e.unknowns; ++column) {
       const auto& unknown = model.unknowns[static_cast<std::size_t>(column)];
       const auto& joint = m_.joints[static_cast<std::size_t>(unknown.joint)];
-      const Register one = t.constant(1.0);
-      const bool force = unknown.quantity != core::Quantity::M;
-      const int component = unknown.quantity == core::Quantity::fx ? 0 : 1;
-      const Register moment = force ? lever(joint.at)[static_cast<std::size_t>(component)] : one;
+      const std::array<Register, 3> unit = wrench(unknown);
       for (const bool receives : {true, false}) {
         const int link = receives ? joint.to : joint.from;
         if (link == mechanism::ground) continue;
-        const auto signed_value = [&](Register r) { return receives ? r : t.negate(r); };
-        if (force) accumulate(link, component, column, signed_value(one));
-        accumulate(link, 2, column, signed_value(moment));
+        for (int row = 0; row < 3; ++row) {
+          const Register value = unit[static_cast<std::size_t>(row)];
+          if (!t.is_exactly(value, 0)) accumulate(link, row, column, receives ? value : t.negate(value));
+        }
       }
     }
     return e;
@@ -187,6 +256,7 @@ class ModelBuilder {
   std::map<std::string, Register> names_;
   std::map<int, Register> sign_of_;
   std::vector<Pair> points_;
+  std::vector<std::optional<Pair>> axes_;  ///< of every joint
 };
 
 }  // namespace
@@ -221,6 +291,7 @@ Posture posture(const NumericModel& model, std::span<const double> pose, std::sp
     const bool placed = std::isfinite(at(x)) && std::isfinite(at(y));
     if (!placed && !result.unreachable) result.unreachable = static_cast<int>(i);
   }
+  for (const auto& axis : model.axes) result.axes.push_back(axis ? Point2{at((*axis)[0]), at((*axis)[1])} : Point2{});
   for (const auto& load : model.loads) {
     const auto& link = model.mechanism.links[static_cast<std::size_t>(load.link)];
     const int place = load.at ? *load.at : link.centre_of_mass;  // a couple acts nowhere: any point of its link will do

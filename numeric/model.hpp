@@ -28,13 +28,15 @@ struct LoadRegisters {
 struct NumericModel {
   mechanism::Mechanism mechanism;
   std::vector<mechanism::Unknown> unknowns;     ///< columns of A
-  std::vector<mechanism::PointIndex> dyads;     ///< the working mode has a sign for each
+  std::vector<mechanism::PointIndex> dyads;     ///< dyads and sliders: the working mode has a sign for each
   std::vector<std::array<double, 2>> box;       ///< lower, upper of each free coordinate, m or rad
   Tape tape;                                    ///< inputs: free coordinates, then the signs of the working mode
   int posture_size = 0;                         ///< instructions that compute points and loads
   int reaction_size = 0;                        ///< and with them the reactions; the rest serves the unit wrenches
   std::vector<std::array<Register, 2>> points;  ///< of every point
   std::vector<LoadRegisters> loads;             ///< the file's loads in order, then the weights
+  /// Of every joint: the unit vector of its axis; nothing for a joint without one.
+  std::vector<std::optional<std::array<Register, 2>>> axes;
   std::optional<std::array<Register, 2>> gravity;
   Elimination elimination;
   std::array<Elimination, 3> unit_wrenches;  ///< the same matrix under a unit fx, fy, couple on the end effector
@@ -58,6 +60,7 @@ struct AppliedLoad {
 struct Posture {
   std::vector<Point2> points;                        ///< as mechanism.points; NaN from the unreachable one on
   std::vector<AppliedLoad> loads;                    ///< as NumericModel::loads
+  std::vector<Point2> axes;                          ///< of every joint: unit vector of its axis; zero without one
   Point2 gravity{};                                  ///< m/s²
   std::optional<mechanism::PointIndex> unreachable;  ///< the first point that cannot be placed
 

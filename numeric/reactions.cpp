@@ -21,6 +21,31 @@ double moment(const NumericModel& model, const Posture& posture, const Point2& a
   return (at[0] - reference[0]) * force[1] - (at[1] - reference[1]) * force[0];
 }
 
+/// Force and moment of a unit of an unknown.
+Eigen::Vector3d unit_wrench(const NumericModel& model, const Posture& posture, const mechanism::Unknown& unknown) {
+  using core::Quantity;
+  const auto& joint = model.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
+  const Point2& u = posture.axes[static_cast<std::size_t>(unknown.joint)];
+  Point2 force{};
+  switch (unknown.quantity) {
+    case Quantity::fx:
+      force = {1, 0};
+      break;
+    case Quantity::fy:
+      force = {0, 1};
+      break;
+    case Quantity::N:
+      force = {-u[1], u[0]};
+      break;
+    case Quantity::F:
+      force = u;
+      break;
+    default:
+      return {0, 0, 1};  // a couple
+  }
+  return {force[0], force[1], moment(model, posture, point_of(posture, joint.at), force)};
+}
+
 }  // namespace
 
 Eigen::MatrixXd newton_euler_matrix(const NumericModel& model, const Posture& posture) {
@@ -30,11 +55,7 @@ Eigen::MatrixXd newton_euler_matrix(const NumericModel& model, const Posture& po
   for (Eigen::Index column = 0; column < size; ++column) {
     const auto& unknown = model.unknowns[static_cast<std::size_t>(column)];
     const auto& joint = model.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
-    Eigen::Vector3d wrench(0, 0, 1);  // of a unit couple
-    if (unknown.quantity != core::Quantity::M) {
-      const Point2 force = unknown.quantity == core::Quantity::fx ? Point2{1, 0} : Point2{0, 1};
-      wrench = {force[0], force[1], moment(model, posture, point_of(posture, joint.at), force)};
-    }
+    const Eigen::Vector3d wrench = unit_wrench(model, posture, unknown);
     if (joint.to != mechanism::ground) A.block<3, 1>(3 * joint.to, column) += wrench;
     if (joint.from != mechanism::ground) A.block<3, 1>(3 * joint.from, column) -= wrench;
   }

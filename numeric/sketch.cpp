@@ -22,10 +22,21 @@ double distance(const Point2& p, const Point2& q) { return std::hypot(q[0] - p[0
 double openness(const NumericModel& model, const Posture& posture) {
   double least = 1;
   for (const int index : model.dyads) {
-    const auto& dyad = std::get<mechanism::DyadPoint>(model.mechanism.points[static_cast<std::size_t>(index)].form);
-    const Point2 &apex = point_of(posture, index), &from = point_of(posture, dyad.from),
-                 &to = point_of(posture, dyad.to);
-    least = std::min(least, std::abs(cross(apex, from, to)) / (distance(apex, from) * distance(apex, to)));
+    const auto& form = model.mechanism.points[static_cast<std::size_t>(index)].form;
+    const Point2& apex = point_of(posture, index);
+    if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) {
+      const Point2 &from = point_of(posture, dyad->from), &to = point_of(posture, dyad->to);
+      least = std::min(least, std::abs(cross(apex, from, to)) / (distance(apex, from) * distance(apex, to)));
+      continue;
+    }
+    // A slider: its rod is far from square to its path.
+    const auto& slider = std::get<mechanism::SliderPoint>(form);
+    const Point2 &base = point_of(posture, slider.base), &from = point_of(posture, slider.from);
+    const double path = distance(base, apex);
+    if (path > 0) {
+      const double along = (from[0] - apex[0]) * (base[0] - apex[0]) + (from[1] - apex[1]) * (base[1] - apex[1]);
+      least = std::min(least, std::abs(along) / (path * distance(apex, from)));
+    }
   }
   return least;
 }

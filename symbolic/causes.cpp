@@ -76,6 +76,13 @@ Poly Causes::aligned(PointIndex a, PointIndex b, PointIndex c) const {
   return cross(difference(p[at(b)], p[at(a)]), difference(p[at(c)], p[at(a)])).primitive();
 }
 
+Poly Causes::perpendicular(PointIndex a, PointIndex b, const mechanism::VectorExpression& along) const {
+  const std::vector<GiNaC::ex> u = geometry_->vector(along);
+  return dot(difference(points_[static_cast<std::size_t>(b)], points_[static_cast<std::size_t>(a)]),
+             {geometry_->poly(u[0]), geometry_->poly(u[1])})
+      .primitive();
+}
+
 void Causes::add_load_conditions(const std::vector<Edge>& edges, const std::vector<Direction>& directions) {
   const auto vector = [&](PointIndex a, PointIndex b) {
     return difference(points_[static_cast<std::size_t>(b)], points_[static_cast<std::size_t>(a)]);

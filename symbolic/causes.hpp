@@ -17,6 +17,9 @@ class Causes {
   /// The wording of the condition that a factor states, up to a constant; empty where it states none of them.
   std::string of(const Poly& factor) const;
 
+  /// The condition that the line of two points is perpendicular to a vector.
+  Poly perpendicular(mechanism::PointIndex a, mechanism::PointIndex b, const mechanism::VectorExpression& along) const;
+
   /// The condition that three points lie on a line.
   Poly aligned(mechanism::PointIndex a, mechanism::PointIndex b, mechanism::PointIndex c) const;
 

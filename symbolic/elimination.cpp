@@ -113,7 +113,12 @@ void Elimination::eliminate(Poly p, std::vector<Poly>& found) const {
     a = a.exact_quotient(shared);
     b = b.exact_quotient(shared);
   }
-  eliminate(geometry_->reduce(a * a - b * b * top->square), found);
+  const Poly norm = geometry_->reduce(a * a - b * b * top->square);
+  // Roots that are equal but for their signs: p vanishes identically for one sign and is 2 a for the other.
+  if (norm.is_zero())
+    eliminate(a, found);
+  else
+    eliminate(norm, found);
 }
 
 Poly Elimination::norm_on_line(const Poly& sheet) const {

@@ -138,6 +138,8 @@ class SheetWriter {
     const mechanism::Point& point = mechanism_.points[static_cast<std::size_t>(c.point)];
     if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&point.form)) {
       write_dyad(c, point.name, *dyad, lines);
+    } else if (const auto* slider = std::get_if<mechanism::SliderPoint>(&point.form)) {
+      write_slider(c, point.name, *slider, lines);
     } else if (const auto* offset = std::get_if<mechanism::OffsetPoint>(&point.form)) {
       // Otherwise linear in the two other points.
       if (geometry_.poly(geometry_.natural(c.point)[0]).depends_on(c.x)) write_offset(c, point.name, *offset, lines);
@@ -157,6 +159,25 @@ class SheetWriter {
     lines.emplace_back(s.text, (dyad.side == mechanism::Side::left ? root : w.negated(root)).text);
     write_place(c, dyad.from, w.quotient(w.difference(w.product(k, u), w.product(s, v)), w.twice(D)),
                 w.quotient(w.sum(w.product(k, v), w.product(s, u)), w.twice(D)), lines);
+  }
+
+  /// S = Q + (p + s) u / U,  p = u . (C - Q),  U = u . u,  s^2 = l^2 U - (u x (C - Q))^2.
+  void write_slider(const ConstructedPoint& c, const std::string& name, const mechanism::SliderPoint& slider,
+                    Lines& lines) const {
+    const FormulaWriter w(language_);
+    const FormulaText p = symbol_text("p" + name, language_), q = symbol_text("q" + name, language_),
+                      s = symbol_text("s" + name, language_);
+    const std::vector<GiNaC::ex> along = geometry_.vector(slider.along);
+    const Poly x = geometry_.poly(along[0]), y = geometry_.poly(along[1]);
+    const FormulaText u = as_text(x), v = as_text(y), size = as_text(x * x + y * y);
+    const FormulaText dx = difference(slider.base, slider.from, 0), dy = difference(slider.base, slider.from, 1);
+    lines.emplace_back(p.text, w.sum(w.product(u, dx), w.product(v, dy)).text);
+    lines.emplace_back(q.text, w.difference(w.product(u, dy), w.product(v, dx)).text);
+    const Poly l = length(slider.length);
+    const FormulaText root = w.root(w.difference(w.product(as_text(l * l), size), w.squared(q)));
+    lines.emplace_back(s.text, (slider.ahead ? root : w.negated(root)).text);
+    const FormulaText step = w.quotient(w.sum(p, s), size);
+    write_place(c, slider.base, w.product(step, u), w.product(step, v), lines);
   }
 
   void write_offset(const ConstructedPoint& c, const std::string& name, const mechanism::OffsetPoint& offset,

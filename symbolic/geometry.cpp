@@ -17,6 +17,7 @@ using mechanism::MeanPoint;
 using mechanism::Mechanism;
 using mechanism::OffsetPoint;
 using mechanism::PointIndex;
+using mechanism::SliderPoint;
 
 GiNaC::numeric number(const Rational& value) { return GiNaC::numeric(core::to_string(value).c_str()); }
 
@@ -34,6 +35,15 @@ struct PlacedExpression {
   core::SourcePosition where;
 };
 
+std::vector<Expression> numbers_of(const mechanism::VectorExpression& vector) {
+  std::vector<Expression> numbers = vector.numbers;
+  for (const auto& argument : vector.arguments) {
+    const std::vector<Expression> more = numbers_of(argument);
+    numbers.insert(numbers.end(), more.begin(), more.end());
+  }
+  return numbers;
+}
+
 /// Every expression that the equations are made of.
 std::vector<PlacedExpression> expressions_of(const Mechanism& m) {
   std::vector<PlacedExpression> all;
@@ -44,7 +54,13 @@ std::vector<PlacedExpression> expressions_of(const Mechanism& m) {
     if (const auto* form = std::get_if<ExplicitPoint>(&point.form)) add(form->coordinates, point.where);
     if (const auto* dyad = std::get_if<DyadPoint>(&point.form)) add({dyad->from_length, dyad->to_length}, point.where);
     if (const auto* offset = std::get_if<OffsetPoint>(&point.form)) add({offset->along, offset->left}, point.where);
+    if (const auto* slider = std::get_if<SliderPoint>(&point.form)) {
+      add({slider->length}, point.where);
+      add(numbers_of(slider->along), point.where);
+    }
   }
+  for (const mechanism::Joint& joint : m.joints)
+    for (const mechanism::VectorExpression& axis : joint.axes) add(numbers_of(axis), joint.where);
   for (const mechanism::Load& load : m.loads) {
     add(load.force, load.where);
     add({load.couple}, load.where);
@@ -86,6 +102,8 @@ Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts char
   natural_.resize(count);
   tower_.resize(count, TowerPoint{Poly(*ring_), Poly(*ring_), Poly(*ring_)});
   for (PointIndex point = 0; point < static_cast<PointIndex>(count); ++point) place(point);
+  for (const mechanism::Joint& joint : mechanism.joints)
+    for (const mechanism::VectorExpression& axis : joint.axes) divide_by_length(axis);
 }
 
 GiNaC::symbol Geometry::symbol(const std::string& name) const {
@@ -200,7 +218,7 @@ void Geometry::name_variables() {
   };
   for (PointIndex i = 0; i < static_cast<PointIndex>(mechanism_->points.size()); ++i) {
     const mechanism::Point& point = mechanism_->points[index(i)];
-    if (!std::holds_alternative<DyadPoint>(point.form) && !std::holds_alternative<OffsetPoint>(point.form)) continue;
+    if (std::holds_alternative<ExplicitPoint>(point.form) || std::holds_alternative<MeanPoint>(point.form)) continue;
     const int x = add_untaken("x" + point.name);
     const int y = add_untaken("y" + point.name);
     constructed_.push_back({i, x, y});
@@ -241,7 +259,8 @@ void Geometry::place_angles() {
 
 std::vector<Substitution> Geometry::substitutions() const {
   std::vector<Substitution> list;
-  for (const ConstructedPoint& c : constructed_) list.push_back({c.x, c.y, tower(c.point)});
+  for (const ConstructedPoint& c : constructed_)
+    if (!tower(c.point).w.is_zero()) list.push_back({c.x, c.y, tower(c.point)});  // once it is placed
   list.insert(list.end(), angles_.begin(), angles_.end());
   return list;
 }
@@ -330,6 +349,8 @@ core::RootTower Geometry::plain_tower() const {
   for (const TowerRoot& root : roots_) {
     tower.roots.push_back({"s" + std::to_string(tower.roots.size() + 1), mechanism_->points[index(root.point)].name,
                            root.role, root.square.plain(variables)});
+    if (std::holds_alternative<SliderPoint>(mechanism_->points[index(root.point)].form))
+      tower.roots.back().sides = {"ahead", "behind"};
   }
   for (const Poly& denominator : denominators_) tower.denominators.push_back(denominator.plain(variables));
   return tower;
@@ -341,6 +362,7 @@ void Geometry::place(PointIndex point) {
   if (const auto* mean = std::get_if<MeanPoint>(&form)) place_mean(point, *mean);
   if (const auto* dyad = std::get_if<DyadPoint>(&form)) place_dyad(point, *dyad);
   if (const auto* offset = std::get_if<OffsetPoint>(&form)) place_offset(point, *offset);
+  if (const auto* slider = std::get_if<SliderPoint>(&form)) place_slider(point, *slider);
 }
 
 void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
@@ -403,6 +425,83 @@ TowerPoint Geometry::offset_over_tower(const OffsetPoint& form, const Poly& leng
   return {reduce(a.x * b.w * length_numerator + (along * u - left * v) * length_denominator),
           reduce(a.y * b.w * length_numerator + (along * v + left * u) * length_denominator),
           reduce(a.w * b.w * length_numerator)};
+}
+
+std::vector<GiNaC::ex> Geometry::vector(const mechanism::VectorExpression& v) const {
+  using Kind = mechanism::VectorExpression::Kind;
+  std::vector<std::vector<GiNaC::ex>> a;
+  for (const auto& argument : v.arguments) a.push_back(vector(argument));
+  std::vector<GiNaC::ex> result;
+  switch (v.kind) {
+    case Kind::components:
+      for (const Expression& number : v.numbers) result.push_back(expression(number));
+      break;
+    case Kind::point:
+      for (const GiNaC::ex& coordinate : natural(v.point)) result.push_back(coordinate);
+      break;
+    case Kind::add:
+      for (std::size_t i = 0; i < a[0].size(); ++i) result.push_back(a[0][i] + a[1][i]);
+      break;
+    case Kind::negate:
+      for (const GiNaC::ex& component : a[0]) result.push_back(-component);
+      break;
+    case Kind::scale:
+      for (const GiNaC::ex& component : a[0]) result.push_back(expression(v.numbers[0]) * component);
+      break;
+    case Kind::cross:
+      result = {a[0][1] * a[1][2] - a[0][2] * a[1][1], a[0][2] * a[1][0] - a[0][0] * a[1][2],
+                a[0][0] * a[1][1] - a[0][1] * a[1][0]};
+      break;
+  }
+  for (GiNaC::ex& component : result) component = component.expand();
+  return result;
+}
+
+void Geometry::divide_by_length(const mechanism::VectorExpression& axis) {
+  std::vector<Poly> u;
+  for (const GiNaC::ex& component : vector(axis)) u.push_back(poly(component));
+  for (const Substitution& pair : substitutions()) {
+    int degree = 0;
+    for (const Poly& component : u) degree = std::max(degree, degree_in(component, pair));
+    for (Poly& component : u) component = substituted(component, pair, degree);
+  }
+  Poly size(*ring_);
+  for (const Poly& component : u) size += component * component;
+  size = reduce(size);
+  const std::vector<int> free = tower_variables();
+  if (std::any_of(free.begin(), free.end(), [&](int variable) { return size.depends_on(variable); }))
+    denominators_.push_back(size);
+}
+
+// S = Q + (p +- s) u / U,  p = u . (C - Q),  U = u . u,  s^2 = l^2 U - (u x (C - Q))^2: the sign + is ahead.
+void Geometry::place_slider(PointIndex point, const SliderPoint& form) {
+  const TowerPoint& q = tower(form.base);
+  const TowerPoint& c = tower(form.from);
+  const Poly length = poly(expression(form.length).expand());
+  const std::vector<GiNaC::ex> along = vector(form.along);
+  // Only the direction of u matters: its numerators over a common denominator that is positive.
+  std::array<Poly, 2> u = {poly(along[0]), poly(along[1])};
+  for (const Substitution& pair : substitutions()) {
+    const int degree = std::max(degree_in(u[0], pair), degree_in(u[1], pair));
+    if (degree > 0) u = {substituted(u[0], pair, degree), substituted(u[1], pair, degree)};
+  }
+  // C - Q = (x, y) / w; p = pn / w, s is scaled by w > 0 likewise.
+  const Poly x = reduce(c.x * q.w - q.x * c.w), y = reduce(c.y * q.w - q.y * c.w), w = reduce(c.w * q.w);
+  const Poly size = reduce(u[0] * u[0] + u[1] * u[1]);
+  const Poly pn = reduce(u[0] * x + u[1] * y), across = reduce(u[0] * y - u[1] * x);
+  const int variable = first_root_ + static_cast<int>(roots_.size());
+  roots_.push_back({point, variable, RootRole::working_mode, reduce(length * length * size * w * w - across * across)});
+  if (!size.is_constant()) denominators_.push_back(size);
+  const Poly s = Poly::variable(*ring_, variable);
+  tower_[index(point)] = {reduce(q.x * c.w * size + (pn + s) * u[0]), reduce(q.y * c.w * size + (pn + s) * u[1]),
+                          reduce(w * size)};
+  construct(point);
+  // On a line of constant direction one symbol does for both coordinates, and what holds all along it is seen at once.
+  if (!u[0].is_constant() || !u[1].is_constant()) return;
+  const std::size_t free = u[0].is_zero() ? 1 : 0;
+  const GiNaC::ex slope = number(u[1 - free].constant() / u[free].constant());
+  const auto& base = natural(form.base);
+  natural_[index(point)][1 - free] = (base[1 - free] + slope * (natural_[index(point)][free] - base[free])).expand();
 }
 
 void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {

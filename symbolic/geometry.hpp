@@ -86,6 +86,9 @@ class Geometry {
   /// A ring variable that occurs in nothing else, for telling two polynomials of one computation apart.
   int auxiliary() const { return ring().size() - 1; }
 
+  /// A vector of the file in natural coordinates, 2 or 3 components.
+  std::vector<GiNaC::ex> vector(const mechanism::VectorExpression& vector) const;
+
   /// An expression of the file as a GiNaC expression in the ring's symbols.
   GiNaC::ex expression(const core::Expression& expression) const;
   /// A polynomial GiNaC expression as an element of the ring.
@@ -110,10 +113,13 @@ class Geometry {
   void place_mean(mechanism::PointIndex point, const mechanism::MeanPoint& form);
   void place_dyad(mechanism::PointIndex point, const mechanism::DyadPoint& form);
   void place_offset(mechanism::PointIndex point, const mechanism::OffsetPoint& form);
+  void place_slider(mechanism::PointIndex point, const mechanism::SliderPoint& form);
   /// Position first + ((u along + v across) (second - first)) / length, over the tower.
   TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const Poly& length_numerator,
                                const Poly& length_denominator) const;
   void construct(mechanism::PointIndex point);
+  /// The direction of an axis is undefined where its length is zero: |u|^2 joins the denominators.
+  void divide_by_length(const mechanism::VectorExpression& axis);
 
   const mechanism::Mechanism* mechanism_;
   bool keep_parameters_;

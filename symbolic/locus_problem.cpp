@@ -45,6 +45,23 @@ std::optional<core::Rational> rational_root(const core::Rational& square) {
   return core::Rational(sqrt(square.get_num()), sqrt(square.get_den()));
 }
 
+/// Where contact losses are wanted, so are the zeros of the normal force and the couple of a prismatic joint, at which
+/// its contact changes; where backlash is, so is that of an actuator along its axis.
+std::vector<Quantity> expanded(std::vector<Quantity> wanted) {
+  const auto add = [&wanted](Quantity quantity) {
+    if (std::find(wanted.begin(), wanted.end(), quantity) == wanted.end()) wanted.push_back(quantity);
+  };
+  const std::vector<Quantity> named = wanted;
+  for (const Quantity quantity : named) {
+    if (quantity == Quantity::f) {
+      add(Quantity::N);
+      add(Quantity::T);
+    }
+    if (quantity == Quantity::M) add(Quantity::F);
+  }
+  return wanted;
+}
+
 /// A natural factor that occurs in numerators, with what vanishes on it.
 struct SharedFactor {
   Poly natural;
@@ -90,7 +107,7 @@ class Derivation {
         causes_(geometry_) {
     result_.problem.tower = geometry_.plain_tower();
     result_.problem.joints = selected_joints(m, selection);
-    result_.problem.quantities = selection.quantities;
+    result_.problem.quantities = expanded(selection.quantities);
     result_.problem.modes = {file_mode()};
     for (const mechanism::Joint& joint : m.joints) result_.problem.joint_order.push_back(joint.name);
     auto piece = pieces.begin();
@@ -128,13 +145,17 @@ class Derivation {
   }
 
   bool wanted(Quantity quantity) const {
-    return std::find(selection_.quantities.begin(), selection_.quantities.end(), quantity) !=
-           selection_.quantities.end();
+    const auto& list = result_.problem.quantities;
+    return std::find(list.begin(), list.end(), quantity) != list.end();
   }
 
   bool selected(const std::string& joint) const {
     const auto& joints = result_.problem.joints;
     return std::find(joints.begin(), joints.end(), joint) != joints.end();
+  }
+
+  const std::string& point_name(mechanism::PointIndex point) const {
+    return mechanism_.points[static_cast<std::size_t>(point)].name;
   }
 
   const std::string& joint_name(JointIndex joint) const {
@@ -205,8 +226,8 @@ class Derivation {
 
   void mark_wanted() {
     for (const std::string& joint : result_.problem.joints) {
-      for (const Quantity component : {Quantity::M, Quantity::fx, Quantity::fy}) {
-        if (wanted(component)) want(factors_of(joint, component));
+      for (const Quantity component : core::all_quantities) {
+        if (component != Quantity::f && wanted(component)) want(factors_of(joint, component));
       }
       if (wanted(Quantity::f)) mark_contact_loss(joint);
     }
@@ -270,11 +291,19 @@ class Derivation {
   void add_boundaries() {
     for (const TowerRoot& root : geometry_.roots()) {
       if (root.role != core::RootRole::working_mode) continue;
-      const auto& dyad = std::get<mechanism::DyadPoint>(mechanism_.points[static_cast<std::size_t>(root.point)].form);
       LocusFactor factor;
-      const Poly stretched = causes_.aligned(dyad.from, root.point, dyad.to);
-      factor.expression = text(stretched);
-      factor.cause = causes_.of(stretched);
+      const auto& form = mechanism_.points[static_cast<std::size_t>(root.point)].form;
+      if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) {
+        const Poly stretched = causes_.aligned(dyad->from, root.point, dyad->to);
+        factor.expression = text(stretched);
+        factor.cause = causes_.of(stretched);
+      } else {
+        const auto& slider = std::get<mechanism::SliderPoint>(form);
+        const Poly across = causes_.perpendicular(slider.from, root.point, slider.along);
+        factor.expression = text(across);
+        factor.cause = "line " + point_name(slider.from) + "-" + point_name(root.point) +
+                       " perpendicular to the path of " + point_name(root.point);
+      }
       add(FactorRole::workspace_boundary, root.square, true, factor);
     }
     const std::vector<int> variables = geometry_.tower_variables();

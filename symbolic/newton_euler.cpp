@@ -21,6 +21,27 @@ Vector arm(const Geometry& geometry, mechanism::PointIndex point) {
   return {q[0] - p[0], q[1] - p[1]};
 }
 
+/// Force x, y and moment about the end-effector point.
+using Wrench = std::array<GiNaC::ex, rows_per_link>;
+
+Wrench at_point(const Vector& r, const Vector& force) {
+  return {force[0], force[1], r[0] * force[1] - r[1] * force[0]};
+}
+
+/// The wrench of a unit of an unknown. Along or across an axis the unit is the axis itself, B - A, so that no root of
+/// its length enters: there the unknown is the reaction over |B - A|.
+Wrench unit_wrench(const Geometry& geometry, const mechanism::Joint& joint, core::Quantity quantity) {
+  using core::Quantity;
+  const Vector r = arm(geometry, joint.at);
+  if (quantity == Quantity::fx) return at_point(r, {1, 0});
+  if (quantity == Quantity::fy) return at_point(r, {0, 1});
+  if (quantity == Quantity::M || quantity == Quantity::T) return {0, 0, 1};
+  const std::vector<GiNaC::ex> axis = geometry.vector(joint.axes.at(0));
+  if (quantity == Quantity::F) return at_point(r, {axis[0], axis[1]});
+  core::ensure(quantity == Quantity::N, "an unknown of a planar joint");
+  return at_point(r, {-axis[1], axis[0]});
+}
+
 void add_force(GiNaC::matrix& column, LinkIndex link, const Vector& r, const Vector& force, const GiNaC::ex& sign) {
   column(row(link, 0), 0) += sign * force[0];
   column(row(link, 1), 0) += sign * force[1];
@@ -47,13 +68,11 @@ NewtonEulerEquations newton_euler_equations(const Geometry& geometry) {
     const mechanism::Unknown& unknown = equations.unknowns[column];
     equations.unknown_names.push_back(mechanism::unknown_name(m, unknown));
     const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(unknown.joint)];
-    const Vector r = arm(geometry, joint.at);
+    const Wrench wrench = unit_wrench(geometry, joint, unknown.quantity);
     for (const auto& [link, sign] : {std::pair{joint.to, 1}, std::pair{joint.from, -1}}) {
       if (link == mechanism::ground) continue;
-      const bool fx = unknown.quantity == core::Quantity::fx, fy = unknown.quantity == core::Quantity::fy;
-      if (fx || fy) equations.matrix(row(link, fx ? 0 : 1), column) = sign;
-      const GiNaC::ex moment = fx ? GiNaC::ex(-r[1]) : fy ? r[0] : GiNaC::ex(1);
-      equations.matrix(row(link, 2), column) = (sign * moment).expand();
+      for (unsigned component = 0; component < rows_per_link; ++component)
+        equations.matrix(row(link, component), column) = (sign * wrench[component]).expand();
     }
   }
   for (const mechanism::Link& link : m.links) {

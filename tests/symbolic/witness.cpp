@@ -80,7 +80,7 @@ class Witness {
     const double largest = reactions.values.cwiseAbs().maxCoeff();
     for (std::size_t k = 0; k < determinants.numerators.size(); ++k) {
       const double exact = evaluated(determinants.numerator_factors[k], natural) / determinant;
-      const double scale = model_scale(posture, determinants.equations.unknowns[k]);
+      const double scale = unit_size(geometry, natural, determinants.equations.unknowns[k]);
       EXPECT_NEAR(exact * scale, reactions.values[static_cast<Eigen::Index>(k)], 1e-7 * (1 + largest))
           << determinants.equations.unknown_names[k];
     }
@@ -91,10 +91,16 @@ class Witness {
   const numeric::NumericModel& model() const { return model_; }
 
  private:
-  /// A true reaction over the exact column's: what a unit of the column is in N or N m.
-  double model_scale(const numeric::Posture& posture, const mechanism::Unknown& unknown) const {
-    (void)posture, (void)unknown;
-    return 1;
+  /// The length of the axis that is the unit of an exact column along or across it.
+  double unit_size(const Geometry& geometry, const std::vector<double>& natural,
+                   const mechanism::Unknown& unknown) const {
+    if (unknown.quantity != core::Quantity::N && unknown.quantity != core::Quantity::F) return 1;
+    double squared = 0;
+    for (const GiNaC::ex& component : geometry.vector(m_.joints[static_cast<std::size_t>(unknown.joint)].axes.at(0))) {
+      const double value = core::evaluate(geometry.poly(component).plain(), std::span<const double>(natural));
+      squared += value * value;
+    }
+    return std::sqrt(squared);
   }
 
   void hold_tower(const Geometry& geometry, const FactoredDeterminants& determinants,
