@@ -103,9 +103,9 @@ struct Link {
 struct Clearance {
   Expression radial;
   Expression angular;
-  Expression gap;
-  Expression half_length;
-  Expression axial;
+  Expression gap = {};
+  Expression half_length = {};
+  Expression axial = {};
 };
 
 enum class JointType { revolute, prismatic, universal, spherical, cylindrical };
@@ -129,11 +129,11 @@ struct Joint {
 
 struct Load {
   LinkIndex link = 0;
-  std::optional<PointIndex> at;           ///< required with `force`
-  std::vector<Expression> force;          ///< empty, 2 or (spatial) 3 components, N
-  Expression couple;                      ///< N m, counter-clockwise; planar
-  std::vector<Expression> couple_vector;  ///< empty or 3 components, N m; spatial
+  std::optional<PointIndex> at;   ///< required with `force`
+  std::vector<Expression> force;  ///< empty, 2 or (spatial) 3 components, N
+  Expression couple;              ///< N m, counter-clockwise; planar
   core::SourcePosition where;
+  std::vector<Expression> couple_vector = {};  ///< empty or 3 components, N m; spatial
 };
 
 /// A scalar unknown of the Newton-Euler equations: a component of the joint's reaction, or its actuator's.
