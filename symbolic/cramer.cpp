@@ -12,6 +12,9 @@ namespace {
 
 using core::Rational;
 
+/// A core of this size is solved densely.
+constexpr std::size_t dense_core = 4;
+
 /// Column to entry, zeros left out; column n is the right-hand side.
 using SparseRow = std::map<int, Poly>;
 
@@ -41,8 +44,10 @@ void subtract(SparseRow& row, const Poly& multiple, const SparseRow& pivot_row) 
   }
 }
 
-/// The constant entry whose elimination fills in least (Markowitz), among the rows still active.
-bool find_constant_pivot(const std::vector<SparseRow>& rows, const std::vector<bool>& active, int n, Pivot& best) {
+/// The entry to eliminate by: a constant one where there is one, for that raises no degree; else a short polynomial.
+/// Among them the one that fills in least (Markowitz).
+bool find_pivot(const std::vector<SparseRow>& rows, const std::vector<bool>& active, int n, bool constant,
+                Pivot& best) {
   std::vector<std::size_t> in_column(static_cast<std::size_t>(n), 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!active[i]) continue;
@@ -54,8 +59,9 @@ bool find_constant_pivot(const std::vector<SparseRow>& rows, const std::vector<b
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!active[i]) continue;
     for (const auto& [column, entry] : rows[i]) {
-      if (column == n || !entry.is_constant()) continue;
-      const std::size_t cost = (rows[i].size() - 1) * (in_column[static_cast<std::size_t>(column)] - 1);
+      if (column == n || (constant && !entry.is_constant())) continue;
+      std::size_t cost = (rows[i].size() - 1) * (in_column[static_cast<std::size_t>(column)] - 1);
+      if (!constant) cost = (cost + 1) * entry.length();
       if (cost < least) {
         least = cost;
         best = {i, column};
@@ -63,6 +69,61 @@ bool find_constant_pivot(const std::vector<SparseRow>& rows, const std::vector<b
     }
   }
   return least != std::numeric_limits<std::size_t>::max();
+}
+
+/// A quotient of products of polynomials, kept as lists of which no two have a factor in common.
+class Quotient {
+ public:
+  explicit Quotient(const Ring& ring) : ring_(&ring) {}
+
+  void multiply(Poly factor) { cancel(std::move(factor), below_, above_); }
+  void divide(Poly factor) { cancel(std::move(factor), above_, below_); }
+
+  /// p times the quotient, which has to be a polynomial.
+  Poly apply(Poly p) const {
+    for (const Poly& factor : above_) p *= factor;
+    for (const Poly& factor : below_) p = p.exact_quotient(factor);
+    return p;
+  }
+
+ private:
+  void cancel(Poly factor, std::vector<Poly>& against, std::vector<Poly>& into) {
+    for (Poly& other : against) {
+      if (factor.is_constant()) break;
+      const Poly shared = gcd(factor, other);
+      if (shared.is_constant()) continue;
+      factor = factor.exact_quotient(shared);
+      other = other.exact_quotient(shared);
+    }
+    into.push_back(std::move(factor));
+  }
+
+  const Ring* ring_;
+  std::vector<Poly> above_, below_;
+};
+
+/// The common factor of a row's entries.
+Poly content(const Ring& ring, const SparseRow& row) {
+  Poly shared(ring);
+  for (const auto& [column, entry] : row) {
+    shared = shared.is_zero() ? entry.primitive() : gcd(shared, entry);
+    if (shared.is_constant()) return Poly(ring, 1);
+  }
+  return shared.is_zero() ? Poly(ring, 1) : shared;
+}
+
+/// row = (p row - e pivot_row) / content, p and e the two entries of the pivot's column without their common factor.
+/// Records in `scale` what that multiplies the determinant by.
+void eliminate_by_polynomial(SparseRow& row, const SparseRow& pivot_row, int column, Quotient& scale) {
+  const Poly shared = gcd(row.at(column), pivot_row.at(column));
+  const Poly e = row.at(column).exact_quotient(shared), p = pivot_row.at(column).exact_quotient(shared);
+  for (auto& [other, entry] : row) entry *= p;
+  subtract(row, e, pivot_row);
+  const Poly common = content(p.ring(), row);
+  if (!common.is_constant())
+    for (auto& [other, entry] : row) entry = entry.exact_quotient(common);
+  scale.multiply(common);
+  scale.divide(p);
 }
 
 /// Fraction-free Gauss-Jordan (Bareiss) on k rows of k + 1 columns. Afterwards the last column holds the numerators
@@ -118,16 +179,27 @@ CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::
   std::vector<int> column_of_row(rows.size(), -1);
   std::vector<Pivot> pivots;
   Rational scale = 1;
-  for (Pivot pivot{}; find_constant_pivot(rows, active, n, pivot);) {
+  Quotient polynomial_scale(ring);  // |A| = scale · polynomial_scale · |core|
+  const auto is_small = [&] { return rows.size() - pivots.size() <= dense_core; };
+  for (Pivot pivot{};
+       find_pivot(rows, active, n, true, pivot) || (!is_small() && find_pivot(rows, active, n, false, pivot));) {
     const SparseRow& pivot_row = rows[pivot.row];
-    const Rational value = pivot_row.at(pivot.column).constant();
+    const Poly& entry = pivot_row.at(pivot.column);
+    const bool constant = entry.is_constant();
     active[pivot.row] = false;
     column_of_row[pivot.row] = pivot.column;
-    scale *= value;
     pivots.push_back(pivot);
+    if (constant)
+      scale *= entry.constant();
+    else
+      polynomial_scale.multiply(entry);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto entry = active[i] ? rows[i].find(pivot.column) : rows[i].end();
-      if (entry != rows[i].end()) subtract(rows[i], entry->second.scaled(1 / value), pivot_row);
+      const auto found = active[i] ? rows[i].find(pivot.column) : rows[i].end();
+      if (found == rows[i].end()) continue;
+      if (constant)
+        subtract(rows[i], found->second.scaled(1 / entry.constant()), pivot_row);
+      else
+        eliminate_by_polynomial(rows[i], pivot_row, pivot.column, polynomial_scale);
     }
   }
 
@@ -153,12 +225,13 @@ CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::
 
   scale *= permutation_sign(column_of_row);
   const Poly core_determinant = solve_core(ring, core);
-  CramerDeterminants result{core_determinant.scaled(scale), {}};
-  if (core_determinant.is_zero()) return result;
+  if (core_determinant.is_zero()) return {core_determinant, {}};
+  const Poly determinant = polynomial_scale.apply(core_determinant.scaled(scale));
+  CramerDeterminants result{determinant, {}};
 
   std::vector<Poly> numerators(rows.size(), Poly(ring));
   for (std::size_t i = 0; i < core.size(); ++i) {
-    numerators[static_cast<std::size_t>(core_columns[i])] = core[i].back();
+    numerators[static_cast<std::size_t>(core_columns[i])] = polynomial_scale.apply(core[i].back().scaled(scale));
   }
   for (auto next = pivots.rbegin(); next != pivots.rend(); ++next) {
     const Pivot& pivot = *next;
@@ -167,13 +240,14 @@ CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::
     for (const auto& [column, entry] : row) {
       if (column == pivot.column) continue;
       if (column == n)
-        sum += entry * core_determinant;
+        sum += entry * determinant;
       else
         sum -= entry * numerators[static_cast<std::size_t>(column)];
     }
-    numerators[static_cast<std::size_t>(pivot.column)] = sum.scaled(1 / row.at(pivot.column).constant());
+    // N_j = w_j |A| is a polynomial, whatever the pivot.
+    numerators[static_cast<std::size_t>(pivot.column)] = sum.exact_quotient(row.at(pivot.column));
   }
-  for (Poly& numerator : numerators) result.numerators.push_back(numerator.scaled(scale));
+  result.numerators = std::move(numerators);
   return result;
 }
 

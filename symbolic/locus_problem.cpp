@@ -255,11 +255,23 @@ class Derivation {
 
   std::string text(const Poly& p) const { return core::to_string(p.plain(), geometry_.ring().names()); }
 
-  void add(FactorRole role, const Poly& sheet, bool with_implicit, LocusFactor common) {
+  /// Whether a factor over the tower is one of |A|: where both vanish the reaction stays finite and is no zero.
+  bool divides_determinant(const Poly& sheet) {
+    if (determinant_sheets_.empty()) {
+      for (const PolyFactor& factor : determinants_.determinant_factors.factors)
+        for (const SheetFactor& part : elimination_.sheet_factors(elimination_.over_tower(factor.poly), false))
+          determinant_sheets_.push_back(part.sheet);
+    }
+    return std::find(determinant_sheets_.begin(), determinant_sheets_.end(), sheet) != determinant_sheets_.end();
+  }
+
+  void add(FactorRole role, const Poly& sheet, bool with_implicit, LocusFactor common,
+           bool without_determinant = false) {
     common.role = role;
     const std::vector<int> variables = geometry_.tower_variables();
     const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
     for (const SheetFactor& part : elimination_.sheet_factors(sheet, with_implicit)) {
+      if (without_determinant && divides_determinant(part.sheet)) continue;
       LocusFactor factor = common;
       factor.sheet = part.sheet.plain(variables);
       for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
@@ -275,7 +287,9 @@ class Derivation {
       factor.expression = text(shared.natural);
       factor.cause = causes_.of(shared.natural);
       factor.vanishing = shared.vanishing;
-      add(FactorRole::reaction, elimination_.over_tower(shared.natural), shared.wanted_curve, factor);
+      // A natural factor of |A| has been counted against it already.
+      add(FactorRole::reaction, elimination_.over_tower(shared.natural), shared.wanted_curve, factor,
+          in_determinant(shared.natural) == 0);
     }
   }
 
@@ -397,6 +411,7 @@ class Derivation {
   Elimination elimination_;
   Causes causes_;
   std::vector<SharedFactor> factors_;
+  std::vector<Poly> determinant_sheets_;
   DerivedProblem result_;
 };
 
