@@ -80,7 +80,7 @@ Finding EdgeJudge::compare(const LineReaction& reaction, double a, double b) {
   const int crossings = crossings_between(reaction, a, b);
   const auto finding = [&](Verdict verdict) { return Finding{verdict, crossings, change == Parity::odd}; };
   if (agrees(change, crossings)) return finding(Verdict::held);
-  if (change == Parity::odd && witness_.cancels(reaction.columns, a, b)) return finding(Verdict::held);
+  if (change != Parity::unknown && witness_.cancels(reaction.columns, a, b)) return finding(Verdict::held);
   const bool sure =
       change != Parity::unknown && !boundary_between(a, b) && witness_.reachable_between(a, b, dense_samples);
   return finding(sure ? Verdict::disputed : Verdict::undecided);
