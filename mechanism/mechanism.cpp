@@ -29,16 +29,17 @@ std::string to_string(JointType type) {
 }
 
 std::vector<Quantity> force_components(const Mechanism& mechanism, const Joint& joint) {
-  const bool along_axis = joint.type == JointType::prismatic || joint.type == JointType::cylindrical;
-  if (mechanism.space == Space::planar)
-    return along_axis ? std::vector<Quantity>{} : std::vector<Quantity>{Quantity::fx, Quantity::fy};
-  if (along_axis && !joint.actuated) return {Quantity::f1, Quantity::f2};
+  if (joint.type == JointType::prismatic) return {};
+  if (joint.type == JointType::cylindrical) return {Quantity::f1, Quantity::f2};
+  if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
   return {Quantity::fx, Quantity::fy, Quantity::fz};
 }
 
 std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint) {
   if (mechanism.space == Space::planar && joint.type == JointType::prismatic) return {Quantity::N, Quantity::T};
   std::vector<Quantity> components = force_components(mechanism, joint);
+  if (joint.type == JointType::prismatic && joint.actuated) components = {Quantity::fx, Quantity::fy, Quantity::fz};
+  if (joint.type == JointType::prismatic && !joint.actuated) components = {Quantity::f1, Quantity::f2};
   if (mechanism.space == Space::planar || joint.type == JointType::spherical) return components;
   std::vector<Quantity> couple = {Quantity::mx, Quantity::my, Quantity::mz};
   if (joint.type == JointType::universal) couple = {Quantity::T};

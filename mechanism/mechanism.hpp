@@ -170,7 +170,7 @@ std::vector<core::Quantity> reaction_components(const Mechanism& mechanism, cons
 /// What the actuator of a joint exerts: M or F.
 core::Quantity actuator_quantity(const Joint& joint);
 
-/// Force components that vanish together where contact is lost; empty for a planar prismatic joint.
+/// Force components that vanish together where contact is lost; empty for a prismatic joint.
 std::vector<core::Quantity> force_components(const Mechanism& mechanism, const Joint& joint);
 
 inline std::size_t dimension(const Mechanism& mechanism) { return mechanism.space == Space::spatial ? 3 : 2; }

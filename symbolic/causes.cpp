@@ -35,6 +35,7 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
     const auto& p = geometry.natural(static_cast<PointIndex>(i));
     points_.push_back({geometry.poly(p[0]), geometry.poly(p[1])});
   }
+  if (m.space == mechanism::Space::spatial) return;  // the conditions below are those of the plane
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < m.links.size(); ++i) {
     const auto& points = m.links[i].points;

@@ -14,9 +14,9 @@ struct CramerDeterminants {
   std::vector<Poly> numerators;  ///< |A_k|, one a column; empty where |A| = 0
 };
 
-/// Constant pivots are eliminated first, which raises no degree; then, while much is left, short polynomial ones, each row
-/// divided by its content so that degrees stay small (the legs of a platform fold up one by one); the small core that is
-/// left is solved fraction-free. One elimination serves every column.
+/// Constant pivots are eliminated first, which raises no degree; then, while much is left, short polynomial ones, each
+/// row divided by its content so that degrees stay small (the legs of a platform fold up one by one); the small core
+/// that is left is solved fraction-free. One elimination serves every column.
 CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::vector<Poly>>& matrix,
                                        const std::vector<Poly>& right_hand_side);
 

@@ -21,6 +21,9 @@ struct FactoredDeterminants {
   std::vector<FactoredPoly> numerator_factors;
 };
 
+/// The factors of a polynomial; those among `likely`, irreducible and primitive, are divided out first.
+FactoredPoly factored(const Poly& p, const std::vector<PolyFactor>& likely);
+
 /// Throws core::InputError where |A| vanishes in every pose.
 FactoredDeterminants factored_determinants(const Geometry& geometry);
 

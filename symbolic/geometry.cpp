@@ -221,7 +221,8 @@ void Geometry::name_variables() {
     if (std::holds_alternative<ExplicitPoint>(point.form) || std::holds_alternative<MeanPoint>(point.form)) continue;
     const int x = add_untaken("x" + point.name);
     const int y = add_untaken("y" + point.name);
-    constructed_.push_back({i, x, y});
+    const bool spatial = mechanism_->space == mechanism::Space::spatial;
+    constructed_.push_back({i, x, y, spatial ? add_untaken("z" + point.name) : -1});
   }
   std::vector<std::pair<std::string, std::array<int, 2>>> circles;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
@@ -236,7 +237,8 @@ void Geometry::name_variables() {
   add_untaken("t");
   ring_ = std::make_unique<Ring>(names);
   for (const ConstructedPoint& c : constructed_) {
-    for (const int variable : {c.x, c.y}) variable_of_symbol_[ring_->name(variable)] = variable;
+    for (const int variable : {c.x, c.y, c.z})
+      if (variable >= 0) variable_of_symbol_[ring_->name(variable)] = variable;
   }
   for (const auto& [name, variables] : circles) {
     for (const int variable : variables) variable_of_symbol_[ring_->name(variable)] = variable;
@@ -260,35 +262,42 @@ void Geometry::place_angles() {
 std::vector<Substitution> Geometry::substitutions() const {
   std::vector<Substitution> list;
   for (const ConstructedPoint& c : constructed_)
-    if (!tower(c.point).w.is_zero()) list.push_back({c.x, c.y, tower(c.point)});  // once it is placed
+    if (!tower(c.point).w.is_zero()) list.push_back({c.x, c.y, tower(c.point), c.z});  // once it is placed
   list.insert(list.end(), angles_.begin(), angles_.end());
   return list;
 }
 
 int Geometry::degree_in(const Poly& natural, const Substitution& pair) {
   int degree = 0;
-  const std::vector<Poly> by_x = natural.coefficients(pair.x);
-  for (std::size_t i = 0; i < by_x.size(); ++i) {
-    if (!by_x[i].is_zero()) degree = std::max(degree, static_cast<int>(i) + std::max(0, by_x[i].degree(pair.y)));
+  for (const core::Term& term : natural.plain().terms) {
+    int own = 0;
+    for (const int variable : {pair.x, pair.y, pair.z})
+      if (variable >= 0) own += term.exponents[static_cast<std::size_t>(variable)];
+    degree = std::max(degree, own);
   }
   return degree;
 }
 
 Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int degree) const {
-  // A term of degree i in x and j in y takes X^i Y^j W^(degree - i - j).
+  // A term of degree i in x, j in y and k in z takes X^i Y^j Z^k W^(degree - i - j - k).
   const auto powers = [&](const Poly& base) {
     std::vector<Poly> list(1, Poly(*ring_, 1));
     for (int i = 0; i < degree; ++i) list.push_back(reduce(list.back() * base));
     return list;
   };
-  const std::vector<Poly> xs = powers(pair.place.x), ys = powers(pair.place.y), ws = powers(pair.place.w);
+  const std::vector<Poly> xs = powers(pair.place.x), ys = powers(pair.place.y), zs = powers(pair.place.z),
+                          ws = powers(pair.place.w);
   Poly sum(*ring_);
   const std::vector<Poly> by_x = natural.coefficients(pair.x);
   for (std::size_t i = 0; i < by_x.size(); ++i) {
     const std::vector<Poly> by_y = by_x[i].coefficients(pair.y);
     for (std::size_t j = 0; j < by_y.size(); ++j) {
       if (by_y[j].is_zero()) continue;
-      sum += by_y[j] * xs[i] * ys[j] * ws[static_cast<std::size_t>(degree) - i - j];
+      const std::vector<Poly> by_z = pair.z < 0 ? std::vector<Poly>{by_y[j]} : by_y[j].coefficients(pair.z);
+      for (std::size_t k = 0; k < by_z.size(); ++k) {
+        if (by_z[k].is_zero()) continue;
+        sum += by_z[k] * xs[i] * ys[j] * zs[k] * ws[static_cast<std::size_t>(degree) - i - j - k];
+      }
     }
   }
   return reduce(sum);
@@ -366,12 +375,13 @@ void Geometry::place(PointIndex point) {
 }
 
 void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
-  for (std::size_t i = 0; i < 2; ++i) natural_[index(point)][i] = expression(form.coordinates[i]).expand();
-  TowerPoint place{poly(natural_[index(point)][0]), poly(natural_[index(point)][1]), Poly(*ring_, 1)};
+  auto& own = natural_[index(point)];
+  for (std::size_t i = 0; i < form.coordinates.size(); ++i) own[i] = expression(form.coordinates[i]).expand();
+  TowerPoint place(poly(own[0]), poly(own[1]), poly(own[2]), Poly(*ring_, 1));
   for (const Substitution& angle : angles_) {
-    const int degree = std::max(degree_in(place.x, angle), degree_in(place.y, angle));
+    const int degree = std::max({degree_in(place.x, angle), degree_in(place.y, angle), degree_in(place.z, angle)});
     place = {substituted(place.x, angle, degree), substituted(place.y, angle, degree),
-             place.w * angle.place.w.pow(static_cast<unsigned>(degree))};
+             substituted(place.z, angle, degree), place.w * angle.place.w.pow(static_cast<unsigned>(degree))};
   }
   tower_[index(point)] = place;
 }
@@ -379,16 +389,18 @@ void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
 void Geometry::place_mean(PointIndex point, const MeanPoint& form) {
   const TowerPoint& a = tower(form.first);
   const TowerPoint& b = tower(form.second);
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     natural_[index(point)][i] = ((natural(form.first)[i] + natural(form.second)[i]) / 2).expand();
   }
-  tower_[index(point)] = {reduce(a.x * b.w + b.x * a.w), reduce(a.y * b.w + b.y * a.w), reduce(a.w * b.w).scaled(2)};
+  tower_[index(point)] = {reduce(a.x * b.w + b.x * a.w), reduce(a.y * b.w + b.y * a.w), reduce(a.z * b.w + b.z * a.w),
+                          reduce(a.w * b.w).scaled(2)};
 }
 
 void Geometry::construct(PointIndex point) {
   const auto own =
       std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
-  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own->x))), GiNaC::ex(symbol(ring_->name(own->y)))};
+  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own->x))), GiNaC::ex(symbol(ring_->name(own->y))),
+                            own->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(own->z)))};
 }
 
 void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
@@ -421,10 +433,11 @@ TowerPoint Geometry::offset_over_tower(const OffsetPoint& form, const Poly& leng
   const Poly left = poly(expression(form.left).expand());
   const Poly u = b.x * a.w - a.x * b.w;
   const Poly v = b.y * a.w - a.y * b.w;
+  const Poly h = b.z * a.w - a.z * b.w;
   // A + (along u - left v) / (w length): over the common denominator A.w B.w length.
   return {reduce(a.x * b.w * length_numerator + (along * u - left * v) * length_denominator),
           reduce(a.y * b.w * length_numerator + (along * v + left * u) * length_denominator),
-          reduce(a.w * b.w * length_numerator)};
+          reduce(a.z * b.w * length_numerator + along * h * length_denominator), reduce(a.w * b.w * length_numerator)};
 }
 
 std::vector<GiNaC::ex> Geometry::vector(const mechanism::VectorExpression& v) const {
@@ -437,7 +450,7 @@ std::vector<GiNaC::ex> Geometry::vector(const mechanism::VectorExpression& v) co
       for (const Expression& number : v.numbers) result.push_back(expression(number));
       break;
     case Kind::point:
-      for (const GiNaC::ex& coordinate : natural(v.point)) result.push_back(coordinate);
+      for (std::size_t i = 0; i < mechanism::dimension(*mechanism_); ++i) result.push_back(natural(v.point)[i]);
       break;
     case Kind::add:
       for (std::size_t i = 0; i < a[0].size(); ++i) result.push_back(a[0][i] + a[1][i]);
@@ -510,7 +523,8 @@ void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
   const Poly u = reduce(b.x * a.w - a.x * b.w);
   const Poly v = reduce(b.y * a.w - a.y * b.w);
   const Poly w = reduce(a.w * b.w);
-  const Poly d = reduce(u * u + v * v);
+  const Poly h = reduce(b.z * a.w - a.z * b.w);
+  const Poly d = reduce(u * u + v * v + h * h);
   const Poly one(*ring_, 1);
   // On a rigid link the distance is constant: then the point is linear in the two others.
   Poly squared_length(*ring_), length(*ring_);
@@ -531,7 +545,8 @@ void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
     const auto& p = natural(form.first);
     const auto& q = natural(form.second);
     natural_[index(point)] = {(p[0] + along * (q[0] - p[0]) - left * (q[1] - p[1])).expand(),
-                              (p[1] + along * (q[1] - p[1]) + left * (q[0] - p[0])).expand()};
+                              (p[1] + along * (q[1] - p[1]) + left * (q[0] - p[0])).expand(),
+                              (p[2] + along * (q[2] - p[2])).expand()};
     tower_[index(point)] = offset_over_tower(form, length, one);
     return;
   }

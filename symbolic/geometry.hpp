@@ -24,9 +24,12 @@
 
 namespace clearloci::symbolic {
 
-/// x = X / W, y = Y / W over the tower.
+/// x = X / W, y = Y / W, z = Z / W over the tower; Z = 0 in the plane.
 struct TowerPoint {
-  Poly x, y, w;
+  Poly x, y, w, z;
+  TowerPoint(Poly x_, Poly y_, Poly w_) : x(std::move(x_)), y(std::move(y_)), w(std::move(w_)), z(w.ring()) {}
+  TowerPoint(Poly x_, Poly y_, Poly z_, Poly w_)
+      : x(std::move(x_)), y(std::move(y_)), w(std::move(w_)), z(std::move(z_)) {}
 };
 
 /// s = +-sqrt(square); `variable` is its index in the ring.
@@ -41,6 +44,7 @@ struct TowerRoot {
 struct ConstructedPoint {
   mechanism::PointIndex point = 0;
   int x = 0, y = 0;  ///< ring variables
+  int z = -1;        ///< none in the plane
 };
 
 /// Two natural coordinates and the place that they stand for over the tower: a constructed point, or the cosine and
@@ -48,6 +52,7 @@ struct ConstructedPoint {
 struct Substitution {
   int x = 0, y = 0;  ///< ring variables
   TowerPoint place;
+  int z = -1;  ///< of a point in space
 };
 
 /// One a coordinate: the chart of an angle, nothing for a length.
@@ -66,8 +71,8 @@ class Geometry {
   const Ring& ring() const { return *ring_; }
   int coordinates() const { return static_cast<int>(mechanism_->coordinates.size()); }
 
-  /// A point in natural coordinates.
-  const std::array<GiNaC::ex, 2>& natural(mechanism::PointIndex point) const { return natural_[index(point)]; }
+  /// A point in natural coordinates: x, y, z.
+  const std::array<GiNaC::ex, 3>& natural(mechanism::PointIndex point) const { return natural_[index(point)]; }
   const TowerPoint& tower(mechanism::PointIndex point) const { return tower_[index(point)]; }
   const std::vector<ConstructedPoint>& constructed() const { return constructed_; }
   const std::vector<TowerRoot>& roots() const { return roots_; }
@@ -127,7 +132,7 @@ class Geometry {
   mutable std::vector<std::string> kept_;                  ///< parameters and irrational expressions, as they appear
   mutable std::map<std::string, int> variable_of_symbol_;  ///< GiNaC symbol's name to ring variable
   std::unique_ptr<Ring> ring_;
-  std::vector<std::array<GiNaC::ex, 2>> natural_;
+  std::vector<std::array<GiNaC::ex, 3>> natural_;  ///< z = 0 in the plane
   std::vector<TowerPoint> tower_;
   std::vector<ConstructedPoint> constructed_;
   std::vector<TowerRoot> roots_;

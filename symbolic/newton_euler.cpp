@@ -1,103 +1,210 @@
 #include "symbolic/newton_euler.hpp"
 
+#include <algorithm>
+
 #include "core/errors.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
+using core::Quantity;
 using mechanism::LinkIndex;
 using mechanism::Mechanism;
 
-constexpr unsigned rows_per_link = 3;
+using Vector = std::array<GiNaC::ex, 3>;
+/// Force x, y, z and moment x, y, z about the end-effector point.
+using Wrench = std::array<GiNaC::ex, 6>;
 
-unsigned row(LinkIndex link, unsigned component) { return static_cast<unsigned>(link) * rows_per_link + component; }
+/// The components of a wrench that a link's equations state, and their names.
+struct Rows {
+  std::vector<std::size_t> components;
+  std::vector<std::string> names;
+};
 
-using Vector = std::array<GiNaC::ex, 2>;
+Rows rows_of(const Mechanism& m) {
+  if (m.space == mechanism::Space::planar) return {{0, 1, 5}, {"force x", "force y", "moment"}};
+  return {{0, 1, 2, 3, 4, 5}, {"force x", "force y", "force z", "moment x", "moment y", "moment z"}};
+}
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {(a[1] * b[2] - a[2] * b[1]).expand(), (a[2] * b[0] - a[0] * b[2]).expand(),
+          (a[0] * b[1] - a[1] * b[0]).expand()};
+}
+
+Vector as_vector(const std::vector<GiNaC::ex>& components) {
+  Vector result;
+  std::copy(components.begin(), components.end(), result.begin());
+  return result;
+}
 
 /// From the end-effector point, about which moments are taken, to a point.
 Vector arm(const Geometry& geometry, mechanism::PointIndex point) {
   const Vector& p = geometry.natural(geometry.mechanism().end_effector_point);
   const Vector& q = geometry.natural(point);
-  return {q[0] - p[0], q[1] - p[1]};
+  return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
 }
 
-/// Force x, y and moment about the end-effector point.
-using Wrench = std::array<GiNaC::ex, rows_per_link>;
-
-Wrench at_point(const Vector& r, const Vector& force) {
-  return {force[0], force[1], r[0] * force[1] - r[1] * force[0]};
+Wrench force_at(const Vector& r, const Vector& force) {
+  const Vector moment = cross(r, force);
+  return {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
 }
 
-/// The wrench of a unit of an unknown. Along or across an axis the unit is the axis itself, B - A, so that no root of
-/// its length enters: there the unknown is the reaction over |B - A|.
-Wrench unit_wrench(const Geometry& geometry, const mechanism::Joint& joint, core::Quantity quantity) {
-  using core::Quantity;
+Wrench couple(const Vector& c) { return {0, 0, 0, c[0], c[1], c[2]}; }
+
+Vector axis_vector(std::size_t axis) {
+  Vector result;
+  result[axis] = 1;
+  return result;
+}
+
+/// Two vectors across an axis u, v_i = u_k e_i - u_i e_k for the two i other than k. Their cross product is u_k u:
+/// where u_k is no constant they fall together where it vanishes.
+struct AcrossBasis {
+  std::array<Vector, 2> vectors;
+  GiNaC::ex divisor;  ///< u_k
+};
+
+AcrossBasis across(const Geometry& geometry, const Vector& u) {
+  std::size_t k = 3;
+  const auto worth = [&](std::size_t i) {
+    const Poly p = geometry.poly(u[i]);
+    return p.is_constant() ? std::size_t{0} : p.length();
+  };
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!u[i].is_zero() && (k == 3 || worth(i) < worth(k))) k = i;
+  core::ensure(k < 3, "an axis with a direction");
+  AcrossBasis basis;
+  basis.divisor = u[k];
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i == k) continue;
+    Vector& v = basis.vectors[next++];
+    v[i] = u[k];
+    v[k] = -u[i];
+  }
+  return basis;
+}
+
+/// The wrench of a unit of an unknown. Along or across an axis the unit is made of the axis itself, so that no root of
+/// its length enters: there the unknown is the reaction over that length.
+Wrench unit_wrench(const Geometry& geometry, const mechanism::Joint& joint, Quantity quantity) {
   const Vector r = arm(geometry, joint.at);
-  if (quantity == Quantity::fx) return at_point(r, {1, 0});
-  if (quantity == Quantity::fy) return at_point(r, {0, 1});
-  if (quantity == Quantity::M || quantity == Quantity::T) return {0, 0, 1};
-  const std::vector<GiNaC::ex> axis = geometry.vector(joint.axes.at(0));
-  if (quantity == Quantity::F) return at_point(r, {axis[0], axis[1]});
-  core::ensure(quantity == Quantity::N, "an unknown of a planar joint");
-  return at_point(r, {-axis[1], axis[0]});
+  const auto axis = [&](std::size_t i) { return as_vector(geometry.vector(joint.axes.at(i))); };
+  switch (quantity) {
+    case Quantity::fx:
+      return force_at(r, axis_vector(0));
+    case Quantity::fy:
+      return force_at(r, axis_vector(1));
+    case Quantity::fz:
+      return force_at(r, axis_vector(2));
+    case Quantity::mx:
+      return couple(axis_vector(0));
+    case Quantity::my:
+      return couple(axis_vector(1));
+    case Quantity::mz:
+    case Quantity::M:
+      return couple(axis_vector(2));
+    case Quantity::T:
+      if (joint.type != mechanism::JointType::universal) return couple(axis_vector(2));
+      return couple(cross(axis(0), axis(1)));
+    case Quantity::N:
+      return force_at(r, cross(axis_vector(2), axis(0)));
+    case Quantity::F:
+      return force_at(r, axis(0));
+    case Quantity::f1:
+    case Quantity::f2:
+      return force_at(r, across(geometry, axis(0)).vectors[quantity == Quantity::f1 ? 0 : 1]);
+    case Quantity::m1:
+    case Quantity::m2:
+      return couple(across(geometry, axis(0)).vectors[quantity == Quantity::m1 ? 0 : 1]);
+    case Quantity::f:
+      break;
+  }
+  core::ensure(false, "an unknown of a joint");
+  return {};
 }
 
-void add_force(GiNaC::matrix& column, LinkIndex link, const Vector& r, const Vector& force, const GiNaC::ex& sign) {
-  column(row(link, 0), 0) += sign * force[0];
-  column(row(link, 1), 0) += sign * force[1];
-  column(row(link, 2), 0) += sign * (r[0] * force[1] - r[1] * force[0]);
-}
+class Equations {
+ public:
+  explicit Equations(const Geometry& geometry) : geometry_(geometry), m_(geometry.mechanism()), rows_(rows_of(m_)) {}
 
-}  // namespace
+  NewtonEulerEquations write() {
+    result_.unknowns = mechanism::unknowns(m_);
+    const auto size = static_cast<unsigned>(m_.links.size() * rows_.components.size());
+    const auto columns = static_cast<unsigned>(result_.unknowns.size());
+    check_square(size, columns);
+    result_.matrix = GiNaC::matrix(size, columns);
+    result_.loads = GiNaC::matrix(size, 1);
+    for (unsigned column = 0; column < columns; ++column) write_column(column);
+    for (const mechanism::Link& link : m_.links)
+      for (const std::string& name : rows_.names) result_.row_names.push_back(link.name + ": " + name);
+    write_loads();
+    return std::move(result_);
+  }
 
-NewtonEulerEquations newton_euler_equations(const Geometry& geometry) {
-  const Mechanism& m = geometry.mechanism();
-  NewtonEulerEquations equations;
-  equations.unknowns = mechanism::unknowns(m);
-  const unsigned rows = static_cast<unsigned>(m.links.size()) * rows_per_link;
-  const unsigned columns = static_cast<unsigned>(equations.unknowns.size());
-  if (rows != columns) {
-    throw core::InputError({m.file},
+ private:
+  void check_square(unsigned rows, unsigned columns) const {
+    if (rows == columns) return;
+    throw core::InputError({m_.file},
                            "the equations are not square: " + std::to_string(columns) + " unknown reactions, " +
-                               std::to_string(rows) + " equations (" + std::to_string(m.links.size()) + " links)",
+                               std::to_string(rows) + " equations (" + std::to_string(m_.links.size()) + " links)",
                            columns > rows ? "remove constraints or actuators: the mechanism is over-constrained"
                                           : "add actuators or joints: the mechanism is under-actuated");
   }
-  equations.matrix = GiNaC::matrix(rows, columns);
-  for (unsigned column = 0; column < columns; ++column) {
-    const mechanism::Unknown& unknown = equations.unknowns[column];
-    equations.unknown_names.push_back(mechanism::unknown_name(m, unknown));
-    const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(unknown.joint)];
-    const Wrench wrench = unit_wrench(geometry, joint, unknown.quantity);
-    for (const auto& [link, sign] : {std::pair{joint.to, 1}, std::pair{joint.from, -1}}) {
-      if (link == mechanism::ground) continue;
-      for (unsigned component = 0; component < rows_per_link; ++component)
-        equations.matrix(row(link, component), column) = (sign * wrench[component]).expand();
+
+  void add(GiNaC::matrix& matrix, LinkIndex link, unsigned column, const Wrench& wrench, int sign) const {
+    if (link == mechanism::ground) return;
+    const auto first = static_cast<unsigned>(static_cast<std::size_t>(link) * rows_.components.size());
+    for (unsigned i = 0; i < rows_.components.size(); ++i)
+      matrix(first + i, column) = (matrix(first + i, column) + sign * wrench[rows_.components[i]]).expand();
+  }
+
+  void write_column(unsigned column) {
+    const mechanism::Unknown& unknown = result_.unknowns[column];
+    result_.unknown_names.push_back(mechanism::unknown_name(m_, unknown));
+    const mechanism::Joint& joint = m_.joints[static_cast<std::size_t>(unknown.joint)];
+    const Wrench wrench = unit_wrench(geometry_, joint, unknown.quantity);
+    add(result_.matrix, joint.to, column, wrench, 1);
+    add(result_.matrix, joint.from, column, wrench, -1);
+    if (unknown.quantity == Quantity::f1 || unknown.quantity == Quantity::m1) {
+      const Poly divisor = geometry_.poly(across(geometry_, as_vector(geometry_.vector(joint.axes.at(0)))).divisor);
+      if (!divisor.is_constant()) result_.divisors.push_back({column, divisor});
     }
   }
-  for (const mechanism::Link& link : m.links) {
-    for (const char* component : {"force x", "force y", "moment"}) {
-      equations.row_names.push_back(link.name + ": " + component);
+
+  Vector components(const std::vector<core::Expression>& expressions) const {
+    Vector result;
+    for (std::size_t i = 0; i < expressions.size(); ++i) result[i] = geometry_.expression(expressions[i]);
+    return result;
+  }
+
+  void write_loads() {
+    for (const mechanism::Load& load : m_.loads) {
+      Vector c = components(load.couple_vector);
+      if (m_.space == mechanism::Space::planar) c[2] = geometry_.expression(load.couple);
+      add(result_.loads, load.link, 0, couple(c), -1);
+      if (load.force.empty()) continue;
+      add(result_.loads, load.link, 0, force_at(arm(geometry_, *load.at), components(load.force)), -1);
     }
-  }
-  equations.loads = GiNaC::matrix(rows, 1);
-  for (const mechanism::Load& load : m.loads) {
-    equations.loads(row(load.link, 2), 0) -= geometry.expression(load.couple);
-    if (load.force.empty()) continue;
-    const Vector force = {geometry.expression(load.force[0]), geometry.expression(load.force[1])};
-    add_force(equations.loads, load.link, arm(geometry, *load.at), force, -1);
-  }
-  if (!m.gravity.empty()) {
-    const Vector g = {geometry.expression(m.gravity[0]), geometry.expression(m.gravity[1])};
-    for (std::size_t i = 0; i < m.links.size(); ++i) {
-      const GiNaC::ex mass = geometry.expression(m.links[i].mass);
+    if (m_.gravity.empty()) return;
+    const Vector g = components(m_.gravity);
+    for (std::size_t i = 0; i < m_.links.size(); ++i) {
+      const GiNaC::ex mass = geometry_.expression(m_.links[i].mass);
       if (mass.is_zero()) continue;
-      add_force(equations.loads, static_cast<LinkIndex>(i), arm(geometry, m.links[i].centre_of_mass),
-                {mass * g[0], mass * g[1]}, -1);
+      const Vector weight = {mass * g[0], mass * g[1], mass * g[2]};
+      add(result_.loads, static_cast<LinkIndex>(i), 0, force_at(arm(geometry_, m_.links[i].centre_of_mass), weight),
+          -1);
     }
   }
-  for (unsigned i = 0; i < rows; ++i) equations.loads(i, 0) = equations.loads(i, 0).expand();
-  return equations;
-}
+
+  const Geometry& geometry_;
+  const Mechanism& m_;
+  Rows rows_;
+  NewtonEulerEquations result_;
+};
+
+}  // namespace
+
+NewtonEulerEquations newton_euler_equations(const Geometry& geometry) { return Equations(geometry).write(); }
 
 }  // namespace clearloci::symbolic

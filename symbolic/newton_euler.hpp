@@ -1,7 +1,8 @@
 // The Newton-Euler equations of the kinetostatic mechanism (paper (9), (10), (13); method.md section 2):
 //     A w_J = -w_e
-// One block row a link (fx, fy in N, moment about the end-effector point in N m), one column an unknown. A reaction is
-// what `from` exerts on `to`: it enters the rows of `to` with + and those of `from` with -. Private to symbolic/.
+// One block row a link (fx, fy in N, moment about the end-effector point in N m; six rows in space), one column an
+// unknown. A reaction is what `from` exerts on `to`: it enters the rows of `to` with + and those of `from` with -.
+// Private to symbolic/.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -13,12 +14,21 @@
 
 namespace clearloci::symbolic {
 
+/// The two columns from `first` on are made of vectors across an axis that fall together where `divisor`, a component
+/// of the axis, vanishes: it divides |A| and all numerators but these two columns' own. Divided out, the numerators of
+/// these columns are those of the two Cartesian components of the reaction that are not along the divisor's.
+struct ColumnDivisor {
+  unsigned first = 0;
+  Poly divisor;
+};
+
 struct NewtonEulerEquations {
   std::vector<mechanism::Unknown> unknowns;  ///< columns
   std::vector<std::string> unknown_names;    ///< "fA1x", "fA1y", ..., "MA1"
   std::vector<std::string> row_names;        ///< "A1B1: force x", ...
   GiNaC::matrix matrix;                      ///< A, in natural coordinates
   GiNaC::matrix loads;                       ///< the column -w_e
+  std::vector<ColumnDivisor> divisors;
 };
 
 /// Throws core::InputError where A is not square.

@@ -170,6 +170,13 @@ Poly Poly::derivative(int variable) const {
   return result;
 }
 
+void sort_factors(std::vector<PolyFactor>& factors) {
+  std::sort(factors.begin(), factors.end(), [](const PolyFactor& a, const PolyFactor& b) {
+    const int by_degree = a.poly.total_degree() - b.poly.total_degree();
+    return by_degree != 0 ? by_degree < 0 : fmpq_mpoly_cmp(a.poly.raw(), b.poly.raw(), a.poly.ring().context()) > 0;
+  });
+}
+
 std::vector<PolyFactor> Poly::factors(Rational& constant) const {
   std::vector<PolyFactor> result;
   constant = 0;
@@ -188,10 +195,7 @@ std::vector<PolyFactor> Poly::factors(Rational& constant) const {
     result.push_back({base.primitive(), static_cast<int>(exponent)});
   }
   fmpq_mpoly_factor_clear(factorisation, ring_->context());
-  std::sort(result.begin(), result.end(), [this](const PolyFactor& a, const PolyFactor& b) {
-    const int by_degree = a.poly.total_degree() - b.poly.total_degree();
-    return by_degree != 0 ? by_degree < 0 : fmpq_mpoly_cmp(a.poly.value_, b.poly.value_, ring_->context()) > 0;
-  });
+  sort_factors(result);
   // The constant is what the primitive factors leave of the leading coefficient.
   Fmpq leading;
   fmpq_mpoly_get_term_coeff_fmpq(leading.get(), value_, 0, ring_->context());

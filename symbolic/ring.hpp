@@ -108,4 +108,7 @@ struct PolyFactor {
   int multiplicity = 1;
 };
 
+/// By degree, then by the terms: an order that depends on nothing but the factors.
+void sort_factors(std::vector<PolyFactor>& factors);
+
 }  // namespace clearloci::symbolic
