@@ -53,8 +53,13 @@ struct LocusProblem {
   std::vector<Quantity> quantities;      ///< kinds of reaction loci wanted: f (from fx and fy), M, fx, fy
   std::vector<std::string> joints;       ///< joints wanted
   std::vector<std::string> joint_order;  ///< every joint, in the file's order
-  std::vector<Vanishing> always_zero;    ///< components that vanish in every pose
-  double tolerance = 1e-5;               ///< chord deviation, m
+  /// Of every joint in that order: the components that vanish together where f does. Empty: fx and fy of each.
+  std::vector<std::vector<Quantity>> force_components;
+  std::vector<Vanishing> always_zero;  ///< components that vanish in every pose
+  double tolerance = 1e-5;             ///< chord deviation, m
 };
+
+/// The components of a joint's f.
+std::vector<Quantity> force_components(const LocusProblem& problem, const std::string& joint);
 
 }  // namespace clearloci::core

@@ -11,7 +11,8 @@ using core::LocusProblem;
 using core::Quantity;
 using core::Vanishing;
 
-bool contains(const std::vector<std::string>& list, const std::string& name) {
+template <class T>
+bool contains(const std::vector<T>& list, const T& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
@@ -66,13 +67,24 @@ std::vector<Vanishing> wanted_vanishing(const LocusProblem& problem, const std::
     any = any || (wanted(quantity) && contains(problem.joints, joint));
   };
   for (const std::string& joint : problem.joint_order) {
-    const int x = multiplicity(joint, Quantity::fx), y = multiplicity(joint, Quantity::fy);
-    const bool zero_x = x > 0 || always(joint, Quantity::fx), zero_y = y > 0 || always(joint, Quantity::fy);
-    if (zero_x && zero_y && x + y > 0) take(forces, joint, Quantity::f, x == 0 ? y : y == 0 ? x : std::min(x, y));
+    const std::vector<Quantity> components_of_f = core::force_components(problem, joint);
+    int least = 0, most = 0;
+    bool all_zero = !components_of_f.empty();
+    for (const Quantity component : components_of_f) {
+      const int times = multiplicity(joint, component);
+      if (times == 0 && !always(joint, component)) all_zero = false;
+      if (times > 0) least = least == 0 ? times : std::min(least, times);
+      most = std::max(most, times);
+    }
+    if (all_zero && most > 0) take(forces, joint, Quantity::f, least);
     // Components are named where they vanish alone, or more often than the force they belong to.
-    const bool together = zero_x && zero_y && (x == y || x == 0 || y == 0);
-    if (x > 0 && !together && wanted(Quantity::fx)) take(single, joint, Quantity::fx, x);
-    if (y > 0 && !together && wanted(Quantity::fy)) take(single, joint, Quantity::fy, y);
+    const bool together = all_zero && least == most;
+    for (const Quantity component : {Quantity::fx, Quantity::fy, Quantity::fz, Quantity::f1, Quantity::f2, Quantity::mx,
+                                     Quantity::my, Quantity::mz, Quantity::m1, Quantity::m2}) {
+      const int times = multiplicity(joint, component);
+      const bool part = contains(components_of_f, component);
+      if (times > 0 && !(part && together) && wanted(component)) take(single, joint, component, times);
+    }
     for (const Quantity quantity : {Quantity::N, Quantity::T})
       if (const int times = multiplicity(joint, quantity); times > 0) take(forces, joint, quantity, times);
     for (const Quantity quantity : {Quantity::M, Quantity::F})

@@ -142,6 +142,8 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                core::to_double(problem.upper[1] - problem.lower[1]));
   for (const std::string& joint : problem.joints) {
+    // Two equations in two coordinates; the three of a joint in space have no common zero in general.
+    if (core::force_components(problem, joint) != std::vector<Quantity>{Quantity::fx, Quantity::fy}) continue;
     std::vector<const core::LocusFactor*> x, y;
     for (const core::LocusFactor& factor : problem.factors) {
       const bool in_x = makes_vanish(factor, joint, Quantity::fx), in_y = makes_vanish(factor, joint, Quantity::fy);

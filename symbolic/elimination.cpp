@@ -79,13 +79,49 @@ std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with
   for (const PolyFactor& factor : strip_denominators(sheet).factors(constant)) {
     if (!has_free_coordinate(factor.poly) || is_denominator(factor.poly)) continue;
     SheetFactor entry{factor.poly, factor.multiplicity, {}};
-    if (with_implicit) {
+    if (with_implicit && is_too_heavy(factor.poly)) {
+      entry.too_heavy = true;
+    } else if (with_implicit) {
       entry.implicit = implicit_factors(factor.poly);
       if (entry.implicit.empty()) continue;
     }
     result.push_back(std::move(entry));
   }
   return result;
+}
+
+double Elimination::norm_degree(const Poly& sheet) const {
+  // A root weighs half the degree of its square; weights of nested ones add up from the first on.
+  const auto& roots = geometry_->roots();
+  std::vector<double> weight(static_cast<std::size_t>(sheet.ring().size()), 0.0);
+  for (int i = 0; i < geometry_->coordinates(); ++i) weight[static_cast<std::size_t>(i)] = 1;
+  const auto weighted = [&](const Poly& p) {
+    double degree = 0;
+    for (const core::Term& term : p.plain().terms) {
+      double own = 0;
+      for (std::size_t i = 0; i < weight.size(); ++i) own += weight[i] * term.exponents[i];
+      degree = std::max(degree, own);
+    }
+    return degree;
+  };
+  std::vector<bool> used(roots.size(), false);
+  for (std::size_t j = 0; j < roots.size(); ++j)
+    weight[static_cast<std::size_t>(roots[j].variable)] = weighted(roots[j].square) / 2;
+  double degree = weighted(sheet);
+  // The squares of roots that occur bring in the earlier roots.
+  for (std::size_t j = roots.size(); j-- > 0;) {
+    used[j] = sheet.depends_on(roots[j].variable);
+    for (std::size_t k = j + 1; k < roots.size(); ++k)
+      used[j] = used[j] || (used[k] && roots[k].square.depends_on(roots[j].variable));
+    if (used[j]) degree *= 2;
+  }
+  return degree;
+}
+
+bool Elimination::is_too_heavy(const Poly& sheet) const {
+  // Three coordinates have many more terms of one degree than two, one has few.
+  const double bound = geometry_->coordinates() == 1 ? 400 : geometry_->coordinates() == 2 ? 140 : 40;
+  return norm_degree(sheet) > bound;
 }
 
 std::vector<Poly> Elimination::implicit_factors(const Poly& sheet) const {

@@ -15,6 +15,7 @@ struct SheetFactor {
   Poly sheet;  ///< in the coordinates and roots, reduced, primitive
   int multiplicity = 1;
   std::vector<Poly> implicit;  ///< irreducible, primitive, distinct; together they contain its zeros in every mode
+  bool too_heavy = false;      ///< `implicit` was wanted but would be too large to be of use
 };
 
 class Elimination {
@@ -34,6 +35,13 @@ class Elimination {
 
   /// The irreducible polynomials in the free coordinates that contain the zeros of a sheet polynomial.
   std::vector<Poly> implicit_factors(const Poly& sheet) const;
+
+  /// A bound on the degree that the product of all conjugates may have, before anything is divided out.
+  double norm_degree(const Poly& sheet) const;
+
+  /// Whether implicit_factors would take long and come to more than anyone can use. Traced on the sheets such factors
+  /// are as well off without.
+  bool is_too_heavy(const Poly& sheet) const;
 
   /// The irreducible factors of the squared distances that the closure divides by.
   const std::vector<Poly>& denominator_factors() const { return denominator_factors_; }

@@ -96,6 +96,15 @@ std::vector<std::vector<ChartRange>> all_pieces(const Mechanism& m) {
   return all;
 }
 
+/// A reaction and its Cramer numerator.
+struct Reaction {
+  std::string joint;
+  Quantity quantity;
+  std::string name;
+  Poly numerator;
+  FactoredPoly factors;
+};
+
 class Derivation {
  public:
   Derivation(const Mechanism& m, const Selection& selection, const std::vector<ChartRange>& pieces)
@@ -109,7 +118,11 @@ class Derivation {
     result_.problem.joints = selected_joints(m, selection);
     result_.problem.quantities = expanded(selection.quantities);
     result_.problem.modes = {file_mode()};
-    for (const mechanism::Joint& joint : m.joints) result_.problem.joint_order.push_back(joint.name);
+    for (const mechanism::Joint& joint : m.joints) {
+      result_.problem.joint_order.push_back(joint.name);
+      result_.problem.force_components.push_back(mechanism::force_components(m, joint));
+    }
+    list_reactions();
     auto piece = pieces.begin();
     for (const auto& coordinate : m.coordinates) {
       result_.problem.lower.push_back(coordinate.angle ? piece->lower : coordinate.lower);
@@ -170,25 +183,50 @@ class Derivation {
     return 0;
   }
 
+  /// The unknowns, and in space the actuators' own: u · f or u · m, what the joint bears along its axis.
+  void list_reactions() {
+    const NewtonEulerEquations& equations = determinants_.equations;
+    for (std::size_t k = 0; k < equations.unknowns.size(); ++k)
+      reactions_.push_back({joint_name(equations.unknowns[k].joint), equations.unknowns[k].quantity,
+                            equations.unknown_names[k], determinants_.numerators[k],
+                            determinants_.numerator_factors[k]});
+    if (mechanism_.space == mechanism::Space::planar) return;
+    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j) {
+      const mechanism::Joint& joint = mechanism_.joints[j];
+      if (!joint.actuated) continue;
+      const Quantity actuator = mechanism::actuator_quantity(joint);
+      const std::vector<Quantity> along = actuator == Quantity::F
+                                              ? std::vector<Quantity>{Quantity::fx, Quantity::fy, Quantity::fz}
+                                              : std::vector<Quantity>{Quantity::mx, Quantity::my, Quantity::mz};
+      const std::vector<GiNaC::ex> axis = geometry_.vector(joint.axes.at(0));
+      Poly sum(geometry_.ring());
+      for (std::size_t k = 0; k < equations.unknowns.size(); ++k) {
+        const auto part = std::find(along.begin(), along.end(), equations.unknowns[k].quantity);
+        if (equations.unknowns[k].joint != static_cast<JointIndex>(j) || part == along.end()) continue;
+        sum += geometry_.poly(axis[static_cast<std::size_t>(part - along.begin())]) * determinants_.numerators[k];
+      }
+      const FactoredPoly factors = factored(sum, determinants_.determinant_factors.factors);
+      reactions_.push_back({joint.name, actuator, core::to_string(actuator) + joint.name, sum, factors});
+    }
+  }
+
   void collect_factors() {
     if (elimination_.over_tower(determinants_.determinant).is_zero()) {
       throw core::InputError({mechanism_.file}, "the equations are singular in every pose: |A| = 0 on the closure",
                              "check the lengths, the joints and which of them are actuated");
     }
-    for (std::size_t k = 0; k < determinants_.equations.unknowns.size(); ++k) {
-      const mechanism::Unknown& unknown = determinants_.equations.unknowns[k];
-      const std::string& joint = joint_name(unknown.joint);
-      const FactoredPoly& numerator = determinants_.numerator_factors[k];
+    for (const Reaction& reaction : reactions_) {
+      const std::string& joint = reaction.joint;
+      const FactoredPoly& numerator = reaction.factors;
       bool always_zero = numerator.constant == 0;
       for (const PolyFactor& factor : numerator.factors) {
         if (elimination_.over_tower(factor.poly).is_zero()) always_zero = true;
       }
       if (always_zero) {
         if (selected(joint)) {
-          result_.notes.push_back(determinants_.equations.unknown_names[k] +
-                                  " is zero in every pose: no load reaches it");
+          result_.notes.push_back(reaction.name + " is zero in every pose: no load reaches it");
         }
-        result_.problem.always_zero.push_back({joint, unknown.quantity});
+        result_.problem.always_zero.push_back({joint, reaction.quantity});
         continue;
       }
       for (const PolyFactor& factor : numerator.factors) {
@@ -197,7 +235,7 @@ class Derivation {
         auto known = std::find_if(factors_.begin(), factors_.end(),
                                   [&](const SharedFactor& f) { return f.natural == factor.poly; });
         if (known == factors_.end()) known = factors_.insert(known, {factor.poly, {}});
-        known->vanishing.push_back({joint, unknown.quantity, multiplicity});
+        known->vanishing.push_back({joint, reaction.quantity, multiplicity});
       }
     }
   }
@@ -233,19 +271,29 @@ class Derivation {
     }
   }
 
-  /// f_J = 0 is two equations: its curves lie where a factor of one and a factor of the other share a curve.
+  /// f_J = 0 is two equations, or three in space: its curves lie where factors of all of them share a curve.
   void mark_contact_loss(const std::string& joint) {
-    const std::vector<std::size_t> in_x = factors_of(joint, Quantity::fx), in_y = factors_of(joint, Quantity::fy);
-    if (is_always_zero(joint, Quantity::fx)) want(in_y);
-    if (is_always_zero(joint, Quantity::fy)) want(in_x);
-    for (const std::size_t i : in_x) {
-      for (const std::size_t k : in_y) {
-        if (i == k || may_share_curve(i, k)) {
-          factors_[i].wanted_curve = factors_[k].wanted_curve = true;
-        }
-        if (i != k) factors_[i].wanted_point = factors_[k].wanted_point = true;
+    std::vector<std::vector<std::size_t>> components;
+    for (const Quantity component : core::force_components(result_.problem, joint))
+      if (!is_always_zero(joint, component)) components.push_back(factors_of(joint, component));
+    if (components.size() == 1) want(components.front());
+    if (components.size() < 2) return;
+    for (const std::size_t i : components.front()) {
+      std::vector<std::size_t> sharing = {i};
+      bool everywhere = true;
+      for (std::size_t c = 1; c < components.size(); ++c) {
+        const std::size_t before = sharing.size();
+        for (const std::size_t k : components[c])
+          if (i == k || may_share_curve(i, k)) sharing.push_back(k);
+        everywhere = everywhere && sharing.size() > before;
       }
+      if (everywhere) want(sharing);
     }
+    // Two equations in the plane have isolated zeros besides.
+    if (mechanism_.space == mechanism::Space::spatial) return;
+    for (const std::size_t i : components[0])
+      for (const std::size_t k : components[1])
+        if (i != k) factors_[i].wanted_point = factors_[k].wanted_point = true;
   }
 
   bool may_share_curve(std::size_t i, std::size_t k) {
@@ -276,6 +324,7 @@ class Derivation {
       factor.sheet = part.sheet.plain(variables);
       for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
       for (const Poly& curve : part.implicit) factor.implicit.push_back(curve.plain(free));
+      factor.implicit_too_heavy = part.too_heavy;
       result_.problem.factors.push_back(std::move(factor));
     }
   }
@@ -335,10 +384,8 @@ class Derivation {
   void add_margins() {
     const Poly& determinant = determinants_.determinant;
     const auto numerator = [&](const std::string& joint, Quantity quantity) -> const Poly* {
-      for (std::size_t k = 0; k < determinants_.equations.unknowns.size(); ++k) {
-        const mechanism::Unknown& unknown = determinants_.equations.unknowns[k];
-        if (joint_name(unknown.joint) == joint && unknown.quantity == quantity) return &determinants_.numerators[k];
-      }
+      for (const Reaction& reaction : reactions_)
+        if (reaction.joint == joint && reaction.quantity == quantity) return &reaction.numerator;
       return nullptr;
     };
     // Joints of one chain bear the same force: their margins are one curve.
@@ -410,6 +457,7 @@ class Derivation {
   FactoredDeterminants determinants_;
   Elimination elimination_;
   Causes causes_;
+  std::vector<Reaction> reactions_;
   std::vector<SharedFactor> factors_;
   std::vector<Poly> determinant_sheets_;
   DerivedProblem result_;
