@@ -174,7 +174,7 @@ LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest 
 }
 
 std::vector<report::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
-  if (!pose_is_place_of_end_effector(mechanism)) return {};
+  if (mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism)) return {};
   const numeric::NumericModel model = numeric::compile(mechanism);
   std::vector<report::ModeSketch> sketches;
   for (const core::WorkspaceRegion& region : map.workspace) {

@@ -47,13 +47,13 @@ std::optional<core::Rational> rational_root(const core::Rational& square) {
 
 /// Where contact losses are wanted, so are the zeros of the normal force and the couple of a prismatic joint, at which
 /// its contact changes; where backlash is, so is that of an actuator along its axis.
-std::vector<Quantity> expanded(std::vector<Quantity> wanted) {
+std::vector<Quantity> expanded(const Mechanism& m, std::vector<Quantity> wanted) {
   const auto add = [&wanted](Quantity quantity) {
     if (std::find(wanted.begin(), wanted.end(), quantity) == wanted.end()) wanted.push_back(quantity);
   };
   const std::vector<Quantity> named = wanted;
   for (const Quantity quantity : named) {
-    if (quantity == Quantity::f) {
+    if (quantity == Quantity::f && m.space == mechanism::Space::planar) {
       add(Quantity::N);
       add(Quantity::T);
     }
@@ -116,7 +116,7 @@ class Derivation {
         causes_(geometry_) {
     result_.problem.tower = geometry_.plain_tower();
     result_.problem.joints = selected_joints(m, selection);
-    result_.problem.quantities = expanded(selection.quantities);
+    result_.problem.quantities = expanded(m, selection.quantities);
     result_.problem.modes = {file_mode()};
     for (const mechanism::Joint& joint : m.joints) {
       result_.problem.joint_order.push_back(joint.name);
@@ -210,6 +210,12 @@ class Derivation {
     }
   }
 
+  /// Wanted by itself or as a part of f.
+  bool is_asked_for(const std::string& joint, Quantity quantity) const {
+    const std::vector<Quantity> parts = core::force_components(result_.problem, joint);
+    return wanted(quantity) || (wanted(Quantity::f) && std::find(parts.begin(), parts.end(), quantity) != parts.end());
+  }
+
   void collect_factors() {
     if (elimination_.over_tower(determinants_.determinant).is_zero()) {
       throw core::InputError({mechanism_.file}, "the equations are singular in every pose: |A| = 0 on the closure",
@@ -223,7 +229,7 @@ class Derivation {
         if (elimination_.over_tower(factor.poly).is_zero()) always_zero = true;
       }
       if (always_zero) {
-        if (selected(joint)) {
+        if (selected(joint) && is_asked_for(joint, reaction.quantity)) {
           result_.notes.push_back(reaction.name + " is zero in every pose: no load reaches it");
         }
         result_.problem.always_zero.push_back({joint, reaction.quantity});
