@@ -1,0 +1,196 @@
+#include "numeric/spatial.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+#include <map>
+
+#include "core/errors.hpp"
+#include "numeric/tape.hpp"
+
+namespace clearloci::numeric {
+
+namespace {
+
+using Eigen::Vector3d;
+using mechanism::JointType;
+using mechanism::Mechanism;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Vector6 wrench_of(const Vector3d& arm, const Vector3d& force, const Vector3d& couple) {
+  Vector6 wrench;
+  wrench << force, arm.cross(force) + couple;
+  return wrench;
+}
+
+/// A column of A: what a unit of one unknown exerts at its joint.
+struct Column {
+  std::size_t joint;
+  Vector3d force, couple;
+  bool actuator;
+};
+
+class Solver {
+ public:
+  Solver(const Mechanism& m, std::span<const double> pose) : m_(m) {
+    core::ensure(pose.size() == m.coordinates.size(), "a pose has one value for each free coordinate");
+    for (const auto& parameter : m.parameters) values_[parameter.name] = core::to_double(parameter.value);
+    for (std::size_t i = 0; i < pose.size(); ++i) values_[m.coordinates[i].name] = pose[i];
+    for (const auto& point : m.points) points_.push_back(place(point.form));
+  }
+
+  SpatialPosture solve() {
+    for (std::size_t j = 0; j < m_.joints.size(); ++j) add_columns(j);
+    const auto size = static_cast<Eigen::Index>(6 * m_.links.size());
+    if (static_cast<Eigen::Index>(columns_.size()) != size)
+      throw core::InputError({m_.file, 0, 0},
+                             std::to_string(size) + " equations for " + std::to_string(columns_.size()) + " unknowns",
+                             "change the joints or actuators");
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const Column& column = columns_[static_cast<std::size_t>(k)];
+      const auto& joint = m_.joints[column.joint];
+      const Vector6 wrench = wrench_of(arm(joint.at), column.force, column.couple);
+      if (joint.to != mechanism::ground) A.block<6, 1>(6 * joint.to, k) += wrench;
+      if (joint.from != mechanism::ground) A.block<6, 1>(6 * joint.from, k) -= wrench;
+    }
+    const Eigen::VectorXd b = loads(size);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A);
+    const Eigen::VectorXd w = lu.solve(b);
+    SpatialPosture result;
+    result.points = points_;
+    result.determinant = lu.determinant();
+    const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(A).singularValues();
+    result.condition = singular(0) / singular(size - 1);
+    const double scale = A.cwiseAbs().rowwise().sum().maxCoeff() * w.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
+    result.residual = scale == 0 ? 0 : (A * w - b).cwiseAbs().maxCoeff() / scale;
+    result.reactions.resize(m_.joints.size());
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const Column& column = columns_[static_cast<std::size_t>(k)];
+      SpatialReaction& reaction = result.reactions[column.joint];
+      if (column.actuator) {
+        reaction.actuator = w(k);
+        continue;
+      }
+      reaction.force += w(k) * column.force;
+      reaction.couple += w(k) * column.couple;
+    }
+    return result;
+  }
+
+ private:
+  double value(const core::Expression& expression) const {
+    TapeBuilder tape;
+    const Register result = tape.compile(expression, [&](const std::string& name) {
+      const auto found = values_.find(name);
+      core::ensure(found != values_.end(), "an expression of a mechanism uses no unknown name");
+      return tape.constant(found->second);
+    });
+    std::vector<double> registers(static_cast<std::size_t>(tape.size()));
+    run<double, 1>(tape.tape(), 0, tape.size(), nullptr, registers.data());
+    return registers[static_cast<std::size_t>(result)];
+  }
+
+  const Vector3d& at(mechanism::PointIndex point) const { return points_[static_cast<std::size_t>(point)]; }
+  Vector3d arm(mechanism::PointIndex point) const { return at(point) - at(m_.end_effector_point); }
+
+  Vector3d components(const std::vector<core::Expression>& expressions) const {
+    Vector3d result = Vector3d::Zero();
+    for (std::size_t i = 0; i < expressions.size(); ++i) result(static_cast<Eigen::Index>(i)) = value(expressions[i]);
+    return result;
+  }
+
+  Vector3d place(const mechanism::PointForm& form) const {
+    if (const auto* e = std::get_if<mechanism::ExplicitPoint>(&form)) return components(e->coordinates);
+    if (const auto* mean = std::get_if<mechanism::MeanPoint>(&form)) return (at(mean->first) + at(mean->second)) / 2;
+    const auto* offset = std::get_if<mechanism::OffsetPoint>(&form);
+    core::ensure(offset != nullptr, "a construction of space");
+    return at(offset->first) + value(offset->along) * (at(offset->second) - at(offset->first)).normalized();
+  }
+
+  Vector3d vector(const mechanism::VectorExpression& v) const {
+    using Kind = mechanism::VectorExpression::Kind;
+    switch (v.kind) {
+      case Kind::components:
+        return components(v.numbers);
+      case Kind::point:
+        return at(v.point);
+      case Kind::add:
+        return vector(v.arguments[0]) + vector(v.arguments[1]);
+      case Kind::negate:
+        return -vector(v.arguments[0]);
+      case Kind::scale:
+        return value(v.numbers[0]) * vector(v.arguments[0]);
+      case Kind::cross:
+        return vector(v.arguments[0]).cross(vector(v.arguments[1]));
+    }
+    return Vector3d::Zero();
+  }
+
+  Vector3d axis(const mechanism::Joint& joint, std::size_t i) const {
+    const Vector3d v = vector(joint.axes.at(i));
+    if (!(v.norm() > 0))
+      throw core::InputError({m_.file, 0, 0}, "an axis of joint " + joint.name + " has no direction at this pose",
+                             "choose another pose");
+    return v.normalized();
+  }
+
+  /// Every unit force and couple that a joint bears.
+  void add_columns(std::size_t j) {
+    const auto& joint = m_.joints[j];
+    const Vector3d none = Vector3d::Zero();
+    const auto force = [&](const Vector3d& v) { columns_.push_back({j, v, none, false}); };
+    const auto couple = [&](const Vector3d& v) { columns_.push_back({j, none, v, false}); };
+    const std::array<Vector3d, 3> unit = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+    const Vector3d u = joint.axes.empty() ? none : axis(joint, 0);
+    const std::array<Vector3d, 2> across = {u.unitOrthogonal(), u.cross(u.unitOrthogonal())};
+    const bool slides = joint.type == JointType::prismatic || joint.type == JointType::cylindrical;
+    if (slides)
+      for (const Vector3d& v : across) force(v);
+    else
+      for (const Vector3d& v : unit) force(v);
+    if (joint.type == JointType::prismatic)
+      for (const Vector3d& v : unit) couple(v);
+    if (joint.type == JointType::revolute || joint.type == JointType::cylindrical)
+      for (const Vector3d& v : across) couple(v);
+    if (joint.type == JointType::universal) couple(u.cross(axis(joint, 1)).normalized());
+    if (!joint.actuated) return;
+    if (slides)
+      columns_.push_back({j, u, none, true});
+    else
+      columns_.push_back({j, none, u, true});
+  }
+
+  Eigen::VectorXd loads(Eigen::Index size) const {
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(size);
+    for (const auto& load : m_.loads) {
+      const Vector3d r = load.at ? arm(*load.at) : Vector3d::Zero();
+      b.segment<6>(6 * load.link) -= wrench_of(r, components(load.force), components(load.couple_vector));
+    }
+    if (m_.gravity.empty()) return b;
+    const Vector3d g = components(m_.gravity);
+    for (std::size_t i = 0; i < m_.links.size(); ++i) {
+      const double mass = value(m_.links[i].mass);
+      if (mass == 0) continue;
+      b.segment<6>(6 * static_cast<Eigen::Index>(i)) -=
+          wrench_of(arm(m_.links[i].centre_of_mass), mass * g, Vector3d::Zero());
+    }
+    return b;
+  }
+
+  const Mechanism& m_;
+  std::map<std::string, double> values_;
+  std::vector<Vector3d> points_;
+  std::vector<Column> columns_;
+};
+
+}  // namespace
+
+SpatialPosture spatial_posture(const Mechanism& m, std::span<const double> pose) {
+  if (m.space != mechanism::Space::spatial)
+    throw core::InputError({m.file, 0, 0}, "the mechanism is planar", "use the planar solver");
+  return Solver(m, pose).solve();
+}
+
+}  // namespace clearloci::numeric
