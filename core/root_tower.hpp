@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/polynomial.hpp"
+#include "core/straight_line.hpp"
 
 namespace clearloci::core {
 
@@ -25,6 +26,7 @@ struct Root {
   Polynomial square;  ///< in (coordinates..., s1...sm), where only earlier roots occur; a positive multiple of Q_j
   /// What the signs + and - of a working mode are called.
   std::array<std::string, 2> sides = {"left", "right"};
+  StraightLine line = {};  ///< the same element as it is computed; may be empty
 };
 
 struct RootTower {

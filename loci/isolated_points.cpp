@@ -152,8 +152,8 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     }
     for (const core::LocusFactor* fx : x) {
       for (const core::LocusFactor* fy : y) {
-        const sheet::ZeroSet found =
-            sheet::isolated_zeros(problem.tower, mode, fx->sheet, fy->sheet, problem.lower, problem.upper);
+        const sheet::ZeroSet found = sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line},
+                                                           {fy->sheet, fy->line}, problem.lower, problem.upper);
         const auto add = [&](const core::Point2& at, bool certified) {
           if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
           add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},

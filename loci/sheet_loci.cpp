@@ -96,7 +96,7 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
   }
   if (curves.size() > 1) options.colour = [&curves](const Point2& at) { return nearest_curve(curves, at); };
   const bool cut = factor.role == FactorRole::reaction || factor.role == FactorRole::margin;
-  return sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, factor.sheet,
+  return sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, {factor.sheet, factor.line},
                             cut ? cutters : std::vector<sheet::Cutter>{}, options);
 }
 
@@ -106,7 +106,7 @@ class VanishesAlong {
  public:
   VanishesAlong(const LocusProblem& problem, const core::WorkingMode& mode, const core::Polynomial& p)
       : part_(sheet::subtower(problem.tower, mode, {p})),
-        program_(part_.tower, {sheet::narrowed(p, part_)}),
+        program_(part_.tower, std::vector<core::Polynomial>{sheet::narrowed(p, part_)}),
         registers_(program_.registers<double>()),
         size_(core::to_double(problem.upper[0] - problem.lower[0])) {}
 
@@ -254,7 +254,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   std::vector<sheet::Cutter> cutters;
   for (const LocusFactor& factor : problem.factors)
     if (factor.role == FactorRole::direct_singularity)
-      cutters.push_back({factor.sheet, core::ArcEnd::direct_singularity});
+      cutters.push_back({{factor.sheet, factor.line}, core::ArcEnd::direct_singularity});
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
   if (options.deadline)

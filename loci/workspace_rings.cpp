@@ -17,7 +17,9 @@ constexpr double same_point = 1e-7;
 class Rings {
  public:
   Rings(const core::LocusProblem& problem, const core::WorkingMode& mode)
-      : mode_(mode), program_(problem.tower, {}), registers_(program_.registers<double>()) {
+      : mode_(mode),
+        program_(problem.tower, std::vector<core::Polynomial>{}),
+        registers_(program_.registers<double>()) {
     for (std::size_t i = 0; i < 2; ++i) {
       lower_[i] = core::to_double(problem.lower[i]);
       upper_[i] = core::to_double(problem.upper[i]);

@@ -8,6 +8,7 @@
 #include "symbolic/causes.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
+#include "symbolic/straight_lines.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -113,8 +114,11 @@ class Derivation {
         geometry_(m, false, charts_of(m, pieces)),
         determinants_(factored_determinants(geometry_)),
         elimination_(geometry_),
-        causes_(geometry_) {
+        causes_(geometry_),
+        lines_(geometry_) {
     result_.problem.tower = geometry_.plain_tower();
+    for (std::size_t j = 0; j < result_.problem.tower.roots.size(); ++j)
+      result_.problem.tower.roots[j].line = lines_.square(j);
     result_.problem.joints = selected_joints(m, selection);
     result_.problem.quantities = expanded(m, selection.quantities);
     result_.problem.modes = {file_mode()};
@@ -319,12 +323,16 @@ class Derivation {
     return std::find(determinant_sheets_.begin(), determinant_sheets_.end(), sheet) != determinant_sheets_.end();
   }
 
-  void add(FactorRole role, const Poly& sheet, bool with_implicit, LocusFactor common,
+  /// `natural`: the polynomial that gave the sheet; null where there is none.
+  void add(FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit, LocusFactor common,
            bool without_determinant = false) {
     common.role = role;
     const std::vector<int> variables = geometry_.tower_variables();
     const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
-    for (const SheetFactor& part : elimination_.sheet_factors(sheet, with_implicit)) {
+    const std::vector<SheetFactor> parts = elimination_.sheet_factors(sheet, with_implicit);
+    // Where the sheet splits, the natural form has the zeros of all parts.
+    if (natural != nullptr && parts.size() == 1 && parts.front().multiplicity == 1) common.line = lines_.of(*natural);
+    for (const SheetFactor& part : parts) {
       if (without_determinant && divides_determinant(part.sheet)) continue;
       LocusFactor factor = common;
       factor.sheet = part.sheet.plain(variables);
@@ -343,7 +351,7 @@ class Derivation {
       factor.cause = causes_.of(shared.natural);
       factor.vanishing = shared.vanishing;
       // A natural factor of |A| has been counted against it already.
-      add(FactorRole::reaction, elimination_.over_tower(shared.natural), shared.wanted_curve, factor,
+      add(FactorRole::reaction, &shared.natural, elimination_.over_tower(shared.natural), shared.wanted_curve, factor,
           in_determinant(shared.natural) == 0);
     }
   }
@@ -353,7 +361,7 @@ class Derivation {
       LocusFactor factor;
       factor.expression = text(part.poly);
       factor.cause = causes_.of(part.poly);
-      add(FactorRole::direct_singularity, elimination_.over_tower(part.poly), true, factor);
+      add(FactorRole::direct_singularity, &part.poly, elimination_.over_tower(part.poly), true, factor);
     }
   }
 
@@ -373,7 +381,7 @@ class Derivation {
         factor.cause = "line " + point_name(slider.from) + "-" + point_name(root.point) +
                        " perpendicular to the path of " + point_name(root.point);
       }
-      add(FactorRole::workspace_boundary, root.square, true, factor);
+      add(FactorRole::workspace_boundary, nullptr, root.square, true, factor);
     }
     const std::vector<int> variables = geometry_.tower_variables();
     const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
@@ -453,7 +461,7 @@ class Derivation {
       if (sheet.is_zero())
         result_.notes.push_back(factor.cause + " in every pose");
       else
-        add(FactorRole::margin, sheet, true, factor);
+        add(FactorRole::margin, &margin.natural, sheet, true, factor);
     }
   }
 
@@ -464,6 +472,7 @@ class Derivation {
   Elimination elimination_;
   Causes causes_;
   std::vector<Reaction> reactions_;
+  StraightLines lines_;
   std::vector<SharedFactor> factors_;
   std::vector<Poly> determinant_sheets_;
   DerivedProblem result_;

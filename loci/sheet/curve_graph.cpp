@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/errors.hpp"
+#include "loci/sheet/subtower.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -28,7 +29,7 @@ struct Seen {
 
 class GraphBuilder {
  public:
-  GraphBuilder(const core::RootTower& tower, const core::Polynomial& curve, const core::WorkingMode& mode,
+  GraphBuilder(const core::RootTower& tower, const SheetFunction& curve, const core::WorkingMode& mode,
                const Partition& parts, const TreeOptions& options, bool last_attempt)
       : mode_(mode), parts_(parts), options_(options), last_attempt_(last_attempt) {
     graph_.patches = make_patches(tower, curve, parts);
@@ -201,9 +202,10 @@ class GraphBuilder {
       for (const Leaf& candidate : graph_.patches[patch].tree->leaves())
         if (candidate.rim >> j & 1u) seeds.push_back(candidate.cell);
       if (seeds.empty()) continue;
-      SheetProgram rim(on_rim(program.tower(), j), {without_variable(program.polynomials()[0], 2 + j),
-                                                    without_variable(program.tower().roots[j].square, 2 + j)});
-      if (graph_.patches[patch].chart.side == Side::plane) localise(rim, parts_);
+      const core::Root& root = program.tower().roots[j];
+      const SheetProgram rim(on_rim(program.tower(), j),
+                             std::vector<SheetFunction>{without_variable(program.function(0), 2 + j),
+                                                        without_variable({root.square, root.line}, 2 + j)});
       core::WorkingMode mode = mode_;
       mode.erase(mode.begin() + j);
       const Cell& domain = graph_.patches[patch].domain;
@@ -321,27 +323,7 @@ LiftedPoint StretchEnd::middle() const {
   return point;
 }
 
-core::Polynomial without_variable(const core::Polynomial& p, int variable) {
-  core::Polynomial result{p.variables - 1, {}};
-  for (core::Term term : p.terms) {
-    if (term.exponents[variable] != 0) continue;
-    term.exponents.erase(term.exponents.begin() + variable);
-    result.terms.push_back(std::move(term));
-  }
-  return result;
-}
-
-core::RootTower on_rim(const core::RootTower& tower, int root) {
-  core::RootTower result = tower;
-  result.roots.erase(result.roots.begin() + root);
-  for (core::Root& other : result.roots) other.square = without_variable(other.square, 2 + root);
-  result.denominators.clear();
-  for (const core::Polynomial& denominator : tower.denominators)
-    result.denominators.push_back(without_variable(denominator, 2 + root));
-  return result;
-}
-
-std::vector<Patch> make_patches(const core::RootTower& tower, const core::Polynomial& curve, const Partition& parts) {
+std::vector<Patch> make_patches(const core::RootTower& tower, const SheetFunction& curve, const Partition& parts) {
   std::vector<Patch> patches;
   for (const Chart& chart : parts.charts) {
     Patch patch;
@@ -349,14 +331,13 @@ std::vector<Patch> make_patches(const core::RootTower& tower, const core::Polyno
     const auto& d = parts.domain;
     patch.domain = chart.side == Side::plane ? Cell{{d[0], d[1]}, {d[2], d[3]}} : Cell{{0, 1}, {-1, 1}};
     ChartedSheet sheet = charted(tower, {curve}, chart, parts.stars);
-    patch.program = std::make_unique<SheetProgram>(sheet.tower, std::move(sheet.functions));
-    if (chart.side == Side::plane) localise(*patch.program, parts);
+    patch.program = std::make_unique<SheetProgram>(sheet.tower, sheet.functions);
     patches.push_back(std::move(patch));
   }
   return patches;
 }
 
-CurveGraph curve_graph(const core::RootTower& tower, const core::Polynomial& curve, const core::WorkingMode& mode,
+CurveGraph curve_graph(const core::RootTower& tower, const SheetFunction& curve, const core::WorkingMode& mode,
                        const Partition& parts, const TreeOptions& options) {
   for (unsigned attempt = 0;; ++attempt) {
     TreeOptions own = options;

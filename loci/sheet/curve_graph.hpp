@@ -61,16 +61,12 @@ struct CurveGraph {
 };
 
 /// The patches of a sheet over a box, charted and compiled. `box`: x0, x1, y0, y1.
-std::vector<Patch> make_patches(const core::RootTower& tower, const core::Polynomial& curve, const Partition& parts);
+std::vector<Patch> make_patches(const core::RootTower& tower, const SheetFunction& curve, const Partition& parts);
 
 /// Subdivides the patches and joins what crosses. Tries again with other cuts where rounding leaves an incidence open;
 /// what remains open after that is in `undecided`.
-CurveGraph curve_graph(const core::RootTower& tower, const core::Polynomial& curve, const core::WorkingMode& mode,
+CurveGraph curve_graph(const core::RootTower& tower, const SheetFunction& curve, const core::WorkingMode& mode,
                        const Partition& parts, const TreeOptions& options);
-
-/// The tower and polynomial on Q_root = 0, where s_root = 0: variable 2 + root removed.
-core::RootTower on_rim(const core::RootTower& tower, int root);
-core::Polynomial without_variable(const core::Polynomial& p, int variable);
 
 /// Cuts the stretch that holds the place (in the coordinates of patch `patch`) at a new crossing. False: rounding does
 /// not tell which one that is.

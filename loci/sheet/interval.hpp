@@ -110,8 +110,11 @@ inline Interval squared(const Interval& a) {
   return {std::max(0.0, least.lower()), most.upper()};
 }
 
-/// 1/a; required: 0 is not in `a`.
+/// 1/a. Where 0 is in `a` nothing is known of it: a stand-in for the whole line, small enough that products of a few of
+/// them stay finite.
 inline Interval inverse(const Interval& a) {
+  constexpr double unbounded = 1e50;
+  if (a.contains_zero()) return {-unbounded, unbounded};
   const double lower = 1.0 / a.upper(), upper = 1.0 / a.lower();
   return {lower - std::abs(lower) * 0x1p-52, upper + std::abs(upper) * 0x1p-52};
 }

@@ -29,8 +29,8 @@ SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, c
 
 }  // namespace
 
-ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const core::Polynomial& first,
-                       const core::Polynomial& second, const std::vector<core::Rational>& lower,
+ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& first,
+                       const SheetFunction& second, const std::vector<core::Rational>& lower,
                        const std::vector<core::Rational>& upper, const ZeroOptions& options) {
   const auto range = [&](int c) {
     Interval* const as_interval = nullptr;
@@ -45,7 +45,6 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
     const bool plane = chart.side == Chart::Side::plane;
     const ChartedSheet sheet = charted(tower, {first, second}, chart, parts.stars);
     SheetProgram program(sheet.tower, sheet.functions);
-    if (plane) localise(program, parts);
     ZeroSearch search(program, mode, {});
     const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {-1, 1}}};
     const FoundZeros found = search.run(

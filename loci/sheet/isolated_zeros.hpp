@@ -30,8 +30,8 @@ struct ZeroSet {
 };
 
 /// Zeros inside the workspace and the box; zeros on the box's edges count as inside.
-ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const core::Polynomial& first,
-                       const core::Polynomial& second, const std::vector<core::Rational>& lower,
+ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& first,
+                       const SheetFunction& second, const std::vector<core::Rational>& lower,
                        const std::vector<core::Rational>& upper, const ZeroOptions& options = {});
 
 }  // namespace clearloci::loci::sheet

@@ -56,6 +56,26 @@ MultiInterval operator-(const MultiInterval& a) {
   return result;
 }
 
+MultiInterval operator-(const MultiInterval& a, const MultiInterval& b) {
+  MultiInterval result;
+  result.lower_ = a.lower_ - b.upper_;
+  result.upper_ = a.upper_ - b.lower_;
+  return result;
+}
+
+MultiInterval inverse(const MultiInterval& a) {
+  MultiInterval result;
+  if (a.sign() == 0) {
+    result.upper_ = core::Integer(1) << (2 * MultiInterval::precision);
+    result.lower_ = -result.upper_;
+    return result;
+  }
+  const core::Integer one = core::Integer(1) << (2 * MultiInterval::precision);
+  mpz_fdiv_q(result.lower_.get_mpz_t(), one.get_mpz_t(), a.upper_.get_mpz_t());
+  mpz_cdiv_q(result.upper_.get_mpz_t(), one.get_mpz_t(), a.lower_.get_mpz_t());
+  return result;
+}
+
 MultiInterval operator*(const MultiInterval& a, const MultiInterval& b) {
   const core::Integer products[] = {a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_, a.upper_ * b.upper_};
   MultiInterval result;

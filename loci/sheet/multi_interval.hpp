@@ -26,7 +26,10 @@ class MultiInterval {
   friend MultiInterval operator+(const MultiInterval& a, const MultiInterval& b);
   friend MultiInterval operator*(const MultiInterval& a, const MultiInterval& b);
   friend MultiInterval operator-(const MultiInterval& a);
+  friend MultiInterval operator-(const MultiInterval& a, const MultiInterval& b);
   friend MultiInterval squared(const MultiInterval& a);
+  /// 1/a; where 0 is in `a`, a stand-in for the whole line.
+  friend MultiInterval inverse(const MultiInterval& a);
   /// Required: non_negative().
   friend MultiInterval square_root(const MultiInterval& a);
 

@@ -198,6 +198,36 @@ Cell Chart::to_plane(const Cell& cell) const {
   }
 }
 
+namespace {
+
+/// [lower, upper] of `a`; none: they do not meet.
+std::optional<Interval> clipped(const Interval& a, double lower, double upper) {
+  if (a.upper() < lower || upper < a.lower()) return std::nullopt;
+  return meet(a, {lower, upper});
+}
+
+}  // namespace
+
+std::optional<Cell> Chart::share_of(const Cell& place) const {
+  if (side == Side::plane) return place;
+  const auto interval = [](const Rational& value) { return constant_as(value, static_cast<Interval*>(nullptr)); };
+  const bool along_x = side == Side::right || side == Side::left;
+  const Interval x = place.x - interval(origin_x), y = place.y - interval(origin_y);
+  const Interval depth = side == Side::right  ? interval(rectangle[1] - origin_x)
+                         : side == Side::left ? interval(rectangle[0] - origin_x)
+                         : side == Side::top  ? interval(rectangle[3] - origin_y)
+                                              : interval(rectangle[2] - origin_y);
+  const std::optional<Interval> u = clipped((along_x ? x : y) * inverse(depth), 0, 1);
+  if (!u) return std::nullopt;
+  if (u->lower() <= 0) return Cell{*u, {-1, 1}};
+  const std::size_t wide = along_x ? 2 : 0;
+  const Interval middle = interval((rectangle[wide] + rectangle[wide + 1]) / 2 - (along_x ? origin_y : origin_x));
+  const Interval half = interval((rectangle[wide + 1] - rectangle[wide]) / 2);
+  const std::optional<Interval> t = clipped(((along_x ? y : x) * inverse(*u) - middle) * inverse(half), -1, 1);
+  if (!t) return std::nullopt;
+  return Cell{*u, *t};
+}
+
 std::optional<Cell> Chart::from_plane(const Cell& place) const {
   if (side == Side::plane) return place;
   const auto interval = [](const Rational& value) { return constant_as(value, static_cast<Interval*>(nullptr)); };
@@ -229,11 +259,12 @@ core::Polynomial without_denominators(core::Polynomial function, const core::Roo
   return function;
 }
 
-ChartedSheet charted(const core::RootTower& tower, const std::vector<core::Polynomial>& functions, const Chart& chart,
+ChartedSheet charted(const core::RootTower& tower, const std::vector<SheetFunction>& functions, const Chart& chart,
                      const std::vector<Star>& all_stars) {
   if (chart.side == Chart::Side::plane) {
     ChartedSheet sheet{tower, {}};
-    for (const Polynomial& f : functions) sheet.functions.push_back(without_denominators(f, tower));
+    for (const SheetFunction& f : functions)
+      sheet.functions.push_back({f.line.empty() ? without_denominators(f.polynomial, tower) : f.polynomial, f.line});
     return sheet;
   }
   const Star& star = all_stars[chart.star];
@@ -242,19 +273,31 @@ ChartedSheet charted(const core::RootTower& tower, const std::vector<core::Polyn
   sheet.tower.roots = tower.roots;
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
     const int divide = holds_root(star, static_cast<int>(j)) ? 2 : 0;
+    sheet.tower.roots[j].line = {};
     sheet.tower.roots[j].square = in_polar(moved_to(star, tower.roots[j].square), star, chart, divide);
   }
-  for (const Polynomial& f : functions) {
-    const Polynomial local = moved_to(star, f);
-    sheet.functions.push_back(in_polar(local, star, chart, local.is_zero() ? 0 : order_at_star(local, star)));
+  for (const SheetFunction& f : functions) {
+    const Polynomial local = moved_to(star, f.polynomial);
+    sheet.functions.push_back({in_polar(local, star, chart, local.is_zero() ? 0 : order_at_star(local, star))});
   }
   return sheet;
 }
 
-Partition partition(const core::RootTower& tower, const std::array<double, 4>& box) {
+std::vector<core::Point2> bases(const core::RootTower& tower) {
+  std::vector<core::Point2> result;
+  for (const Polynomial& denominator : tower.denominators)
+    if (const std::optional<Star> base = double_point(denominator))
+      result.push_back({core::to_double(base->x), core::to_double(base->y)});
+  return result;
+}
+
+Partition partition(const core::RootTower& tower, const std::array<double, 4>& box,
+                    const std::vector<core::Point2>& bases) {
   // A star this close to the box's edge, relative to its rectangle, has the rectangle reach across the edge.
   constexpr double margin = 0.05;
-  constexpr double largest = 0.15;  // half a rectangle's width, relative to the box
+  constexpr double largest = 0.06;  // half a rectangle's width, relative to the box
+  // Functions are small around other bases: polynomials in polar coordinates are no good form there.
+  constexpr double share = 0.25;  // of the way to the next base
   Partition result;
   result.domain = box;
   result.charts.emplace_back();
@@ -265,9 +308,9 @@ Partition partition(const core::RootTower& tower, const std::array<double, 4>& b
   for (const Star& star : all) {
     const auto [x, y] = place(star);
     double reach = largest * size;
-    for (const Star& other : all) {
-      const auto [ox, oy] = place(other);
-      if (&other != &star) reach = std::min(reach, 0.4 * std::max(std::abs(ox - x), std::abs(oy - y)));
+    for (const core::Point2& base : bases) {
+      const double distance = std::max(std::abs(base[0] - x), std::abs(base[1] - y));
+      if (distance > 0) reach = std::min(reach, share * distance);
     }
     const double edge = margin * reach;
     if (x < box[0] - edge || x > box[1] + edge || y < box[2] - edge || y > box[3] + edge) continue;
@@ -292,16 +335,6 @@ Partition partition(const core::RootTower& tower, const std::array<double, 4>& b
     }
   }
   return result;
-}
-
-void localise(SheetProgram& program, const Partition& partition) {
-  const auto& d = partition.domain;
-  std::vector<std::array<double, 2>> bases;
-  for (const Polynomial& denominator : program.tower().denominators)
-    if (const std::optional<Star> base = double_point(denominator))
-      bases.push_back({core::to_double(base->x), core::to_double(base->y)});
-  // A power of two, so that the grid's origins are short.
-  program.localise(std::exp2(std::round(std::log2(std::max(d[1] - d[0], d[3] - d[2]) / 8))), std::move(bases));
 }
 
 std::vector<Cell> outside_holes(const Partition& partition) {

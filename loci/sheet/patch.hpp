@@ -37,14 +37,16 @@ struct Chart {
   Cell to_plane(const Cell& cell) const;
   /// The place in this chart's coordinates, if it surely lies in the chart.
   std::optional<Cell> from_plane(const Cell& place) const;
+  /// A cell that holds the part of the place that lies in the chart; none: there is no such part.
+  std::optional<Cell> share_of(const Cell& place) const;
 };
 
 /// The tower and functions written in a chart's coordinates, without the common powers of u.
 struct ChartedSheet {
   core::RootTower tower;
-  std::vector<core::Polynomial> functions;
+  std::vector<SheetFunction> functions;
 };
-ChartedSheet charted(const core::RootTower& tower, const std::vector<core::Polynomial>& functions, const Chart& chart,
+ChartedSheet charted(const core::RootTower& tower, const std::vector<SheetFunction>& functions, const Chart& chart,
                      const std::vector<Star>& stars);
 
 /// p / divisor where that is a polynomial; none: not divisible.
@@ -60,11 +62,17 @@ struct Partition {
   std::array<double, 4> domain{};            ///< at least the wanted box, larger where a star is near its edge
   std::vector<Chart> charts;                 ///< the plane first, then four a star
 };
-Partition partition(const core::RootTower& tower, const std::array<double, 4>& box);
+/// `bases`: points that no rectangle may come near unless it is their own; those of a whole tower make the partitions
+/// of its parts agree on the rectangles they have in common.
+Partition partition(const core::RootTower& tower, const std::array<double, 4>& box,
+                    const std::vector<core::Point2>& bases);
 
-/// Gives a program on the plane origins all over it: where dyads are based, since numerators are small there, and on a
-/// grid. Charts have their origin where it is wanted.
-void localise(SheetProgram& program, const Partition& partition);
+/// The points of the plane where a denominator of the tower vanishes.
+std::vector<core::Point2> bases(const core::RootTower& tower);
+
+inline Partition partition(const core::RootTower& tower, const std::array<double, 4>& box) {
+  return partition(tower, box, bases(tower));
+}
 
 /// The part of the domain outside the holes, as rectangles.
 std::vector<Cell> outside_holes(const Partition& partition);

@@ -38,6 +38,8 @@ Interval determinant(const std::vector<std::vector<Interval>>& matrix) {
 SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode)
     : program_(&program),
       mode_(std::move(mode)),
+      over_(program.registers<Interval>()),
+      at_middle_(program.registers<Interval>()),
       is_lifted_(program.roots()),
       slopes_(program.functions()),
       middle_values_(program.functions()),
@@ -46,63 +48,48 @@ SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode)
   core::ensure(static_cast<int>(mode_.size()) == program.roots(), "a working mode has a sign for every root");
 }
 
-void SheetCell::choose_context(const Interval& x, const Interval& y) {
-  const SheetProgram* program = &program_->near(x.middle(), y.middle(), std::max(x.width(), y.width()));
-  if (now_ && now_->program == program) return;
-  for (const auto& context : contexts_)
-    if (context->program == program) {
-      now_ = context.get();
-      return;
-    }
-  contexts_.push_back(std::make_unique<Context>(
-      Context{program, program->registers<Interval>(), program->registers<Interval>(), std::nullopt}));
-  now_ = contexts_.back().get();
-}
-
 bool SheetCell::enter(const Interval& x, const Interval& y, const std::vector<Interval>& ranges) {
-  choose_context(x, y);
-  now_->over.set(0, x);
-  now_->over.set(1, y);
+  over_.set(0, x);
+  over_.set(1, y);
   lifted_.clear();
   local_.assign({x, y});
   for (int j = 0; j < program_->roots(); ++j) {
-    now_->over.run_square(j);
-    const Interval& square = now_->over.square(j);
+    over_.run_square(j);
+    const Interval& square = over_.square(j);
     if (square.upper() < 0) return false;
     Interval root = signed_root(mode_[j], square);
     if (!ranges.empty()) {
       if (disjoint(root, ranges[j])) return false;
       root = meet(root, ranges[j]);
     }
-    now_->over.set(2 + j, root);
+    over_.set(2 + j, root);
     is_lifted_[j] = square.lower() <= lift_ratio * square.upper();
     if (is_lifted_[j]) {
       lifted_.push_back(j);
-      local_.push_back(now_->over.root(j));
+      local_.push_back(over_.root(j));
     }
   }
-  now_->over.run_values();
+  over_.run_values();
   return true;
 }
 
 bool SheetCell::enter_local(const std::vector<Interval>& local, const std::vector<int>& lifted) {
-  choose_context(local[0], local[1]);
-  now_->over.set(0, local[0]);
-  now_->over.set(1, local[1]);
+  over_.set(0, local[0]);
+  over_.set(1, local[1]);
   lifted_ = lifted;
   local_ = local;
   std::size_t next = 0;
   for (int j = 0; j < program_->roots(); ++j) {
-    now_->over.run_square(j);
+    over_.run_square(j);
     is_lifted_[j] = next < lifted_.size() && lifted_[next] == j;
     if (is_lifted_[j]) {
-      now_->over.set(2 + j, local_[2 + next++]);
+      over_.set(2 + j, local_[2 + next++]);
     } else {
-      if (now_->over.square(j).lower() <= 0) return false;
-      now_->over.set(2 + j, signed_root(mode_[j], now_->over.square(j)));
+      if (over_.square(j).lower() <= 0) return false;
+      over_.set(2 + j, signed_root(mode_[j], over_.square(j)));
     }
   }
-  now_->over.run_values();
+  over_.run_values();
   return true;
 }
 
@@ -111,14 +98,14 @@ void SheetCell::reduce(std::vector<Interval>& gradient) const {
     if (is_lifted_[j]) continue;
     const Interval factor = gradient[2 + j] * half_inverse_[j];
     if (factor.lower() == 0 && factor.upper() == 0) continue;
-    for (int v = 0; v < 2 + j; ++v) gradient[v] = gradient[v] + factor * now_->over.square_partial(j, v);
+    for (int v = 0; v < 2 + j; ++v) gradient[v] = gradient[v] + factor * over_.square_partial(j, v);
   }
 }
 
 void SheetCell::differentiate() {
-  now_->over.run_gradients();
+  over_.run_gradients();
   for (int j = 0; j < program_->roots(); ++j)
-    if (!is_lifted_[j]) half_inverse_[j] = inverse(Interval(2.0) * now_->over.root(j));
+    if (!is_lifted_[j]) half_inverse_[j] = inverse(Interval(2.0) * over_.root(j));
 
   const auto project = [&](std::vector<Interval>& slopes) {
     reduce(gradient_);
@@ -126,58 +113,58 @@ void SheetCell::differentiate() {
     for (const int j : lifted_) slopes.push_back(gradient_[2 + j]);
   };
   for (int f = 0; f < program_->functions(); ++f) {
-    for (int v = 0; v < program_->variables(); ++v) gradient_[v] = now_->over.partial(f, v);
+    for (int v = 0; v < program_->variables(); ++v) gradient_[v] = over_.partial(f, v);
     project(slopes_[f]);
   }
   bond_slopes_.resize(lifted_.size());
   for (std::size_t l = 0; l < lifted_.size(); ++l) {
     const int j = lifted_[l];
-    for (int v = 0; v < program_->variables(); ++v) gradient_[v] = -now_->over.square_partial(j, v);
-    gradient_[2 + j] = gradient_[2 + j] + Interval(2.0) * now_->over.root(j);
+    for (int v = 0; v < program_->variables(); ++v) gradient_[v] = -over_.square_partial(j, v);
+    gradient_[2 + j] = gradient_[2 + j] + Interval(2.0) * over_.root(j);
     project(bond_slopes_[l]);
   }
 
   middle_.clear();
   for (const Interval& range : local_) middle_.push_back(range.middle());
-  now_->at_middle.set(0, middle_[0]);
-  now_->at_middle.set(1, middle_[1]);
+  at_middle_.set(0, middle_[0]);
+  at_middle_.set(1, middle_[1]);
   middle_bonds_.resize(lifted_.size());
   std::size_t next = 0;
   for (int j = 0; j < program_->roots(); ++j) {
-    now_->at_middle.run_square(j);
+    at_middle_.run_square(j);
     if (is_lifted_[j]) {
-      now_->at_middle.set(2 + j, middle_[2 + next]);
-      middle_bonds_[next] = squared(Interval(middle_[2 + next])) - now_->at_middle.square(j);
+      at_middle_.set(2 + j, middle_[2 + next]);
+      middle_bonds_[next] = squared(Interval(middle_[2 + next])) - at_middle_.square(j);
       ++next;
     } else {
       // The cell proves Q_j > 0; rounding at the middle cannot matter beyond that.
-      now_->at_middle.set(2 + j, meet(signed_root(mode_[j], now_->at_middle.square(j)), now_->over.root(j)));
+      at_middle_.set(2 + j, meet(signed_root(mode_[j], at_middle_.square(j)), over_.root(j)));
     }
   }
-  now_->at_middle.run_values();
-  for (int f = 0; f < program_->functions(); ++f) middle_values_[f] = now_->at_middle.value(f);
+  at_middle_.run_values();
+  for (int f = 0; f < program_->functions(); ++f) middle_values_[f] = at_middle_.value(f);
 }
 
 void SheetCell::sharpen_middle() {
-  if (!now_->precise) now_->precise = now_->program->registers<MultiInterval>();
-  now_->precise->set(0, MultiInterval(middle_[0]));
-  now_->precise->set(1, MultiInterval(middle_[1]));
+  if (!precise_) precise_ = program_->registers<MultiInterval>();
+  precise_->set(0, MultiInterval(middle_[0]));
+  precise_->set(1, MultiInterval(middle_[1]));
   std::size_t next = 0;
   for (int j = 0; j < program_->roots(); ++j) {
-    now_->precise->run_square(j);
+    precise_->run_square(j);
     if (is_lifted_[j]) {
       const MultiInterval s(middle_[2 + next]);
-      const MultiInterval bond = squared(s) + -now_->precise->square(j);
+      const MultiInterval bond = squared(s) + -precise_->square(j);
       middle_bonds_[next] = Interval(bond.lower(), bond.upper());
-      now_->precise->set(2 + j, s);
+      precise_->set(2 + j, s);
       ++next;
     } else {
-      now_->precise->set(2 + j, signed_root(mode_[j], now_->precise->square(j)));
+      precise_->set(2 + j, signed_root(mode_[j], precise_->square(j)));
     }
   }
-  now_->precise->run_values();
+  precise_->run_values();
   for (int f = 0; f < program_->functions(); ++f)
-    middle_values_[f] = Interval(now_->precise->value(f).lower(), now_->precise->value(f).upper());
+    middle_values_[f] = Interval(precise_->value(f).lower(), precise_->value(f).upper());
 }
 
 bool SheetCell::rounding_dominates(int function) const {
@@ -189,7 +176,7 @@ bool SheetCell::rounding_dominates(int function) const {
 Interval SheetCell::centred(int function) const {
   Interval sum = middle_values_[function];
   for (int c = 0; c < dimension(); ++c) sum = sum + slopes_[function][c] * (local_[c] - Interval(middle_[c]));
-  return meet(sum, now_->over.value(function));
+  return meet(sum, over_.value(function));
 }
 
 Interval SheetCell::tangent(int function, int c) const {

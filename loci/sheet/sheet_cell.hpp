@@ -6,7 +6,6 @@
 // (x, y, lifted s_j ...), are the cell's local coordinates; slopes are derivatives with respect to them.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,9 +32,9 @@ class SheetCell {
   const std::vector<int>& lifted() const { return lifted_; }
   int dimension() const { return 2 + static_cast<int>(lifted_.size()); }
   const Interval& local(int c) const { return local_[c]; }
-  const Interval& root(int j) const { return now_->over.root(j); }
-  const Interval& square(int j) const { return now_->over.square(j); }
-  const Interval& value(int function) const { return now_->over.value(function); }
+  const Interval& root(int j) const { return over_.root(j); }
+  const Interval& square(int j) const { return over_.square(j); }
+  const Interval& value(int function) const { return over_.value(function); }
 
   /// Computes slopes over the cell and values at its middle; wanted by everything below.
   void differentiate();
@@ -61,19 +60,12 @@ class SheetCell {
   Interval tangent(int function, int c) const;
 
  private:
-  struct Context {
-    const SheetProgram* program;
-    SheetProgram::Registers<Interval> over, at_middle;
-    std::optional<SheetProgram::Registers<MultiInterval>> precise;
-  };
-
   void reduce(std::vector<Interval>& gradient) const;
-  void choose_context(const Interval& x, const Interval& y);
 
   const SheetProgram* program_;
   core::WorkingMode mode_;
-  std::vector<std::unique_ptr<Context>> contexts_;  // one a program in use
-  Context* now_ = nullptr;
+  SheetProgram::Registers<Interval> over_, at_middle_;
+  std::optional<SheetProgram::Registers<MultiInterval>> precise_;
   std::vector<int> lifted_;
   std::vector<bool> is_lifted_;
   std::vector<Interval> local_;

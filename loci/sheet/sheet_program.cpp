@@ -3,16 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
+#include <unordered_map>
 
 #include "core/errors.hpp"
 
 namespace clearloci::loci::sheet {
 
 namespace {
-
-// Cells wider than this, in steps of the grid of origins, gain nothing from an origin in their middle.
-constexpr double widest_local = 0.25;
 
 /// Coefficients of (v + shift)^n, lowest power first.
 std::vector<core::Rational> power_of_sum(const core::Rational& shift, int n) {
@@ -61,14 +58,14 @@ MultiInterval constant_as(const core::Rational& value, MultiInterval*) { return 
 /// as they come; `finish` turns the numbers into registers.
 class SheetProgram::Builder {
  public:
-  explicit Builder(int variables) : variables_(variables) {
+  explicit Builder(int variables) : variables_(variables), derivatives_(variables) {
     for (int v = 0; v < variables; ++v) nodes_.push_back({Kind::variable, v, 0});
     zero_ = constant(0);
     one_ = constant(1);
   }
 
   int constant(const core::Rational& value) {
-    const auto [it, added] = constant_nodes_.try_emplace(core::to_string(value), static_cast<int>(nodes_.size()));
+    const auto [it, added] = constant_nodes_.try_emplace(value, static_cast<int>(nodes_.size()));
     if (added) {
       nodes_.push_back({Kind::constant, static_cast<int>(constants_.size()), 0});
       constants_.push_back(value);
@@ -82,12 +79,16 @@ class SheetProgram::Builder {
     return make(Kind::add, std::min(a, b), std::max(a, b));
   }
 
+  int subtract(int a, int b) { return b == zero_ ? a : a == b ? zero_ : make(Kind::subtract, a, b); }
+
   int multiply(int a, int b) {
     if (a == zero_ || b == zero_) return zero_;
     if (a == one_) return b;
     if (b == one_) return a;
     return a == b ? make(Kind::square, a, a) : make(Kind::multiply, std::min(a, b), std::max(a, b));
   }
+
+  int inverse(int a) { return make(Kind::inverse, a, a); }
 
   int power(int base, int exponent) {
     if (exponent == 0) return one_;
@@ -97,24 +98,44 @@ class SheetProgram::Builder {
     return exponent % 2 == 0 ? even : multiply(even, base);
   }
 
-  /// Horner's scheme in the last variable, its coefficients by Horner's scheme in the one before, and so on.
-  int horner(const std::vector<core::Term>& terms, int variable) {
-    if (terms.empty()) return zero_;
-    if (variable < 0) return constant(terms.front().coefficient);
-    std::map<int, std::vector<core::Term>, std::greater<>> by_power;
-    for (const core::Term& term : terms) by_power[term.exponents[variable]].push_back(term);
-    int result = zero_, previous = 0;
-    for (const auto& [exponent, coefficient] : by_power) {
-      if (result != zero_) result = multiply(result, power(variable, previous - exponent));
-      result = add(result, horner(coefficient, variable - 1));
-      previous = exponent;
+  int polynomial(const core::Polynomial& p) {
+    std::vector<const core::Term*> terms;
+    for (const core::Term& term : p.terms) terms.push_back(&term);
+    return horner(terms, p.variables - 1);
+  }
+
+  int line(const core::StraightLine& line) {
+    using Step = core::StraightLine::Operation;
+    std::vector<int> nodes;
+    for (const core::StraightLine::Step& step : line.steps) {
+      const auto operand = [&](int index) { return nodes[index]; };
+      switch (step.operation) {
+        case Step::constant:
+          nodes.push_back(constant(step.value));
+          break;
+        case Step::variable:
+          nodes.push_back(step.first);
+          break;
+        case Step::add:
+          nodes.push_back(add(operand(step.first), operand(step.second)));
+          break;
+        case Step::subtract:
+          nodes.push_back(subtract(operand(step.first), operand(step.second)));
+          break;
+        case Step::multiply:
+          nodes.push_back(multiply(operand(step.first), operand(step.second)));
+          break;
+        case Step::inverse:
+          nodes.push_back(inverse(operand(step.first)));
+          break;
+      }
     }
-    return multiply(result, power(variable, previous));
+    return nodes.back();
   }
 
   int derivative(int node, int v) {
-    const auto known = derivatives_.find({node, v});
-    if (known != derivatives_.end()) return known->second;
+    std::vector<int>& known = derivatives_[v];
+    if (node < static_cast<int>(known.size()) && known[node] != unknown) return known[node];
     const Node n = nodes_[node];
     int result = zero_;
     switch (n.kind) {
@@ -126,6 +147,9 @@ class SheetProgram::Builder {
       case Kind::add:
         result = add(derivative(n.first, v), derivative(n.second, v));
         break;
+      case Kind::subtract:
+        result = subtract(derivative(n.first, v), derivative(n.second, v));
+        break;
       case Kind::multiply: {
         const int left = multiply(derivative(n.first, v), n.second);
         result = add(left, multiply(n.first, derivative(n.second, v)));
@@ -134,9 +158,12 @@ class SheetProgram::Builder {
       case Kind::square:
         result = multiply(multiply(constant(2), n.first), derivative(n.first, v));
         break;
+      case Kind::inverse:
+        result = multiply(subtract(zero_, multiply(node, node)), derivative(n.first, v));
+        break;
     }
-    derivatives_[{node, v}] = result;
-    return result;
+    if (node >= static_cast<int>(derivatives_[v].size())) derivatives_[v].resize(node + 1, unknown);
+    return derivatives_[v][node] = result;
   }
 
   int zero() const { return zero_; }
@@ -157,8 +184,14 @@ class SheetProgram::Builder {
         case Kind::add:
           program.instructions_.push_back({Operation::add, 0, 0});
           break;
+        case Kind::subtract:
+          program.instructions_.push_back({Operation::subtract, 0, 0});
+          break;
         case Kind::multiply:
           program.instructions_.push_back({Operation::multiply, 0, 0});
+          break;
+        case Kind::inverse:
+          program.instructions_.push_back({Operation::inverse, 0, 0});
           break;
         case Kind::square:
           program.instructions_.push_back({Operation::square, 0, 0});
@@ -173,14 +206,36 @@ class SheetProgram::Builder {
   }
 
  private:
-  enum class Kind { variable, constant, add, multiply, square };
+  enum class Kind : std::uint8_t { variable, constant, add, subtract, multiply, square, inverse };
+  static constexpr int unknown = -1;
   struct Node {
     Kind kind;
     int first, second;
   };
 
+  /// Horner's scheme in the last variable, its coefficients by Horner's scheme in the one before, and so on.
+  int horner(const std::vector<const core::Term*>& terms, int variable) {
+    if (terms.empty()) return zero_;
+    if (variable < 0) return constant(terms.front()->coefficient);
+    int highest = 0;
+    for (const core::Term* term : terms) highest = std::max(highest, term->exponents[variable]);
+    if (highest == 0) return horner(terms, variable - 1);
+    std::vector<std::vector<const core::Term*>> by_power(highest + 1);
+    for (const core::Term* term : terms) by_power[term->exponents[variable]].push_back(term);
+    int result = zero_, previous = highest;
+    for (int exponent = highest; exponent >= 0; --exponent) {
+      if (by_power[exponent].empty()) continue;
+      result = multiply(result, power(variable, previous - exponent));
+      result = add(result, horner(by_power[exponent], variable - 1));
+      previous = exponent;
+    }
+    return multiply(result, power(variable, previous));
+  }
+
   int make(Kind kind, int a, int b) {
-    const auto [it, added] = shared_.try_emplace({kind, a, b}, static_cast<int>(nodes_.size()));
+    const std::uint64_t key =
+        static_cast<std::uint64_t>(kind) << 60 | static_cast<std::uint64_t>(a) << 30 | static_cast<std::uint64_t>(b);
+    const auto [it, added] = shared_.try_emplace(key, static_cast<int>(nodes_.size()));
     if (added) {
       nodes_.push_back({kind, a, b});
       ++instructions_;
@@ -193,54 +248,38 @@ class SheetProgram::Builder {
   int instructions_ = 0;
   std::vector<Node> nodes_;
   std::vector<core::Rational> constants_;
-  std::map<std::string, int> constant_nodes_;
-  std::map<std::tuple<Kind, int, int>, int> shared_;
-  std::map<std::pair<int, int>, int> derivatives_;
+  std::map<core::Rational, int> constant_nodes_;
+  std::unordered_map<std::uint64_t, int> shared_;
+  std::vector<std::vector<int>> derivatives_;  // by variable and node
 };
 
-SheetProgram::SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions)
-    : tower_(tower), functions_(std::move(functions)) {
-  core::ensure(tower_.coordinates.size() == 2, "a sheet has two free coordinates");
-  compile(tower_, functions_);
+SheetProgram::SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions,
+                           std::vector<core::StraightLine> lines)
+    : tower_(tower), functions_(std::move(functions)), lines_(std::move(lines)) {
+  lines_.resize(functions_.size());
+  compile();
 }
 
-SheetProgram::SheetProgram(const SheetProgram& program, std::array<double, 2> origin)
-    : tower_(program.tower_), functions_(program.functions_), moved_(true), origin_(origin) {
-  const auto moved = [&](const core::Polynomial& p) {
-    return shifted(shifted(p, 0, core::Rational(origin[0])), 1, core::Rational(origin[1]));
-  };
-  core::RootTower tower = tower_;
-  std::vector<core::Polynomial> functions;
-  for (core::Root& root : tower.roots) root.square = moved(root.square);
-  for (const core::Polynomial& function : functions_) functions.push_back(moved(function));
-  compile(tower, functions);
-}
-
-const SheetProgram& SheetProgram::near(double x, double y, double width) const {
-  if (local_step_ == 0 || width > widest_local * local_step_ || std::hypot(x, y) < local_step_) return *this;
-  std::array<double, 2> origin = {(std::floor(x / local_step_) + 0.5) * local_step_,
-                                  (std::floor(y / local_step_) + 0.5) * local_step_};
-  double nearest = local_step_;
-  for (const std::array<double, 2>& point : local_points_) {
-    const double distance = std::hypot(point[0] - x, point[1] - y);
-    if (distance < nearest) nearest = distance, origin = point;
+SheetProgram::SheetProgram(const core::RootTower& tower, const std::vector<SheetFunction>& functions) : tower_(tower) {
+  for (const SheetFunction& function : functions) {
+    functions_.push_back(function.polynomial);
+    lines_.push_back(function.line);
   }
-  std::unique_ptr<SheetProgram>& program = local_[origin];
-  if (!program) program.reset(new SheetProgram(*this, origin));
-  return *program;
+  compile();
 }
 
-void SheetProgram::compile(const core::RootTower& tower, const std::vector<core::Polynomial>& functions) {
+void SheetProgram::compile() {
+  core::ensure(tower_.coordinates.size() == 2, "a sheet has two free coordinates");
   Builder builder(variables());
   std::vector<int> square_nodes, value_nodes;
-  for (const core::Root& root : tower.roots) {
+  for (const core::Root& root : tower_.roots) {
     core::ensure(root.square.variables == variables(), "a root's square is written in all variables of the tower");
-    square_nodes.push_back(builder.horner(root.square.terms, variables() - 1));
+    square_nodes.push_back(root.line.empty() ? builder.polynomial(root.square) : builder.line(root.line));
     stage_end_.push_back(builder.instructions());
   }
-  for (const core::Polynomial& function : functions) {
-    core::ensure(function.variables == variables(), "a function is written in all variables of the tower");
-    value_nodes.push_back(builder.horner(function.terms, variables() - 1));
+  for (std::size_t f = 0; f < functions_.size(); ++f) {
+    core::ensure(functions_[f].variables == variables(), "a function is written in all variables of the tower");
+    value_nodes.push_back(lines_[f].empty() ? builder.polynomial(functions_[f]) : builder.line(lines_[f]));
   }
   stage_end_.push_back(builder.instructions());
 
@@ -267,6 +306,8 @@ void SheetProgram::compile(const core::RootTower& tower, const std::vector<core:
   to_registers(squares_);
   to_registers(values_);
   zero_ = registers[builder.zero()];
+  for (const core::Rational& constant : constants_)
+    enclosed_constants_.push_back(constant_as(constant, static_cast<Interval*>(nullptr)));
 }
 
 }  // namespace clearloci::loci::sheet

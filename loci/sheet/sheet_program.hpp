@@ -2,14 +2,12 @@
 //     stage j       Q_j(x, y, s1..s_{j-1})            the caller then sets s_j = sigma_j sqrt(Q_j)
 //     values        f(x, y, s1..sm)
 //     gradients     df/dv, dQ_j/dv for v in (x, y, s1..sm), by symbolic forward differentiation of the program
-// One program serves double, Interval and MultiInterval. Enclosures are the tighter the nearer the origin of the
-// polynomials is; `near` gives programs for the same functions with origins all over a region.
+// Where a function or a square comes with its straight line, that is compiled instead of the polynomial: it is shorter
+// and its enclosures are tighter. One program serves double, Interval and MultiInterval.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <map>
-#include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "core/polynomial.hpp"
@@ -24,43 +22,37 @@ Interval constant_as(const core::Rational& value, Interval*);
 MultiInterval constant_as(const core::Rational& value, MultiInterval*);
 
 inline double squared(double a) { return a * a; }
-
-/// value - origin
-inline double relative(double value, double origin) { return value - origin; }
-inline Interval relative(const Interval& value, double origin) { return value - Interval(origin); }
-inline MultiInterval relative(const MultiInterval& value, double origin) { return value + MultiInterval(-origin); }
+inline double inverse(double a) { return 1 / a; }
 
 /// p(..., v + shift, ...).
 core::Polynomial shifted(const core::Polynomial& p, int variable, const core::Rational& shift);
 
+/// A function on the sheet as a polynomial and, where it is known, as it is computed. Both have the same zeros where
+/// no denominator of the tower vanishes.
+struct SheetFunction {
+  core::Polynomial polynomial;
+  core::StraightLine line = {};
+};
+
 class SheetProgram {
  public:
-  /// `functions` in (x, y, s1..sm). Required: two free coordinates.
-  SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions);
-
-  /// Makes `near` work: origins at given points for cells within a step of them, elsewhere on a grid of that step.
-  void localise(double step, std::vector<std::array<double, 2>> points) {
-    local_step_ = step;
-    local_points_ = std::move(points);
-  }
-
-  /// The program for cells of this width around (x, y): this one where cells are wide or localise was not called, else
-  /// one with an origin nearby, compiled when first asked for. Not to be called from two threads at once.
-  const SheetProgram& near(double x, double y, double width) const;
+  /// `functions` in (x, y, s1..sm); `lines`: none, or one a function, empty where it has none. Required: two free
+  /// coordinates.
+  SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions,
+               std::vector<core::StraightLine> lines = {});
+  SheetProgram(const core::RootTower& tower, const std::vector<SheetFunction>& functions);
 
   int roots() const { return static_cast<int>(tower_.roots.size()); }
   int variables() const { return 2 + roots(); }
   int functions() const { return static_cast<int>(functions_.size()); }
   const core::RootTower& tower() const { return tower_; }
-  const std::vector<core::Polynomial>& polynomials() const { return functions_; }
+  SheetFunction function(int index) const { return {functions_[index], lines_[index]}; }
 
   /// Values of all instructions; one a thread, made once, then reused.
   template <class T>
   class Registers {
    public:
-    void set(int variable, const T& value) {
-      values_[variable] = variable < 2 && program_->moved_ ? relative(value, program_->origin_[variable]) : value;
-    }
+    void set(int variable, const T& value) { values_[variable] = value; }
     const T& root(int j) const { return values_[2 + j]; }
     const T& square(int root) const { return values_[program_->squares_[root]]; }
     const T& value(int function) const { return values_[program_->values_[function]]; }
@@ -90,36 +82,37 @@ class SheetProgram {
   int instructions() const { return static_cast<int>(instructions_.size()); }
 
  private:
-  enum class Operation : std::uint8_t { add, multiply, square };
+  enum class Operation : std::uint8_t { add, subtract, multiply, square, inverse };
   struct Instruction {
     Operation operation;
     std::int32_t first, second;
   };
   class Builder;
 
-  SheetProgram(const SheetProgram& program, std::array<double, 2> origin);
-  void compile(const core::RootTower& tower, const std::vector<core::Polynomial>& functions);
+  void compile();
 
   core::RootTower tower_;
   std::vector<core::Polynomial> functions_;
+  std::vector<core::StraightLine> lines_;
   std::vector<core::Rational> constants_;  // registers variables()...
+  std::vector<Interval> enclosed_constants_;
   std::vector<Instruction> instructions_;  // registers after the constants
   std::vector<int> stage_end_;             // roots() + 2 entries
   std::vector<int> squares_, values_;
   std::vector<std::vector<int>> partials_, square_partials_;
   int zero_ = 0;
-  bool moved_ = false;
-  std::array<double, 2> origin_{};
-  double local_step_ = 0;
-  std::vector<std::array<double, 2>> local_points_;
-  mutable std::map<std::array<double, 2>, std::unique_ptr<SheetProgram>> local_;
 };
 
 template <class T>
 SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&program) {
   values_.resize(program.variables() + program.constants_.size() + program.instructions_.size());
-  for (std::size_t i = 0; i < program.constants_.size(); ++i)
-    values_[program.variables() + i] = constant_as(program.constants_[i], static_cast<T*>(nullptr));
+  for (std::size_t i = 0; i < program.constants_.size(); ++i) {
+    T& own = values_[program.variables() + i];
+    if constexpr (std::is_same_v<T, Interval>)
+      own = program.enclosed_constants_[i];
+    else
+      own = constant_as(program.constants_[i], static_cast<T*>(nullptr));
+  }
 }
 
 template <class T>
@@ -136,11 +129,17 @@ void SheetProgram::Registers<T>::run(int stage) {
       case Operation::add:
         values[offset + i] = a + b;
         break;
+      case Operation::subtract:
+        values[offset + i] = a - b;
+        break;
       case Operation::multiply:
         values[offset + i] = a * b;
         break;
       case Operation::square:
         values[offset + i] = squared(a);
+        break;
+      case Operation::inverse:
+        values[offset + i] = inverse(a);
         break;
     }
   }

@@ -31,7 +31,10 @@ Subtower subtower(const core::RootTower& whole, const core::WorkingMode& mode,
     part.tower.roots.push_back(whole.roots[j]);
     part.mode.push_back(mode[j]);
   }
-  for (core::Root& root : part.tower.roots) root.square = narrowed(root.square, part);
+  for (core::Root& root : part.tower.roots) {
+    root.square = narrowed(root.square, part);
+    root.line = narrowed(root.line, part);
+  }
   for (const core::Polynomial& denominator : whole.denominators)
     if (std::none_of(part.dropped.begin(), part.dropped.end(),
                      [&](int j) { return core::depends_on(denominator, 2 + j); }))
@@ -61,6 +64,64 @@ core::Polynomial widened(const core::Polynomial& p, const Subtower& part, int va
     result.terms.push_back({std::move(exponents), term.coefficient});
   }
   sort_terms(result);
+  return result;
+}
+
+core::StraightLine narrowed(const core::StraightLine& line, const Subtower& part) {
+  core::StraightLine result = line;
+  for (core::StraightLine::Step& step : result.steps) {
+    if (step.operation != core::StraightLine::Operation::variable || step.first < 2) continue;
+    const auto place = std::find(part.kept.begin(), part.kept.end(), step.first - 2);
+    if (place == part.kept.end()) return {};
+    step.first = 2 + static_cast<int>(place - part.kept.begin());
+  }
+  return result;
+}
+
+SheetFunction narrowed(const SheetFunction& function, const Subtower& part) {
+  return {narrowed(function.polynomial, part), narrowed(function.line, part)};
+}
+
+core::Polynomial without_variable(const core::Polynomial& p, int variable) {
+  core::Polynomial result{p.variables - 1, {}};
+  for (core::Term term : p.terms) {
+    if (term.exponents[variable] != 0) continue;
+    term.exponents.erase(term.exponents.begin() + variable);
+    result.terms.push_back(std::move(term));
+  }
+  return result;
+}
+
+namespace {
+
+/// A root that is 0.
+core::StraightLine without_variable(core::StraightLine line, int variable) {
+  for (core::StraightLine::Step& step : line.steps) {
+    if (step.operation != core::StraightLine::Operation::variable || step.first < variable) continue;
+    if (step.first == variable)
+      step = {core::StraightLine::Operation::constant, 0, 0, 0};
+    else
+      --step.first;
+  }
+  return line;
+}
+
+}  // namespace
+
+SheetFunction without_variable(const SheetFunction& function, int variable) {
+  return {without_variable(function.polynomial, variable), without_variable(function.line, variable)};
+}
+
+core::RootTower on_rim(const core::RootTower& tower, int root) {
+  core::RootTower result = tower;
+  result.roots.erase(result.roots.begin() + root);
+  for (core::Root& other : result.roots) {
+    other.square = without_variable(other.square, 2 + root);
+    other.line = without_variable(other.line, 2 + root);
+  }
+  result.denominators.clear();
+  for (const core::Polynomial& denominator : tower.denominators)
+    result.denominators.push_back(without_variable(denominator, 2 + root));
   return result;
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/root_tower.hpp"
+#include "loci/sheet/sheet_program.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -19,5 +19,15 @@ Subtower subtower(const core::RootTower& whole, const core::WorkingMode& mode,
 /// A polynomial over the whole tower in the variables of the part, in which all of its roots are kept; and back.
 core::Polynomial narrowed(const core::Polynomial& p, const Subtower& part);
 core::Polynomial widened(const core::Polynomial& p, const Subtower& part, int variables);
+
+/// Empty where the straight line holds a dropped root.
+core::StraightLine narrowed(const core::StraightLine& line, const Subtower& part);
+
+SheetFunction narrowed(const SheetFunction& function, const Subtower& part);
+
+/// The tower, polynomials and functions on Q_root = 0, where s_root = 0: variable 2 + root removed.
+core::RootTower on_rim(const core::RootTower& tower, int root);
+core::Polynomial without_variable(const core::Polynomial& p, int variable);
+SheetFunction without_variable(const SheetFunction& function, int variable);
 
 }  // namespace clearloci::loci::sheet

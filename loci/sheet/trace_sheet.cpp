@@ -8,7 +8,6 @@
 #include "loci/sheet/chains.hpp"
 #include "loci/sheet/critical_point.hpp"
 #include "loci/sheet/curve_graph.hpp"
-#include "loci/sheet/isolated_zeros.hpp"
 #include "loci/sheet/subtower.hpp"
 #include "loci/sheet/vertices.hpp"
 
@@ -29,7 +28,7 @@ constexpr double same_place = 1e-10;
 
 /// Where arcs are cut; `keep`: only where the polynomial is positive does the curve belong to the result.
 struct Cut {
-  core::Polynomial sheet;
+  SheetFunction sheet;
   core::ArcEnd label;
   bool keep;
 };
@@ -37,8 +36,13 @@ struct Cut {
 class Tracer {
  public:
   Tracer(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<core::Rational>& lower,
-         const std::vector<core::Rational>& upper, const core::Polynomial& sheet, const SheetTraceOptions& options)
-      : tower_(tower), mode_(mode), options_(options), own_(subtower(tower, mode, {sheet})) {
+         const std::vector<core::Rational>& upper, const SheetFunction& sheet, const SheetTraceOptions& options)
+      : tower_(tower),
+        mode_(mode),
+        options_(options),
+        own_(subtower(tower, mode, {sheet.polynomial})),
+        sheet_(sheet),
+        bases_(bases(tower)) {
     curve_ = narrowed(sheet, own_);
     Interval* const as_interval = nullptr;
     const Interval x = hull(constant_as(lower[0], as_interval), constant_as(upper[0], as_interval));
@@ -50,7 +54,7 @@ class Tracer {
   }
 
   SheetTrace run(const std::vector<Cutter>& cutters) {
-    const Partition parts = partition(own_.tower, wide_);
+    const Partition parts = partition(own_.tower, wide_, bases_);
     TreeOptions tree;
     tree.most_cells = options_.most_cells;
     tree.stop = options_.stop;
@@ -59,7 +63,7 @@ class Tracer {
     std::vector<Cut> cuts;
     for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
     for (const int j : own_.dropped)
-      cuts.push_back({without_denominators(tower_.roots[j].square, tower_), core::ArcEnd::boundary, true});
+      cuts.push_back({{without_denominators(tower_.roots[j].square, tower_)}, core::ArcEnd::boundary, true});
     add_box_cuts(parts, cuts);
     if (!graph_.stretches.empty())
       for (const Cut& cut : cuts) apply(cut, parts);
@@ -110,22 +114,22 @@ class Tracer {
       const core::Polynomial line =
           core::variable_polynomial(n, i / 2) - core::constant_polynomial(n, core::Rational(wide_[i]));
       const core::Polynomial sign = core::constant_polynomial(n, i % 2 == 0 ? 1 : -1);
-      cuts.push_back({sign * line, core::ArcEnd::box, true});
+      cuts.push_back({{sign * line}, core::ArcEnd::box, true});
     }
   }
 
   void apply(const Cut& cut, const Partition& parts) {
-    if (cut.sheet.is_constant()) return;
-    const Subtower both = subtower(tower_, mode_, {widened(curve_, own_, tower_.variables()), cut.sheet});
+    if (cut.sheet.polynomial.is_constant()) return;
+    const Subtower both = subtower(tower_, mode_, {sheet_.polynomial, cut.sheet.polynomial});
     if (!cut.keep) cut_at_stars(both, cut);
     if (both.kept == own_.kept)
       cut_in_patches(narrowed(cut.sheet, own_), cut, parts);
     else
-      cut_in_plane(both, cut);
+      cut_on_both(both, cut);
   }
 
   /// The cutter lives on the curve's own sheet: search the cells that hold the curve.
-  void cut_in_patches(const core::Polynomial& cutter, const Cut& cut, const Partition& parts) {
+  void cut_in_patches(const SheetFunction& cutter, const Cut& cut, const Partition& parts) {
     for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
       const Patch& patch = graph_.patches[p];
       std::vector<Cell> seeds;
@@ -133,8 +137,7 @@ class Tracer {
         if (leaf.kind == LeafKind::graph) seeds.push_back(leaf.cell);
       if (seeds.empty()) continue;
       ChartedSheet sheet = charted(own_.tower, {curve_, cutter}, patch.chart, parts.stars);
-      SheetProgram program(sheet.tower, std::move(sheet.functions));
-      if (patch.chart.side == Chart::Side::plane) localise(program, parts);
+      const SheetProgram program(sheet.tower, sheet.functions);
       const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
       const FoundZeros found =
           ZeroSearch(program, own_.mode, {}).run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size});
@@ -142,20 +145,19 @@ class Tracer {
       for (const std::vector<Interval>& zero : found.enclosures)
         if (!cut_stretch(graph_, static_cast<int>(p), zero, cut.label)) open.push_back({zero[0], zero[1]});
       for (const Cell& cell : clusters(std::move(open)))
-        if ((cut.keep || !at_star(static_cast<int>(p), cell)) && !at_end(patch.chart.to_plane(cell)))
+        if ((cut.keep || !at_star(patch.chart, cell)) && !at_end(patch.chart.to_plane(cell)))
           graph_.undecided.push_back(patch.chart.to_plane(cell));
     }
   }
 
   /// The cutter reaches a star in the direction of a branch: cut_at_stars has seen to it.
-  bool at_star(int patch, const Cell& cell) const {
-    return graph_.patches[patch].chart.side != Chart::Side::plane && cell.x.lower() <= 0 &&
-           cell.x.upper() <= same_place;
+  static bool at_star(const Chart& chart, const Cell& cell) {
+    return chart.side != Chart::Side::plane && cell.x.lower() <= 0 && cell.x.upper() <= same_place;
   }
 
   /// Branches that reach a star end there where the cutter reaches it too, in whatever direction.
   void cut_at_stars(const Subtower& both, const Cut& cut) {
-    const Partition parts = partition(both.tower, wide_);
+    const Partition parts = partition(both.tower, wide_, bases_);
     for (std::size_t i = 0; i < parts.stars.size(); ++i) {
       const Star& star = parts.stars[i];
       std::vector<Crossing*> ends;
@@ -186,7 +188,7 @@ class Tracer {
     for (const Chart& chart : parts.charts) {
       if (chart.side == Chart::Side::plane || chart.star != star) continue;
       ChartedSheet sheet = charted(both.tower, {narrowed(cut.sheet, both)}, chart, parts.stars);
-      const SheetProgram program(sheet.tower, std::move(sheet.functions));
+      const SheetProgram program(sheet.tower, sheet.functions);
       const FoundZeros found =
           ZeroSearch(program, both.mode, {{0}, {1}}).run({{0.0, {-1, 1}}}, {smallest_cut, most_star_cells, 1e-13});
       if (!found.enclosures.empty() || !found.undecided.empty()) return true;
@@ -205,19 +207,54 @@ class Tracer {
     });
   }
 
-  /// The cutter has roots that the curve does not: search the box on the sheet of both.
-  void cut_in_plane(const Subtower& both, const Cut& cut) {
-    const std::vector<core::Rational> lower = {wide_[0], wide_[2]}, upper = {wide_[1], wide_[3]};
-    const core::Polynomial curve = widened(curve_, own_, tower_.variables());
-    const ZeroSet found = isolated_zeros(both.tower, both.mode, narrowed(curve, both), narrowed(cut.sheet, both), lower,
-                                         upper, {.smallest = 1e-11});
-    std::vector<Cell> open = found.undecided;
-    for (const SheetZero& zero : found.zeros) {
-      const Cell place{{zero.x - zero.radius, zero.x + zero.radius}, {zero.y - zero.radius, zero.y + zero.radius}};
-      if (!cut_at(place, cut.label)) open.push_back(place);
+  /// The cutter has roots that the curve does not: search the curve's cells on the sheet of both.
+  void cut_on_both(const Subtower& both, const Cut& cut) {
+    const Partition parts = partition(both.tower, wide_, bases_);
+    std::vector<Cell> open;
+    for (const Chart& chart : parts.charts) {
+      const std::vector<Cell> seeds = seeds_in(chart, parts);
+      if (seeds.empty()) continue;
+      const ChartedSheet sheet =
+          charted(both.tower, {narrowed(sheet_, both), narrowed(cut.sheet, both)}, chart, parts.stars);
+      const SheetProgram program(sheet.tower, sheet.functions);
+      const double size = chart.side == Chart::Side::plane ? size_ : 1.0;
+      const FoundZeros found =
+          ZeroSearch(program, both.mode, {}).run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size});
+      for (const Cell& cell : found.undecided)
+        if (cut.keep || !at_star(chart, cell)) open.push_back(chart.to_plane(cell));
+      for (const std::vector<Interval>& zero : found.enclosures) {
+        const Cell place = chart.to_plane(Cell{zero[0], zero[1]});
+        if (!at_star(chart, {zero[0], zero[1]}) && !cut_at(place, cut.label)) open.push_back(place);
+      }
     }
     for (const Cell& cell : clusters(std::move(open)))
       if (!at_end(cell)) graph_.undecided.push_back(cell);
+  }
+
+  /// The curve's cells in a chart of another partition.
+  std::vector<Cell> seeds_in(const Chart& chart, const Partition& parts) const {
+    std::vector<Cell> seeds;
+    for (const Patch& patch : graph_.patches) {
+      const bool plane = patch.chart.side == Chart::Side::plane;
+      const bool same = patch.chart.side == chart.side &&
+                        (plane || (patch.chart.origin_x == chart.origin_x && patch.chart.origin_y == chart.origin_y));
+      if (!same && !plane) continue;
+      for (const Leaf& leaf : patch.tree->leaves()) {
+        if (leaf.kind != LeafKind::graph) continue;
+        if (same && !(plane && in_hole(leaf.cell, parts)))
+          seeds.push_back(leaf.cell);
+        else if (!same)
+          if (const std::optional<Cell> share = chart.share_of(leaf.cell)) seeds.push_back(*share);
+      }
+    }
+    return seeds;
+  }
+
+  static bool in_hole(const Cell& cell, const Partition& parts) {
+    return std::any_of(parts.holes.begin(), parts.holes.end(), [&](const auto& hole) {
+      return hole[0] <= cell.x.lower() && cell.x.upper() <= hole[1] && hole[2] <= cell.y.lower() &&
+             cell.y.upper() <= hole[3];
+    });
   }
 
   bool cut_at(const Cell& place, core::ArcEnd label) {
@@ -278,8 +315,8 @@ class Tracer {
   bool wanted(const core::Point2& inner, const std::vector<Cut>& cuts) {
     for (const Cut& cut : cuts) {
       if (!cut.keep) continue;
-      const Subtower sub = subtower(tower_, mode_, {cut.sheet});
-      const SheetProgram program(sub.tower, {narrowed(cut.sheet, sub)});
+      const Subtower sub = subtower(tower_, mode_, {cut.sheet.polynomial});
+      const SheetProgram program(sub.tower, {narrowed(cut.sheet.polynomial, sub)});
       const std::optional<int> sign = PointSign(program, sub.mode)(inner[0], inner[1]);
       if (!sign || *sign < 0) return false;
       if (*sign == 0) graph_.undecided.push_back({inner[0], inner[1]});
@@ -291,8 +328,9 @@ class Tracer {
   core::WorkingMode mode_;
   SheetTraceOptions options_;
   Subtower own_;
-  core::Polynomial curve_;
+  SheetFunction sheet_, curve_;  // over the whole tower, over its own
   std::array<double, 4> box_{}, wide_{};
+  std::vector<core::Point2> bases_;
   double size_ = 0;
   std::vector<Star> own_stars_;
   CurveGraph graph_;
@@ -315,8 +353,9 @@ void append(SheetTrace& all, SheetTrace part) {
 
 SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mode,
                        const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
-                       const core::Polynomial& sheet, const std::vector<Cutter>& cutters,
+                       const SheetFunction& function, const std::vector<Cutter>& cutters,
                        const SheetTraceOptions& options) {
+  const core::Polynomial& sheet = function.polynomial;
   core::ensure(!sheet.is_zero(), "a curve's polynomial is not zero");
   if (sheet.is_constant()) return {};
   // s_j = 0 and the factors of Q_j are the workspace boundary: curves of the plane below root j.
@@ -329,20 +368,20 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(j));
     std::vector<Cutter> on_boundary;
     for (const Cutter& cutter : cutters) {
-      const core::Polynomial there = without_variable(cutter.sheet, v);
-      if (!there.is_constant()) on_boundary.push_back({there, cutter.label});
+      const SheetFunction there = without_variable(cutter.sheet, v);
+      if (!there.polynomial.is_constant()) on_boundary.push_back({there, cutter.label});
     }
     const core::RootTower below = on_rim(tower, static_cast<int>(j));
     const core::Polynomial boundary = rim ? sheet : without_denominators(square, tower);
-    SheetTrace all = trace_sheet(below, rest, lower, upper, without_variable(boundary, v), on_boundary, options);
+    SheetTrace all = trace_sheet(below, rest, lower, upper, {without_variable(boundary, v)}, on_boundary, options);
     if (!rim) {
       core::Polynomial quotient = sheet;
       for (core::Term& term : quotient.terms) --term.exponents[v];
-      append(all, trace_sheet(tower, mode, lower, upper, quotient, cutters, options));
+      append(all, trace_sheet(tower, mode, lower, upper, {quotient}, cutters, options));
     }
     return all;
   }
-  return Tracer(tower, mode, lower, upper, sheet, options).run(cutters);
+  return Tracer(tower, mode, lower, upper, function, options).run(cutters);
 }
 
 }  // namespace clearloci::loci::sheet

@@ -10,12 +10,13 @@
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
+#include "loci/sheet/sheet_program.hpp"
 
 namespace clearloci::loci::sheet {
 
 /// Another sheet polynomial at whose zeros arcs are cut, e.g. |A| with the label direct_singularity.
 struct Cutter {
-  core::Polynomial sheet;
+  SheetFunction sheet;
   core::ArcEnd label = core::ArcEnd::direct_singularity;
 };
 
@@ -44,7 +45,7 @@ struct SheetTrace {
   std::vector<TracedArc> arcs;
   std::vector<core::Point2> isolated_points;  ///< where an undecided cell has the curve in one point to all appearance
   bool certified = true;                      ///< topology proven: no undecided cell
-  bool stopped = false;  ///< by SheetTraceOptions::stop
+  bool stopped = false;                       ///< by SheetTraceOptions::stop
   std::vector<Region> undecided;
 };
 
@@ -52,7 +53,7 @@ struct SheetTrace {
 /// a curve that touches an edge is one arc; ends at an edge lie on it.
 SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mode,
                        const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
-                       const core::Polynomial& sheet, const std::vector<Cutter>& cutters = {},
+                       const SheetFunction& sheet, const std::vector<Cutter>& cutters = {},
                        const SheetTraceOptions& options = {});
 
 }  // namespace clearloci::loci::sheet

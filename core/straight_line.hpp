@@ -1,0 +1,56 @@
+// An element of a root tower's field as it is computed: a straight-line program over (coordinates..., s1...sm). Where a
+// polynomial was expanded and cleared of denominators, this is the shorter and, in intervals, much the tighter form.
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "core/rational.hpp"
+
+namespace clearloci::core {
+
+struct StraightLine {
+  enum class Operation { constant, variable, add, subtract, multiply, inverse };
+  struct Step {
+    Operation operation = Operation::constant;
+    int first = 0, second = 0;  ///< earlier steps; `first` of a variable: its index
+    Rational value;             ///< of a constant
+  };
+  std::vector<Step> steps;  ///< the last is the result; none: the form is not known
+
+  bool empty() const { return steps.empty(); }
+};
+
+/// Whether a variable occurs.
+bool depends_on(const StraightLine& line, int variable);
+
+/// Builds straight lines; equal steps are made once, neutral elements and constants are folded.
+class StraightLineBuilder {
+ public:
+  StraightLineBuilder();
+
+  int constant(const Rational& value);
+  int variable(int index);
+  int add(int a, int b);
+  int subtract(int a, int b);
+  int multiply(int a, int b);
+  int inverse(int a);
+  int power(int base, int exponent);
+
+  /// The steps that a result needs.
+  StraightLine line(int result) const;
+
+ private:
+  using Operation = StraightLine::Operation;
+  int make(Operation operation, int a, int b);
+  bool is_constant(int step) const { return steps_[static_cast<std::size_t>(step)].operation == Operation::constant; }
+  const Rational& value(int step) const { return steps_[static_cast<std::size_t>(step)].value; }
+
+  std::vector<StraightLine::Step> steps_;
+  std::map<Rational, int> constants_;
+  std::map<std::tuple<Operation, int, int>, int> known_;
+  int zero_ = 0, one_ = 0;
+};
+
+}  // namespace clearloci::core
