@@ -66,6 +66,35 @@ int StraightLineBuilder::power(int base, int exponent) {
   return exponent % 2 == 0 ? even : multiply(even, base);
 }
 
+int StraightLineBuilder::polynomial(const Polynomial& p, const std::vector<int>& variables) {
+  std::vector<const Term*> terms;
+  for (const Term& term : p.terms) terms.push_back(&term);
+  return terms.empty() ? zero_ : horner(terms, static_cast<std::size_t>(p.variables), variables);
+}
+
+int StraightLineBuilder::horner(const std::vector<const Term*>& terms, std::size_t count,
+                                const std::vector<int>& variables) {
+  if (count == 0) {
+    Rational sum;
+    for (const Term* term : terms) sum += term->coefficient;
+    return constant(sum);
+  }
+  const std::size_t v = count - 1;
+  int highest = 0;
+  for (const Term* term : terms) highest = std::max(highest, term->exponents[v]);
+  if (highest == 0) return horner(terms, v, variables);
+  std::vector<std::vector<const Term*>> by_power(static_cast<std::size_t>(highest) + 1);
+  for (const Term* term : terms) by_power[static_cast<std::size_t>(term->exponents[v])].push_back(term);
+  int result = zero_, previous = highest;
+  for (int exponent = highest; exponent >= 0; --exponent) {
+    const auto& own = by_power[static_cast<std::size_t>(exponent)];
+    if (own.empty()) continue;
+    result = add(multiply(result, power(variables[v], previous - exponent)), horner(own, v, variables));
+    previous = exponent;
+  }
+  return multiply(result, power(variables[v], previous));
+}
+
 StraightLine StraightLineBuilder::line(int result) const {
   const auto operands = [&](const StraightLine::Step& step) {
     return step.operation == Operation::constant || step.operation == Operation::variable ? 0

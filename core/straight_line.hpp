@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/rational.hpp"
+#include "core/polynomial.hpp"
 
 namespace clearloci::core {
 
@@ -37,12 +37,16 @@ class StraightLineBuilder {
   int multiply(int a, int b);
   int inverse(int a);
   int power(int base, int exponent);
+  /// Horner's scheme in the last variable, its coefficients likewise in those before. `variables`: one step a variable;
+  /// that of one which does not occur is not looked at.
+  int polynomial(const Polynomial& p, const std::vector<int>& variables);
 
   /// The steps that a result needs.
   StraightLine line(int result) const;
 
  private:
   using Operation = StraightLine::Operation;
+  int horner(const std::vector<const Term*>& terms, std::size_t count, const std::vector<int>& variables);
   int make(Operation operation, int a, int b);
   bool is_constant(int step) const { return steps_[static_cast<std::size_t>(step)].operation == Operation::constant; }
   const Rational& value(int step) const { return steps_[static_cast<std::size_t>(step)].value; }

@@ -156,14 +156,13 @@ double van_der_corput(unsigned i, unsigned base) {
 
 }  // namespace
 
-std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::size_t count) {
+std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::size_t count, std::size_t first) {
   constexpr std::array<unsigned, 3> base = {2, 3, 5};
   std::vector<std::vector<double>> poses(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const Coordinate& coordinate : mechanism.coordinates) {
-      const double lower = core::to_double(coordinate.lower);
-      const double upper = core::to_double(coordinate.upper);
-      const double part = van_der_corput(static_cast<unsigned>(i) + 1, base[poses[i].size()]);
+  for (const Coordinate& coordinate : mechanism.coordinates) {
+    const double lower = core::to_double(coordinate.lower), upper = core::to_double(coordinate.upper);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double part = van_der_corput(static_cast<unsigned>(first + i) + 1, base[poses[i].size()]);
       poses[i].push_back(lower + (upper - lower) * part);
     }
   }
@@ -194,14 +193,16 @@ MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>&
 }
 
 std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count) {
-  constexpr std::size_t tries = 4096;
+  constexpr std::size_t tries = 4096, at_once = 64;
   std::vector<PosturePoints> postures;
-  for (const std::vector<double>& pose : spread_poses(mechanism, tries)) {
-    if (postures.size() == count) break;
-    PosturePoints posture;
-    for (const std::optional<Vector>& point : sample_points(mechanism, pose))
-      if (point) posture.push_back(*point);
-    if (posture.size() == mechanism.points.size()) postures.push_back(std::move(posture));
+  for (std::size_t first = 0; first < tries; first += at_once) {
+    for (const std::vector<double>& pose : spread_poses(mechanism, at_once, first)) {
+      if (postures.size() == count) return postures;
+      PosturePoints posture;
+      for (const std::optional<Vector>& point : sample_points(mechanism, pose))
+        if (point) posture.push_back(*point);
+      if (posture.size() == mechanism.points.size()) postures.push_back(std::move(posture));
+    }
   }
   return postures;
 }

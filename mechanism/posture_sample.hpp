@@ -13,7 +13,7 @@ namespace clearloci::mechanism {
 using PosturePoints = std::vector<std::array<double, 3>>;  ///< one a point, m; z = 0 in the plane
 
 /// Poses (one value a coordinate) spread evenly over the box: the first `count` of one fixed sequence.
-std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::size_t count);
+std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::size_t count, std::size_t first = 0);
 
 /// Every point at a pose, in the file's working mode; nothing for a point that cannot be built there.
 std::vector<std::optional<std::array<double, 3>>> sample_points(const Mechanism& mechanism,

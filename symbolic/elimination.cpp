@@ -196,8 +196,8 @@ Poly Elimination::norm_on_line(const Poly& sheet) const {
   return p;
 }
 
-bool Elimination::may_share_curve(const Poly& a, const Poly& b) const {
-  return !gcd(norm_on_line(a), norm_on_line(b)).is_constant();
+bool Elimination::may_share_curve(const Poly& norm_a, const Poly& norm_b) const {
+  return !gcd(norm_a, norm_b).is_constant();
 }
 
 }  // namespace clearloci::symbolic

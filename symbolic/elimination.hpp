@@ -46,13 +46,13 @@ class Elimination {
   /// The irreducible factors of the squared distances that the closure divides by.
   const std::vector<Poly>& denominator_factors() const { return denominator_factors_; }
 
-  /// Whether two sheet polynomials can share a curve: decided on a random line, where a common curve shows as a common
-  /// factor. False is certain; true may be a rare coincidence.
-  bool may_share_curve(const Poly& a, const Poly& b) const;
+  /// Whether two sheet polynomials can share a curve, from their norms on one arbitrary line, where a common curve
+  /// shows as a common factor. False is certain; true may be a rare coincidence.
+  bool may_share_curve(const Poly& norm_a, const Poly& norm_b) const;
+  Poly norm_on_line(const Poly& sheet) const;
 
  private:
   void eliminate(Poly p, std::vector<Poly>& found) const;
-  Poly norm_on_line(const Poly& sheet) const;
   bool is_denominator(const Poly& irreducible) const;
   bool has_free_coordinate(const Poly& p) const;
   Poly strip_denominators(Poly p) const;

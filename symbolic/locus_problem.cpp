@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 
 #include "core/errors.hpp"
 #include "symbolic/angle_range.hpp"
@@ -294,21 +295,46 @@ class Derivation {
       for (std::size_t c = 1; c < components.size(); ++c) {
         const std::size_t before = sharing.size();
         for (const std::size_t k : components[c])
-          if (i == k || may_share_curve(i, k)) sharing.push_back(k);
+          if (i == k || (!never_both(i, k) && may_share_curve(i, k))) sharing.push_back(k);
         everywhere = everywhere && sharing.size() > before;
       }
       if (everywhere) want(sharing);
     }
     // Two equations in the plane have isolated zeros besides.
     if (mechanism_.space == mechanism::Space::spatial) return;
-    for (const std::size_t i : components[0])
-      for (const std::size_t k : components[1])
-        if (i != k) factors_[i].wanted_point = factors_[k].wanted_point = true;
+    const auto in = [](const std::vector<std::size_t>& list, std::size_t f) {
+      return std::find(list.begin(), list.end(), f) != list.end();
+    };
+    for (const std::size_t i : components[0]) {
+      for (const std::size_t k : components[1]) {
+        // Where a factor of both vanishes there is a curve of contact loss anyway.
+        if (in(components[1], i) || in(components[0], k) || never_both(i, k)) continue;
+        factors_[i].wanted_point = factors_[k].wanted_point = true;
+      }
+    }
+  }
+
+  /// Components of a vector of constant length, such as a link's, do not vanish together.
+  bool never_both(std::size_t i, std::size_t k) {
+    const auto [known, fresh] = never_both_.try_emplace({i, k}, false);
+    if (!fresh) return known->second;
+    const Poly &a = factors_[i].natural, &b = factors_[k].natural;
+    if (a.total_degree() > 1 || b.total_degree() > 1) return false;
+    const std::optional<core::Rational> length2 = elimination_.constant_over_tower(a * a + b * b);
+    return known->second = length2 && *length2 != 0;
   }
 
   bool may_share_curve(std::size_t i, std::size_t k) {
-    return elimination_.may_share_curve(elimination_.over_tower(factors_[i].natural),
-                                        elimination_.over_tower(factors_[k].natural));
+    const auto [known, fresh] = may_share_.try_emplace({i, k}, false);
+    if (fresh) known->second = elimination_.may_share_curve(on_line(i), on_line(k));
+    return known->second;
+  }
+
+  const Poly& on_line(std::size_t factor) {
+    const auto known = on_line_.find(factor);
+    if (known != on_line_.end()) return known->second;
+    return on_line_.emplace(factor, elimination_.norm_on_line(elimination_.over_tower(factors_[factor].natural)))
+        .first->second;
   }
 
   std::string text(const Poly& p) const { return core::to_string(p.plain(), geometry_.ring().names()); }
@@ -475,6 +501,8 @@ class Derivation {
   StraightLines lines_;
   std::vector<SharedFactor> factors_;
   std::vector<Poly> determinant_sheets_;
+  std::map<std::pair<std::size_t, std::size_t>, bool> never_both_, may_share_;  ///< by factors
+  std::map<std::size_t, Poly> on_line_;
   DerivedProblem result_;
 };
 

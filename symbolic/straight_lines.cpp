@@ -27,29 +27,10 @@ StraightLine StraightLines::square(std::size_t root) {
 }
 
 int StraightLines::value(const Polynomial& p) {
-  std::vector<const core::Term*> terms;
-  for (const core::Term& term : p.terms) terms.push_back(&term);
-  return horner(terms, p.variables - 1);
-}
-
-/// Horner's scheme in the last variable, its coefficients likewise in those before.
-int StraightLines::horner(const std::vector<const core::Term*>& terms, int last) {
-  if (terms.empty()) return builder_.constant(0);
-  while (last >= 0 && std::all_of(terms.begin(), terms.end(), [&](const core::Term* term) {
-           return term->exponents[static_cast<std::size_t>(last)] == 0;
-         }))
-    --last;
-  if (last < 0) return builder_.constant(terms.front()->coefficient);
-  std::map<int, std::vector<const core::Term*>, std::greater<>> by_power;
-  for (const core::Term* term : terms) by_power[term->exponents[static_cast<std::size_t>(last)]].push_back(term);
-  const int base = variable(last);
-  int result = builder_.constant(0), previous = by_power.begin()->first;
-  for (const auto& [exponent, coefficient] : by_power) {
-    result = builder_.multiply(result, builder_.power(base, previous - exponent));
-    result = builder_.add(result, horner(coefficient, last - 1));
-    previous = exponent;
-  }
-  return builder_.multiply(result, builder_.power(base, previous));
+  std::vector<int> variables(static_cast<std::size_t>(p.variables), 0);
+  for (int v = 0; v < p.variables; ++v)
+    if (core::depends_on(p, v)) variables[static_cast<std::size_t>(v)] = variable(v);
+  return builder_.polynomial(p, variables);
 }
 
 int StraightLines::variable(int ring_variable) {

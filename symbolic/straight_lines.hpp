@@ -33,7 +33,6 @@ class StraightLines {
   };
 
   int value(const core::Polynomial& p);
-  int horner(const std::vector<const core::Term*>& terms, int variable);
   int variable(int ring_variable);
   Place natural_place(mechanism::PointIndex point);
   std::optional<Dyad> dyad(mechanism::PointIndex point);

@@ -325,12 +325,13 @@ LiftedPoint StretchEnd::middle() const {
 
 std::vector<Patch> make_patches(const core::RootTower& tower, const SheetFunction& curve, const Partition& parts) {
   std::vector<Patch> patches;
+  Charting charting(tower, {curve}, parts.stars);
   for (const Chart& chart : parts.charts) {
     Patch patch;
     patch.chart = chart;
     const auto& d = parts.domain;
     patch.domain = chart.side == Side::plane ? Cell{{d[0], d[1]}, {d[2], d[3]}} : Cell{{0, 1}, {-1, 1}};
-    ChartedSheet sheet = charted(tower, {curve}, chart, parts.stars);
+    const ChartedSheet sheet = charting.in(chart);
     patch.program = std::make_unique<SheetProgram>(sheet.tower, sheet.functions);
     patches.push_back(std::move(patch));
   }

@@ -41,9 +41,10 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   const Partition parts = partition(tower, {box_x.lower(), box_x.upper(), box_y.lower(), box_y.upper()});
 
   ZeroSet result;
+  Charting charting(tower, {first, second}, parts.stars);
   for (const Chart& chart : parts.charts) {
     const bool plane = chart.side == Chart::Side::plane;
-    const ChartedSheet sheet = charted(tower, {first, second}, chart, parts.stars);
+    const ChartedSheet sheet = charting.in(chart);
     SheetProgram program(sheet.tower, sheet.functions);
     ZeroSearch search(program, mode, {});
     const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {-1, 1}}};

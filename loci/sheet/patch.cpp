@@ -24,17 +24,6 @@ Polynomial as_polynomial(int variables, const Collected& collected) {
   return result;
 }
 
-/// Coefficients of (c + d t)^n, lowest power first.
-std::vector<Rational> binomial_power(const Rational& c, const Rational& d, int n) {
-  std::vector<Rational> result = {1};
-  for (int i = 0; i < n; ++i) {
-    result.emplace_back(0);
-    for (std::size_t k = result.size() - 1; k > 0; --k) result[k] = c * result[k] + d * result[k - 1];
-    result[0] *= c;
-  }
-  return result;
-}
-
 bool holds_root(const Star& star, int root) {
   return std::find(star.roots.begin(), star.roots.end(), root) != star.roots.end();
 }
@@ -51,37 +40,6 @@ int order_at_star(const Polynomial& p, const Star& star) {
 }
 
 Polynomial moved_to(const Star& star, const Polynomial& p) { return shifted(shifted(p, 0, star.x), 1, star.y); }
-
-/// The polynomial in (u, t, ...), divided by u^divide. Required: written around the star.
-Polynomial in_polar(const Polynomial& p, const Star& star, const Chart& chart, int divide) {
-  const auto& [x0, x1, y0, y1] = chart.rectangle;
-  const bool along_x = chart.side == Chart::Side::right || chart.side == Chart::Side::left;
-  const Rational depth = chart.side == Chart::Side::right  ? x1 - star.x
-                         : chart.side == Chart::Side::left ? x0 - star.x
-                         : chart.side == Chart::Side::top  ? y1 - star.y
-                                                           : y0 - star.y;
-  const Rational start = (along_x ? y0 + y1 : x0 + x1) / 2 - (along_x ? star.y : star.x);
-  const Rational length = (along_x ? y1 - y0 : x1 - x0) / 2;
-  const int deep = along_x ? 0 : 1, wide = 1 - deep;
-  std::vector<std::vector<Rational>> across;
-  for (int n = 0; n <= std::max(0, core::degree_in(p, wide)); ++n) across.push_back(binomial_power(start, length, n));
-  std::vector<Rational> depths = {1};
-  for (int n = 0; n < core::degree_in(p, deep); ++n) depths.emplace_back(depths.back() * depth);
-
-  Collected collected;
-  for (const core::Term& term : p.terms) {
-    std::vector<int> exponents = term.exponents;
-    exponents[0] = term.exponents[0] + term.exponents[1] - divide;
-    for (const int j : star.roots) exponents[0] += term.exponents[2 + j];
-    const Rational coefficient = term.coefficient * depths[term.exponents[deep]];
-    const std::vector<Rational>& powers = across[term.exponents[wide]];
-    for (std::size_t k = 0; k < powers.size(); ++k) {
-      exponents[1] = static_cast<int>(k);
-      collected[exponents] += coefficient * powers[k];
-    }
-  }
-  return as_polynomial(p.variables, collected);
-}
 
 /// The real zero of c ((x - a)^2 + (y - b)^2), if the polynomial is one.
 std::optional<Star> double_point(const Polynomial& d) {
@@ -160,42 +118,43 @@ std::vector<Star> stars(const core::RootTower& tower) {
   return result;
 }
 
+Chart::Chart(Side own_side, int own_star, const Star& at, const std::array<Rational, 4>& own_rectangle)
+    : side(own_side), star(own_star), origin_x(at.x), origin_y(at.y), rectangle(own_rectangle) {
+  const auto& [x0, x1, y0, y1] = rectangle;
+  const bool x = along_x();
+  const Rational a = x ? origin_x : origin_y, b = x ? origin_y : origin_x;
+  const Rational depth = side == Side::right  ? x1 - a
+                         : side == Side::left ? x0 - a
+                         : side == Side::top  ? y1 - a
+                                              : y0 - a;
+  const Rational middle = (x ? y0 + y1 : x0 + x1) / 2 - b, half = (x ? y1 - y0 : x1 - x0) / 2;
+  const auto interval = [](const Rational& value) { return constant_as(value, static_cast<Interval*>(nullptr)); };
+  frame_ = {interval(a),
+            interval(b),
+            interval(depth),
+            interval(middle),
+            interval(half),
+            core::to_double(a),
+            core::to_double(b),
+            core::to_double(depth),
+            core::to_double(middle),
+            core::to_double(half),
+            depth,
+            middle,
+            half};
+}
+
 core::Point2 Chart::to_plane(double p, double q) const {
   if (side == Side::plane) return {p, q};
-  const double a = core::to_double(origin_x), b = core::to_double(origin_y);
-  const double x0 = core::to_double(rectangle[0]), x1 = core::to_double(rectangle[1]);
-  const double y0 = core::to_double(rectangle[2]), y1 = core::to_double(rectangle[3]);
-  const double mx = 0.5 * (x0 + x1), hx = 0.5 * (x1 - x0), my = 0.5 * (y0 + y1), hy = 0.5 * (y1 - y0);
-  switch (side) {
-    case Side::right:
-      return {a + p * (x1 - a), b + p * (my - b + q * hy)};
-    case Side::left:
-      return {a + p * (x0 - a), b + p * (my - b + q * hy)};
-    case Side::top:
-      return {a + p * (mx - a + q * hx), b + p * (y1 - b)};
-    default:
-      return {a + p * (mx - a + q * hx), b + p * (y0 - b)};
-  }
+  const double deep = frame_.a_ + p * frame_.depth_, wide = frame_.b_ + p * (frame_.middle_ + q * frame_.half_);
+  return along_x() ? core::Point2{deep, wide} : core::Point2{wide, deep};
 }
 
 Cell Chart::to_plane(const Cell& cell) const {
   if (side == Side::plane) return cell;
-  const auto interval = [](const Rational& value) { return constant_as(value, static_cast<Interval*>(nullptr)); };
-  const Interval a = interval(origin_x), b = interval(origin_y);
-  const Interval x0 = interval(rectangle[0]), x1 = interval(rectangle[1]);
-  const Interval y0 = interval(rectangle[2]), y1 = interval(rectangle[3]);
-  const Interval half = 0.5, &p = cell.x, &q = cell.y;
-  const Interval mx = half * (x0 + x1), hx = half * (x1 - x0), my = half * (y0 + y1), hy = half * (y1 - y0);
-  switch (side) {
-    case Side::right:
-      return {a + p * (x1 - a), b + p * (my - b + q * hy)};
-    case Side::left:
-      return {a + p * (x0 - a), b + p * (my - b + q * hy)};
-    case Side::top:
-      return {a + p * (mx - a + q * hx), b + p * (y1 - b)};
-    default:
-      return {a + p * (mx - a + q * hx), b + p * (y0 - b)};
-  }
+  const Interval deep = frame_.a + cell.x * frame_.depth;
+  const Interval wide = frame_.b + cell.x * (frame_.middle + cell.y * frame_.half);
+  return along_x() ? Cell{deep, wide} : Cell{wide, deep};
 }
 
 namespace {
@@ -210,40 +169,21 @@ std::optional<Interval> clipped(const Interval& a, double lower, double upper) {
 
 std::optional<Cell> Chart::share_of(const Cell& place) const {
   if (side == Side::plane) return place;
-  const auto interval = [](const Rational& value) { return constant_as(value, static_cast<Interval*>(nullptr)); };
-  const bool along_x = side == Side::right || side == Side::left;
-  const Interval x = place.x - interval(origin_x), y = place.y - interval(origin_y);
-  const Interval depth = side == Side::right  ? interval(rectangle[1] - origin_x)
-                         : side == Side::left ? interval(rectangle[0] - origin_x)
-                         : side == Side::top  ? interval(rectangle[3] - origin_y)
-                                              : interval(rectangle[2] - origin_y);
-  const std::optional<Interval> u = clipped((along_x ? x : y) * inverse(depth), 0, 1);
+  const Interval deep = (along_x() ? place.x : place.y) - frame_.a, wide = (along_x() ? place.y : place.x) - frame_.b;
+  const std::optional<Interval> u = clipped(deep * inverse(frame_.depth), 0, 1);
   if (!u) return std::nullopt;
   if (u->lower() <= 0) return Cell{*u, {-1, 1}};
-  const std::size_t wide = along_x ? 2 : 0;
-  const Interval middle = interval((rectangle[wide] + rectangle[wide + 1]) / 2 - (along_x ? origin_y : origin_x));
-  const Interval half = interval((rectangle[wide + 1] - rectangle[wide]) / 2);
-  const std::optional<Interval> t = clipped(((along_x ? y : x) * inverse(*u) - middle) * inverse(half), -1, 1);
+  const std::optional<Interval> t = clipped((wide * inverse(*u) - frame_.middle) * inverse(frame_.half), -1, 1);
   if (!t) return std::nullopt;
   return Cell{*u, *t};
 }
 
 std::optional<Cell> Chart::from_plane(const Cell& place) const {
   if (side == Side::plane) return place;
-  const auto interval = [](const Rational& value) { return constant_as(value, static_cast<Interval*>(nullptr)); };
-  const bool along_x = side == Side::right || side == Side::left;
-  const Interval x = place.x - interval(origin_x), y = place.y - interval(origin_y);
-  const Interval depth = side == Side::right  ? interval(rectangle[1] - origin_x)
-                         : side == Side::left ? interval(rectangle[0] - origin_x)
-                         : side == Side::top  ? interval(rectangle[3] - origin_y)
-                                              : interval(rectangle[2] - origin_y);
-  const Interval u = (along_x ? x : y) * inverse(depth);
+  const Interval deep = (along_x() ? place.x : place.y) - frame_.a, wide = (along_x() ? place.y : place.x) - frame_.b;
+  const Interval u = deep * inverse(frame_.depth);
   if (u.lower() <= 0 || u.upper() > 1) return std::nullopt;
-  const Interval middle = along_x ? interval((rectangle[2] + rectangle[3]) / 2 - origin_y)
-                                  : interval((rectangle[0] + rectangle[1]) / 2 - origin_x);
-  const Interval half =
-      along_x ? interval((rectangle[3] - rectangle[2]) / 2) : interval((rectangle[1] - rectangle[0]) / 2);
-  const Interval t = ((along_x ? y : x) * inverse(u) - middle) * inverse(half);
+  const Interval t = (wide * inverse(u) - frame_.middle) * inverse(frame_.half);
   if (t.lower() < -1 || t.upper() > 1) return std::nullopt;
   return Cell{u, t};
 }
@@ -259,28 +199,101 @@ core::Polynomial without_denominators(core::Polynomial function, const core::Roo
   return function;
 }
 
-ChartedSheet charted(const core::RootTower& tower, const std::vector<SheetFunction>& functions, const Chart& chart,
-                     const std::vector<Star>& all_stars) {
+namespace {
+
+/// A polynomial in (X, Y, roots...) around a star as a straight line in (u, X / u, Y / u, roots...), the star's roots
+/// divided by u, without `order` powers of u.
+core::StraightLine polar_line(const Polynomial& around_star, const Star& star, int order) {
+  Polynomial polar{around_star.variables + 1, {}};
+  for (const core::Term& term : around_star.terms) {
+    core::Term own = term;
+    int power = term.exponents[0] + term.exponents[1] - order;
+    for (const int root : star.roots) power += term.exponents[2 + root];
+    own.exponents.insert(own.exponents.begin(), power);
+    polar.terms.push_back(std::move(own));
+  }
+  core::StraightLineBuilder builder;
+  std::vector<int> variables;
+  for (int v = 0; v < polar.variables; ++v) variables.push_back(builder.variable(v));
+  return builder.line(builder.polynomial(polar, variables));
+}
+
+}  // namespace
+
+core::StraightLine Chart::in_chart(const core::StraightLine& polar) const {
+  using Operation = core::StraightLine::Operation;
+  core::StraightLine line;
+  line.steps = {{Operation::variable, 1, 0, {}},
+                {Operation::constant, 0, 0, frame_.exact_half},
+                {Operation::constant, 0, 0, frame_.exact_middle},
+                {Operation::multiply, 0, 1, {}},
+                {Operation::add, 2, 3, {}},
+                {Operation::constant, 0, 0, frame_.exact_depth}};
+  constexpr int wide = 4, deep = 5;
+  const int offset = static_cast<int>(line.steps.size());
+  std::vector<int> place;
+  for (const core::StraightLine::Step& step : polar.steps) {
+    place.push_back(static_cast<int>(line.steps.size()));
+    if (step.operation == Operation::variable && (step.first == 1 || step.first == 2)) {
+      place.back() = (step.first == 1) == along_x() ? deep : wide;
+      continue;
+    }
+    core::StraightLine::Step own = step;
+    if (step.operation == Operation::variable) {
+      own.first = step.first == 0 ? 0 : step.first - 1;
+    } else if (step.operation != Operation::constant) {
+      own.first = place[step.first];
+      own.second = step.operation == Operation::inverse ? 0 : place[step.second];
+    }
+    line.steps.push_back(std::move(own));
+  }
+  if (place.back() < offset) line.steps.push_back(line.steps[place.back()]);  // the result is X / u or Y / u itself
+  return line;
+}
+
+Charting::Charting(const core::RootTower& tower, std::vector<SheetFunction> functions, const std::vector<Star>& stars)
+    : tower_(tower), functions_(std::move(functions)), stars_(stars) {}
+
+const Charting::AtStar& Charting::at_star(int index) {
+  for (const AtStar& known : known_)
+    if (known.star == index) return known;
+  AtStar own;
+  own.star = index;
+  const Star& star = stars_[index];
+  for (std::size_t j = 0; j < tower_.roots.size(); ++j)
+    own.squares.push_back(
+        polar_line(moved_to(star, tower_.roots[j].square), star, holds_root(star, static_cast<int>(j)) ? 2 : 0));
+  for (const SheetFunction& f : functions_) {
+    const Polynomial moved = moved_to(star, f.polynomial);
+    own.functions.push_back(polar_line(moved, star, moved.is_zero() ? 0 : order_at_star(moved, star)));
+  }
+  known_.push_back(std::move(own));
+  return known_.back();
+}
+
+ChartedSheet Charting::in(const Chart& chart) {
   if (chart.side == Chart::Side::plane) {
-    ChartedSheet sheet{tower, {}};
-    for (const SheetFunction& f : functions)
-      sheet.functions.push_back({f.line.empty() ? without_denominators(f.polynomial, tower) : f.polynomial, f.line});
+    ChartedSheet sheet{tower_, {}};
+    for (const SheetFunction& f : functions_)
+      sheet.functions.push_back({f.line.empty() ? without_denominators(f.polynomial, tower_) : f.polynomial, f.line});
     return sheet;
   }
-  const Star& star = all_stars[chart.star];
+  const AtStar& around = at_star(chart.star);
+  const Polynomial nothing{tower_.variables(), {}};  // only the straight lines are written in polar coordinates
   ChartedSheet sheet;
   sheet.tower.coordinates = {"u", "t"};
-  sheet.tower.roots = tower.roots;
-  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
-    const int divide = holds_root(star, static_cast<int>(j)) ? 2 : 0;
-    sheet.tower.roots[j].line = {};
-    sheet.tower.roots[j].square = in_polar(moved_to(star, tower.roots[j].square), star, chart, divide);
+  sheet.tower.roots = tower_.roots;
+  for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
+    sheet.tower.roots[j].square = nothing;
+    sheet.tower.roots[j].line = chart.in_chart(around.squares[j]);
   }
-  for (const SheetFunction& f : functions) {
-    const Polynomial local = moved_to(star, f.polynomial);
-    sheet.functions.push_back({in_polar(local, star, chart, local.is_zero() ? 0 : order_at_star(local, star))});
-  }
+  for (const core::StraightLine& f : around.functions) sheet.functions.push_back({nothing, chart.in_chart(f)});
   return sheet;
+}
+
+ChartedSheet charted(const core::RootTower& tower, const std::vector<SheetFunction>& functions, const Chart& chart,
+                     const std::vector<Star>& stars) {
+  return Charting(tower, functions, stars).in(chart);
 }
 
 std::vector<core::Point2> bases(const core::RootTower& tower) {
@@ -328,7 +341,7 @@ Partition partition(const core::RootTower& tower, const std::array<double, 4>& b
     result.stars.push_back(star);
     result.holes.push_back(hole);
     for (const Chart::Side s : {Chart::Side::right, Chart::Side::top, Chart::Side::left, Chart::Side::bottom})
-      result.charts.push_back({s, index, star.x, star.y, {hole[0], hole[1], hole[2], hole[3]}});
+      result.charts.emplace_back(s, index, star, std::array<Rational, 4>{hole[0], hole[1], hole[2], hole[3]});
     for (const int c : {0, 2}) {
       result.domain[c] = std::min(result.domain[c], hole[c]);
       result.domain[c + 1] = std::max(result.domain[c + 1], hole[c + 1]);

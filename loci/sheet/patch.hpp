@@ -33,12 +33,28 @@ struct Chart {
   core::Rational origin_x, origin_y;        ///< A
   std::array<core::Rational, 4> rectangle;  ///< x0, x1, y0, y1 around A
 
+  Chart() = default;  ///< the plane
+  Chart(Side side, int star, const Star& at, const std::array<core::Rational, 4>& rectangle);
+
   core::Point2 to_plane(double p, double q) const;
   Cell to_plane(const Cell& cell) const;
   /// The place in this chart's coordinates, if it surely lies in the chart.
   std::optional<Cell> from_plane(const Cell& place) const;
   /// A cell that holds the part of the place that lies in the chart; none: there is no such part.
   std::optional<Cell> share_of(const Cell& place) const;
+
+  /// A straight line in (u, X / u, Y / u, roots...), (X, Y) = P - A, in the chart's coordinates (u, t, roots...).
+  core::StraightLine in_chart(const core::StraightLine& polar) const;
+
+ private:
+  /// x = a + u depth and y = b + u (middle + t half), for a chart on the right or left; x and y exchanged for others.
+  struct Frame {
+    Interval a, b, depth, middle, half;
+    double a_, b_, depth_, middle_, half_;
+    core::Rational exact_depth, exact_middle, exact_half;
+  };
+  bool along_x() const { return side == Side::right || side == Side::left; }
+  Frame frame_{};
 };
 
 /// The tower and functions written in a chart's coordinates, without the common powers of u.
@@ -46,6 +62,26 @@ struct ChartedSheet {
   core::RootTower tower;
   std::vector<SheetFunction> functions;
 };
+/// A sheet for several charts: what the charts of one star have in common is computed once.
+class Charting {
+ public:
+  Charting(const core::RootTower& tower, std::vector<SheetFunction> functions, const std::vector<Star>& stars);
+  ChartedSheet in(const Chart& chart);
+
+ private:
+  /// In (u, X / u, Y / u, roots...), those of the star divided by u, common powers of u taken out.
+  struct AtStar {
+    int star = -1;
+    std::vector<core::StraightLine> squares, functions;
+  };
+  const AtStar& at_star(int star);
+
+  core::RootTower tower_;
+  std::vector<SheetFunction> functions_;
+  std::vector<Star> stars_;
+  std::vector<AtStar> known_;
+};
+
 ChartedSheet charted(const core::RootTower& tower, const std::vector<SheetFunction>& functions, const Chart& chart,
                      const std::vector<Star>& stars);
 

@@ -130,13 +130,14 @@ class Tracer {
 
   /// The cutter lives on the curve's own sheet: search the cells that hold the curve.
   void cut_in_patches(const SheetFunction& cutter, const Cut& cut, const Partition& parts) {
+    Charting charting(own_.tower, {curve_, cutter}, parts.stars);
     for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
       const Patch& patch = graph_.patches[p];
       std::vector<Cell> seeds;
       for (const Leaf& leaf : patch.tree->leaves())
         if (leaf.kind == LeafKind::graph) seeds.push_back(leaf.cell);
       if (seeds.empty()) continue;
-      ChartedSheet sheet = charted(own_.tower, {curve_, cutter}, patch.chart, parts.stars);
+      const ChartedSheet sheet = charting.in(patch.chart);
       const SheetProgram program(sheet.tower, sheet.functions);
       const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
       const FoundZeros found =
@@ -185,9 +186,10 @@ class Tracer {
   }
 
   bool reaches(const Subtower& both, const Cut& cut, const Partition& parts, int star) {
+    Charting charting(both.tower, {narrowed(cut.sheet, both)}, parts.stars);
     for (const Chart& chart : parts.charts) {
       if (chart.side == Chart::Side::plane || chart.star != star) continue;
-      ChartedSheet sheet = charted(both.tower, {narrowed(cut.sheet, both)}, chart, parts.stars);
+      const ChartedSheet sheet = charting.in(chart);
       const SheetProgram program(sheet.tower, sheet.functions);
       const FoundZeros found =
           ZeroSearch(program, both.mode, {{0}, {1}}).run({{0.0, {-1, 1}}}, {smallest_cut, most_star_cells, 1e-13});
@@ -211,11 +213,11 @@ class Tracer {
   void cut_on_both(const Subtower& both, const Cut& cut) {
     const Partition parts = partition(both.tower, wide_, bases_);
     std::vector<Cell> open;
+    Charting charting(both.tower, {narrowed(sheet_, both), narrowed(cut.sheet, both)}, parts.stars);
     for (const Chart& chart : parts.charts) {
       const std::vector<Cell> seeds = seeds_in(chart, parts);
       if (seeds.empty()) continue;
-      const ChartedSheet sheet =
-          charted(both.tower, {narrowed(sheet_, both), narrowed(cut.sheet, both)}, chart, parts.stars);
+      const ChartedSheet sheet = charting.in(chart);
       const SheetProgram program(sheet.tower, sheet.functions);
       const double size = chart.side == Chart::Side::plane ? size_ : 1.0;
       const FoundZeros found =
