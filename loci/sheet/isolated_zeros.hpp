@@ -34,4 +34,11 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
                        const SheetFunction& second, const std::vector<core::Rational>& lower,
                        const std::vector<core::Rational>& upper, const ZeroOptions& options = {});
 
+inline ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
+                              const core::Polynomial& first, const core::Polynomial& second,
+                              const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
+                              const ZeroOptions& options = {}) {
+  return isolated_zeros(tower, mode, SheetFunction{first}, SheetFunction{second}, lower, upper, options);
+}
+
 }  // namespace clearloci::loci::sheet

@@ -153,7 +153,7 @@ TEST(Stars, ChartsDescribeTheSameSheet) {
   ASSERT_EQ(parts.charts.size(), 9u);
   const SheetProgram plane(sheet.tower, {sheet.moment_A1});
   for (std::size_t c = 1; c < parts.charts.size(); ++c) {
-    const ChartedSheet local = charted(sheet.tower, {sheet.moment_A1}, parts.charts[c], parts.stars);
+    const ChartedSheet local = charted(sheet.tower, {{sheet.moment_A1}}, parts.charts[c], parts.stars);
     const SheetProgram program(local.tower, local.functions);
     SheetCell here(program, {1, -1}), there(plane, {1, -1});
     double ratio = 0;
