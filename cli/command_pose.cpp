@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/pose_error.hpp"
+#include "numeric/spatial.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 
@@ -49,9 +50,16 @@ Json take_up_json(const numeric::NumericModel& model, const std::vector<numeric:
   Json all = Json::object();
   for (std::size_t j = 0; j < take_up.size(); ++j) {
     const numeric::TakeUp& t = take_up[j];
-    const auto& [radial, angular] = clearances[j];
-    if (radial == 0 && angular == 0) continue;
+    const auto& [radial, angular, gap, half_length] = clearances[j];
+    if (radial == 0 && angular == 0 && gap == 0) continue;
     Json& joint = all[model.mechanism.joints[j].name] = Json::object();
+    if (model.mechanism.joints[j].type == mechanism::JointType::prismatic) {
+      const auto way = [](bool lost, double value) { return lost ? Json(nullptr) : Json(value); };
+      if (gap > 0) joint["normal"] = way(t.guide_vanishes, t.normal);
+      if (gap > 0) joint["tilt"] = way(t.guide_vanishes, t.tilt);
+      if (angular > 0) joint["axial"] = way(t.couple_vanishes, t.rotation);
+      continue;
+    }
     const bool lost = t.force_vanishes && radial > 0;
     joint["dx"] = lost ? Json(nullptr) : Json(t.displacement[0]);
     joint["dy"] = lost ? Json(nullptr) : Json(t.displacement[1]);
@@ -122,9 +130,18 @@ void print_accuracy(const Json& pose) {
   };
   if (pose["take_up"].empty()) return;
   fmt::print("\n{:<12}{:>18}{:>18}{:>18}{:>18}\n", "take-up", "dx [m]", "dy [m]", "beta [rad]", "dtheta [rad]");
-  for (const auto& [name, joint] : pose["take_up"].items())
+  for (const auto& [name, joint] : pose["take_up"].items()) {
+    if (!joint.contains("dx")) {
+      std::vector<std::string> parts;
+      for (const char* key : {"normal", "tilt", "axial"})
+        if (joint.contains(key))
+          parts.push_back(fmt::format("{} {} {}", key, entry(joint, key), std::string(key) == "tilt" ? "rad" : "m"));
+      fmt::print("{:<12}      {}\n", name, fmt::join(parts, ", "));
+      continue;
+    }
     fmt::print("{:<12}{:>18}{:>18}{:>18}{:>18}\n", name, entry(joint, "dx"), entry(joint, "dy"), entry(joint, "beta"),
                entry(joint, "dtheta"));
+  }
   fmt::print("\n{:<18}{:>16}{:>18}{:>18}\n", "pose error", "dx [m]", "dy [m]", "dalpha [rad]");
   if (pose["pose_error"].is_null())
     fmt::print("undefined: contact is lost at {}\n",
@@ -142,6 +159,14 @@ void print_accuracy(const Json& pose) {
   fmt::print("{:<18}{:>16}  largest distance\n", "", number(pose["worst_case"]["dp"]));
 }
 
+/// "N 12.5 N, T 0 N m, F 3 N".
+void print_prismatic(const std::string& name, const Json& reaction) {
+  std::vector<std::string> parts;
+  for (const auto& [quantity, value] : reaction.items())
+    parts.push_back(fmt::format("{} {} {}", quantity, number(value), quantity == "T" ? "N m" : "N"));
+  fmt::print("{:<12}      {}\n", name, fmt::join(parts, ", "));
+}
+
 void print_table(const Json& pose) {
   fmt::print("{} at (", pose["mechanism"].get<std::string>());
   for (std::size_t i = 0; i < pose["at"].size(); ++i) fmt::print("{}{}", i == 0 ? "" : ", ", number(pose["at"][i]));
@@ -152,6 +177,10 @@ void print_table(const Json& pose) {
     fmt::print("{:<12}{:>18}{:>18}\n", name, number(at[0]), number(at[1]));
   fmt::print("\n{:<12}{:>18}{:>18}{:>18}{:>18}\n", "joint", "fx [N]", "fy [N]", "|f| [N]", "M [N m]");
   for (const auto& [name, reaction] : pose["reactions"].items()) {
+    if (!reaction.contains("fx")) {
+      print_prismatic(name, reaction);
+      continue;
+    }
     const bool finite = !reaction["fx"].is_null() && !reaction["fy"].is_null();
     const std::string size =
         finite ? number(std::hypot(reaction["fx"].get<double>(), reaction["fy"].get<double>())) : "unbounded";
@@ -194,17 +223,77 @@ PoseResult solve(const Arguments& arguments, const mechanism::Mechanism& mechani
   return pose;
 }
 
-int run(const Arguments& arguments) {
-  const mechanism::Mechanism mechanism = read_model(arguments.common);
-  const numeric::NumericModel model = numeric::compile(mechanism);
-  const Json result = pose_json(mechanism, model, solve(arguments, mechanism, model));
+Json vector_json(const Eigen::Vector3d& v) { return {number_json(v(0)), number_json(v(1)), number_json(v(2))}; }
+
+/// Posture and reactions of a spatial mechanism.
+Json spatial_json(const mechanism::Mechanism& mechanism, const std::vector<double>& at) {
+  const numeric::SpatialPosture pose = numeric::spatial_posture(mechanism, at);
+  Json posture = Json::object(), reactions = Json::object();
+  for (std::size_t i = 0; i < mechanism.points.size(); ++i)
+    if (!mechanism.points[i].auxiliary) posture[mechanism.points[i].name] = vector_json(pose.points[i]);
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
+    const mechanism::Joint& joint = mechanism.joints[j];
+    Json& reaction = reactions[joint.name] = Json::object();
+    for (int c = 0; c < 3; ++c) {
+      const std::string axis(1, "xyz"[c]);
+      reaction["f" + axis] = number_json(pose.reactions[j].force(c));
+      if (joint.type != mechanism::JointType::spherical)
+        reaction["m" + axis] = number_json(pose.reactions[j].couple(c));
+    }
+    if (joint.actuated)
+      reaction[core::to_string(mechanism::actuator_quantity(joint))] = number_json(pose.reactions[j].actuator);
+  }
+  return {{"format", 1},
+          {"mechanism", mechanism.name},
+          {"at", at},
+          {"posture", std::move(posture)},
+          {"reactions", std::move(reactions)},
+          {"determinant", pose.determinant},
+          {"condition", number_json(pose.condition)}};
+}
+
+void print_spatial(const Json& pose) {
+  fmt::print("{} at ({})\n\n{:<12}{:>18}{:>18}{:>18}\n", pose["mechanism"].get<std::string>(),
+             fmt::join(pose["at"].get<std::vector<double>>(), ", "), "point", "x [m]", "y [m]", "z [m]");
+  for (const auto& [name, at] : pose["posture"].items())
+    fmt::print("{:<12}{:>18}{:>18}{:>18}\n", name, number(at[0]), number(at[1]), number(at[2]));
+  fmt::print("\n{:<12}{:>16}{:>16}{:>16}{:>16}{:>16}{:>16}  actuator\n", "joint", "fx [N]", "fy [N]", "fz [N]",
+             "mx [N m]", "my [N m]", "mz [N m]");
+  for (const auto& [name, reaction] : pose["reactions"].items()) {
+    fmt::print("{:<12}", name);
+    for (const char* key : {"fx", "fy", "fz", "mx", "my", "mz"})
+      fmt::print("{:>16}", reaction.contains(key) ? number(reaction[key]) : "");
+    if (reaction.contains("F")) fmt::print("  F {} N", number(reaction["F"]));
+    if (reaction.contains("M")) fmt::print("  M {} N m", number(reaction["M"]));
+    fmt::print("\n");
+  }
+  fmt::print("\n|A| = {}, condition number {}\n", number(pose["determinant"]), number(pose["condition"]));
+}
+
+int report_pose(const Arguments& arguments, const Json& result, void (*print)(const Json&)) {
   const std::string text = report::json_text(result);
   if (!arguments.common.output.empty()) report::write_atomically(output_folder(arguments.common) / "pose.json", text);
   if (arguments.common.json)
     fmt::print("{}", text);
   else if (!arguments.common.quiet)
-    print_table(result);
+    print(result);
   return exit_done;
+}
+
+int run_spatial(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+  if (arguments.iterate)
+    throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not computed",
+                           "leave --iterate out");
+  std::vector<double> at;
+  for (const core::Rational& value : parse_pose(arguments.at, mechanism)) at.push_back(core::to_double(value));
+  return report_pose(arguments, spatial_json(mechanism, at), print_spatial);
+}
+
+int run(const Arguments& arguments) {
+  const mechanism::Mechanism mechanism = read_model(arguments.common);
+  if (mechanism.space == mechanism::Space::spatial) return run_spatial(arguments, mechanism);
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  return report_pose(arguments, pose_json(mechanism, model, solve(arguments, mechanism, model)), print_table);
 }
 
 }  // namespace

@@ -206,6 +206,12 @@ class Iteration {
 
 ActualPose actual_pose(const NumericModel& model, const Posture& posture, const Accuracy& linear) {
   core::ensure(posture.reachable(), "the posture is reachable");
+  for (const mechanism::Joint& joint : model.mechanism.joints) {
+    if (joint.type == mechanism::JointType::revolute) continue;
+    ActualPose refused;
+    refused.reason = "joint " + joint.name + " is prismatic, and only revolute joints are closed with their clearances";
+    return refused;
+  }
   return Iteration(model, posture, linear).run();
 }
 

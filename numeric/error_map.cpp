@@ -45,9 +45,10 @@ class BatchAccuracy {
     std::array<Lane, 3> error{};
     const double* const determinant = row(loads_, model_.elimination.unknowns);
     for (std::size_t j = 0; j < columns_.size(); ++j) {
-      const auto& [fx, fy, couple] = columns_[j];
+      const auto& [fx, fy, couple, normal, tilt] = columns_[j];
       if (clearances_[j].radial > 0) add_force(fx, fy, clearances_[j].radial, determinant, error);
       if (clearances_[j].angular > 0 && couple >= 0) add_couple(couple, clearances_[j].angular, determinant, error);
+      if (clearances_[j].gap > 0 && normal >= 0) add_guide(normal, tilt, clearances_[j], determinant, error);
     }
     for (std::size_t c = 0; c < 3; ++c) {
       const double* const d = row(units_[c], model_.elimination.unknowns);
@@ -95,6 +96,23 @@ class BatchAccuracy {
     }
   }
 
+  void add_guide(int normal, int tilt, const JointClearance& clearance, const double* determinant,
+                 std::array<Lane, 3>& error) const {
+    const double *n = row(loads_, normal), *m = row(loads_, tilt);
+    std::array<Lane, 2> way;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const auto ends = guide_ends(n[l], m[l], clearance.half_length);
+      for (std::size_t e = 0; e < 2; ++e)
+        way[e][l] = ends[e] == 0 ? nan : -std::copysign(clearance.gap, ends[e]) * std::copysign(1.0, determinant[l]);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double *h = row(units_[c], normal), *turn = row(units_[c], tilt);
+      for (std::size_t l = 0; l < lanes; ++l)
+        error[c][l] +=
+            (way[0][l] + way[1][l]) / 2 * h[l] + (way[0][l] - way[1][l]) / (2 * clearance.half_length) * turn[l];
+    }
+  }
+
   const NumericModel& model_;
   std::vector<JointColumns> columns_;
   std::vector<JointClearance> clearances_;
@@ -121,7 +139,8 @@ std::vector<std::string> joints_never_loaded(const NumericModel& model, std::spa
       for (std::size_t k = 0; k < columns.size(); ++k) {
         const bool force = clearances[k].radial == 0 || bears(columns[k].fx) || bears(columns[k].fy);
         const bool couple = clearances[k].angular == 0 || bears(columns[k].couple);
-        if (force && couple) loaded[k] = true;
+        const bool guide = clearances[k].gap == 0 || bears(columns[k].normal) || bears(columns[k].tilt);
+        if (force && couple && guide) loaded[k] = true;
       }
     }
   }

@@ -265,7 +265,9 @@ NumericModel compile(const Mechanism& m) {
   const auto refuse = [&](const std::string& problem, const std::string& mend) {
     throw core::InputError({m.file, 0, 0}, problem, mend);
   };
-  if (m.space != mechanism::Space::planar) refuse("the mechanism is spatial", "only planar mechanisms are solved");
+  if (m.space != mechanism::Space::planar)
+    refuse("the mechanism is spatial",
+           "this command handles planar mechanisms; loci, equations and pose take spatial ones");
   const std::size_t rows = 3 * m.links.size(), columns = mechanism::unknowns(m).size();
   if (rows != columns) {
     refuse(std::to_string(rows) + " equations for " + std::to_string(columns) + " unknowns",

@@ -16,11 +16,18 @@ class Reach {
  public:
   Reach(const Influence& H, const std::vector<JointColumns>& columns, const std::vector<JointClearance>& clearances) {
     for (std::size_t j = 0; j < columns.size(); ++j) {
-      const auto& [fx, fy, couple] = columns[j];
-      const auto& [radial, angular] = clearances[j];
+      const auto& [fx, fy, couple, normal, tilt] = columns[j];
+      const auto& [radial, angular, gap, half_length] = clearances[j];
       if (radial > 0 && fx >= 0 && fy >= 0)
         terms_.push_back({radial * H(0, fx), radial * H(1, fx), radial * H(0, fy), radial * H(1, fy)});
       if (angular > 0 && couple >= 0) terms_.push_back({angular * H(0, couple), angular * H(1, couple), 0, 0});
+      if (gap > 0 && normal >= 0) {
+        // Each end moves by ±g: half along the normal, and a tilt of ±g/(2 h).
+        for (const double sign : {1.0, -1.0}) {
+          const auto way = [&](int row) { return gap / 2 * (H(row, normal) + sign * H(row, tilt) / half_length); };
+          terms_.push_back({way(0), way(1), 0, 0});
+        }
+      }
     }
   }
 
@@ -92,11 +99,13 @@ WorstCase worst_case(const Influence& H, const std::vector<JointColumns>& column
   if (!H.allFinite()) return {unbounded, unbounded, unbounded, unbounded};
   Eigen::Vector3d most = Eigen::Vector3d::Zero();
   for (std::size_t j = 0; j < columns.size(); ++j) {
-    const auto& [fx, fy, couple] = columns[j];
-    const auto& [radial, angular] = clearances[j];
+    const auto& [fx, fy, couple, normal, tilt] = columns[j];
+    const auto& [radial, angular, gap, half_length] = clearances[j];
     for (int row = 0; row < 3; ++row) {
       if (radial > 0 && fx >= 0 && fy >= 0) most(row) += radial * std::hypot(H(row, fx), H(row, fy));
       if (angular > 0 && couple >= 0) most(row) += angular * std::abs(H(row, couple));
+      if (gap > 0 && normal >= 0)
+        most(row) += gap * std::max(std::abs(H(row, normal)), std::abs(H(row, tilt)) / half_length);
     }
   }
   return {most(2), most(0), most(1), farthest(Reach(H, columns, clearances), accuracy)};

@@ -12,8 +12,12 @@ std::vector<JointClearance> joint_clearances(const mechanism::Mechanism& mechani
   for (const mechanism::Joint& joint : mechanism.joints) {
     JointClearance clearance;
     if (joint.clearance) {
-      clearance.radial = core::to_double(mechanism::value_of(joint.clearance->radial, mechanism));
-      if (joint.actuated) clearance.angular = core::to_double(mechanism::value_of(joint.clearance->angular, mechanism));
+      const auto value = [&](const core::Expression& e) { return core::to_double(mechanism::value_of(e, mechanism)); };
+      const bool prismatic = joint.type == mechanism::JointType::prismatic;
+      clearance.radial = value(joint.clearance->radial);
+      if (joint.actuated) clearance.angular = value(prismatic ? joint.clearance->axial : joint.clearance->angular);
+      clearance.gap = value(joint.clearance->gap);
+      clearance.half_length = value(joint.clearance->half_length);
     }
     clearances.push_back(clearance);
   }
@@ -22,7 +26,7 @@ std::vector<JointClearance> joint_clearances(const mechanism::Mechanism& mechani
 
 bool any_clearance(const std::vector<JointClearance>& clearances) {
   return std::any_of(clearances.begin(), clearances.end(),
-                     [](const JointClearance& c) { return c.radial > 0 || c.angular > 0; });
+                     [](const JointClearance& c) { return c.radial > 0 || c.angular > 0 || c.gap > 0; });
 }
 
 std::vector<JointColumns> joint_columns(const NumericModel& model) {
@@ -30,7 +34,11 @@ std::vector<JointColumns> joint_columns(const NumericModel& model) {
   for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
     JointColumns& joint = columns[static_cast<std::size_t>(model.unknowns[k].joint)];
     const core::Quantity quantity = model.unknowns[k].quantity;
-    int& column = quantity == core::Quantity::fx ? joint.fx : quantity == core::Quantity::fy ? joint.fy : joint.couple;
+    int& column = quantity == core::Quantity::fx   ? joint.fx
+                  : quantity == core::Quantity::fy ? joint.fy
+                  : quantity == core::Quantity::N  ? joint.normal
+                  : quantity == core::Quantity::T  ? joint.tilt
+                                                   : joint.couple;
     column = static_cast<int>(k);
   }
   return columns;
@@ -55,7 +63,7 @@ std::vector<TakeUp> take_up(const NumericModel& model, const std::vector<JointCl
   };
   std::vector<TakeUp> result;
   for (std::size_t j = 0; j < columns.size(); ++j) {
-    const auto& [fx, fy, couple] = columns[j];
+    const auto& [fx, fy, couple, normal, tilt] = columns[j];
     TakeUp t;
     t.force_vanishes = fx < 0 || fy < 0 || (vanishes(fx) && vanishes(fy));
     if (!t.force_vanishes) {
@@ -68,6 +76,19 @@ std::vector<TakeUp> take_up(const NumericModel& model, const std::vector<JointCl
     t.couple_vanishes = couple >= 0 && vanishes(couple);
     if (couple >= 0 && !t.couple_vanishes && clearances[j].angular > 0)
       t.rotation = -std::copysign(clearances[j].angular, reactions(couple));
+    if (normal >= 0 && clearances[j].gap > 0) {
+      const double h = clearances[j].half_length, g = clearances[j].gap;
+      const auto ends = guide_ends(reactions(normal), reactions(tilt), h);
+      // Beyond what rounding leaves of a sum that is zero.
+      const double noise = 1e-12 * (std::abs(reactions(normal)) + std::abs(reactions(tilt)) / h);
+      t.guide_vanishes =
+          (vanishes(normal) && vanishes(tilt)) || !(std::abs(ends[0]) > noise) || !(std::abs(ends[1]) > noise);
+      if (!t.guide_vanishes) {
+        const double far = -std::copysign(g, ends[0]), near = -std::copysign(g, ends[1]);
+        t.normal = (far + near) / 2;
+        t.tilt = (far - near) / (2 * h);
+      }
+    }
     result.push_back(t);
   }
   return result;
@@ -79,7 +100,7 @@ std::vector<std::string> undefined_take_up(const NumericModel& model, const std:
   for (std::size_t j = 0; j < take_up.size(); ++j) {
     const bool force = take_up[j].force_vanishes && clearances[j].radial > 0;
     const bool couple = take_up[j].couple_vanishes && clearances[j].angular > 0;
-    if (force || couple) names.push_back(model.mechanism.joints[j].name);
+    if (force || couple || take_up[j].guide_vanishes) names.push_back(model.mechanism.joints[j].name);
   }
   return names;
 }
@@ -91,6 +112,8 @@ Eigen::VectorXd clearance_displacements(const NumericModel& model, const std::ve
     const core::Quantity quantity = model.unknowns[k].quantity;
     displacements(static_cast<Eigen::Index>(k)) = quantity == core::Quantity::fx   ? t.displacement[0]
                                                   : quantity == core::Quantity::fy ? t.displacement[1]
+                                                  : quantity == core::Quantity::N  ? t.normal
+                                                  : quantity == core::Quantity::T  ? t.tilt
                                                                                    : t.rotation;
   }
   return displacements;
