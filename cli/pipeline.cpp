@@ -1,6 +1,8 @@
 #include "cli/pipeline.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -42,7 +44,9 @@ core::LocusMap nothing_known(const mechanism::Mechanism& mechanism, const std::s
 }
 
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
-core::LocusMap derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+/// `family`: of which the mechanism is a member; may be null.
+core::LocusMap derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                                const symbolic::LocusFamily* family) {
   const auto check_deadline = [&] {
     if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
   };
@@ -52,7 +56,9 @@ core::LocusMap derive_and_trace(const mechanism::Mechanism& mechanism, const Loc
   try {
     if (request.progress) request.progress(0, "equations");
     check_deadline();
-    symbolic::DerivedProblem derived = symbolic::locus_problem(mechanism, request.selection);
+    symbolic::DerivedProblem derived = family != nullptr
+                                           ? symbolic::locus_problem(mechanism, request.selection, *family)
+                                           : symbolic::locus_problem(mechanism, request.selection);
     symbolic = derived.symbolic_seconds;
     elimination = derived.elimination_seconds;
     derived.problem.tolerance = request.tolerance;
@@ -83,6 +89,18 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
       return false;
   }
   return true;
+}
+
+core::LocusMap trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                            const symbolic::LocusFamily* family) {
+  check_sides(mechanism, request);
+  core::LocusMap map = derive_and_trace(mechanism, request, family);
+  map.mechanism = mechanism.name;
+  for (const mechanism::Parameter& parameter : mechanism.parameters)
+    map.parameters.emplace_back(
+        parameter.name, parameter.exact ? core::to_string(parameter.value) : core::to_string(parameter.expression));
+  map.tolerance = request.tolerance;
+  return map;
 }
 
 }  // namespace
@@ -133,14 +151,24 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
 }
 
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  check_sides(mechanism, request);
-  core::LocusMap map = derive_and_trace(mechanism, request);
-  map.mechanism = mechanism.name;
-  for (const mechanism::Parameter& parameter : mechanism.parameters)
-    map.parameters.emplace_back(
-        parameter.name, parameter.exact ? core::to_string(parameter.value) : core::to_string(parameter.expression));
-  map.tolerance = request.tolerance;
-  return map;
+  return trace_member(mechanism, request, nullptr);
+}
+
+Loci::Loci(std::string text, std::string file)
+    : text_(std::move(text)), file_(std::move(file)), family_(mechanism::parse_mechanism(text_, file_)) {}
+
+Loci Loci::read(const std::string& path) {
+  (void)mechanism::read_mechanism(path);  // complains as usual where the file cannot be read
+  std::ifstream stream(path);
+  return {std::string(std::istreambuf_iterator<char>(stream), {}), path};
+}
+
+mechanism::Mechanism Loci::mechanism(const std::vector<mechanism::Override>& values) const {
+  return mechanism::parse_mechanism(text_, file_, values);
+}
+
+core::LocusMap Loci::trace(const mechanism::Mechanism& member, const LociRequest& request) const {
+  return trace_member(member, request, &family_);
 }
 
 std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,

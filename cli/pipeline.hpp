@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,25 @@ struct LociRequest {
 /// Throws core::InputError where the mechanism has no loci to speak of: a system that is not square, a determinant that
 /// vanishes in every pose, an unknown joint, a working mode of the wrong length.
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
+
+/// The loci of a family of designs: one mechanism file, whose parameters take new values. What does not depend on them
+/// is derived once; for sweeps, and for a link that is dragged.
+class Loci {
+ public:
+  /// `text`: of a mechanism file; `file`: the name that errors show. Throws core::InputError as parse_mechanism and
+  /// trace_loci do.
+  Loci(std::string text, std::string file);
+  static Loci read(const std::string& path);
+
+  /// The mechanism with values of parameters put in.
+  mechanism::Mechanism mechanism(const std::vector<mechanism::Override>& values = {}) const;
+  /// The same loci as trace_loci gives for that mechanism.
+  core::LocusMap trace(const mechanism::Mechanism& member, const LociRequest& request = {}) const;
+
+ private:
+  std::string text_, file_;
+  symbolic::LocusFamily family_;
+};
 
 /// The working modes that a request means, as sides of the dyads: the file's own where it names none.
 std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, const LociRequest& request);

@@ -117,11 +117,13 @@ GiNaC::ex Geometry::expression(const Expression& e) const {
   if (core::symbols(e).empty() && mechanism::evaluate(e, mechanism_->parameters).exact) {
     return number(mechanism::value_of(e, *mechanism_));
   }
-  const auto kept = [&](const std::string& name) {
+  const auto kept_as = [&](const std::string& name, const Expression& meaning) {
     if (free) throw NotPolynomial{core::to_string(e)};
     if (std::find(kept_.begin(), kept_.end(), name) == kept_.end()) kept_.push_back(name);
+    kept_expressions_.emplace(name, meaning);
     return GiNaC::ex(symbol(name));
   };
+  const auto kept = [&](const std::string& name) { return kept_as(name, e); };
   const auto argument = [&](std::size_t i) { return expression(e.arguments()[i]); };
   switch (e.kind()) {
     case Kind::number:
@@ -141,7 +143,8 @@ GiNaC::ex Geometry::expression(const Expression& e) const {
     case Kind::divide: {
       const GiNaC::ex divisor = argument(1);
       if (GiNaC::is_a<GiNaC::numeric>(divisor)) return argument(0) / divisor;
-      return argument(0) * kept("1/(" + core::to_string(e.arguments()[1]) + ")");
+      return argument(0) * kept_as("1/(" + core::to_string(e.arguments()[1]) + ")",
+                                   Expression::apply(Kind::divide, {Expression::number(1), e.arguments()[1]}));
     }
     case Kind::power: {
       const GiNaC::ex exponent = argument(1);

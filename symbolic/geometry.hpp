@@ -94,6 +94,9 @@ class Geometry {
   /// A vector of the file in natural coordinates, 2 or 3 components.
   std::vector<GiNaC::ex> vector(const mechanism::VectorExpression& vector) const;
 
+  /// Parameters and expressions in them that stay symbols, by the names of their variables.
+  const std::map<std::string, core::Expression>& kept_expressions() const { return kept_expressions_; }
+
   /// An expression of the file as a GiNaC expression in the ring's symbols.
   GiNaC::ex expression(const core::Expression& expression) const;
   /// A polynomial GiNaC expression as an element of the ring.
@@ -128,9 +131,10 @@ class Geometry {
 
   const mechanism::Mechanism* mechanism_;
   bool keep_parameters_;
-  mutable std::map<std::string, GiNaC::symbol> symbols_;   ///< by printed name
-  mutable std::vector<std::string> kept_;                  ///< parameters and irrational expressions, as they appear
-  mutable std::map<std::string, int> variable_of_symbol_;  ///< GiNaC symbol's name to ring variable
+  mutable std::map<std::string, GiNaC::symbol> symbols_;  ///< by printed name
+  mutable std::vector<std::string> kept_;                 ///< parameters and irrational expressions, as they appear
+  mutable std::map<std::string, core::Expression> kept_expressions_;  ///< what they stand for
+  mutable std::map<std::string, int> variable_of_symbol_;             ///< GiNaC symbol's name to ring variable
   std::unique_ptr<Ring> ring_;
   std::vector<std::array<GiNaC::ex, 3>> natural_;  ///< z = 0 in the plane
   std::vector<TowerPoint> tower_;

@@ -9,6 +9,7 @@
 #include "symbolic/causes.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
+#include "symbolic/family.hpp"
 #include "symbolic/straight_lines.hpp"
 
 namespace clearloci::symbolic {
@@ -107,13 +108,21 @@ struct Reaction {
   FactoredPoly factors;
 };
 
+FactoredDeterminants determinants_of(const Geometry& geometry, const Family* family) {
+  if (family != nullptr)
+    if (std::optional<FactoredDeterminants> known = family->at(geometry)) return std::move(*known);
+  return factored_determinants(geometry);
+}
+
 class Derivation {
  public:
-  Derivation(const Mechanism& m, const Selection& selection, const std::vector<ChartRange>& pieces)
+  /// `family`: of which the mechanism is a member; may be null.
+  Derivation(const Mechanism& m, const Selection& selection, const std::vector<ChartRange>& pieces,
+             const Family* family)
       : mechanism_(m),
         selection_(selection),
         geometry_(m, false, charts_of(m, pieces)),
-        determinants_(factored_determinants(geometry_)),
+        determinants_(determinants_of(geometry_, family)),
         elimination_(geometry_),
         causes_(geometry_),
         lines_(geometry_) {
@@ -506,13 +515,11 @@ class Derivation {
   DerivedProblem result_;
 };
 
-}  // namespace
-
-std::vector<DerivedProblem> locus_problems(const Mechanism& mechanism, const Selection& selection) {
+std::vector<DerivedProblem> problems_of(const Mechanism& mechanism, const Selection& selection, const Family* family) {
   std::vector<DerivedProblem> problems;
   for (const std::vector<ChartRange>& pieces : all_pieces(mechanism)) {
     const auto start = Clock::now();
-    Derivation derivation(mechanism, selection, pieces);
+    Derivation derivation(mechanism, selection, pieces, family);
     const double preparation = seconds_since(start);
     problems.push_back(derivation.run());
     problems.back().symbolic_seconds += preparation;
@@ -520,14 +527,42 @@ std::vector<DerivedProblem> locus_problems(const Mechanism& mechanism, const Sel
   return problems;
 }
 
-DerivedProblem locus_problem(const Mechanism& mechanism, const Selection& selection) {
+}  // namespace
+
+std::vector<DerivedProblem> locus_problems(const Mechanism& mechanism, const Selection& selection) {
+  return problems_of(mechanism, selection, nullptr);
+}
+
+LocusFamily::LocusFamily(const Mechanism& member) : family_(std::make_unique<const Family>(member)) {}
+LocusFamily::~LocusFamily() = default;
+LocusFamily::LocusFamily(LocusFamily&&) noexcept = default;
+LocusFamily& LocusFamily::operator=(LocusFamily&&) noexcept = default;
+
+std::vector<DerivedProblem> LocusFamily::problems(const Mechanism& member, const Selection& selection) const {
+  return problems_of(member, selection, family_.get());
+}
+
+namespace {
+
+void ensure_one_chart(const Mechanism& mechanism) {
   for (const auto& coordinate : mechanism.coordinates) {
     if (coordinate.angle && chart_ranges(mechanism, coordinate).size() > 1)
       throw core::InputError({mechanism.file},
                              "the range of the angle '" + coordinate.name + "' needs more than one chart",
                              "keep it between two odd multiples of 90 deg");
   }
+}
+
+}  // namespace
+
+DerivedProblem locus_problem(const Mechanism& mechanism, const Selection& selection) {
+  ensure_one_chart(mechanism);
   return std::move(locus_problems(mechanism, selection).front());
+}
+
+DerivedProblem locus_problem(const Mechanism& member, const Selection& selection, const LocusFamily& family) {
+  ensure_one_chart(member);
+  return std::move(family.problems(member, selection).front());
 }
 
 }  // namespace clearloci::symbolic

@@ -1,6 +1,7 @@
 // From a mechanism to the factors whose zeros are its discontinuity loci (method.md sections 1 to 5).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,7 +35,24 @@ struct DerivedProblem {
 /// in the order of the angles; a single problem where no coordinate is an angle.
 std::vector<DerivedProblem> locus_problems(const mechanism::Mechanism& mechanism, const Selection& selection);
 
+/// The same for the members of a family of designs that differ in the values of parameters: what does not depend on
+/// the values is derived once. The problems are those that locus_problems gives for the member alone.
+class LocusFamily {
+ public:
+  /// `member`: any design of the family. Throws as locus_problems does where the equations themselves are wrong.
+  explicit LocusFamily(const mechanism::Mechanism& member);
+  ~LocusFamily();
+  LocusFamily(LocusFamily&&) noexcept;
+  LocusFamily& operator=(LocusFamily&&) noexcept;
+
+  std::vector<DerivedProblem> problems(const mechanism::Mechanism& member, const Selection& selection) const;
+
+ private:
+  std::unique_ptr<const class Family> family_;
+};
+
 /// The one problem of a mechanism without angles. Throws core::InputError where there are several.
 DerivedProblem locus_problem(const mechanism::Mechanism& mechanism, const Selection& selection);
+DerivedProblem locus_problem(const mechanism::Mechanism& member, const Selection& selection, const LocusFamily& family);
 
 }  // namespace clearloci::symbolic

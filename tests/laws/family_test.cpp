@@ -1,0 +1,114 @@
+// Loci of a family of designs: new values of parameters give what the design gives from scratch, special values
+// included.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "cli/pipeline.hpp"
+
+namespace clearloci {
+namespace {
+
+// Every length, the base and the load are parameters; the second leg's lengths are expressions in them.
+constexpr const char* design = R"(format: 1
+name: family
+space: planar
+parameters: {a: 1/2, b: 3/5, c: 11/20, d: 1/2, e: 0, fx: 20, fy: -90, w: 0}
+workspace: {x: [-3/2, 2], y: [-3/2, 3/2]}
+points:
+  A1: [0, 0]
+  A2: [d, e]
+  P: [x, y]
+  B1: {dyad: [A1, P], lengths: [a, b], side: left}
+  B2: {dyad: [A2, P], lengths: [c, b + (c - a)/2], side: right}
+links:
+  A1B1: {points: [A1, B1], mass: w}
+  B1P:  {points: [B1, P],  mass: w}
+  PB2:  {points: [P, B2],  mass: 2*w}
+  B2A2: {points: [B2, A2], mass: w}
+joints:
+  A1: {revolute: [ground, A1B1], at: A1, actuated: true}
+  B1: {revolute: [A1B1, B1P], at: B1}
+  P:  {revolute: [B1P, PB2], at: P}
+  B2: {revolute: [B2A2, PB2], at: B2}
+  A2: {revolute: [ground, B2A2], at: A2, actuated: true}
+end_effector: {link: PB2, at: P}
+gravity: [0, -9.81]
+loads:
+  - {link: PB2, at: P, force: [fx, fy]}
+)";
+
+void expect_same(const core::LocusMap& a, const core::LocusMap& b) {
+  EXPECT_EQ(a.parameters, b.parameters);
+  EXPECT_EQ(a.notes, b.notes);
+  ASSERT_EQ(a.curves.size(), b.curves.size());
+  for (std::size_t i = 0; i < a.curves.size(); ++i) {
+    EXPECT_EQ(a.curves[i].factor, b.curves[i].factor);
+    EXPECT_EQ(a.curves[i].cause, b.curves[i].cause);
+    EXPECT_EQ(a.curves[i].implicit, b.curves[i].implicit);
+    EXPECT_EQ(a.curves[i].vanishing, b.curves[i].vanishing);
+    EXPECT_EQ(a.curves[i].mode, b.curves[i].mode);
+    ASSERT_EQ(a.curves[i].arcs.size(), b.curves[i].arcs.size());
+    for (std::size_t k = 0; k < a.curves[i].arcs.size(); ++k) {
+      EXPECT_EQ(a.curves[i].arcs[k].points, b.curves[i].arcs[k].points);
+      EXPECT_EQ(a.curves[i].arcs[k].ends, b.curves[i].arcs[k].ends);
+    }
+  }
+  ASSERT_EQ(a.isolated_points.size(), b.isolated_points.size());
+  for (std::size_t i = 0; i < a.isolated_points.size(); ++i)
+    EXPECT_EQ(a.isolated_points[i].at, b.isolated_points[i].at);
+}
+
+void expect_as_from_scratch(const Loci& family, const std::vector<mechanism::Override>& values) {
+  std::string trace;
+  for (const auto& [name, value] : values) trace += name + " = " + value + " ";
+  SCOPED_TRACE(trace);
+  const mechanism::Mechanism member = family.mechanism(values);
+  expect_same(family.trace(member), trace_loci(member));
+}
+
+TEST(Family, TakesNewValuesAsFromScratch) {
+  const Loci family(design, "family.yaml");
+  constexpr unsigned seed = 4711;
+  std::mt19937 random(seed);
+  const auto quotient = [&](int low, int high, int denominator) {
+    return std::to_string(std::uniform_int_distribution<int>(low, high)(random)) + "/" + std::to_string(denominator);
+  };
+  for (int i = 0; i < 6; ++i) {
+    expect_as_from_scratch(family, {{"a", quotient(8, 14, 20)},
+                                    {"b", quotient(12, 16, 20)},
+                                    {"c", quotient(8, 14, 20)},
+                                    {"d", quotient(8, 14, 20)},
+                                    {"e", quotient(-3, 3, 20)},
+                                    {"fx", quotient(-90, 90, 1)},
+                                    {"fy", quotient(-90, 90, 1)},
+                                    {"w", i % 3 == 0 ? "1" : "0"}});
+  }
+}
+
+// Values at which factors split, vanish or coincide.
+TEST(Family, SeesWhatSpecialValuesDo) {
+  const Loci family(design, "family.yaml");
+  expect_as_from_scratch(family, {{"a", "1/2"}, {"b", "1/2"}, {"c", "1/2"}});              // both legs equal, stars
+  expect_as_from_scratch(family, {{"fx", "0"}});                                           // along an axis
+  expect_as_from_scratch(family, {{"fx", "0"}, {"fy", "0"}, {"w", "1"}});                  // weights alone
+  expect_as_from_scratch(family, {{"a", "3/5"}, {"b", "3/5"}, {"c", "3/5"}, {"d", "1"}});  // symmetric
+  expect_as_from_scratch(family, {{"fx", "-90"}, {"fy", "0"}, {"w", "0"}});
+}
+
+// A member may be simpler than the one that the family was derived from, and the other way round.
+TEST(Family, DoesNotDependOnTheMemberItWasDerivedFrom) {
+  std::string weighted = design;
+  weighted.replace(weighted.find("w: 0}"), 5, "w: 1}");
+  const Loci family(weighted, "family.yaml");
+  expect_as_from_scratch(family, {{"w", "0"}});
+  expect_as_from_scratch(family, {{"w", "0"}, {"b", "1/2"}});
+}
+
+TEST(Family, LeavesIrrationalValuesToTheUsualWay) {
+  const Loci family(design, "family.yaml");
+  expect_as_from_scratch(family, {{"d", "sqrt(2)/3"}});
+}
+
+}  // namespace
+}  // namespace clearloci
