@@ -47,7 +47,7 @@ TEST_P(Examples, AreCertifiedAndTheSameEachTime) {
 
 INSTANTIATE_TEST_SUITE_P(All, Examples,
                          testing::Values("five_bar", "five_bar_generic", "five_bar_horizontal", "five_bar_inclined",
-                                         "five_bar_isolated", "five_bar_weights"),
+                                         "five_bar_isolated", "five_bar_weights", "prrrp", "rprpr", "three_rpr"),
                          [](const auto& test) { return test.param; });
 
 TEST(PaperVerticalLoad, LegsAreUnloadedOnCirclesOfLinkLength) {

@@ -18,7 +18,7 @@ TEST(Examples, AllRead) {
     EXPECT_NO_THROW(read_mechanism(entry.path().string())) << entry.path();
     ++count;
   }
-  EXPECT_GE(count, 6);
+  EXPECT_GE(count, 18);
 }
 
 TEST(Examples, FiveBarHasTheColumnsOfThePaper) {
