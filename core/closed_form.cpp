@@ -1,7 +1,9 @@
 // Lines and conics among implicit polynomials.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/circle_pair.hpp"
 #include "core/locus_map.hpp"
 
 namespace clearloci::core {
@@ -11,17 +13,6 @@ namespace {
 struct Conic {
   Rational a, b, c, d, e, f;
 };
-
-Rational coefficient(const Polynomial& p, int x_power, int y_power) {
-  for (const Term& term : p.terms)
-    if (term.exponents[0] == x_power && term.exponents[1] == y_power) return term.coefficient;
-  return 0;
-}
-
-std::optional<Rational> exact_root(const Rational& value) {
-  if (!mpz_perfect_square_p(value.get_num_mpz_t()) || !mpz_perfect_square_p(value.get_den_mpz_t())) return std::nullopt;
-  return Rational(sqrt(value.get_num()), sqrt(value.get_den()));
-}
 
 /// Determinant of [[2a, b, d], [b, 2c, e], [d, e, 2f]]: zero for a pair of lines, a double line or a point.
 Rational determinant(const Conic& q) {
@@ -33,7 +24,7 @@ ClosedForm circle(const Conic& q) {
   form.centre = {-q.d / (2 * q.a), -q.e / (2 * q.a)};
   form.radius_squared = form.centre[0] * form.centre[0] + form.centre[1] * form.centre[1] - q.f / q.a;
   if (sgn(form.radius_squared) <= 0) return {};
-  form.radius = exact_root(form.radius_squared);
+  form.radius = square_root(form.radius_squared);
   return form;
 }
 
@@ -101,14 +92,45 @@ ClosedForm conic(const Conic& q) {
 
 ClosedForm recognise_closed_form(const Polynomial& implicit) {
   const int degree = total_degree(implicit);
-  if (implicit.variables < 2 || degree < 1 || degree > 2) return {};
+  if (implicit.variables < 2 || degree < 1 || degree == 3 || degree > 4) return {};
   for (int v = 2; v < implicit.variables; ++v)
     if (depends_on(implicit, v)) return {};
   const Polynomial p = primitive_part(with_variables(implicit, 2));
-  const Conic q{coefficient(p, 2, 0), coefficient(p, 1, 1), coefficient(p, 0, 2),
-                coefficient(p, 1, 0), coefficient(p, 0, 1), coefficient(p, 0, 0)};
+  if (degree == 4) {
+    const std::optional<CirclePairForm> pair = recognise_circle_pair(p);
+    return pair ? ClosedForm(*pair) : ClosedForm();
+  }
+  const Conic q{coefficient(p, {2, 0}), coefficient(p, {1, 1}), coefficient(p, {0, 2}),
+                coefficient(p, {1, 0}), coefficient(p, {0, 1}), coefficient(p, {0, 0})};
   if (degree == 1) return LineForm{q.d, q.e, q.f};
   return conic(q);
+}
+
+std::vector<Circle> circles_of(const ClosedForm& form) {
+  if (const auto* circle = std::get_if<CircleForm>(&form)) {
+    return {
+        {{to_double(circle->centre[0]), to_double(circle->centre[1])}, std::sqrt(to_double(circle->radius_squared))}};
+  }
+  std::vector<Circle> circles;
+  if (const auto* pair = std::get_if<CirclePairForm>(&form)) {
+    for (const int sign : {1, -1}) {
+      circles.push_back({{to_double(pair->centre[0], pair->n, sign), to_double(pair->centre[1], pair->n, sign)},
+                         std::sqrt(to_double(pair->radius_squared, pair->n, sign))});
+    }
+  }
+  return circles;
+}
+
+std::optional<Circle> circle_through(const ClosedForm& form, const Polyline& points) {
+  constexpr double rounding = 1e-9;
+  for (const Circle& circle : circles_of(form)) {
+    const bool on_it = std::all_of(points.begin(), points.end(), [&](const Point2& p) {
+      const double distance = std::hypot(p[0] - circle.centre[0], p[1] - circle.centre[1]);
+      return std::abs(distance - circle.radius) <= rounding * circle.radius;
+    });
+    if (on_it) return circle;
+  }
+  return std::nullopt;
 }
 
 }  // namespace clearloci::core

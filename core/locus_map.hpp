@@ -55,10 +55,35 @@ struct ConicForm {
   double angle = 0;                                ///< rad, of the first axis; a parabola opens along it
 };
 
-using ClosedForm = std::variant<std::monostate, LineForm, CircleForm, ConicForm>;
+/// rational + multiple sqrt(n), with the n of its CirclePairForm.
+struct QuadraticNumber {
+  Rational rational, multiple;
+};
 
-/// The closed form of an irreducible polynomial in (x, y), if it is a line or a conic with real points.
+/// Two circles that are conjugate over Q: one of this centre and squared radius, and one with -sqrt(n) in place of
+/// sqrt(n). `n` is a positive integer and no square.
+struct CirclePairForm {
+  Integer n;
+  std::array<QuadraticNumber, 2> centre;
+  QuadraticNumber radius_squared;
+};
+
+using ClosedForm = std::variant<std::monostate, LineForm, CircleForm, ConicForm, CirclePairForm>;
+
+/// The closed form of an irreducible polynomial in (x, y), if it is a line, a conic with real points, or a pair of
+/// conjugate circles, both with real points.
 ClosedForm recognise_closed_form(const Polynomial& implicit);
+
+struct Circle {
+  Point2 centre{};
+  double radius = 0;
+};
+
+/// The circles of a closed form, rounded: one, two of a pair, or none.
+std::vector<Circle> circles_of(const ClosedForm& form);
+
+/// The one on which all the points lie, to 1e-9 of its radius.
+std::optional<Circle> circle_through(const ClosedForm& form, const Polyline& points);
 
 /// One curve: an irreducible polynomial, in one working mode, with everything that vanishes on it there.
 struct LocusCurve {

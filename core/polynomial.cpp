@@ -121,6 +121,12 @@ int degree_in(const Polynomial& p, int variable) {
   return degree;
 }
 
+Rational coefficient(const Polynomial& p, const std::vector<int>& exponents) {
+  const auto term =
+      std::find_if(p.terms.begin(), p.terms.end(), [&](const Term& t) { return t.exponents == exponents; });
+  return term == p.terms.end() ? Rational(0) : term->coefficient;
+}
+
 bool depends_on(const Polynomial& p, int variable) { return degree_in(p, variable) > 0; }
 
 Polynomial derivative(const Polynomial& p, int variable) {

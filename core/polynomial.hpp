@@ -41,6 +41,9 @@ int total_degree(const Polynomial& p);
 /// Highest power of one variable; -1 for the zero polynomial.
 int degree_in(const Polynomial& p, int variable);
 
+/// Of one monomial; 0 where it does not occur.
+Rational coefficient(const Polynomial& p, const std::vector<int>& exponents);
+
 bool depends_on(const Polynomial& p, int variable);
 
 /// dp/d(variable).

@@ -74,6 +74,13 @@ Rational rational_from_decimal(std::string_view text) {
 
 std::string to_string(const Rational& value) { return value.get_str(); }
 
+std::optional<Rational> square_root(const Rational& value) {
+  if (sgn(value) < 0 || mpz_perfect_square_p(value.get_num_mpz_t()) == 0 ||
+      mpz_perfect_square_p(value.get_den_mpz_t()) == 0)
+    return std::nullopt;
+  return Rational(sqrt(value.get_num()), sqrt(value.get_den()));
+}
+
 double to_double(const Rational& value) {
   // GMP truncates towards zero; the nearest double is that one or its neighbour away from zero.
   const double truncated = value.get_d();

@@ -3,6 +3,7 @@
 
 #include <gmpxx.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,9 @@ std::string to_string(const Rational& value);
 
 /// Nearest double, correctly rounded (mpq_class::get_d truncates).
 double to_double(const Rational& value);
+
+/// The non-negative root of a square of a rational; none of any other number.
+std::optional<Rational> square_root(const Rational& value);
 
 /// The rational with the smallest denominator within `tolerance` of `value` (continued fraction, Stern-Brocot).
 Rational simplest_rational_near(const Rational& value, const Rational& tolerance);

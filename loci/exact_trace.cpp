@@ -107,11 +107,12 @@ class ExactTrace {
     if (std::holds_alternative<core::LineForm>(form)) {
       return {{start, end}, std::hypot(end[0] - start[0], end[1] - start[1])};
     }
-    if (const auto* circle = std::get_if<core::CircleForm>(&form)) {
-      const Point2 centre = {core::to_double(circle->centre[0]), core::to_double(circle->centre[1])};
-      const double radius = std::sqrt(core::to_double(circle->radius_squared));
-      const Point2 via = point_inside(walk.steps.front().edge);
-      Polyline points = circle_arc(centre, radius, start, via, end, problem_.tolerance);
+    Polyline inside;
+    if (!core::circles_of(form).empty())
+      for (const EdgeWalk::Step& step : walk.steps) inside.push_back(point_inside(step.edge));
+    if (const std::optional<core::Circle> circle = core::circle_through(form, inside)) {
+      const auto& [centre, radius] = *circle;
+      Polyline points = circle_arc(centre, radius, start, inside.front(), end, problem_.tolerance);
       double sweep = 0;
       for (std::size_t i = 1; i < points.size(); ++i) {
         const double chord = std::hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);

@@ -78,11 +78,9 @@ double turn(const core::Point2& centre, const core::Point2& from, const core::Po
 }
 
 /// CIRCLE for a closed arc, else ARC, which runs counter-clockwise from its start angle to its end angle.
-void write_circle(DxfWriter& out, const core::Arc& arc, const core::CircleForm& circle, const std::string& layer,
+void write_circle(DxfWriter& out, const core::Arc& arc, const core::Circle& circle, const std::string& layer,
                   const DxfHandles& handles) {
-  const core::Point2 centre = {core::to_double(circle.centre[0]), core::to_double(circle.centre[1])};
-  const double radius =
-      circle.radius ? core::to_double(*circle.radius) : std::sqrt(core::to_double(circle.radius_squared));
+  const auto& [centre, radius] = circle;
   start_entity(out, arc.closed ? "CIRCLE" : "ARC", layer, handles);
   out.put_class("AcDbCircle");
   out.put_point(centre, true);
@@ -128,11 +126,11 @@ void write_old_polyline(DxfWriter& out, const core::Arc& arc, const std::string&
 
 void write_arc(DxfWriter& out, const core::LocusCurve& curve, const core::Arc& arc, const std::string& layer,
                const Remarks& remarks, const DxfHandles& handles) {
-  const auto* circle = std::get_if<core::CircleForm>(&curve.closed_form);
   if (arc.points.size() < 2) return;
+  const std::optional<core::Circle> circle = core::circle_through(curve.closed_form, arc.points);
   if (std::holds_alternative<core::LineForm>(curve.closed_form)) {
     write_line(out, arc.points, layer, handles);
-  } else if (circle != nullptr) {
+  } else if (circle) {
     write_circle(out, arc, *circle, layer, handles);
   } else if (out.modern()) {
     write_lightweight_polyline(out, arc, layer, handles);

@@ -13,6 +13,29 @@ using Json = nlohmann::ordered_json;
 
 Json exact(const core::Rational& value) { return core::to_string(value); }
 
+/// "1/4 - 1/4*sqrt(3)".
+std::string exact(const core::QuadraticNumber& value, const core::Integer& n, int sign) {
+  const core::Rational multiple = sign * value.multiple;
+  if (multiple == 0) return core::to_string(value.rational);
+  const std::string root =
+      (abs(multiple) == 1 ? "" : core::to_string(abs(multiple)) + "*") + "sqrt(" + n.get_str() + ")";
+  if (value.rational == 0) return (sgn(multiple) < 0 ? "-" : "") + root;
+  return core::to_string(value.rational) + (sgn(multiple) < 0 ? " - " : " + ") + root;
+}
+
+Json circle_pair_object(const core::CirclePairForm& pair) {
+  Json circles = Json::array();
+  const std::vector<core::Circle> rounded = core::circles_of(pair);
+  for (const int sign : {1, -1}) {
+    Json body;
+    body["centre"] = {exact(pair.centre[0], pair.n, sign), exact(pair.centre[1], pair.n, sign)};
+    body["radius"] = rounded[sign > 0 ? 0 : 1].radius;
+    body["radius_squared"] = exact(pair.radius_squared, pair.n, sign);
+    circles.push_back(std::move(body));
+  }
+  return {{"circles", std::move(circles)}};
+}
+
 Json closed_form_object(const core::ClosedForm& form) {
   if (const auto* line = std::get_if<core::LineForm>(&form)) {
     return {{"line", {{"a", exact(line->a)}, {"b", exact(line->b)}, {"c", exact(line->c)}}}};
@@ -28,6 +51,7 @@ Json closed_form_object(const core::ClosedForm& form) {
     }
     return {{"circle", std::move(body)}};
   }
+  if (const auto* pair = std::get_if<core::CirclePairForm>(&form)) return circle_pair_object(*pair);
   if (const auto* conic = std::get_if<core::ConicForm>(&form)) {
     Json body;
     body["type"] = conic->type;

@@ -27,6 +27,34 @@ std::string radius_words(const core::CircleForm& circle) {
   return square.find('/') == std::string::npos ? "√" + square : "√(" + square + ")";
 }
 
+/// "√3/4": a multiple of √n, without its sign.
+std::string root_words(const core::Rational& multiple, const core::Integer& n) {
+  const core::Integer top = abs(multiple.get_num());
+  const std::string over = multiple.get_den() == 1 ? "" : "/" + multiple.get_den().get_str();
+  return (top == 1 ? "" : top.get_str()) + "√" + n.get_str() + over;
+}
+
+/// "1/4 ± √3/4" of both circles of a pair; `upper`: the sign that goes with the first one's.
+std::string pair_words(const core::QuadraticNumber& value, const core::Integer& n, int upper) {
+  if (value.multiple == 0) return core::to_string(value.rational);
+  const std::string both = sgn(value.multiple) == upper ? "±" : "∓";
+  if (value.rational == 0) return both + root_words(value.multiple, n);
+  return core::to_string(value.rational) + " " + both + " " + root_words(value.multiple, n);
+}
+
+std::string circle_pair_words(const core::CirclePairForm& pair) {
+  const int first = sgn(pair.centre[0].multiple) != 0 ? sgn(pair.centre[0].multiple) : sgn(pair.centre[1].multiple);
+  const int upper = first != 0 ? first : sgn(pair.radius_squared.multiple);
+  std::string radius;
+  if (pair.radius_squared.multiple == 0) {
+    radius = radius_words({{}, pair.radius_squared.rational, core::square_root(pair.radius_squared.rational)});
+  } else {
+    radius = "√(" + pair_words(pair.radius_squared, pair.n, upper) + ")";
+  }
+  return "circles centre (" + pair_words(pair.centre[0], pair.n, upper) + ", " +
+         pair_words(pair.centre[1], pair.n, upper) + "), radius " + radius;
+}
+
 /// a x + b y + c as a text; zero terms are left out.
 std::string linear_words(const core::LineForm& line, std::span<const std::string> coordinates) {
   const auto term = [](const core::Rational& factor, const std::string& symbol, bool first) {
@@ -105,6 +133,7 @@ std::string closed_form_words(const core::ClosedForm& form, std::span<const std:
     return "circle centre (" + core::to_string(circle->centre[0]) + ", " + core::to_string(circle->centre[1]) +
            "), radius " + radius_words(*circle);
   }
+  if (const auto* pair = std::get_if<core::CirclePairForm>(&form)) return circle_pair_words(*pair);
   if (const auto* conic = std::get_if<core::ConicForm>(&form)) {
     std::string words = conic->type;
     if (conic->centre) {

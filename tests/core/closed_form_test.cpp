@@ -43,6 +43,81 @@ TEST(ClosedForm, CircleWithoutRationalRadius) {
   EXPECT_FALSE(std::get<CircleForm>(form).radius.has_value());
 }
 
+/// The two circles x^2 + y^2 + u +- sqrt(n) l multiplied out.
+Polynomial circle_pair(const Polynomial& u, const Polynomial& l, long n) {
+  return square(square(x()) + square(y()) + u) - number(n) * square(l);
+}
+
+TEST(ClosedForm, CirclesWithIrrationalCentres) {
+  // The symmetric 5R of length 1/2: two positions of the circle that PB1 and PB2 share.
+  const auto form = recognise_closed_form(circle_pair(number(-1, 2) * x(), y(), 0) - number(3, 4) * square(y()));
+  const CirclePairForm& pair = std::get<CirclePairForm>(form);
+  EXPECT_EQ(pair.n, 3);
+  EXPECT_EQ(pair.centre[0].rational, Rational(1, 4));
+  EXPECT_EQ(pair.centre[0].multiple, 0);
+  EXPECT_EQ(pair.centre[1].rational, 0);
+  EXPECT_EQ(abs(pair.centre[1].multiple), Rational(1, 4));
+  EXPECT_EQ(pair.radius_squared.rational, Rational(1, 4));
+  EXPECT_EQ(pair.radius_squared.multiple, 0);
+}
+
+TEST(ClosedForm, ConcentricCirclesWithIrrationalRadii) {
+  const auto form = recognise_closed_form(circle_pair(x() - number(3), number(1), 2));
+  const CirclePairForm& pair = std::get<CirclePairForm>(form);
+  EXPECT_EQ(pair.n, 2);
+  EXPECT_EQ(pair.centre[0].rational, Rational(-1, 2));
+  EXPECT_EQ(pair.radius_squared.rational, Rational(13, 4));
+  EXPECT_EQ(abs(pair.radius_squared.multiple), 1);
+  EXPECT_EQ(circles_of(form).size(), 2U);
+}
+
+RC_GTEST_PROP(ClosedForm, PairsOfConjugateCirclesAreFound, ()) {
+  const auto small = [] { return number(*rc::gen::inRange(-9, 10), *rc::gen::inRange(1, 6)); };
+  const Polynomial u = small() * x() + small() * y() + small() - number(20);
+  const Polynomial l = small() * x() + small() * y() + number(*rc::gen::inRange(-3, 4));
+  RC_PRE(!l.is_zero());
+  const long n = *rc::gen::element(2L, 3L, 5L, 7L, 12L, 69L);
+  const auto form = recognise_closed_form(number(*rc::gen::inRange(1, 9)) * circle_pair(u, l, n));
+  RC_PRE(!is_nothing(form) || total_degree(l) == 1);
+  const std::vector<Circle> circles = circles_of(form);
+  const auto value = [&](const Point2& p, int sign) {
+    return p[0] * p[0] + p[1] * p[1] + evaluate(u, p) + sign * std::sqrt(static_cast<double>(n)) * evaluate(l, p);
+  };
+  // A circle without real points makes it no pair.
+  const auto radius_squared = [&](int sign) {
+    const double root = sign * std::sqrt(static_cast<double>(n));
+    const auto entry = [&](const std::vector<int>& e) {
+      return to_double(coefficient(u, e)) + root * to_double(coefficient(l, e));
+    };
+    const double cx = entry({1, 0}) / 2, cy = entry({0, 1}) / 2;
+    return cx * cx + cy * cy - entry({0, 0});
+  };
+  if (std::min(radius_squared(1), radius_squared(-1)) <= 0) {
+    RC_ASSERT(circles.empty());
+    return;
+  }
+  RC_ASSERT(circles.size() == 2U);
+  for (const Circle& circle : circles) {
+    const double scale = circle.radius * circle.radius;
+    const int sign = std::abs(value({circle.centre[0] + circle.radius, circle.centre[1]}, 1)) < 1e-9 * scale ? 1 : -1;
+    for (const double angle : {0.0, 1.0, 2.0, 4.0}) {
+      const Point2 at = {circle.centre[0] + circle.radius * std::cos(angle),
+                         circle.centre[1] + circle.radius * std::sin(angle)};
+      RC_ASSERT(std::abs(value(at, sign)) < 1e-9 * scale);
+    }
+  }
+}
+
+TEST(ClosedForm, OtherQuarticsHaveNone) {
+  EXPECT_TRUE(is_nothing(recognise_closed_form(square(square(x())) + square(square(y())) - number(1))));
+  EXPECT_TRUE(is_nothing(recognise_closed_form(circle_pair(x(), y(), 2) + x() * y())));
+  // Cassini's oval: (S + u)^2 minus what is no square.
+  EXPECT_TRUE(is_nothing(recognise_closed_form(circle_pair(number(0), number(0), 2) - number(2) * square(x()) +
+                                               number(2) * square(y()) - number(1))));
+  // Conjugate circles without real points.
+  EXPECT_TRUE(is_nothing(recognise_closed_form(circle_pair(number(100), y(), 2))));
+}
+
 TEST(ClosedForm, NothingWithoutRealCurve) {
   EXPECT_TRUE(is_nothing(recognise_closed_form(square(x()) + square(y()) + number(1))));              // empty circle
   EXPECT_TRUE(is_nothing(recognise_closed_form(square(x()) + square(y()))));                          // a point
