@@ -32,7 +32,7 @@ struct LocusFactor {
   std::string cause;                 ///< "link PB2 parallel to the load"; empty where it has no such reading
   std::vector<Vanishing> vanishing;  ///< components (fx, fy, M) that vanish with it; margins: the quantity held
   Polynomial sheet;                  ///< in (x, y, s1...sm), multilinear in the roots; zero exactly where the factor is
-  StraightLine line;                 ///< a multiple of `sheet` that vanishes nowhere else but where denominators do; may be empty
+  StraightLine line;                 ///< a multiple of `sheet`, zero besides only where denominators are; may be empty
   /// Irreducible over Z in (x, y): together they contain its zeros in every mode. Empty where its curves are not
   /// wanted and it only takes part in isolated points.
   std::vector<Polynomial> implicit;

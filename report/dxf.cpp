@@ -80,11 +80,11 @@ double turn(const core::Point2& centre, const core::Point2& from, const core::Po
 /// CIRCLE for a closed arc, else ARC, which runs counter-clockwise from its start angle to its end angle.
 void write_circle(DxfWriter& out, const core::Arc& arc, const core::Circle& circle, const std::string& layer,
                   const DxfHandles& handles) {
-  const auto& [centre, radius] = circle;
+  const core::Point2& centre = circle.centre;
   start_entity(out, arc.closed ? "CIRCLE" : "ARC", layer, handles);
   out.put_class("AcDbCircle");
   out.put_point(centre, true);
-  out.put_real(40, radius);
+  out.put_real(40, circle.radius);
   if (arc.closed) return;
   double swept = 0;
   for (std::size_t i = 1; i < arc.points.size(); ++i) swept += turn(centre, arc.points[i - 1], arc.points[i]);

@@ -74,8 +74,6 @@ bool find_pivot(const std::vector<SparseRow>& rows, const std::vector<bool>& act
 /// A quotient of products of polynomials, kept as lists of which no two have a factor in common.
 class Quotient {
  public:
-  explicit Quotient(const Ring& ring) : ring_(&ring) {}
-
   void multiply(Poly factor) { cancel(std::move(factor), below_, above_); }
   void divide(Poly factor) { cancel(std::move(factor), above_, below_); }
 
@@ -98,7 +96,6 @@ class Quotient {
     into.push_back(std::move(factor));
   }
 
-  const Ring* ring_;
   std::vector<Poly> above_, below_;
 };
 
@@ -179,7 +176,7 @@ CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::
   std::vector<int> column_of_row(rows.size(), -1);
   std::vector<Pivot> pivots;
   Rational scale = 1;
-  Quotient polynomial_scale(ring);  // |A| = scale · polynomial_scale · |core|
+  Quotient polynomial_scale;  // |A| = scale · polynomial_scale · |core|
   const auto is_small = [&] { return rows.size() - pivots.size() <= dense_core; };
   for (Pivot pivot{};
        find_pivot(rows, active, n, true, pivot) || (!is_small() && find_pivot(rows, active, n, false, pivot));) {

@@ -105,8 +105,7 @@ double Elimination::norm_degree(const Poly& sheet) const {
     return degree;
   };
   std::vector<bool> used(roots.size(), false);
-  for (std::size_t j = 0; j < roots.size(); ++j)
-    weight[static_cast<std::size_t>(roots[j].variable)] = weighted(roots[j].square) / 2;
+  for (const auto& root : roots) weight[static_cast<std::size_t>(root.variable)] = weighted(root.square) / 2;
   double degree = weighted(sheet);
   // The squares of roots that occur bring in the earlier roots.
   for (std::size_t j = roots.size(); j-- > 0;) {

@@ -62,8 +62,10 @@ TEST(Split, KeepsEmptyWordsAndDropsBlanks) {
 
 TEST(ParseQuantities, ListsEachOnce) {
   EXPECT_EQ(parse_quantities("f,M,f"), (std::vector<Quantity>{Quantity::f, Quantity::M}));
-  EXPECT_EQ(complaint([] { parse_quantities("f,m"); }), "--quantity: unknown quantity 'm'; choose from f, N, T, M, F, fx, fy, fz, mx, my, mz");
-  EXPECT_EQ(complaint([] { parse_quantities(""); }), "--quantity: unknown quantity ''; choose from f, N, T, M, F, fx, fy, fz, mx, my, mz");
+  EXPECT_EQ(complaint([] { parse_quantities("f,m"); }),
+            "--quantity: unknown quantity 'm'; choose from f, N, T, M, F, fx, fy, fz, mx, my, mz");
+  EXPECT_EQ(complaint([] { parse_quantities(""); }),
+            "--quantity: unknown quantity ''; choose from f, N, T, M, F, fx, fy, fz, mx, my, mz");
 }
 
 TEST(ParseWorkingMode, GivesASideToEveryDyadInTheFilesOrder) {
