@@ -16,6 +16,7 @@ Command add_loci_command(CLI::App& program);
 Command add_equations_command(CLI::App& program);
 Command add_validate_command(CLI::App& program);
 Command add_pose_command(CLI::App& program);
+Command add_zones_command(CLI::App& program);
 Command add_error_command(CLI::App& program);
 
 }  // namespace clearloci::cli

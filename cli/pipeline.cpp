@@ -45,13 +45,14 @@ core::LocusMap nothing_known(const mechanism::Mechanism& mechanism, const std::s
 
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
 /// `family`: of which the mechanism is a member; may be null.
-core::LocusMap derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                                const symbolic::LocusFamily* family) {
+TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                               const symbolic::LocusFamily* family) {
   const auto check_deadline = [&] {
     if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
   };
   double symbolic = 0, elimination = 0, tracing = 0;
-  core::LocusMap map;
+  TracedProblem traced;
+  core::LocusMap& map = traced.map;
   Clock::time_point start = Clock::now();
   try {
     if (request.progress) request.progress(0, "equations");
@@ -70,12 +71,13 @@ core::LocusMap derive_and_trace(const mechanism::Mechanism& mechanism, const Loc
                       {.engine = request.engine, .progress = request.progress, .deadline = request.deadline});
     tracing = seconds_since(start);
     map.notes.insert(map.notes.begin(), derived.notes.begin(), derived.notes.end());
+    traced.problem = std::move(derived.problem);
   } catch (const core::LimitReached& limit) {
     (symbolic > 0 ? tracing : symbolic) = seconds_since(start);
     map = nothing_known(mechanism, limit.what());
   }
   map.timing = {{"symbolic", symbolic}, {"elimination", elimination}, {"tracing", tracing}};
-  return map;
+  return traced;
 }
 
 /// Whether the free coordinates are x and y of the end effector's point: a picture over them then shows the mechanism.
@@ -91,16 +93,17 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
   return true;
 }
 
-core::LocusMap trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                            const symbolic::LocusFamily* family) {
+TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                           const symbolic::LocusFamily* family) {
   check_sides(mechanism, request);
-  core::LocusMap map = derive_and_trace(mechanism, request, family);
+  TracedProblem traced = derive_and_trace(mechanism, request, family);
+  core::LocusMap& map = traced.map;
   map.mechanism = mechanism.name;
   for (const mechanism::Parameter& parameter : mechanism.parameters)
     map.parameters.emplace_back(
         parameter.name, parameter.exact ? core::to_string(parameter.value) : core::to_string(parameter.expression));
   map.tolerance = request.tolerance;
-  return map;
+  return traced;
 }
 
 }  // namespace
@@ -151,6 +154,10 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
 }
 
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  return trace_member(mechanism, request, nullptr).map;
+}
+
+TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   return trace_member(mechanism, request, nullptr);
 }
 
@@ -168,7 +175,7 @@ mechanism::Mechanism Loci::mechanism(const std::vector<mechanism::Override>& val
 }
 
 core::LocusMap Loci::trace(const mechanism::Mechanism& member, const LociRequest& request) const {
-  return trace_member(member, request, &family_);
+  return trace_member(member, request, &family_).map;
 }
 
 std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,

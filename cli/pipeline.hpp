@@ -36,6 +36,14 @@ struct LociRequest {
 /// vanishes in every pose, an unknown joint, a working mode of the wrong length.
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
 
+/// The loci together with the problem that they solve, for work that goes on from there. The problem is empty where
+/// the deadline came first.
+struct TracedProblem {
+  core::LocusProblem problem;
+  core::LocusMap map;
+};
+TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
+
 /// The loci of a family of designs: one mechanism file, whose parameters take new values. What does not depend on them
 /// is derived once; for sweeps, and for a link that is dragged.
 class Loci {

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "report/mechanism_drawing.hpp"
+#include "report/zone_drawing.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -282,6 +283,9 @@ void draw_sample(const Context& context, const LegendEntry& entry, const FieldLa
       set_colour(context, workspace_fill);
       context->fill();
       break;
+    case SampleKind::zones:
+      draw_zone_sample(context, x, y, legend_sample_width);
+      break;
     case SampleKind::searched_box:
       draw_search_box(context, {x, y - 4.5, legend_sample_width, 9});
       break;
@@ -324,6 +328,8 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   context->clip();
   if (subject.layer != nullptr)
     draw_field(context, *subject.layer, layout);
+  else if (subject.zones != nullptr)
+    draw_zones(context, subject, layout);
   else
     draw_workspace(context, subject, layout);
   draw_grid(context, layout, subject.layer == nullptr);
@@ -332,6 +338,7 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   if (subject.sketch != nullptr) draw_joints(context, layout, *subject.sketch);
   draw_isolated_points(context, subject, layout);
   if (subject.sketch != nullptr) draw_loads(context, layout, *subject.sketch);
+  if (subject.zones != nullptr) draw_zone_numbers(context, subject, layout);
   context->restore();
 
   draw_axes(context, layout);

@@ -119,7 +119,10 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
   const auto& regions = map.workspace;
   if (subject.layer == nullptr &&
       std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
-    add(SampleKind::workspace, "workspace");
+    if (subject.zones != nullptr)
+      add(SampleKind::zones, "zones, the largest first", "dashed: the largest circle inside");
+    else
+      add(SampleKind::workspace, "workspace");
   }
   if (map.lower.size() > 1 && shows_more_than_searched(layout)) add(SampleKind::searched_box, "searched box");
   if (subject.sketch != nullptr) {

@@ -7,6 +7,7 @@
 
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
+#include "core/zone_map.hpp"
 #include "report/field_scale.hpp"
 #include "report/groups.hpp"
 #include "report/typesetting.hpp"
@@ -21,7 +22,7 @@ struct Box {
 };
 
 /// What a legend entry shows a sample of.
-enum class SampleKind { curve, point, workspace, searched_box, mechanism, load, remark, colour_bar };
+enum class SampleKind { curve, point, workspace, searched_box, mechanism, load, remark, colour_bar, zones };
 
 struct LegendLine {
   std::string text;
@@ -65,13 +66,14 @@ struct Layout {
   }
 };
 
-/// What a picture shows. The pointers outlive it; `sketch` and `layer` may be null.
+/// What a picture shows. The pointers outlive it; `sketch`, `layer` and `zones` may be null.
 struct Subject {
   const core::LocusMap* map = nullptr;
   core::WorkingMode mode;
   Groups groups;  ///< of this mode
   const core::Sketch* sketch = nullptr;
-  const FieldLayer* layer = nullptr;  ///< drawn in the place of the shaded workspace
+  const FieldLayer* layer = nullptr;     ///< drawn in the place of the shaded workspace
+  const core::ZoneMap* zones = nullptr;  ///< likewise
 };
 
 Layout lay_out(const Subject& subject);

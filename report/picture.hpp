@@ -6,6 +6,7 @@
 #include "core/field_map.hpp"
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
+#include "core/zone_map.hpp"
 
 namespace clearloci::report {
 
@@ -23,6 +24,9 @@ std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, co
 /// painted where the field is not a number.
 std::string field_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::FieldMap& fields,
                           const core::Field& field, PictureFormat format);
+
+/// The zones of one working mode in colours, numbered, with their largest circles, the loci drawn over them.
+std::string zone_picture(const core::ZoneMap& map, const core::WorkingMode& mode, PictureFormat format);
 
 /// The legend's labels, unwrapped, in order: also the description inside the SVG.
 std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode);

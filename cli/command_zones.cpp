@@ -1,0 +1,84 @@
+// clearloci zones: the discontinuity-free zones of a working mode, as a picture, a table and files.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/commands.hpp"
+#include "cli/loci_arguments.hpp"
+#include "cli/program.hpp"
+#include "cli/progress.hpp"
+#include "cli/zone_search.hpp"
+#include "core/errors.hpp"
+#include "report/loci_json.hpp"
+#include "report/zones.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+struct Arguments {
+  CommonArguments common;
+  LociArguments loci;
+  std::string formats = "svg,png";
+};
+
+const std::set<std::string> known_formats = {"geojson", "json", "pdf", "png", "svg"};
+
+std::set<std::string> parse_formats(const std::string& text) {
+  std::set<std::string> formats;
+  for (const std::string& word : split(text)) {
+    if (!known_formats.contains(word))
+      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
+                             fmt::format("choose from {}", fmt::join(known_formats, ", ")));
+    formats.insert(word);
+  }
+  return formats;
+}
+
+int run(const Arguments& arguments) {
+  const std::set<std::string> formats = parse_formats(arguments.formats);
+  const mechanism::Mechanism mechanism = read_model(arguments.common);
+  if (mechanism.coordinates.size() != 2)
+    throw core::InputError(
+        {.file = mechanism.file},
+        fmt::format("zones are those of two free coordinates; the mechanism has {}", mechanism.coordinates.size()),
+        "fix the others by numbers or parameters");
+  Progress progress(arguments.common.quiet);
+  const core::ZoneMap map = find_zones(mechanism, loci_request(arguments.loci, mechanism, progress));
+  progress.clear();
+
+  const std::filesystem::path folder = output_folder(arguments.common);
+  const std::vector<std::filesystem::path> files = report::write_zones(map, folder, formats);
+  if (arguments.common.json) {
+    fmt::print("{}", report::json_text(report::zones_object(map)));
+  } else if (!arguments.common.quiet) {
+    fmt::print("{}\n", report::zones_table(map));
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+    fmt::print("Written to {}: {}\n", folder.string(), fmt::join(names, ", "));
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+Command add_zones_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("zones", "Cut the workspace into its discontinuity-free zones");
+  const auto arguments = std::make_shared<Arguments>();
+  add_common_arguments(*app, arguments->common);
+  add_tracing_arguments(*app, arguments->loci);
+  add_locus_arguments(*app, arguments->loci);
+  app->add_option("--export", arguments->formats,
+                  fmt::format("Files besides zones.json, several after commas: {}", fmt::join(known_formats, ", ")))
+      ->type_name("LIST")
+      ->capture_default_str();
+  app->footer(
+      "Example: clearloci zones examples/five_bar.yaml --working-mode all\n"
+      "The files go to ./out/<name of MODEL>, or to the folder of -o.");
+  return {app, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace clearloci::cli

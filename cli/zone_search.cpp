@@ -1,0 +1,63 @@
+#include "cli/zone_search.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "loci/zones.hpp"
+#include "numeric/reactions.hpp"
+
+namespace clearloci {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// +1 or -1 where rounding cannot have changed it, else 0.
+int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 : value.value < -value.error ? -1 : 0; }
+
+/// Signs of |A| and of every wanted couple and the like in the zones, by the independent witness at their samples.
+void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request, core::ZoneMap& map) {
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request.selection);
+  for (core::Zone& zone : map.zones) {
+    const std::vector<int> sides = numeric::dyad_signs(model, map.loci.tower, zone.mode);
+    const numeric::BoundedNumerators at = numeric::bounded_numerators(model, zone.sample, sides);
+    if (!at.reachable) continue;
+    zone.assembly_mode = sign(at.determinant);
+    for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+      const mechanism::Unknown& unknown = model.unknowns[k];
+      const std::string& joint = mechanism.joints[static_cast<std::size_t>(unknown.joint)].name;
+      const bool component = unknown.quantity == core::Quantity::fx || unknown.quantity == core::Quantity::fy;
+      const bool chosen = std::any_of(wanted.begin(), wanted.end(), [&](const numeric::TracedReaction& reaction) {
+        return reaction.joint == joint && reaction.quantity == unknown.quantity;
+      });
+      if (!component && chosen)
+        zone.signs.emplace_back(core::Vanishing{joint, unknown.quantity, 1}, sign(at.values[k]) * zone.assembly_mode);
+    }
+  }
+}
+
+}  // namespace
+
+core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
+  LociRequest finer = request;
+  for (int attempt = 1;; ++attempt) {
+    TracedProblem traced = trace_problem(mechanism, finer);
+    if (!traced.map.complete) throw core::LimitReached("the loci could not be traced completely within the time limit");
+    const Clock::time_point start = Clock::now();
+    core::ZoneMap map = loci::zones(traced.problem, std::move(traced.map));
+    const bool certified = std::all_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return z.certified; });
+    if (!certified && attempt < attempts) {
+      finer.tolerance /= 16;
+      continue;
+    }
+    add_signs(mechanism, request, map);
+    const std::chrono::duration<double> taken = Clock::now() - start;
+    map.loci.timing.emplace_back("zones", taken.count());
+    return map;
+  }
+}
+
+}  // namespace clearloci

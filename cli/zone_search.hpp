@@ -1,0 +1,15 @@
+// From a mechanism to its discontinuity-free zones in one call:
+//     Mechanism -> trace_problem -> loci::zones, numeric::bounded_numerators -> ZoneMap
+#pragma once
+
+#include "cli/pipeline.hpp"
+#include "core/zone_map.hpp"
+
+namespace clearloci {
+
+/// The discontinuity-free zones of the request's modes, cut out by its loci, the workspace boundary and the direct
+/// singularities. Polylines are finer than the request's tolerance where areas correct to 1e-6 need it.
+/// Throws as trace_loci, and core::LimitReached where the deadline comes first.
+core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
+
+}  // namespace clearloci

@@ -1,0 +1,39 @@
+// The discontinuity-free zones of a mechanism (method.md section 9; results.md, zones.json): the faces into which the
+// loci, the workspace boundary and the direct singularities cut the workspace of a working mode.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/locus_map.hpp"
+
+namespace clearloci::core {
+
+/// A stretch of a zone's border on one curve. A curve that ends inside the zone borders it from both sides.
+struct ZoneBorder {
+  std::string curve;  ///< LocusCurve::id, or "box"
+  double length = 0;  ///< m, all stretches together
+};
+
+struct Zone {
+  std::string id;  ///< "z1": within a mode the largest comes first
+  WorkingMode mode;
+  int assembly_mode = 0;                         ///< sign of |A|
+  std::vector<std::pair<Vanishing, int>> signs;  ///< of every couple, axial force or normal force wanted
+  double area = 0;                               ///< m^2
+  Polyline outer;                                ///< counter-clockwise, first point repeated
+  std::vector<Polyline> holes;                   ///< clockwise, first point repeated
+  Circle inscribed;                              ///< the largest that holds no isolated point either
+  Point2 sample{};                               ///< a pose inside: the centre of `inscribed`
+  std::vector<ZoneBorder> borders;               ///< longest first
+  std::vector<int> isolated_points;              ///< inside, by their place in LocusMap::isolated_points
+  bool certified = false;                        ///< the borders and how they meet are proven
+};
+
+struct ZoneMap {
+  LocusMap loci;            ///< what cuts; ids of borders are its curves'
+  std::vector<Zone> zones;  ///< by mode, then area, largest first
+};
+
+}  // namespace clearloci::core

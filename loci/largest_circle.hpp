@@ -1,0 +1,22 @@
+// The largest circle inside a face, polished from a Voronoi vertex of the polylines to the curves themselves.
+#pragma once
+
+#include <vector>
+
+#include "core/locus_map.hpp"
+#include "loci/curve_projection.hpp"
+
+namespace clearloci::loci {
+
+/// A curve as an obstacle.
+struct Obstacle {
+  const core::Polyline* line = nullptr;
+  const CurveProjection* curve = nullptr;  ///< null: the polyline is the curve
+};
+
+/// Newton's method on the three (or more) curves that the circle touches. `tolerance`: chord deviation of the lines.
+/// The result holds no point of an obstacle; it is the circle given, made smaller, where Newton leads nowhere.
+core::Circle polished(const core::Circle& start, const std::vector<Obstacle>& obstacles, const core::Polyline& points,
+                      double tolerance);
+
+}  // namespace clearloci::loci

@@ -1,0 +1,156 @@
+#include "loci/plane_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+std::size_t index_of(HalfEdge half) { return 2 * static_cast<std::size_t>(half.edge) + (half.reversed ? 1 : 0); }
+
+HalfEdge twin(HalfEdge half) { return {half.edge, !half.reversed}; }
+
+/// The next half-edge of the face on the left: at the head, the one clockwise from the way back.
+HalfEdge next(const PlaneGraph& graph, HalfEdge half) {
+  const auto& around = graph.around[static_cast<std::size_t>(head(graph, half))];
+  const auto back = std::find(around.begin(), around.end(), twin(half));
+  core::ensure(back != around.end(), "a node knows its edges");
+  return back == around.begin() ? around.back() : *(back - 1);
+}
+
+/// Nodes that hang together.
+std::vector<int> components(const PlaneGraph& graph) {
+  std::vector<int> parent(graph.nodes.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
+  const auto root = [&](int i) {
+    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
+    return i;
+  };
+  for (const GraphEdge& edge : graph.edges) parent[static_cast<std::size_t>(root(edge.from))] = root(edge.to);
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = root(static_cast<int>(i));
+  return parent;
+}
+
+double distance(const core::Point2& from, const core::Point2& a, const core::Point2& b) {
+  const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+  const double t = length2 > 0 ? std::clamp(((from[0] - a[0]) * dx + (from[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(a[0] + t * dx - from[0], a[1] + t * dy - from[1]);
+}
+
+/// A point of the walk that is far from a ring.
+core::Point2 clearest_point(const core::Polyline& candidates, const core::Polyline& ring) {
+  core::Point2 best = candidates.front();
+  double most = -1;
+  const std::size_t step = std::max<std::size_t>(1, candidates.size() / 16);
+  for (std::size_t i = 0; i < candidates.size(); i += step) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < ring.size(); ++k)
+      least = std::min(least, distance(candidates[i], ring[k - 1], ring[k]));
+    if (least > most) {
+      most = least;
+      best = candidates[i];
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+int head(const PlaneGraph& graph, HalfEdge half) {
+  const GraphEdge& edge = graph.edges[static_cast<std::size_t>(half.edge)];
+  return half.reversed ? edge.from : edge.to;
+}
+
+int tail(const PlaneGraph& graph, HalfEdge half) { return head(graph, twin(half)); }
+
+double signed_area(const core::Polyline& ring) {
+  double twice = 0;
+  // Relative to a point of the ring: small rings far from the origin lose no digits.
+  const core::Point2 o = ring.front();
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    twice += (ring[i - 1][0] - o[0]) * (ring[i][1] - o[1]) - (ring[i][0] - o[0]) * (ring[i - 1][1] - o[1]);
+  }
+  return twice / 2;
+}
+
+bool inside_ring(const core::Polyline& ring, const core::Point2& at) {
+  bool inside = false;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const core::Point2 &a = ring[i - 1], &b = ring[i];
+    if ((a[1] > at[1]) == (b[1] > at[1])) continue;
+    if (at[0] < a[0] + (b[0] - a[0]) * (at[1] - a[1]) / (b[1] - a[1])) inside = !inside;
+  }
+  return inside;
+}
+
+core::Polyline ring_of(const PlaneGraph& graph, const std::vector<HalfEdge>& walk) {
+  core::Polyline ring;
+  for (const HalfEdge half : walk) {
+    core::Polyline piece = graph.edges[static_cast<std::size_t>(half.edge)].points;
+    if (half.reversed) std::reverse(piece.begin(), piece.end());
+    ring.insert(ring.end(), piece.begin() + (ring.empty() ? 0 : 1), piece.end());
+  }
+  return ring;
+}
+
+std::vector<GraphFace> faces_of(const PlaneGraph& graph) {
+  struct Walk {
+    std::vector<HalfEdge> halves;
+    core::Polyline ring;
+    double area = 0;
+    int component = 0;
+  };
+  const std::vector<int> component = components(graph);
+  std::vector<bool> used(2 * graph.edges.size(), false);
+  std::vector<Walk> outer, inner;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    for (const bool reversed : {false, true}) {
+      const HalfEdge first{static_cast<int>(e), reversed};
+      if (used[index_of(first)]) continue;
+      Walk walk;
+      HalfEdge half = first;
+      do {
+        used[index_of(half)] = true;
+        walk.halves.push_back(half);
+        half = next(graph, half);
+      } while (!(half == first));
+      walk.ring = ring_of(graph, walk.halves);
+      walk.area = signed_area(walk.ring);
+      walk.component = component[static_cast<std::size_t>(tail(graph, first))];
+      outer.push_back(std::move(walk));
+    }
+  }
+  // Every component has one walk around its outside: the one of least signed area.
+  for (const Walk& walk : outer) {
+    const auto known =
+        std::find_if(inner.begin(), inner.end(), [&](const Walk& w) { return w.component == walk.component; });
+    if (known == inner.end())
+      inner.push_back(walk);
+    else if (walk.area < known->area)
+      *known = walk;
+  }
+  std::erase_if(outer, [&](const Walk& walk) {
+    return std::any_of(inner.begin(), inner.end(), [&](const Walk& w) { return w.halves == walk.halves; });
+  });
+
+  std::vector<GraphFace> faces;
+  for (const Walk& walk : outer) faces.push_back({walk.halves, {}});
+  faces.emplace_back();
+  for (const Walk& walk : inner) {
+    std::size_t parent = faces.size() - 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < outer.size(); ++f) {
+      if (outer[f].component == walk.component || outer[f].area >= least) continue;
+      if (!inside_ring(outer[f].ring, clearest_point(walk.ring, outer[f].ring))) continue;
+      parent = f;
+      least = outer[f].area;
+    }
+    faces[parent].inner.push_back(walk.halves);
+  }
+  return faces;
+}
+
+}  // namespace clearloci::loci

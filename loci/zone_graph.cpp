@@ -1,0 +1,459 @@
+#include "loci/zone_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "loci/curve_arrangement.hpp"
+#include "loci/curve_projection.hpp"
+#include "loci/sheet/isolated_zeros.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::LocusKind;
+using core::Point2;
+using core::Polyline;
+
+// Relative to the box. Ends of arcs are known to 1e-12; what lies closer than the first is one place.
+constexpr double same_place = 1e-8;
+// The order of edges around a node is read off circles of these radii, from the largest that fits.
+constexpr double largest_circle = 0.02, smallest_circle = 3e-8;
+constexpr int agreeing_circles = 1;
+constexpr double rounding = 1e-13;  // of points moved onto a curve
+// The exact arrangement of two curves is quick up to this degree.
+constexpr int exact_degree = 8;
+
+double distance(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+struct Foot {
+  std::size_t segment = 0;
+  double t = 0, distance = 0;
+  double position() const { return static_cast<double>(segment) + t; }
+};
+
+Foot foot_on(const Polyline& line, std::size_t i, const Point2& at) {
+  const Point2 &a = line[i], &b = line[i + 1];
+  const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+  const double t = length2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
+  return {i, t, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1])};
+}
+
+/// Where a polyline passes within `reach` of a point: the nearest place of every pass.
+std::vector<Foot> passes(const Polyline& line, const Point2& at, double reach) {
+  std::vector<Foot> list;
+  bool near = false;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Foot foot = foot_on(line, i, at);
+    if (foot.distance > reach) {
+      near = false;
+      continue;
+    }
+    if (near && foot.distance < list.back().distance) list.back() = foot;
+    if (!near) list.push_back(foot);
+    near = true;
+  }
+  return list;
+}
+
+/// One arc to be split.
+struct Strand {
+  int owner = box_owner;
+  bool closed = false;
+  Polyline points;
+  std::vector<std::pair<double, int>> cuts;  ///< position along the points, node
+};
+
+class Builder {
+ public:
+  Builder(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
+          CurveProjections& projections)
+      : problem_(problem), map_(map), mode_(mode), projections_(projections) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      low_[i] = core::to_double(map.lower[i]);
+      high_[i] = core::to_double(map.upper[i]);
+    }
+    size_ = std::max(high_[0] - low_[0], high_[1] - low_[1]);
+  }
+
+  ZoneGraph build() {
+    collect_strands();
+    for (const Strand& strand : strands_) {
+      if (strand.closed) continue;
+      node_at(strand.points.front());
+      node_at(strand.points.back());
+    }
+    add_crossings();
+    for (std::size_t n = 0; n < result_.graph.nodes.size(); ++n) cut_at(static_cast<int>(n));
+    for (Strand& strand : strands_) split(strand);
+    order_edges();
+    check_separation();
+    return std::move(result_);
+  }
+
+ private:
+  const core::LocusCurve& curve(int owner) const { return map_.curves[static_cast<std::size_t>(owner)]; }
+  PlaneGraph& graph() { return result_.graph; }
+
+  void doubt(const std::string& note) {
+    result_.certified = false;
+    if (std::find(result_.notes.begin(), result_.notes.end(), note) == result_.notes.end())
+      result_.notes.push_back(note);
+  }
+
+  void collect_strands() {
+    for (std::size_t c = 0; c < map_.curves.size(); ++c) {
+      const core::LocusCurve& curve = map_.curves[c];
+      if (curve.mode != mode_ || !cuts_workspace(curve)) continue;
+      if (!curve.certified) doubt("curve " + curve.id + " is not certified");
+      for (const core::Arc& arc : curve.arcs) {
+        if (arc.points.size() > 1) strands_.push_back({static_cast<int>(c), arc.closed, arc.points, {}});
+      }
+    }
+    const Polyline corners = {low_, {high_[0], low_[1]}, high_, {low_[0], high_[1]}, low_};
+    for (std::size_t i = 0; i < 4; ++i) strands_.push_back({box_owner, false, {corners[i], corners[i + 1]}, {}});
+  }
+
+  int node_at(const Point2& at) {
+    Polyline& nodes = graph().nodes;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (distance(nodes[n], at) <= same_place * size_) return static_cast<int>(n);
+    }
+    nodes.push_back(at);
+    return static_cast<int>(nodes.size()) - 1;
+  }
+
+  /// Arcs end on the boundary and on direct singularities; among each other they may cross.
+  void add_crossings() {
+    std::vector<int> owners;
+    for (const Strand& strand : strands_) {
+      if (strand.owner == box_owner || curve(strand.owner).kind == LocusKind::workspace_boundary) continue;
+      if (std::find(owners.begin(), owners.end(), strand.owner) == owners.end()) owners.push_back(strand.owner);
+    }
+    std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, bool> done;
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+      for (std::size_t k = i + 1; k < owners.size(); ++k) {
+        const core::LocusCurve &a = curve(owners[i]), &b = curve(owners[k]);
+        const bool one_singular =
+            (a.kind == LocusKind::direct_singularity) != (b.kind == LocusKind::direct_singularity);
+        if (one_singular || a.implicit == b.implicit) continue;
+        const core::LocusFactor *first = factor_of(problem_, a), *second = factor_of(problem_, b);
+        if (first == nullptr || second == nullptr) {
+          doubt("crossings of " + a.id + " and " + b.id + " are not proven");
+        } else if (first == second) {
+          add_plane_crossings(a, b);
+        } else if (done.emplace(std::minmax(first, second), true).second) {
+          if (!add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line},
+                                               {second->sheet, second->line}, map_.lower, map_.upper)))
+            add_plane_crossings(a, b);
+        }
+      }
+    }
+  }
+
+  /// False: there may be more. An open cell where something ends anyway is no doubt.
+  bool add_zeros(const sheet::ZeroSet& found) {
+    for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
+    return !found.gave_up && std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::Cell& cell) {
+      const Point2 at = {cell.x.middle(), cell.y.middle()};
+      const double width = std::max(cell.x.width(), cell.y.width());
+      return width <= map_.tolerance &&
+             std::any_of(graph().nodes.begin(), graph().nodes.end(),
+                         [&](const Point2& node) { return distance(node, at) <= 2 * width + same_place * size_; });
+    });
+  }
+
+  /// The rung above: the exact arrangement of the two curves, for all modes at once.
+  void add_plane_crossings(const core::LocusCurve& a, const core::LocusCurve& b) {
+    if (std::max(core::total_degree(a.implicit), core::total_degree(b.implicit)) > exact_degree)
+      return doubt("crossings of " + a.id + " and " + b.id + " are not proven");
+    const CurveArrangement both({a.implicit, b.implicit}, {map_.lower[0], map_.lower[1]},
+                                {map_.upper[0], map_.upper[1]});
+    std::vector<std::array<bool, 2>> on(both.vertices().size(), {false, false});
+    for (const ArrangementEdge& edge : both.edges()) {
+      if (edge.curve > 1) continue;
+      for (const int v : {edge.from, edge.to})
+        on[static_cast<std::size_t>(v)][static_cast<std::size_t>(edge.curve)] = true;
+    }
+    for (std::size_t v = 0; v < on.size(); ++v) {
+      if (on[v][0] && on[v][1]) node_at(both.vertices()[v].at);
+    }
+  }
+
+  /// None for the sides of the box.
+  const CurveProjection* projection(int owner) { return owner == box_owner ? nullptr : &projections_.of(owner); }
+
+  /// Splits every strand that passes through the node.
+  void cut_at(int node) {
+    const Point2 at = graph().nodes[static_cast<std::size_t>(node)];
+    for (Strand& strand : strands_) {
+      const double reach = strand.owner == box_owner ? same_place * size_ : 2 * map_.tolerance + same_place * size_;
+      for (const Foot& foot : passes(strand.points, at, reach)) {
+        const CurveProjection* const own = projection(strand.owner);
+        const bool end = !strand.closed && (distance(strand.points.front(), at) <= same_place * size_ ||
+                                            distance(strand.points.back(), at) <= same_place * size_);
+        if (own != nullptr && !end && distance((*own)(at).at, at) > 10 * same_place * size_) continue;
+        strand.cuts.emplace_back(foot.position(), node);
+      }
+    }
+  }
+
+  void split(Strand& strand) {
+    if (strand.closed && strand.cuts.empty()) strand.cuts.emplace_back(0.0, node_at(strand.points.front()));
+    std::sort(strand.cuts.begin(), strand.cuts.end());
+    const auto piece = [&](double from, int start, double to, int end) {
+      Polyline points = {graph().nodes[static_cast<std::size_t>(start)]};
+      for (std::size_t i = static_cast<std::size_t>(std::floor(from)) + 1;
+           static_cast<double>(i) < to && i < strand.points.size(); ++i) {
+        points.push_back(strand.points[i]);
+      }
+      points.push_back(graph().nodes[static_cast<std::size_t>(end)]);
+      return points;
+    };
+    for (std::size_t i = 1; i < strand.cuts.size(); ++i) {
+      const auto& [from, start] = strand.cuts[i - 1];
+      const auto& [to, end] = strand.cuts[i];
+      add_edge(start, end, piece(from, start, to, end), strand.owner);
+    }
+    if (!strand.closed) return;
+    // From the last cut round to the first.
+    const auto& [from, start] = strand.cuts.back();
+    const auto& [to, end] = strand.cuts.front();
+    const double last = static_cast<double>(strand.points.size() - 1);
+    Polyline points = piece(from, start, last, start);
+    points.pop_back();
+    if (from < last && to > 0) points.push_back(strand.points.front());
+    const Polyline rest = piece(0, start, to, end);
+    points.insert(points.end(), rest.begin() + 1, rest.end());
+    add_edge(start, end, std::move(points), strand.owner);
+  }
+
+  static Point2 halfway(const Polyline& points) {
+    double length = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);
+    double left = length / 2;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const double step = distance(points[i - 1], points[i]);
+      if (step >= left && step > 0) {
+        const double t = left / step;
+        return {points[i - 1][0] + t * (points[i][0] - points[i - 1][0]),
+                points[i - 1][1] + t * (points[i][1] - points[i - 1][1])};
+      }
+      left -= step;
+    }
+    return points.back();
+  }
+
+  /// Pieces of one curve with the same ends and the same middle are one edge with several owners.
+  void add_edge(int from, int to, Polyline points, int owner) {
+    double extent = 0;
+    for (const Point2& p : points) extent = std::max(extent, distance(p, points.front()));
+    if (from == to && extent <= 4 * same_place * size_) return;
+    const Point2 middle = halfway(points);
+    for (GraphEdge& edge : graph().edges) {
+      const bool same_ends = (edge.from == from && edge.to == to) || (edge.from == to && edge.to == from);
+      if (!same_ends) continue;
+      const bool same_curve = std::any_of(edge.owners.begin(), edge.owners.end(), [&](int other) {
+        if (owner == box_owner || other == box_owner) return on_box(points) && on_box(edge.points);
+        return curve(other).implicit == curve(owner).implicit;
+      });
+      double off = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
+        off = std::min(off, foot_on(edge.points, i, middle).distance);
+      if (!same_curve || off > 2 * map_.tolerance + same_place * size_) continue;
+      if (std::find(edge.owners.begin(), edge.owners.end(), owner) == edge.owners.end()) edge.owners.push_back(owner);
+      return;
+    }
+    graph().edges.push_back({from, to, std::move(points), {owner}});
+  }
+
+  bool on_box(const Polyline& points) const {
+    const double slack = same_place * size_;
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (const double side : {low_[i], high_[i]}) {
+        if (std::all_of(points.begin(), points.end(), [&](const Point2& p) { return std::abs(p[i] - side) <= slack; }))
+          return true;
+      }
+    }
+    return false;
+  }
+
+  void order_edges() {
+    PlaneGraph& g = graph();
+    g.around.assign(g.nodes.size(), {});
+    for (std::size_t e = 0; e < g.edges.size(); ++e) {
+      g.around[static_cast<std::size_t>(g.edges[e].from)].push_back({static_cast<int>(e), false});
+      g.around[static_cast<std::size_t>(g.edges[e].to)].push_back({static_cast<int>(e), true});
+    }
+    for (std::size_t n = 0; n < g.nodes.size(); ++n) order_around(n);
+  }
+
+  /// Loci that meet the boundary do so tangentially: chords would lie about their order, points of the curves do not.
+  /// No curves meet between the node and the circles, so that any circle would do; two that agree guard against a point
+  /// that was moved onto another branch.
+  void order_around(std::size_t n) {
+    auto& around = graph().around[n];
+    if (around.size() < 3) return;
+    double radius = largest_circle * size_;
+    for (const HalfEdge half : around) radius = std::min(radius, 0.4 * reach_of(half, graph().nodes[n]));
+    for (std::size_t k = 0; k < graph().nodes.size(); ++k) {
+      if (k != n) radius = std::min(radius, 0.5 * distance(graph().nodes[k], graph().nodes[n]));
+    }
+    std::vector<HalfEdge> order;
+    int agreeing = 0;
+    for (; radius > smallest_circle * size_ && agreeing < agreeing_circles; radius *= 0.6) {
+      std::vector<HalfEdge> now = order_on_circle(n, radius);
+      if (now.empty()) continue;
+      agreeing = now == order ? agreeing + 1 : 0;
+      order = std::move(now);
+    }
+    if (agreeing < agreeing_circles) doubt("the order of curves around a crossing is not clear");
+    if (!order.empty()) around = std::move(order);
+  }
+
+  /// How far from its node a half-edge gets.
+  double reach_of(HalfEdge half, const Point2& node) const {
+    double most = 0;
+    for (const Point2& p : result_.graph.edges[static_cast<std::size_t>(half.edge)].points)
+      most = std::max(most, distance(p, node));
+    return most;
+  }
+
+  /// Empty where rounding hides the order.
+  std::vector<HalfEdge> order_on_circle(std::size_t n, double radius) {
+    const Point2 centre = graph().nodes[n];
+    std::vector<std::pair<Bearing, HalfEdge>> bearings;
+    for (const HalfEdge half : graph().around[n]) {
+      const GraphEdge& edge = graph().edges[static_cast<std::size_t>(half.edge)];
+      Polyline points = edge.points;
+      if (half.reversed) std::reverse(points.begin(), points.end());
+      Point2 at = points.back();
+      for (std::size_t i = 1; i < points.size(); ++i) {
+        const double before = distance(points[i - 1], centre), after = distance(points[i], centre);
+        if (after < radius) continue;
+        const double t = (radius - before) / (after - before);
+        at = {points[i - 1][0] + t * (points[i][0] - points[i - 1][0]),
+              points[i - 1][1] + t * (points[i][1] - points[i - 1][1])};
+        break;
+      }
+      bearings.emplace_back(bearing_of_curve(edge.owners.front(), centre, at, radius), half);
+    }
+    std::sort(bearings.begin(), bearings.end(),
+              [](const auto& a, const auto& b) { return a.first.angle < b.first.angle; });
+    std::vector<HalfEdge> order;
+    for (std::size_t i = 0; i < bearings.size(); ++i) {
+      const Bearing &own = bearings[i].first, &next = bearings[(i + 1) % bearings.size()].first;
+      const double turn = i + 1 < bearings.size() ? 0 : 2 * std::numbers::pi;
+      if (!(next.angle + turn - own.angle > own.doubt + next.doubt)) return {};
+      order.push_back(bearings[i].second);
+    }
+    // Start from the same half-edge on every circle.
+    const auto first = std::min_element(order.begin(), order.end(), [](HalfEdge a, HalfEdge b) {
+      return std::pair(a.edge, a.reversed) < std::pair(b.edge, b.reversed);
+    });
+    std::rotate(order.begin(), first, order.end());
+    return order;
+  }
+
+  struct Bearing {
+    double angle = 0;
+    double doubt = 0;  ///< by which it may be wrong
+  };
+
+  /// The angle under which a curve crosses the circle: along its tangent to the radius, then back onto the curve.
+  Bearing bearing_of_curve(int owner, const Point2& centre, Point2 at, double radius) {
+    const CurveProjection* const own = projection(owner);
+    const auto bearing = [&](double off) {
+      return Bearing{std::atan2(at[1] - centre[1], at[0] - centre[0]), off / radius + rounding * size_ / radius};
+    };
+    if (own == nullptr) return bearing(0);
+    const Point2 start = at;
+    double off = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 12; ++i) {
+      const auto [on, tangent] = (*own)(at);
+      at = on;
+      const double rx = on[0] - centre[0], ry = on[1] - centre[1], r = std::hypot(rx, ry);
+      off = std::abs(r - radius);
+      if (r == 0 || off <= rounding * size_) break;
+      const double outward = (rx * tangent[0] + ry * tangent[1]) / r;
+      if (std::abs(outward) < 0.1)
+        at = {centre[0] + rx * radius / r, centre[1] + ry * radius / r};
+      else
+        at = {on[0] + (radius - r) / outward * tangent[0], on[1] + (radius - r) / outward * tangent[1]};
+    }
+    return bearing(distance(at, start) < 0.5 * radius ? off : std::numeric_limits<double>::infinity());
+  }
+
+  /// Edges that are proven to meet at nodes only must not seem to cross elsewhere, unless they are too close to tell.
+  void check_separation() {
+    struct Segment {
+      Point2 a, b;
+      int edge;
+    };
+    std::vector<Segment> segments;
+    const PlaneGraph& g = graph();
+    for (std::size_t e = 0; e < g.edges.size(); ++e) {
+      const Polyline& points = g.edges[e].points;
+      for (std::size_t i = 1; i < points.size(); ++i)
+        segments.push_back({points[i - 1], points[i], static_cast<int>(e)});
+    }
+    const auto low = [](const Segment& s) { return std::min(s.a[0], s.b[0]); };
+    std::sort(segments.begin(), segments.end(), [&](const Segment& s, const Segment& t) { return low(s) < low(t); });
+    const auto side = [](const Point2& a, const Point2& b, const Point2& p) {
+      return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    };
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const Segment& s = segments[i];
+      const double end = std::max(s.a[0], s.b[0]);
+      for (std::size_t k = i + 1; k < segments.size() && low(segments[k]) <= end; ++k) {
+        const Segment& t = segments[k];
+        if (s.edge == t.edge || side(s.a, s.b, t.a) * side(s.a, s.b, t.b) >= 0 ||
+            side(t.a, t.b, s.a) * side(t.a, t.b, s.b) >= 0)
+          continue;
+        if (!close_to_node(s.edge, t.edge, s.a) && !close_to_node(s.edge, t.edge, s.b))
+          doubt("two curves come closer to each other than the tolerance");
+      }
+    }
+  }
+
+  /// Polylines of curves that touch at a node may cross up to where the curves are a tolerance apart.
+  bool close_to_node(int first, int second, const Point2& at) const {
+    const PlaneGraph& g = result_.graph;
+    const GraphEdge &a = g.edges[static_cast<std::size_t>(first)], &b = g.edges[static_cast<std::size_t>(second)];
+    const double close = 3 * map_.tolerance + same_place * size_;
+    for (const int n : {a.from, a.to}) {
+      if (n != b.from && n != b.to) continue;
+      // From the node along the first edge, as long as the second is next to it.
+      Polyline points = a.points;
+      if (n == a.to) std::reverse(points.begin(), points.end());
+      for (const Point2& p : points) {
+        if (passes(b.points, p, close).empty()) break;
+        if (p == at || distance(p, at) <= close) return true;
+      }
+    }
+    return false;
+  }
+
+  const core::LocusProblem& problem_;
+  const core::LocusMap& map_;
+  core::WorkingMode mode_;
+  Point2 low_{}, high_{};
+  double size_ = 1;
+  std::vector<Strand> strands_;
+  CurveProjections& projections_;
+  ZoneGraph result_;
+};
+
+}  // namespace
+
+bool cuts_workspace(const core::LocusCurve& curve) { return curve.kind != LocusKind::component; }
+
+ZoneGraph zone_graph(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
+                     CurveProjections& projections) {
+  return Builder(problem, map, mode, projections).build();
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,296 @@
+#include "loci/zones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/errors.hpp"
+#include "loci/curve_projection.hpp"
+#include "loci/edge_area.hpp"
+#include "loci/inscribed_circle.hpp"
+#include "loci/largest_circle.hpp"
+#include "loci/sheet/sheet_cell.hpp"
+#include "loci/zone_graph.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::Circle;
+using core::LocusMap;
+using core::Point2;
+using core::Polyline;
+using core::Zone;
+
+/// Every Q_j > 0 there, proven.
+class Workspace {
+ public:
+  Workspace(const core::RootTower& tower, const core::WorkingMode& mode)
+      : program_(tower, squares(tower)), sign_(program_, mode), roots_(static_cast<int>(tower.roots.size())) {}
+
+  bool holds(const Point2& at) {
+    for (int j = 0; j < roots_; ++j) {
+      const auto sign = sign_(at[0], at[1], j);
+      if (!sign || *sign <= 0) return false;
+    }
+    return true;
+  }
+
+ private:
+  static std::vector<core::Polynomial> squares(const core::RootTower& tower) {
+    std::vector<core::Polynomial> list;
+    for (const core::Root& root : tower.roots) list.push_back(root.square);
+    return list;
+  }
+  sheet::SheetProgram program_;
+  sheet::PointSign sign_;
+  int roots_;
+};
+
+class ModeZones {
+ public:
+  ModeZones(const core::LocusProblem& problem, const LocusMap& map, const core::WorkingMode& mode)
+      : problem_(problem),
+        map_(map),
+        mode_(mode),
+        workspace_(problem.tower, mode),
+        projections_(problem, map),
+        cut_(zone_graph(problem, map, mode, projections_)) {
+    for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
+      if (map.isolated_points[i].mode == mode) points_.push_back(static_cast<int>(i));
+    }
+  }
+
+  /// The mode's zones go to `map`, which holds the loci that this was made from.
+  void find(core::ZoneMap& map) {
+    PlaneGraph& graph = cut_.graph;
+    for (const GraphEdge& edge : graph.edges) beside_.push_back(area_beside_chords(edge.points, form_of(edge)));
+    std::vector<Face> faces;
+    for (GraphFace& walks : faces_of(graph)) {
+      if (walks.outer.empty()) continue;
+      if (Face face = measured(std::move(walks)); face.area > 0) faces.push_back(std::move(face));
+    }
+    for (Face& face : faces) refine(face);
+    for (const GraphEdge& edge : graph.edges)
+      obstacles_.push_back({&edge.points, curve_of(edge) == nullptr ? nullptr : &projections_.of(edge.owners.front())});
+
+    std::vector<Zone> found;
+    for (const Face& face : faces) {
+      if (auto zone = describe(measured(face.walks))) found.push_back(std::move(*zone));
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Zone& a, const Zone& b) { return a.area > b.area; });
+    for (Zone& zone : found) map.zones.push_back(std::move(zone));
+    for (const std::string& note : cut_.notes) map.loci.notes.push_back("zones: " + note);
+  }
+
+ private:
+  struct Face {
+    GraphFace walks;
+    Polyline outer;
+    std::vector<Polyline> holes;
+    double area = 0, error = 0;  // m^2
+  };
+
+  Polyline isolated() const {
+    Polyline list;
+    for (const int i : points_) list.push_back(place(i));
+    return list;
+  }
+  Point2 place(int point) const {
+    const auto& at = map_.isolated_points[static_cast<std::size_t>(point)].at;
+    return {at[0], at[1]};
+  }
+
+  const core::LocusCurve* curve_of(const GraphEdge& edge) const {
+    const int owner = edge.owners.front();
+    return owner == box_owner ? nullptr : &map_.curves[static_cast<std::size_t>(owner)];
+  }
+
+  core::ClosedForm form_of(const GraphEdge& edge) const {
+    const core::LocusCurve* const curve = curve_of(edge);
+    return curve == nullptr ? core::ClosedForm(core::LineForm{}) : curve->closed_form;
+  }
+
+  Face measured(GraphFace walks) const {
+    Face face;
+    const auto add = [&](const std::vector<HalfEdge>& walk) {
+      Polyline ring = ring_of(cut_.graph, walk);
+      face.area += signed_area(ring);
+      for (const HalfEdge half : walk) {
+        const EdgeArea& beside = beside_[static_cast<std::size_t>(half.edge)];
+        face.area += half.reversed ? -beside.area : beside.area;
+        face.error += beside.error;
+      }
+      return ring;
+    };
+    face.outer = add(walks.outer);
+    for (const auto& walk : walks.inner) face.holes.push_back(add(walk));
+    face.walks = std::move(walks);
+    return face;
+  }
+
+  /// More vertices where the area of a small face wants them.
+  void refine(Face& face) {
+    const auto walks = [&](const auto& visit) {
+      for (const HalfEdge half : face.walks.outer) visit(static_cast<std::size_t>(half.edge));
+      for (const auto& walk : face.walks.inner)
+        for (const HalfEdge half : walk) visit(static_cast<std::size_t>(half.edge));
+    };
+    std::size_t edges = 0;
+    walks([&](std::size_t) { ++edges; });
+    for (int round = 0; round < most_refinements && face.error > area_accuracy * face.area; ++round) {
+      const double share = area_accuracy * face.area / static_cast<double>(edges);
+      bool finer = false;
+      walks([&](std::size_t e) {
+        GraphEdge& edge = cut_.graph.edges[e];
+        if (beside_[e].error <= share || !halve_chords(edge)) return;
+        beside_[e] = area_beside_chords(edge.points, form_of(edge));
+        finer = true;
+      });
+      if (!finer) return;
+      face = measured(std::move(face.walks));
+    }
+  }
+
+  /// A vertex of the curve amid every chord. False: the curve is not found there.
+  bool halve_chords(GraphEdge& edge) {
+    if (curve_of(edge) == nullptr) return false;
+    const CurveProjection& curve = projections_.of(edge.owners.front());
+    Polyline finer = {edge.points.front()};
+    for (std::size_t i = 1; i < edge.points.size(); ++i) {
+      const Point2 &a = edge.points[i - 1], &b = edge.points[i];
+      const Point2 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}, on = curve(middle).at;
+      if (std::hypot(on[0] - middle[0], on[1] - middle[1]) > 2 * map_.tolerance) return false;
+      finer.push_back(on);
+      finer.push_back(b);
+    }
+    edge.points = std::move(finer);
+    return true;
+  }
+
+  std::optional<Zone> describe(Face face) {
+    Zone zone;
+    zone.mode = mode_;
+    zone.area = face.area;
+    zone.outer = std::move(face.outer);
+    zone.holes = std::move(face.holes);
+    const auto inside = [&](const Point2& at) {
+      return inside_ring(zone.outer, at) && std::none_of(zone.holes.begin(), zone.holes.end(),
+                                                         [&](const Polyline& hole) { return inside_ring(hole, at); });
+    };
+    const std::optional<Circle> circle = largest_circle(face.walks, zone, inside);
+    if (!circle) return std::nullopt;
+    zone.inscribed = *circle;
+    zone.sample = zone.inscribed.centre;
+    zone.borders = borders(face.walks);
+    for (const int i : points_) {
+      if (inside(place(i))) zone.isolated_points.push_back(i);
+    }
+    zone.certified = cut_.certified;
+    return zone;
+  }
+
+  std::vector<core::ZoneBorder> borders(const GraphFace& face) const {
+    std::map<std::string, double> lengths;
+    const auto add = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge half : walk) {
+        const GraphEdge& edge = cut_.graph.edges[static_cast<std::size_t>(half.edge)];
+        for (const int owner : edge.owners)
+          lengths[owner == box_owner ? "box" : map_.curves[static_cast<std::size_t>(owner)].id] +=
+              length_of(edge.points);
+      }
+    };
+    add(face.outer);
+    for (const auto& walk : face.inner) add(walk);
+    std::vector<core::ZoneBorder> list;
+    for (const auto& [curve, length] : lengths) list.push_back({curve, length});
+    std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.length > b.length; });
+    return list;
+  }
+
+  /// None where the face lies outside the workspace.
+  template <typename Inside>
+  std::optional<Circle> largest_circle(const GraphFace& face, const Zone& zone, const Inside& inside) {
+    std::vector<Obstacle> borders;
+    double length = 0;
+    const auto add = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge half : walk) {
+        borders.push_back(obstacles_[static_cast<std::size_t>(half.edge)]);
+        length += length_of(*borders.back().line);
+      }
+    };
+    add(face.outer);
+    for (const auto& walk : face.inner) add(walk);
+    const Polyline points = isolated();
+    const double width = 2 * zone.area / length;
+    Polyline sites = points;
+    for (const Obstacle& border : borders) sample(*border.line, std::max(width / 8, length / most_sites), sites);
+
+    std::vector<Circle> candidates;
+    for (const Circle& circle : voronoi_circles(sites)) {
+      const bool another = std::none_of(candidates.begin(), candidates.end(), [&](const Circle& other) {
+        return std::hypot(other.centre[0] - circle.centre[0], other.centre[1] - circle.centre[1]) < 0.2 * other.radius;
+      });
+      if (!another || !inside(circle.centre)) continue;
+      if (candidates.empty() && !workspace_.holds(circle.centre)) return std::nullopt;
+      candidates.push_back(circle);
+      if (candidates.size() == most_candidates) break;
+    }
+    std::optional<Circle> best;
+    for (const Circle& candidate : candidates) {
+      const Circle circle = polished(candidate, borders, points, map_.tolerance);
+      if (inside(circle.centre) && (!best || circle.radius > best->radius)) best = circle;
+    }
+    return best;
+  }
+
+  static double length_of(const Polyline& points) {
+    double length = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      length += std::hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
+    return length;
+  }
+
+  /// Points along a polyline no further apart than `step`, its vertices apart from those that stand closer.
+  static void sample(const Polyline& line, double step, Polyline& sites) {
+    sites.push_back(line.front());
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const Point2 from = sites.back(), to = line[i];
+      const double gap = std::hypot(to[0] - from[0], to[1] - from[1]);
+      if (gap < step / 2 && i + 1 < line.size()) continue;
+      const int pieces = std::max(1, static_cast<int>(std::ceil(gap / step)));
+      for (int k = 1; k <= pieces; ++k) {
+        const double t = static_cast<double>(k) / pieces;
+        sites.push_back({from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])});
+      }
+    }
+  }
+
+  static constexpr double area_accuracy = 1e-7;  ///< relative; a tenth of what is promised, since it is an estimate
+  static constexpr int most_refinements = 8;
+  static constexpr double most_sites = 4000;  ///< on a zone's border
+  static constexpr std::size_t most_candidates = 3;
+
+  const core::LocusProblem& problem_;
+  const LocusMap& map_;
+  core::WorkingMode mode_;
+  Workspace workspace_;
+  CurveProjections projections_;
+  ZoneGraph cut_;
+  std::vector<int> points_;
+  std::vector<EdgeArea> beside_;
+  std::vector<Obstacle> obstacles_;
+};
+
+}  // namespace
+
+core::ZoneMap zones(const core::LocusProblem& problem, core::LocusMap traced) {
+  core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
+  core::ZoneMap map;
+  map.loci = std::move(traced);
+  for (const core::WorkingMode& mode : problem.modes) ModeZones(problem, map.loci, mode).find(map);
+  int number = 0;
+  for (Zone& zone : map.zones) zone.id = "z" + std::to_string(++number);
+  return map;
+}
+
+}  // namespace clearloci::loci

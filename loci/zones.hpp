@@ -1,0 +1,13 @@
+// The discontinuity-free zones of every mode of a traced map (method.md section 9).
+#pragma once
+
+#include "core/locus_factor.hpp"
+#include "core/zone_map.hpp"
+
+namespace clearloci::loci {
+
+/// Polylines of borders get more vertices where areas correct to 1e-6 need them; `assembly_mode` and `signs` are left
+/// to the caller, who knows reactions. `traced`: the loci of the problem, complete. Two free coordinates required.
+core::ZoneMap zones(const core::LocusProblem& problem, core::LocusMap traced);
+
+}  // namespace clearloci::loci

@@ -1,0 +1,81 @@
+#include "report/zone_drawing.hpp"
+
+#include <array>
+#include <numbers>
+
+#include "report/mechanism_drawing.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Context = Cairo::RefPtr<Cairo::Context>;
+
+// The light scheme of P. Tol, Colour Schemes (SRON/EPS/TN/09-002, issue 3.2), distinct to the colour-blind.
+constexpr std::array<Colour, 7> fills = {{{0.467, 0.667, 0.867},
+                                          {0.933, 0.867, 0.533},
+                                          {0.267, 0.733, 0.600},
+                                          {1.000, 0.667, 0.733},
+                                          {0.600, 0.867, 1.000},
+                                          {0.933, 0.533, 0.400},
+                                          {0.733, 0.800, 0.200}}};
+constexpr double fill_strength = 0.5;
+constexpr Colour circle_colour{0.30, 0.30, 0.34};
+constexpr double least_numbered = 5;  // pt, radius of the largest circle
+constexpr Font number_font{9.5, true, false};
+
+template <typename Action>
+void for_each_zone(const Subject& subject, const Action& action) {
+  std::size_t number = 0;
+  for (const core::Zone& zone : subject.zones->zones) {
+    if (zone.mode == subject.mode) action(zone, number++);
+  }
+}
+
+}  // namespace
+
+void draw_zones(const Context& context, const Subject& subject, const Layout& layout) {
+  for_each_zone(subject, [&](const core::Zone& zone, std::size_t number) {
+    const auto add = [&](const core::Polyline& ring) {
+      context->begin_new_sub_path();
+      for (const core::Point2& p : ring) {
+        const core::Point2 at = layout.page(p);
+        context->line_to(at[0], at[1]);
+      }
+      context->close_path();
+    };
+    add(zone.outer);
+    for (const core::Polyline& hole : zone.holes) add(hole);
+    context->set_fill_rule(Cairo::Context::FillRule::EVEN_ODD);
+    set_colour(context, fills[number % fills.size()], fill_strength);
+    context->fill();
+    context->set_fill_rule(Cairo::Context::FillRule::WINDING);
+  });
+}
+
+void draw_zone_numbers(const Context& context, const Subject& subject, const Layout& layout) {
+  for_each_zone(subject, [&](const core::Zone& zone, std::size_t) {
+    const core::Point2 at = layout.page(zone.inscribed.centre);
+    const double radius = zone.inscribed.radius * layout.scale;
+    set_colour(context, circle_colour, 0.8);
+    context->set_line_width(0.7);
+    context->set_dash(std::vector<double>{3, 2}, 0);
+    context->begin_new_sub_path();
+    context->arc(at[0], at[1], radius, 0, 2 * std::numbers::pi);
+    context->stroke();
+    context->unset_dash();
+    if (radius < least_numbered) return;
+    set_colour(context, {0.1, 0.1, 0.1});
+    write_text(context, zone.id, at[0], at[1] + 0.36 * number_font.size, number_font, Align::centre);
+  });
+}
+
+void draw_zone_sample(const Context& context, double x, double y, double width) {
+  constexpr int shown = 3;
+  for (int i = 0; i < shown; ++i) {
+    context->rectangle(x + i * width / shown, y - 4.5, width / shown, 9);
+    set_colour(context, fills[static_cast<std::size_t>(i)], fill_strength);
+    context->fill();
+  }
+}
+
+}  // namespace clearloci::report

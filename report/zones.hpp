@@ -1,0 +1,29 @@
+// Zones as files and as a table (results.md, zones.json).
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/zone_map.hpp"
+
+namespace clearloci::report {
+
+/// The object of results.md: a head like that of loci.json, then `zones`. Of a zone besides the keys shown there:
+/// `borders` (curve, what vanishes there, length), `contact_lost_at_border` (the joints), `isolated_points`,
+/// `certified`.
+nlohmann::ordered_json zones_object(const core::ZoneMap& map);
+
+/// One polygon a zone.
+std::string zones_geojson(const core::ZoneMap& map);
+
+/// A row a zone: id, assembly mode, signs, area in m^2, largest circle in m, what bounds it. Ends with a newline.
+std::string zones_table(const core::ZoneMap& map);
+
+/// Writes zones.json and what else is asked for of svg, png, pdf, geojson; a picture a mode. Returns the files.
+std::vector<std::filesystem::path> write_zones(const core::ZoneMap& map, const std::filesystem::path& directory,
+                                               const std::set<std::string>& formats);
+
+}  // namespace clearloci::report

@@ -1,0 +1,171 @@
+// Discontinuity-free zones (method.md section 9): the paper's zones, areas known in closed form, and what must hold for
+// every design. CLEARLOCI_DESIGNS=n in the environment tries n random designs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include "cli/zone_search.hpp"
+#include "numeric/reactions.hpp"
+#include "tests/laws/design_texts.hpp"
+
+namespace clearloci {
+namespace {
+
+mechanism::Mechanism example(const std::string& name) {
+  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+}
+
+bool inside(const core::Polyline& ring, const core::Point2& at) {
+  bool result = false;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const core::Point2 &a = ring[i - 1], &b = ring[i];
+    if ((a[1] > at[1]) != (b[1] > at[1]) && at[0] < a[0] + (b[0] - a[0]) * (at[1] - a[1]) / (b[1] - a[1]))
+      result = !result;
+  }
+  return result;
+}
+
+bool inside(const core::Zone& zone, const core::Point2& at) {
+  return inside(zone.outer, at) && std::none_of(zone.holes.begin(), zone.holes.end(),
+                                                [&](const core::Polyline& hole) { return inside(hole, at); });
+}
+
+double distance_to(const core::Polyline& line, const core::Point2& at) {
+  double least = 1e300;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const core::Point2 &a = line[i - 1], &b = line[i];
+    const double dx = b[0] - a[0], dy = b[1] - a[1], l2 = dx * dx + dy * dy;
+    const double t = l2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / l2, 0.0, 1.0) : 0;
+    least = std::min(least, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]));
+  }
+  return least;
+}
+
+double total_area(const core::ZoneMap& map, const core::WorkingMode& mode) {
+  double total = 0;
+  for (const core::Zone& zone : map.zones) total += zone.mode == mode ? zone.area : 0;
+  return total;
+}
+
+bool certified(const core::ZoneMap& map) {
+  return std::all_of(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) { return zone.certified; });
+}
+
+/// At random poses of every zone the independent witness finds the zone's signs, and the inscribed circle is inside.
+void expect_one_sign_a_zone(const mechanism::Mechanism& mechanism, const core::ZoneMap& map, std::mt19937& random) {
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  for (const core::Zone& zone : map.zones) {
+    SCOPED_TRACE(zone.id);
+    EXPECT_NE(zone.assembly_mode, 0);
+    EXPECT_TRUE(inside(zone, zone.sample));
+    EXPECT_GT(zone.inscribed.radius, 0);
+    EXPECT_NEAR(distance_to(zone.outer, zone.inscribed.centre), zone.inscribed.radius,
+                zone.holes.empty() && zone.isolated_points.empty() ? 3 * map.loci.tolerance : 10);
+    const std::vector<int> sides = numeric::dyad_signs(model, map.loci.tower, zone.mode);
+    core::Point2 low = zone.outer.front(), high = low;
+    for (const core::Point2& p : zone.outer)
+      for (std::size_t i = 0; i < 2; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+    int seen = 0;
+    for (int i = 0; i < 400 && seen < 20; ++i) {
+      const auto between = [&](std::size_t c) {
+        return std::uniform_real_distribution<double>(low[c], high[c])(random);
+      };
+      const core::Point2 at = {between(0), between(1)};
+      if (!inside(zone, at) || distance_to(zone.outer, at) < 10 * map.loci.tolerance) continue;
+      if (std::any_of(zone.holes.begin(), zone.holes.end(),
+                      [&](const auto& hole) { return distance_to(hole, at) < 10 * map.loci.tolerance; }))
+        continue;
+      ++seen;
+      const numeric::Posture posture = numeric::posture(model, at, sides);
+      ASSERT_TRUE(posture.reachable()) << at[0] << " " << at[1];
+      const numeric::Reactions reactions = numeric::solve_reactions(model, posture);
+      EXPECT_EQ(reactions.determinant > 0 ? 1 : -1, zone.assembly_mode) << at[0] << " " << at[1];
+      for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+        const mechanism::Unknown& unknown = model.unknowns[k];
+        for (const auto& [reaction, sign] : zone.signs) {
+          if (reaction.joint != mechanism.joints[static_cast<std::size_t>(unknown.joint)].name) continue;
+          if (reaction.quantity != unknown.quantity) continue;
+          EXPECT_EQ(reactions.values[static_cast<Eigen::Index>(k)] > 0 ? 1 : -1, sign)
+              << reaction.joint << " at " << at[0] << " " << at[1];
+        }
+      }
+    }
+  }
+}
+
+TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
+  const core::ZoneMap map = find_zones(example("five_bar"));
+  const auto home = std::find_if(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) {
+    return inside(zone, {0.25, -0.7});
+  });
+  ASSERT_NE(home, map.zones.end());
+  int same = 0, other = 0;
+  for (const core::Zone& zone : map.zones) ++(zone.assembly_mode == home->assembly_mode ? same : other);
+  EXPECT_EQ(same, 4);
+  EXPECT_EQ(other, 6);
+}
+
+TEST(PaperZones, AreasAndCirclesAreThoseOfTheCircles) {
+  const core::ZoneMap map = find_zones(example("five_bar"));
+  // The lens of two unit circles, 1/2 apart.
+  const double lens = 2 * std::acos(0.25) - 0.25 * std::sqrt(4 - 0.25);
+  EXPECT_NEAR(total_area(map, map.zones.front().mode), lens, 1e-6 * lens);
+  // Between the two circles of radius 1/2 about (0, 1/2) and (1/2, 1/2): touched in two points only.
+  const auto upper = std::find_if(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) {
+    return inside(zone, {0.25, 0.5});
+  });
+  ASSERT_NE(upper, map.zones.end());
+  const double overlap = 2 * (0.25 * std::acos(0.5)) - 0.25 * std::sqrt(1 - 0.25);
+  EXPECT_NEAR(upper->area, overlap, 1e-6 * overlap);
+  EXPECT_NEAR(upper->inscribed.radius, 0.25, 1e-9);
+  EXPECT_NEAR(upper->inscribed.centre[1], 0.5, 1e-6);
+}
+
+class ZonesOfExamples : public testing::TestWithParam<std::string> {};
+
+TEST_P(ZonesOfExamples, HaveOneSignEachInEveryMode) {
+  const mechanism::Mechanism mechanism = example(GetParam());
+  LociRequest request;
+  request.all_working_modes = true;
+  const core::ZoneMap map = find_zones(mechanism, request);
+  ASSERT_FALSE(map.zones.empty());
+  EXPECT_TRUE(certified(map));
+  std::mt19937 random(20110577);
+  expect_one_sign_a_zone(mechanism, map, random);
+  // However many loci cut it, a workspace has one area.
+  request.selection.joints = {mechanism.joints.front().name};
+  request.selection.quantities = {core::Quantity::M};
+  const core::ZoneMap coarse = find_zones(mechanism, request);
+  for (const core::Zone& zone : map.zones) {
+    const double area = total_area(map, zone.mode);
+    EXPECT_NEAR(total_area(coarse, zone.mode), area, 1e-6 * area);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ZonesOfExamples,
+                         testing::Values("five_bar", "five_bar_generic", "five_bar_horizontal", "five_bar_inclined",
+                                         "five_bar_isolated", "five_bar_weights"),
+                         [](const auto& test) { return test.param; });
+
+TEST(ZonesOfRandomDesigns, HaveOneSignEach) {
+  const char* wanted = std::getenv("CLEARLOCI_DESIGNS");
+  const int designs = wanted != nullptr ? std::atoi(wanted) : 12;
+  std::mt19937 random(20110578);
+  int proven = 0;
+  for (int i = 0; i < designs; ++i) {
+    const test::FiveBarDesign design = test::random_five_bar(random, i % 4 == 3);
+    SCOPED_TRACE(design.text());
+    const mechanism::Mechanism mechanism = mechanism::parse_mechanism(design.text(), "random.yaml");
+    const core::ZoneMap map = find_zones(mechanism);
+    if (certified(map)) ++proven, expect_one_sign_a_zone(mechanism, map, random);
+  }
+  // A weighted design in a hundred or so has curves that run closer together than doubles can tell.
+  EXPECT_GE(proven, designs - designs / 50 - 1);
+}
+
+}  // namespace
+}  // namespace clearloci
