@@ -17,8 +17,8 @@ enum class Engine { automatic, exact, adaptive };
 
 struct TraceOptions {
   Engine engine = Engine::automatic;
-  std::function<void(double fraction, std::string_view stage)> progress;  ///< may be empty
-  std::optional<std::chrono::steady_clock::time_point> deadline;          ///< then: what is known, complete = false
+  std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
 };
 
 /// Every curve, isolated point and workspace region of the problem's modes. Two free coordinates required.
