@@ -65,17 +65,21 @@ Mechanism parse_mechanism(const std::string& text, const std::string& file, cons
   return mechanism;
 }
 
-Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides) {
+std::string read_text(const std::string& path, const std::string& what) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InputError({path, 0, 0}, "there is no such file", "check the path");
   if (std::filesystem::is_directory(status))
-    throw InputError({path, 0, 0}, "this is a folder, not a file", "name the mechanism file in it");
+    throw InputError({path, 0, 0}, "this is a folder, not a file", "name " + what + " in it");
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
   if (!file) throw InputError({path, 0, 0}, "the file cannot be read", "check its permissions");
-  return parse_mechanism(text.str(), path, overrides);
+  return text.str();
+}
+
+Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides) {
+  return parse_mechanism(read_text(path, "the mechanism file"), path, overrides);
 }
 
 }  // namespace clearloci::mechanism

@@ -12,6 +12,9 @@
 
 namespace clearloci::mechanism {
 
+/// A file's bytes. Throws core::InputError where it cannot be read. `what`: "the mechanism file".
+std::string read_text(const std::string& path, const std::string& what);
+
 /// A constant expression and its value.
 struct Number {
   Expression expression;

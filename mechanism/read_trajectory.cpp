@@ -1,0 +1,238 @@
+// Trajectory files.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "mechanism/reader.hpp"
+#include "mechanism/trajectory.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+
+constexpr std::array<std::pair<LawKind, const char*>, 4> laws = {{{LawKind::cycloidal, "cycloidal"},
+                                                                  {LawKind::polynomial_345, "3-4-5"},
+                                                                  {LawKind::trapezoidal, "trapezoidal"},
+                                                                  {LawKind::s_curve, "s-curve"}}};
+
+Rational number(const Mechanism& mechanism, const Value& value, Sign sign) {
+  return read_number(mechanism, value, sign).value;
+}
+
+/// A part of a whole: above 0 and below `below`.
+Rational part(const Mechanism& mechanism, const Value& value, const Rational& most, const std::string& words) {
+  Rational result = number(mechanism, value, Sign::positive);
+  if (result > most)
+    throw InputError(value.where, value.what + " is " + core::to_string(result) + ", more than " + words,
+                     "write at most " + core::to_string(most));
+  return result;
+}
+
+std::vector<Rational> read_place(const Mechanism& mechanism, const Value& value) {
+  if (value.is_sequence() && value.node.size() != mechanism.coordinates.size()) {
+    std::vector<std::string> names;
+    for (const Coordinate& coordinate : mechanism.coordinates) names.push_back(coordinate.name);
+    throw InputError(value.where,
+                     value.what + " has " + std::to_string(value.node.size()) +
+                         " values, but the free coordinates are " + join(names),
+                     "write one value for each");
+  }
+  std::vector<Rational> place;
+  for (const Value& coordinate : elements(value)) place.push_back(number(mechanism, coordinate, Sign::any));
+  return place;
+}
+
+Waypoint read_waypoint(const Mechanism& mechanism, Value value, int index) {
+  value.what = "waypoint " + std::to_string(index + 1);
+  Waypoint waypoint;
+  waypoint.where = value.where;
+  if (!value.is_map()) {
+    waypoint.at = read_place(mechanism, value);
+    return waypoint;
+  }
+  const Mapping mapping(value, {"name", "at", "corner", "stop", "dwell", "duration"});
+  waypoint.at = read_place(mechanism, mapping.at("at"));
+  if (const auto name = mapping.find("name")) {
+    waypoint.name = text_of(*name);
+    check_label(waypoint.name, name->where, "a waypoint");
+  }
+  if (const auto stop = mapping.find("stop")) waypoint.stop = boolean_of(*stop);
+  if (const auto corner = mapping.find("corner")) {
+    waypoint.corner = number(mechanism, *corner, Sign::not_negative);
+    if (waypoint.stop && waypoint.corner > 0)
+      throw InputError(corner->where, value.what + " is a stop with a rounded corner, which would not pass through it",
+                       "remove corner or stop");
+  }
+  if (const auto dwell = mapping.find("dwell")) waypoint.dwell = part(mechanism, *dwell, 1, "the whole period");
+  if (const auto duration = mapping.find("duration"))
+    waypoint.duration = part(mechanism, *duration, 1, "the whole period");
+  return waypoint;
+}
+
+/// What only stops have.
+void check_stop_keys(const Waypoint& waypoint) {
+  if (waypoint.stop || (waypoint.dwell == 0 && waypoint.duration == 0)) return;
+  throw InputError(waypoint.where, "a waypoint that is no stop has neither dwell nor duration",
+                   "add stop: true, or remove them");
+}
+
+void read_path(const Mechanism& mechanism, const Value& value, Trajectory& trajectory) {
+  const Mapping mapping(value, {"waypoints", "points", "closed"});
+  const auto waypoints = mapping.find("waypoints"), points = mapping.find("points");
+  if (waypoints.has_value() == points.has_value())
+    throw InputError(value.where, "the path needs either waypoints (straight lines) or points (a smooth curve)",
+                     waypoints ? "keep one of them" : "write waypoints: [[x, y], ...]");
+  trajectory.smooth = points.has_value();
+  if (const auto closed = mapping.find("closed")) trajectory.closed = boolean_of(*closed);
+  for (const Value& element : elements(waypoints ? *waypoints : *points))
+    trajectory.waypoints.push_back(read_waypoint(mechanism, element, static_cast<int>(trajectory.waypoints.size())));
+  std::vector<Waypoint>& all = trajectory.waypoints;
+  if (all.size() < 2)
+    throw InputError(value.where, "the path has " + std::to_string(all.size()) + " waypoint" + (all.empty() ? "s" : ""),
+                     "write two at least");
+  all.front().stop = true;
+  if (!trajectory.closed) all.back().stop = true;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    check_stop_keys(all[i]);
+    const bool last = i + 1 == all.size();
+    if (last && !trajectory.closed) break;
+    if (all[i].at == all[last ? 0 : i + 1].at)
+      throw InputError(all[last ? i : i + 1].where, "two waypoints in succession are at the same place",
+                       last ? "the path is closed: leave the last one out" : "remove one of them, or write dwell");
+  }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j)
+      if (!all[i].name.empty() && all[i].name == all[j].name)
+        throw InputError(all[j].where, "two waypoints are called '" + all[i].name + "'", "rename one of them");
+  for (const Waypoint& waypoint : {all.front(), all.back()})
+    if (waypoint.stop && waypoint.corner > 0)
+      throw InputError(waypoint.where, "the path stops at this waypoint and cannot round its corner", "remove corner");
+  if (trajectory.smooth)
+    for (const Waypoint& waypoint : all)
+      if (waypoint.corner > 0)
+        throw InputError(waypoint.where, "a smooth curve has no corners to round", "remove corner, or write waypoints");
+}
+
+MotionLaw read_law(const Mechanism& mechanism, const Value& value) {
+  MotionLaw law;
+  std::vector<std::string> known;
+  for (const auto& [kind, name] : laws) known.emplace_back(name);
+  const Value named = value.is_map() ? Mapping(value, {"law", "accelerating", "jerking"}).at("law") : value;
+  const std::string text = text_of(named);
+  const auto* const found = std::find_if(laws.begin(), laws.end(), [&](const auto& one) { return one.second == text; });
+  if (found == laws.end())
+    throw InputError(named.where, "there is no motion law '" + text + "'", suggest(text, known, "laws"));
+  law.kind = found->first;
+  if (!value.is_map()) return law;
+  const Mapping mapping(value, {"law", "accelerating", "jerking"});
+  const bool accelerates = law.kind == LawKind::trapezoidal || law.kind == LawKind::s_curve;
+  if (const auto accelerating = mapping.find("accelerating")) {
+    if (!accelerates)
+      throw InputError(accelerating->where, "the law " + text + " has no accelerating part to choose", "remove it");
+    law.accelerating = part(mechanism, *accelerating, Rational(1, 2), "half of the time");
+  }
+  if (const auto jerking = mapping.find("jerking")) {
+    if (law.kind != LawKind::s_curve)
+      throw InputError(jerking->where, "the law " + text + " has no jerking part to choose", "remove it");
+    law.jerking = part(mechanism, *jerking, Rational(1, 2), "half of the accelerating time");
+  }
+  return law;
+}
+
+int read_stop(const Trajectory& trajectory, const Value& value) {
+  const std::string name = text_of(value);
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < trajectory.waypoints.size(); ++i) {
+    const Waypoint& waypoint = trajectory.waypoints[i];
+    if (waypoint.name.empty()) continue;
+    known.push_back(waypoint.name);
+    if (waypoint.name != name) continue;
+    if (!waypoint.stop)
+      throw InputError(value.where, value.what + ": the path does not stop at " + name,
+                       "add stop: true to that waypoint: a body is taken and left at rest");
+    return static_cast<int>(i);
+  }
+  throw InputError(value.where, value.what + ": there is no waypoint '" + name + "'",
+                   suggest(name, known, "named waypoints"));
+}
+
+Payload read_payload(const Mechanism& mechanism, const Trajectory& trajectory, Value value) {
+  value.what = "a payload";
+  const Mapping mapping(value, {"link", "at", "mass", "inertia", "picked", "placed"});
+  Payload payload;
+  payload.where = value.where;
+  payload.link = read_link_name(mechanism, mapping.at("link"), false);
+  const Value at = mapping.at("at");
+  payload.at = read_point_name(mechanism, at);
+  if (!is_on_link(mechanism, payload.at, payload.link))
+    throw InputError(at.where, "point " + text_of(at) + " is not on link " + text_of(mapping.at("link")),
+                     "name a point of that link");
+  payload.mass = number(mechanism, mapping.at("mass"), Sign::not_negative);
+  if (const auto inertia = mapping.find("inertia")) payload.inertia = number(mechanism, *inertia, Sign::not_negative);
+  payload.picked = read_stop(trajectory, mapping.at("picked"));
+  payload.placed = read_stop(trajectory, mapping.at("placed"));
+  if (payload.picked == payload.placed && !(trajectory.closed && payload.picked == 0))
+    throw InputError(value.where, "a payload is placed where it is picked", "name two stops");
+  if (!trajectory.closed && payload.placed < payload.picked)
+    throw InputError(value.where, "a payload is placed before it is picked", "swap them, or write closed: true");
+  return payload;
+}
+
+void check_parts(const Trajectory& trajectory) {
+  Rational used = 0;
+  bool by_length = false;
+  for (std::size_t i = 0; i < trajectory.waypoints.size(); ++i) {
+    const Waypoint& waypoint = trajectory.waypoints[i];
+    used += waypoint.dwell + waypoint.duration;
+    const bool begins_stage = waypoint.stop && (trajectory.closed || i + 1 < trajectory.waypoints.size());
+    if (!begins_stage && waypoint.duration > 0)
+      throw InputError(waypoint.where, "no stage begins at the last waypoint of an open path", "remove duration");
+    if (begins_stage && waypoint.duration == 0) by_length = true;
+  }
+  if (used > 1 || (used == 1 && by_length))
+    throw InputError(trajectory.waypoints.front().where, "dwells and durations take up the whole period",
+                     "let them add up to less than 1");
+  if (used < 1 && !by_length)
+    throw InputError(trajectory.waypoints.front().where,
+                     "dwells and durations add up to " + core::to_string(used) + " of the period",
+                     "let them add up to 1, or leave a duration out");
+}
+
+}  // namespace
+
+std::string to_string(LawKind kind) {
+  for (const auto& [one, name] : laws)
+    if (one == kind) return name;
+  return {};
+}
+
+Trajectory parse_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism) {
+  const Value document = parse_document(text, file);
+  if (!document.is_map())
+    throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
+  const Mapping root(document, {"format", "name", "path", "motion", "period", "payload"});
+  const Value format = root.at("format");
+  if (text_of(format) != "1")
+    throw InputError(format.where, "the format is '" + text_of(format) + "', but this version reads format 1",
+                     "write format: 1");
+  Trajectory trajectory;
+  trajectory.file = file;
+  const auto name = root.find("name");
+  trajectory.name = name ? text_of(*name) : std::filesystem::path(file).stem().string();
+  read_path(mechanism, root.at("path"), trajectory);
+  trajectory.law = read_law(mechanism, root.at("motion"));
+  trajectory.period = number(mechanism, root.at("period"), Sign::positive);
+  if (const auto payload = root.find("payload"))
+    for (const Value& one : elements(*payload)) trajectory.payloads.push_back(read_payload(mechanism, trajectory, one));
+  check_parts(trajectory);
+  return trajectory;
+}
+
+Trajectory read_trajectory(const std::string& path, const Mechanism& mechanism) {
+  return parse_trajectory(read_text(path, "the trajectory file"), path, mechanism);
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,269 @@
+#include "numeric/contact_losses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace clearloci::numeric {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Part of the period to which an instant is located: 1e-12 s for a period of a second, well within the promised 1e-9.
+constexpr double located = 1e-12;
+
+/// A scalar of the cycle with its derivative by τ.
+struct Value {
+  double value = 0, rate = 0;
+};
+
+/// What is followed along an interval: a couple, or the square of a force.
+class Watch {
+ public:
+  Watch(const Motion& motion, double period, mechanism::JointIndex joint, bool couple)
+      : motion_(motion), u_(1 / (period * period)), couple_(couple) {
+    columns_ = motion.columns[static_cast<std::size_t>(joint)];
+  }
+
+  Value at(const Instant& i) const {
+    if (couple_) return component(i, columns_.couple);
+    const Value x = component(i, columns_.fx), y = component(i, columns_.fy);
+    return {x.value * x.value + y.value * y.value, 2 * (x.value * x.rate + y.value * y.rate)};
+  }
+  Value at(std::size_t interval, double tau) const { return at(instant(motion_, interval, tau)); }
+
+  Point2 force(const Instant& i) const { return {component(i, columns_.fx).value, component(i, columns_.fy).value}; }
+
+ private:
+  Value component(const Instant& i, int column) const {
+    return {i.at_rest(column) + u_ * i.inertial(column), i.at_rest_rate(column) + u_ * i.inertial_rate(column)};
+  }
+
+  const Motion& motion_;
+  double u_;
+  bool couple_;
+  JointColumns columns_;
+};
+
+/// A root of g between a and b, where g(a) and g(b) differ in sign: bisection, for g may have a kink of rounding only.
+double root(const std::function<double(double)>& g, double a, double b, double at_a) {
+  while (b - a > located) {
+    const double middle = (a + b) / 2;
+    if (middle == a || middle == b) break;
+    const double there = g(middle);
+    if (there == 0) return middle;
+    ((there < 0) == (at_a < 0) ? a : b) = middle;
+  }
+  return (a + b) / 2;
+}
+
+class LossSearch {
+ public:
+  LossSearch(const Motion& motion, const std::vector<std::vector<Instant>>& samples, double period,
+             const LossThresholds& thresholds)
+      : motion_(motion), samples_(samples), period_(period), threshold_(thresholds.force) {}
+
+  std::vector<ContactLoss> run() {
+    for (std::size_t j = 0; j < motion_.columns.size(); ++j) {
+      joint_ = static_cast<int>(j);
+      if (motion_.clearances[j].angular > 0 && motion_.columns[j].couple >= 0) follow(true);
+      if (motion_.clearances[j].radial > 0) follow(false);
+    }
+    std::stable_sort(losses_.begin(), losses_.end(),
+                     [](const ContactLoss& a, const ContactLoss& b) { return a.tau < b.tau; });
+    return std::move(losses_);
+  }
+
+ private:
+  void follow(bool couple) {
+    const Watch watch(motion_, period_, joint_, couple);
+    couple_ = couple;
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      if (motion_.timeline.intervals[k].stage >= 0) {
+        for (std::size_t i = 0; i + 1 < samples_[k].size(); ++i) {
+          if (couple)
+            between(watch, k, samples_[k][i], samples_[k][i + 1]);
+          else
+            dip(watch, k, samples_[k][i], samples_[k][i + 1]);
+        }
+      }
+      if (k + 1 < samples_.size()) across(watch, samples_[k].back(), samples_[k + 1].front());
+    }
+    if (motion_.timeline.trajectory.closed) across(watch, samples_.back().back(), samples_.front().front());
+    if (!couple) join_ends(watch);
+  }
+
+  /// Zeros of a couple between two samples, also two of them around an extremum.
+  void between(const Watch& watch, std::size_t interval, const Instant& a, const Instant& b) {
+    const Value p = watch.at(a), q = watch.at(b);
+    const auto value = [&](double tau) { return watch.at(interval, tau).value; };
+    const auto rate = [&](double tau) { return watch.at(interval, tau).rate; };
+    if ((p.value < 0) != (q.value < 0)) {
+      add(LossKind::zero, interval, root(value, a.tau, b.tau, p.value));
+    } else if (p.value * p.rate < 0 && q.value * q.rate > 0) {
+      const double extremum = root(rate, a.tau, b.tau, p.rate);
+      const double there = value(extremum);
+      if ((there < 0) == (p.value < 0) && there != 0) return;
+      add(LossKind::zero, interval, root(value, a.tau, extremum, p.value));
+      add(LossKind::zero, interval, root(value, extremum, b.tau, there));
+    }
+  }
+
+  /// A minimum of |f|² between two samples.
+  void dip(const Watch& watch, std::size_t interval, const Instant& a, const Instant& b) {
+    const Value p = watch.at(a), q = watch.at(b);
+    if (!(p.rate < 0 && q.rate >= 0)) return;
+    const double lowest = root([&](double tau) { return watch.at(interval, tau).rate; }, a.tau, b.tau, p.rate);
+    add_minimum(watch, interval, lowest, watch.at(interval, lowest).value);
+  }
+
+  /// Minima at the seams of intervals: falling before, rising (or lower) after.
+  void join_ends(const Watch& watch) {
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      if (motion_.timeline.intervals[k].stage < 0) continue;
+      const Instant &begin = samples_[k].front(), &end = samples_[k].back();
+      const Value b = watch.at(begin), e = watch.at(end);
+      const bool falls_into = k > 0 && watch.at(samples_[k - 1].back()).value > b.value;
+      if (b.rate > 0 && (k == 0 || falls_into || watch.at(samples_[k - 1].back()).rate < 0))
+        add_minimum(watch, k, begin.tau, b.value);
+      const bool rises_after = k + 1 < samples_.size() && watch.at(samples_[k + 1].front()).value > e.value;
+      if (e.rate < 0 && (k + 1 == samples_.size() || rises_after)) add_minimum(watch, k, end.tau, e.value);
+    }
+  }
+
+  /// From one interval to the next everything may jump.
+  void across(const Watch& watch, const Instant& before, const Instant& after) {
+    bool flipped = false;
+    if (couple_) {
+      flipped = watch.at(before).value * watch.at(after).value < 0;
+    } else {
+      const Point2 p = watch.force(before), q = watch.force(after);
+      flipped = p[0] * q[0] + p[1] * q[1] < 0;
+    }
+    if (!flipped) return;
+    ContactLoss& loss = add(LossKind::jump, after.interval, after.tau);
+    loss.payload =
+        motion_.timeline.intervals[before.interval].carried != motion_.timeline.intervals[after.interval].carried;
+  }
+
+  void add_minimum(const Watch& watch, std::size_t interval, double tau, double squared) {
+    const double force = std::sqrt(std::max(0.0, squared));
+    if (force > threshold_) return;
+    ContactLoss& loss = add(LossKind::minimum, interval, tau);
+    loss.force = force;
+    const auto excess = [&](double t) { return watch.at(interval, t).value - threshold_ * threshold_; };
+    // Outwards over the interval's own samples until the force is above the threshold again.
+    const auto& own = samples_[interval];
+    double left = own.front().tau, right = own.back().tau;
+    for (auto i = own.rbegin(); i != own.rend(); ++i) {
+      if (i->tau >= tau || watch.at(*i).value <= threshold_ * threshold_) continue;
+      left = root(excess, i->tau, tau, 1);
+      break;
+    }
+    for (const Instant& i : own) {
+      if (i.tau <= tau || watch.at(i).value <= threshold_ * threshold_) continue;
+      right = root(excess, tau, i.tau, -1);
+      break;
+    }
+    loss.from = left * period_;
+    loss.to = right * period_;
+  }
+
+  ContactLoss& add(LossKind kind, std::size_t interval, double tau) {
+    const Interval& stretch = motion_.timeline.intervals[interval];
+    ContactLoss loss;
+    loss.kind = kind;
+    loss.joint = joint_;
+    loss.couple = couple_;
+    loss.tau = tau;
+    loss.time = tau * period_;
+    loss.distance = distance_at(motion_.timeline, stretch, tau).value();
+    loss.stage = stretch.stage;
+    return losses_.emplace_back(loss);
+  }
+
+  const Motion& motion_;
+  const std::vector<std::vector<Instant>>& samples_;
+  double period_, threshold_;
+  mechanism::JointIndex joint_ = 0;
+  bool couple_ = false;
+  std::vector<ContactLoss> losses_;
+};
+
+}  // namespace
+
+LossThresholds default_thresholds(const Motion& motion, const std::vector<std::vector<Instant>>& samples) {
+  constexpr double part = 0.01;
+  double most = 0;
+  for (const auto& instants : samples)
+    for (const Instant& i : instants)
+      for (const JointColumns& c : motion.columns)
+        if (c.fx >= 0 && c.fy >= 0) most = std::max(most, std::hypot(i.at_rest(c.fx), i.at_rest(c.fy)));
+  return {part * most};
+}
+
+std::vector<ContactLoss> contact_losses(const Motion& motion, const std::vector<std::vector<Instant>>& samples,
+                                        double period, const LossThresholds& thresholds) {
+  return LossSearch(motion, samples, period, thresholds).run();
+}
+
+double loss_period(const Motion& motion, const Instant& at, mechanism::JointIndex joint, bool couple,
+                   const LossThresholds& thresholds) {
+  const JointColumns& c = motion.columns[static_cast<std::size_t>(joint)];
+  if (couple) {
+    const double rest = at.at_rest(c.couple), inertial = at.inertial(c.couple);
+    if (rest == 0) return infinity;
+    return rest * inertial < 0 ? std::sqrt(-inertial / rest) : 0;
+  }
+  const Point2 rest = {at.at_rest(c.fx), at.at_rest(c.fy)}, inertial = {at.inertial(c.fx), at.inertial(c.fy)};
+  const double excess = rest[0] * rest[0] + rest[1] * rest[1] - thresholds.force * thresholds.force;
+  if (excess <= 0) return infinity;
+  const double half = rest[0] * inertial[0] + rest[1] * inertial[1];
+  const double square = inertial[0] * inertial[0] + inertial[1] * inertial[1];
+  const double discriminant = half * half - square * excess;
+  if (half >= 0 || discriminant < 0) return 0;
+  // The smaller root of square u² + 2 half u + excess, without cancellation.
+  return std::sqrt((-half + std::sqrt(discriminant)) / excess);
+}
+
+std::vector<CriticalPeriod> critical_periods(const Motion& motion, const std::vector<std::vector<Instant>>& samples,
+                                             const LossThresholds& thresholds) {
+  std::vector<CriticalPeriod> critical(motion.timeline.stages.size());
+  const auto consider = [&](const Instant& at, double period, mechanism::JointIndex joint, bool couple) {
+    CriticalPeriod& stage = critical[static_cast<std::size_t>(motion.timeline.intervals[at.interval].stage)];
+    if (period > stage.period) stage = {period, joint, couple, at.tau, at.distance.value()};
+  };
+  for (std::size_t j = 0; j < motion.columns.size(); ++j) {
+    const auto joint = static_cast<mechanism::JointIndex>(j);
+    for (const bool couple : {true, false}) {
+      if (couple ? !(motion.clearances[j].angular > 0 && motion.columns[j].couple >= 0)
+                 : !(motion.clearances[j].radial > 0))
+        continue;
+      const auto period_at = [&](const Instant& i) { return loss_period(motion, i, joint, couple, thresholds); };
+      for (const auto& instants : samples) {
+        if (motion.timeline.intervals[instants.front().interval].stage < 0) continue;
+        for (std::size_t i = 0; i < instants.size(); ++i) {
+          const double here = period_at(instants[i]);
+          consider(instants[i], here, joint, couple);
+          const bool peak = here > 0 && std::isfinite(here) && i > 0 && i + 1 < instants.size() &&
+                            here >= period_at(instants[i - 1]) && here >= period_at(instants[i + 1]);
+          if (!peak) continue;
+          // A maximum between the neighbours: thirds, until they are one.
+          double a = instants[i - 1].tau, b = instants[i + 1].tau;
+          const auto at = [&](double tau) { return instant(motion, instants[i].interval, tau); };
+          while (b - a > located) {
+            const double p = a + (b - a) / 3, q = b - (b - a) / 3;
+            (period_at(at(p)) < period_at(at(q)) ? a : b) = period_at(at(p)) < period_at(at(q)) ? p : q;
+          }
+          const Instant top = at((a + b) / 2);
+          consider(top, period_at(top), joint, couple);
+        }
+      }
+    }
+  }
+  return critical;
+}
+
+}  // namespace clearloci::numeric

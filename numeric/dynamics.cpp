@@ -1,0 +1,273 @@
+#include "numeric/dynamics.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/errors.hpp"
+#include "mechanism/evaluate.hpp"
+
+namespace clearloci::numeric {
+
+namespace {
+
+using Rate = Taylor<1>;  ///< a value and its derivative by τ
+using RatePoint = std::array<Rate, 2>;
+
+constexpr double slender_rod = -1;
+
+RatePoint rate_of(const PointSeries& p) { return {p[0].truncated<1>(), p[1].truncated<1>()}; }
+
+RatePoint acceleration_of(const PointSeries& p) {
+  return {p[0].derivative().derivative(), p[1].derivative().derivative()};
+}
+
+Rate cross(const RatePoint& a, const RatePoint& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// ω = r × r' / r² of the link's first two points, differentiated once more.
+Rate angular_acceleration(const PointSeries& p, const PointSeries& q) {
+  const PointSeries r = {q[0] - p[0], q[1] - p[1]};
+  const std::array<Taylor<2>, 2> v = {r[0].derivative(), r[1].derivative()};
+  const std::array<Taylor<2>, 2> arm = {r[0].truncated<2>(), r[1].truncated<2>()};
+  const Taylor<2> turning = (arm[0] * v[1] - arm[1] * v[0]) / (arm[0] * arm[0] + arm[1] * arm[1]);
+  return turning.derivative();
+}
+
+/// A column of right-hand sides with its derivative.
+struct Column {
+  Eigen::VectorXd value, rate;
+
+  explicit Column(Eigen::Index size) : value(Eigen::VectorXd::Zero(size)), rate(Eigen::VectorXd::Zero(size)) {}
+  void add(Eigen::Index row, const Rate& entry, double sign = 1) {
+    value(row) += sign * entry.c[0];
+    rate(row) += sign * entry.c[1];
+  }
+  /// A force at a point and a couple on a link; the moment is about the end-effector point.
+  void add(mechanism::LinkIndex link, const RatePoint& arm, const RatePoint& force, const Rate& couple, double sign) {
+    add(3 * link, force[0], sign);
+    add(3 * link + 1, force[1], sign);
+    add(3 * link + 2, couple + cross(arm, force), sign);
+  }
+};
+
+/// The equations of one instant, put together from series.
+class InstantEquations {
+ public:
+  InstantEquations(const Motion& motion, const Interval& interval, const std::vector<Series>& registers)
+      : motion_(motion),
+        interval_(interval),
+        registers_(registers),
+        size_(static_cast<Eigen::Index>(motion.model.unknowns.size())),
+        A_(Eigen::MatrixXd::Zero(size_, size_)),
+        A_rate_(A_),
+        rest_(size_),
+        inertial_(size_) {}
+
+  void solve(Instant& instant) {
+    assemble_matrix();
+    assemble_loads();
+    assemble_links();
+    assemble_payloads();
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A_);
+    instant.determinant = lu.determinant();
+    instant.at_rest = lu.solve(rest_.value);
+    instant.inertial = lu.solve(inertial_.value);
+    // A w = b  =>  A w' = b' - A' w
+    instant.at_rest_rate = lu.solve(rest_.rate - A_rate_ * instant.at_rest);
+    instant.inertial_rate = lu.solve(inertial_.rate - A_rate_ * instant.inertial);
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, 3);
+    unit.middleRows<3>(3 * motion_.model.mechanism.end_effector_link).setIdentity();
+    instant.influence = lu.solve(unit).transpose();
+  }
+
+ private:
+  Series at(Register r) const { return registers_[static_cast<std::size_t>(r)]; }
+  PointSeries point(mechanism::PointIndex p) const {
+    const auto& [x, y] = motion_.model.points[static_cast<std::size_t>(p)];
+    return {at(x), at(y)};
+  }
+  RatePoint arm(mechanism::PointIndex p) const {
+    const RatePoint a = rate_of(point(p)), e = rate_of(point(motion_.model.mechanism.end_effector_point));
+    return {a[0] - e[0], a[1] - e[1]};
+  }
+
+  void assemble_matrix() {
+    for (Eigen::Index column = 0; column < size_; ++column) {
+      const mechanism::Unknown& unknown = motion_.model.unknowns[static_cast<std::size_t>(column)];
+      const mechanism::Joint& joint = motion_.model.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
+      const RatePoint r = arm(joint.at);
+      for (const int sign : {1, -1}) {
+        const mechanism::LinkIndex link = sign > 0 ? joint.to : joint.from;
+        if (link == mechanism::ground) continue;
+        if (unknown.quantity == core::Quantity::M) {
+          A_(3 * link + 2, column) += sign;
+          continue;
+        }
+        const bool x = unknown.quantity == core::Quantity::fx;
+        A_(3 * link + (x ? 0 : 1), column) += sign;
+        const Rate moment = x ? -r[1] : r[0];
+        A_(3 * link + 2, column) += sign * moment.c[0];
+        A_rate_(3 * link + 2, column) += sign * moment.c[1];
+      }
+    }
+  }
+
+  void assemble_loads() {
+    for (const LoadRegisters& load : motion_.model.loads) {
+      const RatePoint force = {at(load.fx).truncated<1>(), at(load.fy).truncated<1>()};
+      rest_.add(load.link, load.at ? arm(*load.at) : RatePoint{}, force, at(load.couple).truncated<1>(), -1);
+    }
+  }
+
+  void assemble_links() {
+    const auto& links = motion_.model.mechanism.links;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const double m = motion_.mass[i];
+      double inertia = motion_.inertia[i];
+      if (inertia == slender_rod) {
+        const PointSeries p = point(links[i].points[0]), q = point(links[i].points[1]);
+        const double x = q[0].value() - p[0].value(), y = q[1].value() - p[1].value();
+        inertia = m * (x * x + y * y) / 12;
+      }
+      add_inertia(static_cast<int>(i), links[i].centre_of_mass, m, inertia);
+    }
+  }
+
+  void assemble_payloads() {
+    for (const int number : interval_.carried) {
+      const mechanism::Payload& payload = motion_.timeline.trajectory.payloads[static_cast<std::size_t>(number)];
+      const double m = core::to_double(payload.mass);
+      add_inertia(payload.link, payload.at, m, core::to_double(payload.inertia));
+      if (!motion_.model.gravity) continue;
+      const auto& [gx, gy] = *motion_.model.gravity;
+      const RatePoint weight = {m * at(gx).truncated<1>(), m * at(gy).truncated<1>()};
+      rest_.add(payload.link, arm(payload.at), weight, Rate(), -1);
+    }
+  }
+
+  void add_inertia(mechanism::LinkIndex link, mechanism::PointIndex centre, double m, double inertia) {
+    if (m == 0 && inertia == 0) return;
+    const RatePoint a = acceleration_of(point(centre));
+    const auto& points = motion_.model.mechanism.links[static_cast<std::size_t>(link)].points;
+    const Rate turning = inertia == 0 ? Rate() : inertia * angular_acceleration(point(points[0]), point(points[1]));
+    inertial_.add(link, arm(centre), {m * a[0], m * a[1]}, turning, 1);
+  }
+
+  const Motion& motion_;
+  const Interval& interval_;
+  const std::vector<Series>& registers_;
+  Eigen::Index size_;
+  Eigen::MatrixXd A_, A_rate_;
+  Column rest_, inertial_;
+};
+
+std::string place_words(const Motion& motion, const Instant& at) {
+  std::string text;
+  for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
+    char value[40];
+    std::snprintf(value, sizeof value, "%.6g", at.coordinates[c].value());
+    text += (c == 0 ? "" : ", ") + motion.model.mechanism.coordinates[c].name + " = " + value;
+  }
+  return text;
+}
+
+void check_instants(const Motion& motion, const std::vector<std::vector<Instant>>& all) {
+  const std::string& file = motion.timeline.trajectory.file;
+  const Instant* before = nullptr;
+  for (const auto& instants : all) {
+    for (const Instant& at : instants) {
+      if (!at.reachable)
+        throw core::InputError({file, 0, 0},
+                               "the path leaves the workspace, or touches its boundary, at " + place_words(motion, at),
+                               "move the waypoints, or choose another working mode");
+      const bool crossed = before != nullptr && (before->determinant < 0) != (at.determinant < 0);
+      if (crossed || at.determinant == 0 || !at.at_rest.allFinite() || !at.inertial.allFinite())
+        throw core::InputError({file, 0, 0}, "the path meets a direct singularity near " + place_words(motion, at),
+                               "move the waypoints, or choose another working mode");
+      before = &at;
+    }
+  }
+}
+
+}  // namespace
+
+Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
+                      std::vector<int> mode) {
+  Motion motion{compile(mechanism), std::move(mode), compile_timeline(trajectory), {}, {}, {}, {}};
+  core::ensure(motion.mode.size() == motion.model.dyads.size(), "a working mode has one sign for each dyad");
+  std::vector<bool> turns(mechanism.links.size(), false);
+  for (const mechanism::Link& link : mechanism.links) {
+    motion.mass.push_back(core::to_double(mechanism::value_of(link.mass, mechanism)));
+    motion.inertia.push_back(link.inertia ? core::to_double(mechanism::value_of(*link.inertia, mechanism))
+                                          : slender_rod);
+    turns[motion.mass.size() - 1] = link.inertia ? motion.inertia.back() > 0 : false;
+  }
+  for (const mechanism::Payload& payload : trajectory.payloads)
+    if (payload.inertia > 0) turns[static_cast<std::size_t>(payload.link)] = true;
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    if (turns[i] && mechanism.links[i].points.size() < 2)
+      throw core::InputError(
+          mechanism.links[i].where,
+          "link " + mechanism.links[i].name + " has inertia but a single point, so its rotation is unknown",
+          "name a second point of it");
+  motion.columns = joint_columns(motion.model);
+  motion.clearances = joint_clearances(mechanism);
+  return motion;
+}
+
+Instant instant(const Motion& motion, std::size_t interval, double tau) {
+  const NumericModel& model = motion.model;
+  const Interval& stretch = motion.timeline.intervals[interval];
+  Instant result;
+  result.tau = tau;
+  result.interval = interval;
+  result.distance = distance_at(motion.timeline, stretch, tau);
+  result.coordinates = place_at(motion.timeline.path, stretch.path_piece, result.distance);
+  std::vector<Series> inputs = result.coordinates;
+  for (const int sign : motion.mode) inputs.emplace_back(sign);
+  std::vector<Series> registers(static_cast<std::size_t>(model.posture_size));
+  run<Series, 1>(model.tape, 0, model.posture_size, inputs.data(), registers.data());
+  result.reachable = true;
+  for (const auto& [x, y] : model.points) {
+    result.points.push_back({registers[static_cast<std::size_t>(x)], registers[static_cast<std::size_t>(y)]});
+    for (const Series& s : result.points.back())
+      for (const double c : s.c) result.reachable = result.reachable && std::isfinite(c);
+  }
+  if (result.reachable) InstantEquations(motion, stretch, registers).solve(result);
+  return result;
+}
+
+InstantError instant_error(const Motion& motion, const Instant& at, double period) {
+  InstantError result;
+  result.take_up = take_up(motion.model, motion.clearances, at.reactions(period));
+  if (undefined_take_up(motion.model, motion.clearances, result.take_up).empty()) {
+    result.error = pose_error(at.influence, clearance_displacements(motion.model, result.take_up));
+  } else {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    result.error = {nan, nan, nan};
+  }
+  return result;
+}
+
+std::vector<std::vector<Instant>> sample(const Motion& motion, int count) {
+  const auto& intervals = motion.timeline.intervals;
+  std::vector<std::vector<Instant>> all(intervals.size());
+  std::vector<std::array<std::size_t, 2>> jobs;
+  for (std::size_t k = 0; k < intervals.size(); ++k) {
+    const double share = (intervals[k].end - intervals[k].begin) * count;
+    all[k].resize(std::max<std::size_t>(3, static_cast<std::size_t>(std::lround(share)) + 1));
+    for (std::size_t i = 0; i < all[k].size(); ++i) jobs.push_back({k, i});
+  }
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t job) {
+    const auto [k, i] = jobs[job];
+    const double part = static_cast<double>(i) / static_cast<double>(all[k].size() - 1);
+    all[k][i] = instant(motion, k, intervals[k].begin + part * (intervals[k].end - intervals[k].begin));
+  });
+  check_instants(motion, all);
+  return all;
+}
+
+}  // namespace clearloci::numeric

@@ -1,0 +1,68 @@
+// Reactions along a trajectory (paper (9), (10); method.md section 7):
+//     A w_J = w_i - w_e,   w_i of a link: (m a_G, I α + p_EG × m a_G)
+// Every derivative is exact: the closure's tape runs over Taylor series in time. With time in parts τ of the period T,
+// accelerations are those by τ divided by T², so that
+//     w_J = w_s + w_i / T²
+// with a static and an inertial part that do not depend on T: one pass over the path serves every period.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "numeric/pose_error.hpp"
+#include "numeric/timeline.hpp"
+
+namespace clearloci::numeric {
+
+/// A mechanism on its way along a path.
+struct Motion {
+  NumericModel model;
+  std::vector<int> mode;
+  Timeline timeline;
+  std::vector<double> mass, inertia;  ///< of the links; inertia < 0: that of a slender rod between its first two points
+  std::vector<JointColumns> columns;
+  std::vector<JointClearance> clearances;
+};
+
+/// Throws core::InputError where a link with inertia has no second point whose motion would show its rotation.
+Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
+                      std::vector<int> mode);
+
+using PointSeries = std::array<Series, 2>;
+
+/// The mechanism at one instant. Rates are by τ.
+struct Instant {
+  double tau = 0;
+  std::size_t interval = 0;
+  Series distance;                              ///< along the path
+  std::vector<Series> coordinates;              ///< free coordinates
+  std::vector<PointSeries> points;              ///< of the mechanism
+  bool reachable = false;                       ///< everything below only then
+  double determinant = 0;                       ///< |A|
+  Eigen::VectorXd at_rest, inertial;            ///< w_s, w_i in the order of the unknowns
+  Eigen::VectorXd at_rest_rate, inertial_rate;  ///< their derivatives
+  Influence influence;                          ///< H
+
+  Eigen::VectorXd reactions(double period) const { return at_rest + inertial / (period * period); }
+  /// By time, per second.
+  Eigen::VectorXd reaction_rates(double period) const {
+    return (at_rest_rate + inertial_rate / (period * period)) / period;
+  }
+};
+
+/// By the pieces of the given interval; at its ends the one-sided limit.
+Instant instant(const Motion& motion, std::size_t interval, double tau);
+
+/// Take-up and pose error at an instant of a cycle of the given period; NaN where a take-up is undefined.
+struct InstantError {
+  std::vector<TakeUp> take_up;
+  PoseError error;
+};
+InstantError instant_error(const Motion& motion, const Instant& at, double period);
+
+/// Instants of every interval, both of its ends among them, about `count` in all and spread evenly over the cycle. In
+/// parallel. Throws core::InputError where the path leaves the workspace or meets a direct singularity.
+std::vector<std::vector<Instant>> sample(const Motion& motion, int count);
+
+}  // namespace clearloci::numeric
