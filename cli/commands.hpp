@@ -18,5 +18,6 @@ Command add_validate_command(CLI::App& program);
 Command add_pose_command(CLI::App& program);
 Command add_zones_command(CLI::App& program);
 Command add_error_command(CLI::App& program);
+Command add_trajectory_command(CLI::App& program);
 
 }  // namespace clearloci::cli

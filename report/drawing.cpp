@@ -24,12 +24,6 @@ constexpr Colour frame{0.45, 0.45, 0.45};
 constexpr Colour workspace_fill{0.925, 0.941, 0.957};
 constexpr Colour grid{0.86, 0.86, 0.86};
 
-/// Opaque, as ARGB32 wants it.
-std::uint32_t pixel_of(const Colour& colour) {
-  const auto channel = [](double value) { return static_cast<std::uint32_t>(std::lround(255 * value)); };
-  return 0xFF000000U | channel(colour.red) << 16 | channel(colour.green) << 8 | channel(colour.blue);
-}
-
 void trace_path(const Context& context, const Layout& layout, const core::Polyline& points) {
   for (const auto& point : points) {
     const Point2 at = layout.page(point);
@@ -235,35 +229,6 @@ void draw_axes(const Context& context, const Layout& layout) {
   context->rotate(-std::numbers::pi / 2);
   write_text(context, layout.y_label, 0, 0, label_font, Align::centre);
   context->restore();
-}
-
-void draw_colour_bar(const Context& context, const FieldScale& scale, const Box& box) {
-  const double top = box.bottom() - colour_bar_room + 4;
-  const auto at = [&](double value) { return box.x + (value - scale.low) / (scale.high - scale.low) * box.width; };
-  constexpr int steps = 256;
-  for (int i = 0; i < steps; ++i) {
-    set_colour(context, scale.colour(scale.low + (i + 0.5) / steps * (scale.high - scale.low)));
-    // Each step reaches under the next one: no seams between them.
-    context->rectangle(box.x + i * box.width / steps, top, std::min(2, steps - i) * box.width / steps,
-                       colour_bar_height);
-    context->fill();
-  }
-  context->unset_dash();
-  context->set_line_width(0.6);
-  set_colour(context, frame);
-  context->rectangle(box.x, top, box.width, colour_bar_height);
-  context->stroke();
-  for (const double value : scale_ticks(scale)) {
-    set_colour(context, frame);
-    context->move_to(at(value), top + colour_bar_height);
-    context->line_to(at(value), top + colour_bar_height + 3);
-    context->stroke();
-    set_colour(context, ink);
-    const Align align = at(value) > box.right() - 8 ? Align::right
-                        : at(value) < box.x + 8     ? Align::left
-                                                    : Align::centre;
-    write_text(context, scale.shown(value), at(value), top + colour_bar_height + 12, tick_font, align);
-  }
 }
 
 void draw_sample(const Context& context, const LegendEntry& entry, const FieldLayer* layer) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/axis.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -54,28 +55,6 @@ void choose_view(const Subject& subject, Layout& layout) {
   layout.scale = longest_side / side;
   layout.plot.width = (layout.high[0] - layout.low[0]) * layout.scale;
   layout.plot.height = (layout.high[1] - layout.low[1]) * layout.scale;
-}
-
-/// The smallest of 1, 2, 5 times a power of ten that is no less than `least`.
-double nice_step(double least) {
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= least * (1 - 1e-9)) return factor * power;
-  }
-  return 10 * power;
-}
-
-/// Tick values as texts of equal precision, `at` still in metres. The minus sign is the typographic one.
-std::vector<Tick> ticks(double low, double high, double least_step) {
-  const double step = nice_step(least_step);
-  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
-  std::vector<Tick> result;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) {
-    std::string label = fmt::format("{:.{}f}", std::abs(k * step), decimals);
-    if (k < 0) label = "\u2212" + label;
-    result.push_back({k * step, std::move(label)});
-  }
-  return result;
 }
 
 void choose_axes(const Subject& subject, Layout& layout) {

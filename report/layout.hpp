@@ -8,18 +8,12 @@
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
 #include "core/zone_map.hpp"
+#include "report/axis.hpp"
 #include "report/field_scale.hpp"
 #include "report/groups.hpp"
 #include "report/typesetting.hpp"
 
 namespace clearloci::report {
-
-struct Box {
-  double x = 0, y = 0, width = 0, height = 0;
-
-  double right() const { return x + width; }
-  double bottom() const { return y + height; }
-};
 
 /// What a legend entry shows a sample of.
 enum class SampleKind { curve, point, workspace, searched_box, mechanism, load, remark, colour_bar, zones };
@@ -35,11 +29,6 @@ struct LegendEntry {
   Marker marker;                  ///< of a point
   std::vector<LegendLine> lines;  ///< the label, wrapped
   Box box;                        ///< sample and label
-};
-
-struct Tick {
-  double at = 0;  ///< page coordinate along the axis
-  std::string label;
 };
 
 struct TitleLine {
@@ -81,10 +70,6 @@ Layout lay_out(const Subject& subject);
 inline constexpr double legend_sample_width = 32;   ///< pt
 inline constexpr double legend_sample_gap = 8;      ///< pt, between a sample and its label
 inline constexpr double legend_line_height = 11.5;  ///< pt
-inline constexpr double colour_bar_height = 10;     ///< pt
-inline constexpr double colour_bar_room = 32;       ///< pt, below the label: bar, ticks and their labels
 inline constexpr Font legend_font{8.5, false, false};
-inline constexpr Font tick_font{8.5, false, false};
-inline constexpr Font label_font{9.5, false, true};
 
 }  // namespace clearloci::report

@@ -1,27 +1,11 @@
 #include "report/picture.hpp"
 
-#include <cairo-pdf.h>
-#include <cairomm/context.h>
-#include <cairomm/surface.h>
-
-#include <cmath>
-
 #include "report/drawing.hpp"
-#include "report/png.hpp"
-#include "report/svg_text.hpp"
+#include "report/surface.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
 namespace {
-
-constexpr int pixels_per_point = 2;
-
-Cairo::Surface::SlotWriteFunc append_to(std::string& bytes) {
-  return [&bytes](const unsigned char* data, unsigned int length) {
-    bytes.append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-  };
-}
 
 std::string title_of(const Subject& subject) {
   const std::string mode = mode_words(subject.map->tower, subject.mode);
@@ -37,51 +21,10 @@ std::string legend_of(const Groups& groups) {
   return text;
 }
 
-std::string svg(const Subject& subject, const Layout& layout) {
-  std::string bytes;
-  const auto surface = Cairo::SvgSurface::create_for_stream(append_to(bytes), layout.width, layout.height);
-  draw(Cairo::Context::create(surface), subject, layout);
-  surface->finish();
-  return finish_svg(bytes, title_of(subject), legend_of(subject.groups));
-}
-
-/// The date of creation is a constant: the same map gives the same bytes.
-std::string pdf(const Subject& subject, const Layout& layout) {
-  std::string bytes;
-  const auto surface = Cairo::PdfSurface::create_for_stream(append_to(bytes), layout.width, layout.height);
-  const auto set = [&](cairo_pdf_metadata_t what, const std::string& value) {
-    cairo_pdf_surface_set_metadata(surface->cobj(), what, value.c_str());
-  };
-  set(CAIRO_PDF_METADATA_TITLE, title_of(subject));
-  set(CAIRO_PDF_METADATA_CREATOR, "clearloci");
-  set(CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
-  draw(Cairo::Context::create(surface), subject, layout);
-  surface->show_page();
-  surface->finish();
-  return bytes;
-}
-
-std::string png(const Subject& subject, const Layout& layout) {
-  const int width = static_cast<int>(layout.width) * pixels_per_point;
-  const int height = static_cast<int>(layout.height) * pixels_per_point;
-  const auto surface = Cairo::ImageSurface::create(Cairo::ImageSurface::Format::RGB24, width, height);
-  const auto context = Cairo::Context::create(surface);
-  context->scale(pixels_per_point, pixels_per_point);
-  draw(context, subject, layout);
-  surface->flush();
-  return encode_png(surface->get_data(), width, height, surface->get_stride(), 72.0 * pixels_per_point);
-}
-
 std::string drawn(const Subject& subject, PictureFormat format) {
   const Layout layout = lay_out(subject);
-  switch (format) {
-    case PictureFormat::svg:
-      return svg(subject, layout);
-    case PictureFormat::pdf:
-      return pdf(subject, layout);
-    default:
-      return png(subject, layout);
-  }
+  return render({layout.width, layout.height, title_of(subject), legend_of(subject.groups)}, format,
+                [&](const auto& context) { draw(context, subject, layout); });
 }
 
 }  // namespace

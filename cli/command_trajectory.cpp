@@ -1,0 +1,160 @@
+// clearloci trajectory: reactions, take-up, pose error and contact losses along a path, and over cycle times.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/arguments.hpp"
+#include "cli/commands.hpp"
+#include "cli/program.hpp"
+#include "cli/progress.hpp"
+#include "cli/trajectory_pictures.hpp"
+#include "core/errors.hpp"
+#include "mechanism/trajectory.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+struct Arguments {
+  CommonArguments common;
+  std::string path;
+  std::string period, periods, min_force, working_mode;
+  int samples = 2000;
+  std::string formats = "png,csv";
+};
+
+const std::vector<std::string> format_names = {"png", "svg", "pdf", "csv"};
+
+std::set<std::string> parse_formats(const std::string& text) {
+  std::set<std::string> formats;
+  for (const std::string& word : split(text)) {
+    if (std::find(format_names.begin(), format_names.end(), word) == format_names.end())
+      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
+                             fmt::format("choose from {}", fmt::join(format_names, ", ")));
+    formats.insert(word);
+  }
+  return formats;
+}
+
+/// "0.5:3:0.02": first, last, step.
+std::vector<double> parse_periods(const std::string& text, const mechanism::Mechanism& mechanism) {
+  if (text.empty()) return {};
+  const std::vector<std::string> words = split(text, ':');
+  const auto refuse = [&](const std::string& problem) {
+    throw core::InputError({.file = "--periods"}, problem, "give first:last:step in seconds, e.g. 0.5:3:0.02");
+  };
+  if (words.size() != 3) refuse(fmt::format("'{}' is no range of periods", text));
+  std::vector<core::Rational> range;
+  for (const std::string& word : words) range.push_back(parse_positive(word, "--periods", mechanism));
+  if (range[1] < range[0]) refuse(fmt::format("'{}' ends before it begins", text));
+  constexpr double most = 100000;
+  if (core::to_double((range[1] - range[0]) / range[2]) > most) refuse(fmt::format("'{}' is too fine", text));
+  std::vector<double> periods;
+  for (core::Rational period = range[0]; period <= range[1]; period += range[2])
+    periods.push_back(core::to_double(period));
+  return periods;
+}
+
+TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechanism& mechanism,
+                             const mechanism::Trajectory& trajectory) {
+  TrajectoryRequest request;
+  request.mode = arguments.working_mode.empty() ? mechanism::working_mode(mechanism)
+                                                : parse_working_mode(arguments.working_mode, mechanism);
+  request.period = core::to_double(arguments.period.empty() ? trajectory.period
+                                                            : parse_positive(arguments.period, "--period", mechanism));
+  if (arguments.samples < 10 || arguments.samples > 10000000)
+    throw core::InputError({.file = "--samples"}, fmt::format("{} instants a cycle", arguments.samples),
+                           "give a number from 10 to 10000000");
+  request.samples = arguments.samples;
+  if (!arguments.min_force.empty())
+    request.min_force = core::to_double(parse_positive(arguments.min_force, "--min-force", mechanism));
+  request.periods = parse_periods(arguments.periods, mechanism);
+  return request;
+}
+
+std::vector<std::string> write_files(const std::set<std::string>& formats, const std::filesystem::path& folder,
+                                     const TrajectoryResult& result, const std::string& json, Progress& progress) {
+  std::vector<std::string> names;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    report::write_atomically(folder / name, bytes);
+    names.push_back(name);
+  };
+  write("trajectory.json", json);
+  if (formats.contains("csv")) {
+    write("trajectory.csv", report::table_csv(result.columns.names, result.columns.columns));
+    if (result.sweep) {
+      const TrajectoryColumns table = sweep_columns(*result.sweep);
+      write("periods.csv", report::table_csv(table.names, table.columns));
+    }
+  }
+  const std::vector<NamedChart> charts = trajectory_charts(result);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    progress.show(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(charts.size()), "pictures");
+    const auto draw = [&](const char* format, report::PictureFormat as) {
+      if (formats.contains(format)) write(charts[i].name + "." + format, report::chart(charts[i].chart, as));
+    };
+    draw("png", report::PictureFormat::png);
+    draw("svg", report::PictureFormat::svg);
+    draw("pdf", report::PictureFormat::pdf);
+  }
+  return names;
+}
+
+int run(const Arguments& arguments) {
+  const std::set<std::string> formats = parse_formats(arguments.formats);
+  const mechanism::Mechanism mechanism = read_model(arguments.common);
+  const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);
+  Progress progress(arguments.common.quiet);
+  progress.show(0, "dynamics");
+  const TrajectoryResult result =
+      follow_trajectory(mechanism, trajectory, request_of(arguments, mechanism, trajectory));
+  const std::string json = report::json_text(trajectory_json(result));
+  const std::filesystem::path folder = output_folder(arguments.common);
+  const std::vector<std::string> names = write_files(formats, folder, result, json, progress);
+  progress.clear();
+  if (arguments.common.json) {
+    fmt::print("{}", json);
+  } else if (!arguments.common.quiet) {
+    print_trajectory(result);
+    fmt::print("\nWritten to {}: {}\n", folder.string(), fmt::join(names, ", "));
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+Command add_trajectory_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("trajectory", "Reactions, pose error and contact losses along a path");
+  const auto arguments = std::make_shared<Arguments>();
+  add_common_arguments(*app, arguments->common);
+  app->add_option("PATH", arguments->path, "The trajectory file (YAML)")->required()->type_name("FILE");
+  app->add_option("--period", arguments->period, "The cycle's period (default: the file's)")->type_name("S");
+  app->add_option("--periods", arguments->periods,
+                  "Also the error over a range of periods: first:last:step, e.g. 0.5:3:0.02")
+      ->type_name("RANGE");
+  app->add_option("--min-force", arguments->min_force,
+                  "Contact counts as lost at this force (default: 1 % of the largest at rest)")
+      ->type_name("N");
+  app->add_option("--samples", arguments->samples, "Instants a cycle")->type_name("COUNT")->capture_default_str();
+  app->add_option("--working-mode", arguments->working_mode,
+                  "left or right for every dyad, e.g. right,left (default: the file's)")
+      ->type_name("SIDES");
+  app->add_option("--export", arguments->formats,
+                  fmt::format("Files besides trajectory.json, several after commas: {}", fmt::join(format_names, ", ")))
+      ->type_name("LIST")
+      ->capture_default_str();
+  app->footer(
+      "Example: clearloci trajectory examples/pick_and_place/manipulator.yaml examples/pick_and_place/path.yaml "
+      "--periods 0.5:3:0.02\n"
+      "Writes trajectory.json, trajectory.csv and pictures to ./out/<name of MODEL>, or to the folder of -o.");
+  return {app, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace clearloci::cli

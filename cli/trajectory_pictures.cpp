@@ -1,0 +1,226 @@
+#include "cli/trajectory_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace clearloci::cli {
+namespace {
+
+using core::Point2;
+using report::Chart;
+using report::ChartPanel;
+using report::ChartSeries;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+enum MarkStyle { stop_mark, couple_mark, force_mark, jump_mark };
+
+std::string subtitle(const TrajectoryResult& result) {
+  const mechanism::Trajectory& trajectory = result.motion.timeline.trajectory;
+  return fmt::format("{}, {} law, period {:.4g} s", trajectory.name, to_string(trajectory.law.kind), result.period);
+}
+
+Chart frame(const TrajectoryResult& result, const std::string& what) {
+  Chart chart;
+  chart.title = result.motion.model.mechanism.name + ": " + what;
+  chart.subtitle = subtitle(result);
+  return chart;
+}
+
+/// Stops and contact losses, over time or distance.
+void add_marks(const TrajectoryResult& result, Chart& chart, bool over_time) {
+  chart.mark_labels = {"stop", "M = 0: backlash crossed", fmt::format("|f| down to {:.3g} N", result.thresholds.force),
+                       "reaction reversed at once"};
+  for (const numeric::Stage& stage : result.motion.timeline.stages)
+    chart.marks.push_back({over_time ? stage.end * result.period : stage.to, stop_mark});
+  for (const numeric::ContactLoss& loss : result.losses) {
+    const int style = loss.kind == numeric::LossKind::zero      ? couple_mark
+                      : loss.kind == numeric::LossKind::minimum ? force_mark
+                                                                : jump_mark;
+    chart.marks.push_back({over_time ? loss.time : loss.distance, style});
+  }
+}
+
+/// y over x, broken where y is not a number; `factor` on y.
+core::Polyline line(const std::vector<double>& x, const std::vector<double>& y, double factor = 1) {
+  core::Polyline points;
+  for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], factor * y[i]});
+  return points;
+}
+
+/// An angle in degrees, broken where it passes from 180 to -180.
+core::Polyline angle_line(const std::vector<double>& x, const std::vector<double>& y) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  core::Polyline points;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (i > 0 && std::abs(y[i] - y[i - 1]) > 1.5 * std::numbers::pi) points.push_back({nan, nan});
+    points.push_back({x[i], degrees * y[i]});
+  }
+  return points;
+}
+
+NamedChart path_chart(const TrajectoryResult& result) {
+  Chart chart = frame(result, "path, nominal and actual");
+  chart.x_label = "x (m)";
+  chart.equal_scales = true;
+  ChartPanel panel;
+  panel.y_label = "y (m)";
+  const TrajectoryColumns& c = result.columns;
+  panel.series.push_back({"nominal", {line(c.at("px"), c.at("py"))}, -1, true});
+  const auto &x = c.at("actual_px"), &y = c.at("actual_py"), &stage = c.at("stage");
+  for (std::size_t k = 0; k < result.motion.timeline.stages.size(); ++k) {
+    core::Polyline points;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (stage[i] == static_cast<double>(k + 1)) points.push_back({x[i], y[i]});
+    panel.series.push_back({fmt::format("actual, stage {}", k + 1), {std::move(points)}, static_cast<int>(k)});
+  }
+  chart.panels.push_back(std::move(panel));
+  return {"trajectory-path", std::move(chart)};
+}
+
+NamedChart error_chart(const TrajectoryResult& result) {
+  Chart chart = frame(result, "pose error");
+  chart.x_label = "distance along the path (m)";
+  const TrajectoryColumns& c = result.columns;
+  const auto add = [&](const char* column, const char* label, const char* y_label, int number) {
+    ChartPanel panel;
+    panel.y_label = y_label;
+    panel.series.push_back({label, {line(c.at("distance"), c.at(column), 1e3)}, number});
+    chart.panels.push_back(std::move(panel));
+  };
+  add("dx", "error in x", "mm", 0);
+  add("dy", "error in y", "mm", 1);
+  add("dalpha", "error in orientation", "mrad", 2);
+  add_marks(result, chart, false);
+  return {"trajectory-error", std::move(chart)};
+}
+
+NamedChart take_up_chart(const TrajectoryResult& result) {
+  Chart chart = frame(result, "direction of the take-up");
+  chart.x_label = "time (s)";
+  const TrajectoryColumns& c = result.columns;
+  for (std::size_t j = 0; j < result.motion.columns.size(); ++j) {
+    if (!(result.motion.clearances[j].radial > 0)) continue;
+    const std::string& name = result.motion.model.mechanism.joints[j].name;
+    ChartPanel panel;
+    panel.y_label = "β (deg)";
+    panel.y_range = {-190, 190};
+    panel.series.push_back({"β of " + name, {angle_line(c.at("time"), c.at("beta_" + name))}, static_cast<int>(j)});
+    chart.panels.push_back(std::move(panel));
+  }
+  add_marks(result, chart, true);
+  chart.panel_height = 80;
+  return {"trajectory-take-up", std::move(chart)};
+}
+
+NamedChart reactions_chart(const TrajectoryResult& result) {
+  Chart chart = frame(result, "reactions");
+  chart.x_label = "time (s)";
+  const TrajectoryColumns& c = result.columns;
+  ChartPanel forces, couples;
+  forces.y_label = "|f| (N)";
+  couples.y_label = "M (N m)";
+  const auto& joints = result.motion.model.mechanism.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto& [fx, fy, couple] = result.motion.columns[j];
+    const auto column = [&](int k) -> const std::vector<double>& {
+      return c.at(
+          unknown_name(result.motion.model.mechanism, result.motion.model.unknowns[static_cast<std::size_t>(k)]));
+    };
+    if (fx >= 0 && fy >= 0) {
+      std::vector<double> size;
+      for (std::size_t i = 0; i < column(fx).size(); ++i) size.push_back(std::hypot(column(fx)[i], column(fy)[i]));
+      forces.series.push_back({"f_" + joints[j].name, {line(c.at("time"), size)}, static_cast<int>(j)});
+    }
+    if (couple >= 0)
+      couples.series.push_back({"M_" + joints[j].name, {line(c.at("time"), column(couple))}, static_cast<int>(j)});
+  }
+  chart.panels.push_back(std::move(forces));
+  if (!couples.series.empty()) chart.panels.push_back(std::move(couples));
+  add_marks(result, chart, true);
+  chart.panel_height = 190;
+  return {"trajectory-reactions", std::move(chart)};
+}
+
+NamedChart motion_chart(const TrajectoryResult& result) {
+  Chart chart = frame(result, "motion of the end effector");
+  chart.x_label = "time (s)";
+  const TrajectoryColumns& c = result.columns;
+  const auto add = [&](const char* y_label, const std::string& ending, const std::string& what) {
+    ChartPanel panel;
+    panel.y_label = y_label;
+    panel.series.push_back({what + " in x", {line(c.at("time"), c.at("px" + ending))}, 0});
+    panel.series.push_back({what + " in y", {line(c.at("time"), c.at("py" + ending))}, 1});
+    chart.panels.push_back(std::move(panel));
+  };
+  add("m", "", "place");
+  add("m/s", "_rate", "velocity");
+  add("m/s²", "_acceleration", "acceleration");
+  return {"trajectory-motion", std::move(chart)};
+}
+
+/// The sample at a distance: of the two at a seam, the one on that side.
+std::size_t sample_at(const numeric::PeriodSweep& sweep, double distance) {
+  const auto right = std::upper_bound(sweep.distance.begin(), sweep.distance.end(), distance);
+  if (right == sweep.distance.begin()) return 0;
+  const auto k = static_cast<std::size_t>(right - sweep.distance.begin());
+  if (k == sweep.distance.size()) return k - 1;
+  return distance - sweep.distance[k - 1] < sweep.distance[k] - distance ? k - 1 : k;
+}
+
+NamedChart sweep_chart(const TrajectoryResult& result, const std::string& name, const std::string& label,
+                       const std::vector<double>& values, bool is_signed, const std::string& unit) {
+  const numeric::PeriodSweep& sweep = *result.sweep;
+  Chart chart = frame(result, label);
+  chart.subtitle = "Free of contact loss above";
+  for (std::size_t k = 0; k < result.critical.size(); ++k)
+    chart.subtitle += std::isfinite(result.critical[k].period)
+                          ? fmt::format("{} {:.3g} s (stage {})", k == 0 ? "" : ",", result.critical[k].period, k + 1)
+                          : fmt::format("{} no period (stage {})", k == 0 ? "" : ",", k + 1);
+  chart.x_label = "distance along the path (m)";
+  const double half = sweep.periods.size() > 1 ? (sweep.periods[1] - sweep.periods[0]) / 2 : 0.5 * sweep.periods[0];
+  const double lowest = sweep.periods.front() - half, highest = sweep.periods.back() + half;
+  chart.x_range = {0, result.motion.timeline.path.length()};
+  ChartPanel panel;
+  panel.y_label = "period (s)";
+  panel.y_range = {lowest, highest};
+  const std::size_t rows = sweep.periods.size();
+  panel.field = {label, unit, is_signed, values, [&sweep, values, lowest, highest, rows](double x, double y) {
+                   const double place = (y - lowest) / (highest - lowest) * static_cast<double>(rows);
+                   const auto row = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(rows) - 0.5));
+                   return values[sweep.index(row, sample_at(sweep, x))];
+                 }};
+  int number = 0;
+  for (const numeric::LossCurve& curve : result.loss_curves) {
+    const std::string what = loss_name(result, curve.joint, curve.couple);
+    const std::string words =
+        curve.couple ? what + " = 0" : fmt::format("|{}| = {:.3g} N", what, result.thresholds.force);
+    panel.series.push_back({words, curve.lines, curve.couple ? number++ : 2 + curve.joint, !curve.couple});
+  }
+  chart.panels.push_back(std::move(panel));
+  for (const numeric::Stage& stage : result.motion.timeline.stages) chart.marks.push_back({stage.to, stop_mark});
+  chart.mark_labels = {"stop"};
+  return {name, std::move(chart)};
+}
+
+}  // namespace
+
+std::vector<NamedChart> trajectory_charts(const TrajectoryResult& result) {
+  std::vector<NamedChart> charts = {path_chart(result), error_chart(result), take_up_chart(result),
+                                    reactions_chart(result), motion_chart(result)};
+  if (!result.sweep) return charts;
+  const numeric::PeriodSweep& sweep = *result.sweep;
+  std::vector<double> distance;
+  for (std::size_t i = 0; i < sweep.dx.size(); ++i) distance.push_back(std::hypot(sweep.dx[i], sweep.dy[i]));
+  charts.push_back(sweep_chart(result, "periods-dx", "error in x", sweep.dx, true, "m"));
+  charts.push_back(sweep_chart(result, "periods-dy", "error in y", sweep.dy, true, "m"));
+  charts.push_back(sweep_chart(result, "periods-dalpha", "error in orientation", sweep.dalpha, true, "rad"));
+  charts.push_back(sweep_chart(result, "periods-dp", "distance from the nominal place", distance, false, "m"));
+  return charts;
+}
+
+}  // namespace clearloci::cli

@@ -1,0 +1,74 @@
+#include "report/axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/mechanism_drawing.hpp"
+#include "report/typesetting.hpp"
+
+namespace clearloci::report {
+namespace {
+
+constexpr Colour ink{0.13, 0.13, 0.13};
+constexpr Colour frame{0.45, 0.45, 0.45};
+
+/// The smallest of 1, 2, 5 times a power of ten that is no less than `least`.
+double nice_step(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= least * (1 - 1e-9)) return factor * power;
+  }
+  return 10 * power;
+}
+
+}  // namespace
+
+std::vector<Tick> ticks(double low, double high, double least_step) {
+  const double step = nice_step(least_step);
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  std::vector<Tick> result;
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) {
+    std::string label = fmt::format("{:.{}f}", std::abs(k * step), decimals);
+    if (k < 0) label = "\u2212" + label;
+    result.push_back({k * step, std::move(label)});
+  }
+  return result;
+}
+
+void draw_colour_bar(const Cairo::RefPtr<Cairo::Context>& context, const FieldScale& scale, const Box& box) {
+  const double top = box.bottom() - colour_bar_room + 4;
+  const auto at = [&](double value) { return box.x + (value - scale.low) / (scale.high - scale.low) * box.width; };
+  constexpr int steps = 256;
+  for (int i = 0; i < steps; ++i) {
+    set_colour(context, scale.colour(scale.low + (i + 0.5) / steps * (scale.high - scale.low)));
+    // Each step reaches under the next one: no seams between them.
+    context->rectangle(box.x + i * box.width / steps, top, std::min(2, steps - i) * box.width / steps,
+                       colour_bar_height);
+    context->fill();
+  }
+  context->unset_dash();
+  context->set_line_width(0.6);
+  set_colour(context, frame);
+  context->rectangle(box.x, top, box.width, colour_bar_height);
+  context->stroke();
+  for (const double value : scale_ticks(scale)) {
+    set_colour(context, frame);
+    context->move_to(at(value), top + colour_bar_height);
+    context->line_to(at(value), top + colour_bar_height + 3);
+    context->stroke();
+    set_colour(context, ink);
+    const Align align = at(value) > box.right() - 8 ? Align::right
+                        : at(value) < box.x + 8     ? Align::left
+                                                    : Align::centre;
+    write_text(context, scale.shown(value), at(value), top + colour_bar_height + 12, tick_font, align);
+  }
+}
+
+std::uint32_t pixel_of(const Colour& colour) {
+  const auto channel = [](double value) { return static_cast<std::uint32_t>(std::lround(255 * value)); };
+  return 0xFF000000U | channel(colour.red) << 16 | channel(colour.green) << 8 | channel(colour.blue);
+}
+
+}  // namespace clearloci::report

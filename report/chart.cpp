@@ -1,0 +1,355 @@
+#include "report/chart.hpp"
+
+#include <cairomm/pattern.h>
+#include <cairomm/surface.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include "report/axis.hpp"
+#include "report/mechanism_drawing.hpp"
+#include "report/surface.hpp"
+#include "report/typesetting.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using core::Point2;
+using Context = Cairo::RefPtr<Cairo::Context>;
+
+constexpr Colour ink{0.13, 0.13, 0.13};
+constexpr Colour faded_ink{0.40, 0.40, 0.40};
+constexpr Colour frame{0.45, 0.45, 0.45};
+constexpr Colour grid{0.86, 0.86, 0.86};
+constexpr Font title_font{13, true, false};
+constexpr Font subtitle_font{9.5, false, false};
+constexpr Font legend_text_font{8.5, false, false};
+
+// Okabe and Ito, as for the loci.
+constexpr std::array<Colour, 6> palette = {{{0.000, 0.447, 0.698},
+                                            {0.835, 0.369, 0.000},
+                                            {0.000, 0.620, 0.451},
+                                            {0.800, 0.475, 0.655},
+                                            {0.902, 0.624, 0.000},
+                                            {0.337, 0.706, 0.914}}};
+const std::vector<std::vector<double>> mark_dashes = {{4, 2}, {1, 2}, {7, 2, 1, 2}, {2, 4}};
+
+constexpr double plot_width = 430, legend_width = 150, margin = 12, gap = 14, line_height = 11.5;
+
+struct Frame {
+  Box box;
+  Point2 low{}, high{};
+
+  Point2 page(const Point2& p) const {
+    return {box.x + (p[0] - low[0]) / (high[0] - low[0]) * box.width,
+            box.bottom() - (p[1] - low[1]) / (high[1] - low[1]) * box.height};
+  }
+};
+
+void widen(std::array<double, 2>& range, double value) {
+  if (!std::isfinite(value)) return;
+  range[0] = std::min(range[0], value);
+  range[1] = std::max(range[1], value);
+}
+
+/// What the series of some panels reach along one axis, with a margin; never empty.
+std::array<double, 2> reach(const std::vector<ChartPanel>& panels, std::size_t axis, double part) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 2> range = {infinity, -infinity};
+  for (const ChartPanel& panel : panels)
+    for (const ChartSeries& series : panel.series)
+      for (const core::Polyline& line : series.lines)
+        for (const Point2& point : line)
+          if (std::isfinite(point[1 - axis])) widen(range, point[axis]);
+  if (!(range[0] <= range[1])) range = {0, 1};
+  const double size = range[1] - range[0];
+  const double room = size > 0 ? part * size : std::max(1e-12, 0.5 * std::abs(range[0]));
+  return {range[0] - room, range[1] + room};
+}
+
+class ChartDrawing {
+ public:
+  explicit ChartDrawing(const Chart& chart) : chart_(chart) {
+    for (const ChartPanel& panel : chart.panels)
+      scales_.push_back(panel.field ? scale_of(panel.field->values, panel.field->is_signed, panel.field->unit)
+                                    : FieldScale{});
+    lay_out();
+  }
+
+  Page page() const {
+    std::string description = chart_.subtitle;
+    for (const ChartPanel& panel : chart_.panels)
+      for (const ChartSeries& series : panel.series)
+        if (!series.label.empty()) description += "\n" + printable(series.label);
+    return {width_, height_, printable(chart_.title), printable(description)};
+  }
+
+  void draw(const Context& context) const {
+    set_colour(context, {1, 1, 1});
+    context->rectangle(0, 0, width_, height_);
+    context->fill();
+    set_colour(context, ink);
+    write_text(context, printable(chart_.title), frames_.front().box.x, margin + 13, title_font);
+    write_text(context, printable(chart_.subtitle), frames_.front().box.x, margin + 28, subtitle_font);
+    for (std::size_t i = 0; i < frames_.size(); ++i) draw_panel(context, i);
+    const Box& last = frames_.back().box;
+    write_text(context, chart_.x_label, last.x + last.width / 2, last.bottom() + 29, label_font, Align::centre);
+  }
+
+ private:
+  void lay_out() {
+    const auto x = chart_.x_range ? *chart_.x_range : reach(chart_.panels, 0, chart_.equal_scales ? 0.04 : 0);
+    double y = margin + 40;
+    double labels = 0;
+    for (const ChartPanel& panel : chart_.panels) {
+      Frame f;
+      const auto range = panel.y_range ? *panel.y_range : reach({panel}, 1, 0.06);
+      f.low = {x[0], range[0]};
+      f.high = {x[1], range[1]};
+      const bool single = chart_.panels.size() == 1;
+      f.box = {0, y, plot_width, chart_.panel_height > 0 ? chart_.panel_height : single ? 280.0 : 120.0};
+      if (chart_.equal_scales) equalise(f);
+      y = f.box.bottom() + gap;
+      for (const Tick& tick : ticks(f.low[1], f.high[1], 26 / f.box.height * (f.high[1] - f.low[1])))
+        labels = std::max(labels, text_width(tick.label, tick_font));
+      frames_.push_back(f);
+    }
+    for (Frame& f : frames_) f.box.x = margin + 18 + labels + 8;
+    width_ = std::ceil(frames_.front().box.right() + gap + legend_width + margin);
+    height_ = std::ceil(y - gap + 34 + margin);
+  }
+
+  /// One scale for both axes: the height follows, but a flat plot still gets a height to look at.
+  static void equalise(Frame& f) {
+    constexpr double least = 150, most = 420;
+    const double scale = f.box.width / (f.high[0] - f.low[0]);
+    f.box.height = std::clamp(scale * (f.high[1] - f.low[1]), least, most);
+    const double fit = std::min(scale, f.box.height / (f.high[1] - f.low[1]));
+    const std::array<double, 2> size = {f.box.width, f.box.height};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double missing = size[i] / fit - (f.high[i] - f.low[i]);
+      f.low[i] -= missing / 2;
+      f.high[i] += missing / 2;
+    }
+  }
+
+  void draw_panel(const Context& context, std::size_t i) const {
+    const ChartPanel& panel = chart_.panels[i];
+    const Frame& f = frames_[i];
+    context->save();
+    context->rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
+    context->clip();
+    if (panel.field)
+      draw_field(context, *panel.field, scales_[i], f);
+    else
+      draw_grid(context, f);
+    for (const ChartMark& mark : chart_.marks) draw_mark(context, f, mark);
+    for (const ChartSeries& series : panel.series) {
+      if (panel.field) stroke(context, f, series, {{1, 1, 1}, 2.4, {}, true});
+      stroke(context, f, series, stroke_of(series));
+    }
+    context->restore();
+    draw_axes(context, f, panel.y_label, i + 1 == frames_.size());
+    draw_legend(context, i);
+  }
+
+  static Stroke stroke_of(const ChartSeries& series) {
+    if (series.faint) return {{0.55, 0.55, 0.55}, 0.9, {}, false};
+    if (series.number < 0) return {{0, 0, 0}, 1.2, {}, false};
+    return {palette[static_cast<std::size_t>(series.number) % palette.size()], 1.3, {}, false};
+  }
+
+  static void set_stroke(const Context& context, const Stroke& s) {
+    set_colour(context, s.colour);
+    context->set_line_width(s.width);
+    context->set_line_join(Cairo::Context::LineJoin::ROUND);
+    context->set_line_cap(Cairo::Context::LineCap::BUTT);
+    if (s.dash.empty())
+      context->unset_dash();
+    else
+      context->set_dash(s.dash, 0);
+  }
+
+  static void stroke(const Context& context, const Frame& f, const ChartSeries& series, const Stroke& s) {
+    set_stroke(context, s);
+    for (const core::Polyline& line : series.lines) {
+      context->begin_new_sub_path();
+      for (const Point2& point : line) {
+        if (!std::isfinite(point[0]) || !std::isfinite(point[1])) {
+          context->begin_new_sub_path();
+          continue;
+        }
+        const Point2 at = f.page(point);
+        // Cairo's own numbers are small; what leaves the panel is clipped anyway.
+        constexpr double far = 1e4;
+        context->line_to(std::clamp(at[0], -far, far), std::clamp(at[1], -far, far));
+      }
+      context->stroke();
+    }
+  }
+
+  static void draw_field(const Context& context, const ChartField& field, const FieldScale& scale, const Frame& f) {
+    constexpr int pixels_per_point = 2;
+    const int width = static_cast<int>(std::lround(f.box.width * pixels_per_point));
+    const int height = static_cast<int>(std::lround(f.box.height * pixels_per_point));
+    const auto image = Cairo::ImageSurface::create(Cairo::ImageSurface::Format::ARGB32, width, height);
+    for (int row = 0; row < height; ++row) {
+      unsigned char* const pixels = image->get_data() + static_cast<std::ptrdiff_t>(row) * image->get_stride();
+      const double y = f.high[1] - (row + 0.5) / height * (f.high[1] - f.low[1]);
+      for (int column = 0; column < width; ++column) {
+        const double value = field.at(f.low[0] + (column + 0.5) / width * (f.high[0] - f.low[0]), y);
+        const std::uint32_t pixel = std::isnan(value) ? 0 : pixel_of(scale.colour(value));
+        std::memcpy(pixels + 4 * static_cast<std::ptrdiff_t>(column), &pixel, sizeof pixel);
+      }
+    }
+    image->mark_dirty();
+    context->save();
+    context->translate(f.box.x, f.box.y);
+    context->scale(1.0 / pixels_per_point, 1.0 / pixels_per_point);
+    const auto pattern = Cairo::SurfacePattern::create(image);
+    pattern->set_filter(Cairo::SurfacePattern::Filter::NEAREST);
+    context->set_source(pattern);
+    context->paint();
+    context->restore();
+  }
+
+  static std::vector<Tick> x_ticks(const Frame& f) {
+    return ticks(f.low[0], f.high[0], 52 / f.box.width * (f.high[0] - f.low[0]));
+  }
+  static std::vector<Tick> y_ticks(const Frame& f) {
+    return ticks(f.low[1], f.high[1], 26 / f.box.height * (f.high[1] - f.low[1]));
+  }
+
+  static void draw_grid(const Context& context, const Frame& f) {
+    set_stroke(context, {grid, 0.4, {}, false});
+    for (const Tick& tick : x_ticks(f)) {
+      context->move_to(f.page({tick.at, 0})[0], f.box.y);
+      context->line_to(f.page({tick.at, 0})[0], f.box.bottom());
+    }
+    for (const Tick& tick : y_ticks(f)) {
+      context->move_to(f.box.x, f.page({0, tick.at})[1]);
+      context->line_to(f.box.right(), f.page({0, tick.at})[1]);
+    }
+    context->stroke();
+  }
+
+  static const std::vector<double>& dashes(int style) {
+    return mark_dashes[static_cast<std::size_t>(style) % mark_dashes.size()];
+  }
+
+  static void draw_mark(const Context& context, const Frame& f, const ChartMark& mark) {
+    set_stroke(context, {faded_ink, 0.7, dashes(mark.style), false});
+    context->move_to(f.page({mark.at, 0})[0], f.box.y);
+    context->line_to(f.page({mark.at, 0})[0], f.box.bottom());
+    context->stroke();
+  }
+
+  static void draw_axes(const Context& context, const Frame& f, const std::string& y_label, bool with_x) {
+    constexpr double tick_length = 4;
+    set_stroke(context, {frame, 0.8, {}, false});
+    context->rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
+    context->stroke();
+    for (const Tick& tick : x_ticks(f)) {
+      const double x = f.page({tick.at, 0})[0];
+      set_colour(context, frame);
+      context->move_to(x, f.box.bottom());
+      context->line_to(x, f.box.bottom() + tick_length);
+      context->stroke();
+      set_colour(context, ink);
+      if (with_x) write_text(context, tick.label, x, f.box.bottom() + tick_length + 10, tick_font, Align::centre);
+    }
+    for (const Tick& tick : y_ticks(f)) {
+      const double y = f.page({0, tick.at})[1];
+      set_colour(context, frame);
+      context->move_to(f.box.x, y);
+      context->line_to(f.box.x - tick_length, y);
+      context->stroke();
+      set_colour(context, ink);
+      write_text(context, tick.label, f.box.x - tick_length - 3.5, y + 3.1, tick_font, Align::right);
+    }
+    context->save();
+    context->translate(margin + 10, f.box.y + f.box.height / 2);
+    context->rotate(-std::numbers::pi / 2);
+    write_text(context, y_label, 0, 0, label_font, Align::centre);
+    context->restore();
+  }
+
+  void draw_legend(const Context& context, std::size_t i) const {
+    constexpr double sample = 22, indent = sample + 6;
+    const Frame& f = frames_[i];
+    const double x = f.box.right() + gap;
+    double y = f.box.y;
+    const Measure measure = measure_in(legend_text_font);
+    const auto write = [&](const std::string& label, double at, const Colour& colour) {
+      for (const std::string& piece : wrap(label, legend_width - (at - x), measure)) {
+        set_colour(context, colour);
+        write_text(context, piece, at, y + 0.5 * line_height + 3.1, legend_text_font);
+        y += line_height;
+      }
+    };
+    if (const auto& field = chart_.panels[i].field) {
+      write(field->label + " (" + scales_[i].unit + ")", x, ink);
+      if (scales_[i].saturated) write(saturation_words(scales_[i]), x, faded_ink);
+      draw_colour_bar(context, scales_[i], {x, y, legend_width, colour_bar_room});
+      y += colour_bar_room + 6;
+    }
+    for (const ChartSeries& series : chart_.panels[i].series) {
+      if (series.label.empty()) continue;
+      set_stroke(context, stroke_of(series));
+      context->move_to(x, y + line_height / 2);
+      context->line_to(x + sample, y + line_height / 2);
+      context->stroke();
+      write(printable(series.label), x + indent, ink);
+    }
+    if (i != 0) return;
+    for (std::size_t style = 0; style < chart_.mark_labels.size(); ++style) {
+      const bool used = std::any_of(chart_.marks.begin(), chart_.marks.end(),
+                                    [&](const ChartMark& m) { return m.style == static_cast<int>(style); });
+      if (!used) continue;
+      set_stroke(context, {faded_ink, 0.7, dashes(static_cast<int>(style)), false});
+      context->move_to(x, y + line_height / 2);
+      context->line_to(x + sample, y + line_height / 2);
+      context->stroke();
+      write(chart_.mark_labels[style], x + indent, ink);
+    }
+  }
+
+  const Chart& chart_;
+  std::vector<FieldScale> scales_;
+  std::vector<Frame> frames_;
+  double width_ = 0, height_ = 0;
+};
+
+}  // namespace
+
+std::string chart(const Chart& chart, PictureFormat format) {
+  const ChartDrawing drawing(chart);
+  return render(drawing.page(), format, [&](const Context& context) { drawing.draw(context); });
+}
+
+std::string table_csv(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns) {
+  std::string out;
+  for (std::size_t c = 0; c < names.size(); ++c) out += (c == 0 ? "" : ",") + names[c];
+  out += '\n';
+  const std::size_t rows = columns.empty() ? 0 : columns.front().size();
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (c > 0) out += ',';
+      const double value = columns[c][r];
+      if (std::isnan(value)) continue;
+      char text[32];
+      const auto result = std::to_chars(text, text + sizeof text, value == 0 ? 0.0 : value);
+      out.append(text, result.ptr);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace clearloci::report

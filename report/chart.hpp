@@ -1,0 +1,61 @@
+// Charts of one quantity over another: lines in panels one above the other, with a common horizontal axis; or a field
+// over two quantities in colours, with lines over it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/locus_map.hpp"
+#include "report/picture.hpp"
+
+namespace clearloci::report {
+
+/// Lines are broken where a value is not a number. Series of one number in different panels look alike.
+struct ChartSeries {
+  std::string label;  ///< of the legend; empty: not in it
+  std::vector<core::Polyline> lines;
+  int number = 0;      ///< chooses the colour; -1: black
+  bool faint = false;  ///< thin and grey, for what the others are compared with
+};
+
+/// A vertical line: something happens there.
+struct ChartMark {
+  double at = 0;
+  int style = 0;  ///< as the mark legend of the chart
+};
+
+/// A field over the panel, drawn below its lines. NaN: nothing.
+struct ChartField {
+  std::string label, unit;
+  bool is_signed = true;
+  std::vector<double> values;  ///< all of them, to choose the colours by
+  std::function<double(double x, double y)> at;
+};
+
+struct ChartPanel {
+  std::string y_label;
+  std::vector<ChartSeries> series;
+  std::optional<ChartField> field;
+  std::optional<std::array<double, 2>> y_range;  ///< else what the series need
+};
+
+struct Chart {
+  std::string title, subtitle;
+  std::string x_label;
+  std::optional<std::array<double, 2>> x_range;  ///< else what the series need
+  std::vector<ChartPanel> panels;
+  std::vector<ChartMark> marks;
+  std::vector<std::string> mark_labels;  ///< by style
+  bool equal_scales = false;             ///< one panel whose axes are of one kind
+  double panel_height = 0;               ///< pt; 0: by the number of panels
+};
+
+std::string chart(const Chart& chart, PictureFormat format);
+
+/// RFC 4180 with "\n": names, then rows of numbers that read back as the same doubles, empty where there is none.
+/// Columns are of equal length.
+std::string table_csv(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns);
+
+}  // namespace clearloci::report
