@@ -192,6 +192,128 @@ class LossSearch {
   std::vector<ContactLoss> losses_;
 };
 
+/// The largest period at which f_J turns by more than a right angle from one side of a seam to the other:
+/// (f_s + u f_i)·(f_s' + u f_i') = 0.
+double turn_period(const Instant& before, const Instant& after, const JointColumns& c) {
+  const auto pair = [&](const Eigen::VectorXd& w) { return Eigen::Vector2d(w(c.fx), w(c.fy)); };
+  const double constant = pair(before.at_rest).dot(pair(after.at_rest));
+  const double half =
+      (pair(before.at_rest).dot(pair(after.inertial)) + pair(before.inertial).dot(pair(after.at_rest))) / 2;
+  const double square = pair(before.inertial).dot(pair(after.inertial));
+  const double discriminant = half * half - square * constant;
+  if (constant <= 0) return infinity;
+  if (discriminant < 0) return 0;
+  // 1/u of the smallest u > 0: the largest root of constant v² + 2 half v + square.
+  const double v = (-half + std::sqrt(discriminant)) / constant;
+  return v > 0 ? std::sqrt(v) : 0;
+}
+
+void consider_seams(const Motion& motion, const std::vector<std::vector<Instant>>& samples,
+                    std::vector<CriticalPeriod>& critical) {
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (k == 0 && !motion.timeline.trajectory.closed) continue;
+    const Instant &before = samples[(k + samples.size() - 1) % samples.size()].back(), &after = samples[k].front();
+    const Interval &left = motion.timeline.intervals[before.interval],
+                   &right = motion.timeline.intervals[after.interval];
+    if (right.stage < 0 || left.carried != right.carried) continue;
+    for (std::size_t j = 0; j < motion.columns.size(); ++j) {
+      if (!(motion.clearances[j].radial > 0)) continue;
+      const double period = turn_period(before, after, motion.columns[j]);
+      CriticalPeriod& stage = critical[static_cast<std::size_t>(right.stage)];
+      if (period > stage.period) stage = {period, static_cast<int>(j), false, after.tau, after.distance.value()};
+    }
+  }
+}
+
+/// The point of [a, b] where a function with one peak is greatest: thirds, until they are one.
+double peak(const std::function<double(double)>& g, double a, double b) {
+  while (b - a > located) {
+    const double p = a + (b - a) / 3, q = b - (b - a) / 3;
+    const bool rises = g(p) < g(q);
+    (rises ? a : b) = rises ? p : q;
+  }
+  return (a + b) / 2;
+}
+
+/// The largest loss_period of one joint over an interval.
+class LastLoss {
+ public:
+  LastLoss(const Motion& motion, mechanism::JointIndex joint, bool couple, const LossThresholds& thresholds)
+      : motion_(motion), joint_(joint), couple_(couple), thresholds_(thresholds) {
+    columns_ = motion.columns[static_cast<std::size_t>(joint)];
+  }
+
+  void search(const std::vector<Instant>& instants, CriticalPeriod& stage) const {
+    for (std::size_t i = 0; i < instants.size(); ++i) {
+      consider(instants[i], period_at(instants[i]), stage);
+      const bool first = i == 0, last = i + 1 == instants.size();
+      const double product =
+          couple_ && !first ? instants[i - 1].at_rest(columns_.couple) * instants[i].at_rest(columns_.couple) : 1;
+      if (product < 0) consider(instants[i], infinity, stage);  // M_J passes through zero at rest too
+      const auto is_peak = [&](const auto& g) {
+        const double here = g(instants[i]);
+        return (first || here >= g(instants[i - 1])) && (last || here >= g(instants[i + 1]));
+      };
+      const double a = instants[first ? i : i - 1].tau, b = instants[last ? i : i + 1].tau;
+      const double here = period_at(instants[i]);
+      const std::size_t interval = instants[i].interval;
+      if (here > 0 && std::isfinite(here) && is_peak([&](const Instant& at) { return period_at(at); })) {
+        if (couple_)
+          refine(interval, a, b, stage);
+        else
+          refine_around(interval, a, instants[i].tau, b, stage);
+      } else if (here == 0 && !couple_ && is_peak([&](const Instant& at) { return -nearest(at); })) {
+        search_between(interval, a, b, stage);
+      }
+    }
+  }
+
+ private:
+  double period_at(const Instant& at) const { return loss_period(motion_, at, joint_, couple_, thresholds_); }
+
+  /// The least |f_s + u f_i| over u >= 0: whether some period loses contact here.
+  double nearest(const Instant& at) const {
+    const Eigen::Vector2d rest(at.at_rest(columns_.fx), at.at_rest(columns_.fy));
+    const Eigen::Vector2d inertial(at.inertial(columns_.fx), at.inertial(columns_.fy));
+    const double along = rest.dot(inertial);
+    if (along >= 0) return rest.norm();
+    return std::abs(rest(0) * inertial(1) - rest(1) * inertial(0)) / inertial.norm();
+  }
+
+  void refine(std::size_t interval, double a, double b, CriticalPeriod& stage) const {
+    const auto at = [&](double tau) { return period_at(instant(motion_, interval, tau)); };
+    const Instant top = instant(motion_, interval, peak(at, a, b));
+    consider(top, period_at(top), stage);
+  }
+
+  /// A force that is lost between two samples only.
+  void search_between(std::size_t interval, double a, double b, CriticalPeriod& stage) const {
+    const double lowest = peak([&](double tau) { return -excess(interval, tau); }, a, b);
+    if (excess(interval, lowest) <= 0) refine_around(interval, a, lowest, b, stage);
+  }
+
+  /// Where contact is lost at `inside` at some period: only as far to both sides as that holds.
+  void refine_around(std::size_t interval, double a, double inside, double b, CriticalPeriod& stage) const {
+    const auto g = [&](double tau) { return excess(interval, tau); };
+    const double left = g(a) > 0 ? root(g, a, inside, 1) : a, right = g(b) > 0 ? root(g, inside, b, -1) : b;
+    refine(interval, left, right, stage);
+  }
+
+  double excess(std::size_t interval, double tau) const {
+    return nearest(instant(motion_, interval, tau)) - thresholds_.force;
+  }
+
+  void consider(const Instant& at, double period, CriticalPeriod& stage) const {
+    if (period > stage.period) stage = {period, joint_, couple_, at.tau, at.distance.value()};
+  }
+
+  const Motion& motion_;
+  mechanism::JointIndex joint_;
+  bool couple_;
+  const LossThresholds& thresholds_;
+  JointColumns columns_;
+};
+
 }  // namespace
 
 LossThresholds default_thresholds(const Motion& motion, const std::vector<std::vector<Instant>>& samples) {
@@ -231,35 +353,16 @@ double loss_period(const Motion& motion, const Instant& at, mechanism::JointInde
 std::vector<CriticalPeriod> critical_periods(const Motion& motion, const std::vector<std::vector<Instant>>& samples,
                                              const LossThresholds& thresholds) {
   std::vector<CriticalPeriod> critical(motion.timeline.stages.size());
-  const auto consider = [&](const Instant& at, double period, mechanism::JointIndex joint, bool couple) {
-    CriticalPeriod& stage = critical[static_cast<std::size_t>(motion.timeline.intervals[at.interval].stage)];
-    if (period > stage.period) stage = {period, joint, couple, at.tau, at.distance.value()};
-  };
+  consider_seams(motion, samples, critical);
   for (std::size_t j = 0; j < motion.columns.size(); ++j) {
-    const auto joint = static_cast<mechanism::JointIndex>(j);
     for (const bool couple : {true, false}) {
-      if (couple ? !(motion.clearances[j].angular > 0 && motion.columns[j].couple >= 0)
-                 : !(motion.clearances[j].radial > 0))
-        continue;
-      const auto period_at = [&](const Instant& i) { return loss_period(motion, i, joint, couple, thresholds); };
+      const bool watched =
+          couple ? motion.clearances[j].angular > 0 && motion.columns[j].couple >= 0 : motion.clearances[j].radial > 0;
+      if (!watched) continue;
+      const LastLoss last(motion, static_cast<mechanism::JointIndex>(j), couple, thresholds);
       for (const auto& instants : samples) {
-        if (motion.timeline.intervals[instants.front().interval].stage < 0) continue;
-        for (std::size_t i = 0; i < instants.size(); ++i) {
-          const double here = period_at(instants[i]);
-          consider(instants[i], here, joint, couple);
-          const bool peak = here > 0 && std::isfinite(here) && i > 0 && i + 1 < instants.size() &&
-                            here >= period_at(instants[i - 1]) && here >= period_at(instants[i + 1]);
-          if (!peak) continue;
-          // A maximum between the neighbours: thirds, until they are one.
-          double a = instants[i - 1].tau, b = instants[i + 1].tau;
-          const auto at = [&](double tau) { return instant(motion, instants[i].interval, tau); };
-          while (b - a > located) {
-            const double p = a + (b - a) / 3, q = b - (b - a) / 3;
-            (period_at(at(p)) < period_at(at(q)) ? a : b) = period_at(at(p)) < period_at(at(q)) ? p : q;
-          }
-          const Instant top = at((a + b) / 2);
-          consider(top, period_at(top), joint, couple);
-        }
+        const int stage = motion.timeline.intervals[instants.front().interval].stage;
+        if (stage >= 0) last.search(instants, critical[static_cast<std::size_t>(stage)]);
       }
     }
   }

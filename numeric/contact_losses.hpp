@@ -3,6 +3,7 @@
 // that no longer happens. With w = w_s + u w_i, u = 1/T² (dynamics.hpp), both questions have closed forms in T:
 //     M_s + u M_i = 0                                 T = sqrt(-M_i / M_s)
 //     |f_s|² + 2 u f_s·f_i + u² |f_i|² = threshold²   T = 1 / sqrt(smallest u >= 0)
+//     (f_s + u f_i)·(f_s' + u f_i') = 0              where the acceleration jumps from i to i'
 #pragma once
 
 #include <vector>

@@ -116,7 +116,7 @@ class ChartDrawing {
       f.box = {0, y, plot_width, chart_.panel_height > 0 ? chart_.panel_height : single ? 280.0 : 120.0};
       if (chart_.equal_scales) equalise(f);
       y = f.box.bottom() + gap;
-      for (const Tick& tick : ticks(f.low[1], f.high[1], 26 / f.box.height * (f.high[1] - f.low[1])))
+      for (const Tick& tick : ticks(f.low[1], f.high[1], 19 / f.box.height * (f.high[1] - f.low[1])))
         labels = std::max(labels, text_width(tick.label, tick_font));
       frames_.push_back(f);
     }
@@ -223,7 +223,7 @@ class ChartDrawing {
     return ticks(f.low[0], f.high[0], 52 / f.box.width * (f.high[0] - f.low[0]));
   }
   static std::vector<Tick> y_ticks(const Frame& f) {
-    return ticks(f.low[1], f.high[1], 26 / f.box.height * (f.high[1] - f.low[1]));
+    return ticks(f.low[1], f.high[1], 19 / f.box.height * (f.high[1] - f.low[1]));
   }
 
   static void draw_grid(const Context& context, const Frame& f) {

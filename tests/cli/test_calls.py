@@ -3,7 +3,7 @@
 import re
 import unittest
 
-from program import FIVE_BAR, InOwnFolder
+from program import FIVE_BAR, PICK_AND_PLACE, InOwnFolder
 
 
 class WrongCalls(InOwnFolder):
@@ -23,7 +23,7 @@ class WrongCalls(InOwnFolder):
         self.assertIn("loci, equations, validate, pose", message)
 
     def test_no_model(self):
-        for command in ("loci", "equations", "validate", "pose", "error"):
+        for command in ("loci", "equations", "validate", "pose", "error", "trajectory"):
             self.assertIn("MODEL", self.complaint(command))
 
     def test_unknown_option(self):
@@ -87,6 +87,26 @@ class WrongCalls(InOwnFolder):
         bare = self.model(lambda text: re.sub(r", +clearance: \{[^}]*\}", "", text))
         self.assertIn("no joint has a clearance", self.complaint("error", bare))
 
+    def test_trajectory(self):
+        model, path = PICK_AND_PLACE
+        self.assertIn("PATH", self.complaint("trajectory", model))
+        self.assertIn("nowhere.yaml", self.complaint("trajectory", model, "nowhere.yaml"))
+        for wrong in ("1", "2:1:0.1", "0:1:0.1", "1:2:0", "1:2:1e-9", "a:b:c"):
+            self.assertIn("--periods", self.complaint("trajectory", model, path, "--periods", wrong))
+        self.assertIn("--period", self.complaint("trajectory", model, path, "--period", "0"))
+        self.assertIn("--samples", self.complaint("trajectory", model, path, "--samples", "3"))
+        self.assertIn("svg", self.complaint("trajectory", model, path, "--export", "vtk"))
+        text = path.read_text(encoding="utf-8")
+        for wrong, says in (
+            (text.replace("-0.82", "-1.82"), "leaves the workspace"),
+            (text.replace("corner: 0.025", "corner: 0.03", 1), "does not fit"),
+            (text.replace(", corner: 0.025", "", 1), "sharp corner"),
+        ):
+            (self.folder / "wrong.yaml").write_text(wrong, encoding="utf-8")
+            message = self.complaint("trajectory", model, "wrong.yaml")
+            self.assertIn("wrong.yaml", message)
+            self.assertIn(says, message)
+
     def test_output_that_cannot_be_written(self):
         (self.folder / "taken").write_text("a file, not a folder")
         self.complaint("loci", FIVE_BAR, "-o", "taken")
@@ -113,7 +133,7 @@ class WrongCalls(InOwnFolder):
 class Help(InOwnFolder):
     def test_every_command_has_an_example(self):
         self.assertIn("Exit status", self.run_program("--help").stdout)
-        for command in ("loci", "equations", "validate", "pose", "error"):
+        for command in ("loci", "equations", "validate", "pose", "error", "trajectory"):
             process = self.run_program(command, "--help")
             self.assertIn(f"Example: clearloci {command} ", process.stdout)
             self.assertEqual(process.stderr, "")

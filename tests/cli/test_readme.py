@@ -53,7 +53,7 @@ class Readme(unittest.TestCase):
             shutil.copytree(SOURCE / "examples", folder / "examples")
             for block in blocks("yaml"):
                 title = re.match(r"# (\S+\.yaml)\n", block)
-                self.assertIsNotNone(title, "a mechanism file in the README opens with its name")
+                self.assertIsNotNone(title, "a file in the README opens with its name")
                 (folder / title[1]).write_text(block, encoding="utf-8")
             environment = os.environ | {"PATH": f"{PROGRAM.parent}:{os.environ['PATH']}", "HOME": name}
             for command in commands():

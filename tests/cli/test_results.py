@@ -5,7 +5,7 @@ import json
 import re
 import unittest
 
-from program import FIVE_BAR, InOwnFolder
+from program import FIVE_BAR, PICK_AND_PLACE, InOwnFolder
 
 
 def without_timing(text):
@@ -225,6 +225,47 @@ class Error(InOwnFolder):
         self.assertEqual(len(result["modes"]), 4)
         self.assertEqual(set(result["modes"][0]["fields"]), {"dx", "dy", "dalpha", "dp"})
         self.assertEqual(len(list((self.folder / "out" / "five_bar").glob("error-dx-*.png"))), 4)
+
+
+class Trajectory(InOwnFolder):
+    def test_files(self):
+        options = ("--periods", "0.6:2.4:0.3", "--samples", "400", "--export", "png,svg,pdf,csv")
+        for folder in ("first", "second"):
+            process = self.run_program("trajectory", *PICK_AND_PLACE, *options, "-o", folder)
+            self.assertIn("free above", process.stdout)
+        names = sorted(path.name for path in (self.folder / "first").iterdir())
+        self.assertEqual(len(names), 9 * 3 + 3)
+        for name in names:
+            first, second = ((self.folder / folder / name).read_bytes() for folder in ("first", "second"))
+            self.assertEqual(first, second, name)
+        with open(self.folder / "first" / "trajectory.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertGreater(len(rows), 400)
+        for row in rows:
+            self.assertAlmostEqual(float(row["actual_px"]), float(row["px"]) + float(row["dx"]), delta=1e-15)
+        with open(self.folder / "first" / "periods.csv", newline="") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), 7 * len(rows))
+
+    def test_json(self):
+        result = json.loads(self.run_program("trajectory", *PICK_AND_PLACE, "--json", "--period", "1").stdout)
+        self.assertEqual(result["period"], 1)
+        self.assertEqual([stage["carried"] for stage in result["stages"]], [10, 0])
+        self.assertTrue(all(2 < stage["critical_period"] < 2.4 for stage in result["stages"]))
+        self.assertEqual(set(map(len, result["samples"].values())), {len(result["samples"]["time"])})
+        self.assertEqual({loss["kind"] for loss in result["contact_losses"]}, {"zero", "jump"})
+        slow = json.loads(self.run_program("trajectory", *PICK_AND_PLACE, "--json", "--period", "2.5").stdout)
+        self.assertEqual(slow["contact_losses"], [])
+
+    def test_slow_cycles_are_poses_at_rest(self):
+        result = json.loads(self.run_program("trajectory", *PICK_AND_PLACE, "--json", "--period", "1e5").stdout)
+        samples = result["samples"]
+        k = max(i for i, stage in enumerate(samples["stage"]) if stage == 2) - 100
+        at = f"{samples['px'][k]!r},{samples['py'][k]!r}"
+        pose = json.loads(self.run_program("pose", PICK_AND_PLACE[0], "--at", at, "--json").stdout)
+        self.assertAlmostEqual(samples["dx"][k], pose["pose_error"]["dx"], delta=1e-9)
+        self.assertAlmostEqual(samples["dy"][k], pose["pose_error"]["dy"], delta=1e-9)
+        self.assertAlmostEqual(samples["MA1"][k], pose["reactions"]["A1"]["M"], delta=1e-6)
+        self.assertAlmostEqual(samples["beta_P"][k], pose["take_up"]["P"]["beta"], delta=1e-6)
 
 
 class Validate(InOwnFolder):
