@@ -13,7 +13,6 @@ namespace {
 using core::Point2;
 using report::Chart;
 using report::ChartPanel;
-using report::ChartSeries;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -126,7 +125,8 @@ NamedChart reactions_chart(const TrajectoryResult& result) {
   couples.y_label = "M (N m)";
   const auto& joints = result.motion.model.mechanism.joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto& [fx, fy, couple] = result.motion.columns[j];
+    const int fx = result.motion.columns[j].fx, fy = result.motion.columns[j].fy;
+    const int couple = result.motion.columns[j].couple;
     const auto column = [&](int k) -> const std::vector<double>& {
       return c.at(
           unknown_name(result.motion.model.mechanism, result.motion.model.unknowns[static_cast<std::size_t>(k)]));

@@ -60,7 +60,7 @@ void put_joints(ColumnTable& row, const numeric::Motion& motion, const Instant& 
     row.put(unknown_name(motion.model.mechanism, motion.model.unknowns[k]), w(static_cast<Eigen::Index>(k)));
   for (std::size_t j = 0; j < motion.columns.size(); ++j) {
     if (!(motion.clearances[j].radial > 0)) continue;
-    const auto& [fx, fy, couple] = motion.columns[j];
+    const int fx = motion.columns[j].fx, fy = motion.columns[j].fy;
     const std::string& name = motion.model.mechanism.joints[j].name;
     const double size = w(fx) * w(fx) + w(fy) * w(fy);
     row.put("beta_" + name, take_up[j].beta ? *take_up[j].beta : nan);

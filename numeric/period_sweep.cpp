@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,8 +12,8 @@ namespace {
 
 /// What a period changes: the reactions of one joint at one instant, and what the error makes of its take-up.
 struct JointTerms {
-  double radial = 0, angular = 0;
-  int fx = -1, fy = -1, couple = -1;
+  JointClearance clearance;  ///< 0 where the joint has no such reaction
+  JointColumns columns;
 };
 
 }  // namespace
@@ -31,8 +32,11 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
   for (auto* values : {&sweep.dx, &sweep.dy, &sweep.dalpha}) values->resize(periods.size() * all.size());
   std::vector<JointTerms> joints;
   for (std::size_t j = 0; j < motion.columns.size(); ++j) {
-    const auto& [fx, fy, couple] = motion.columns[j];
-    joints.push_back({motion.clearances[j].radial, couple >= 0 ? motion.clearances[j].angular : 0, fx, fy, couple});
+    const JointColumns& columns = motion.columns[j];
+    JointClearance clearance = motion.clearances[j];
+    if (columns.couple < 0) clearance.angular = 0;
+    if (columns.normal < 0) clearance.gap = 0;
+    joints.push_back({clearance, columns});
   }
   tbb::parallel_for(std::size_t{0}, periods.size(), [&](std::size_t p) {
     const double u = 1 / (periods[p] * periods[p]);
@@ -41,15 +45,23 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
       const Instant& at = *all[s];
       Eigen::Vector3d error = Eigen::Vector3d::Zero();
       for (const JointTerms& joint : joints) {
-        if (joint.radial > 0) {  // 0/0 where the force vanishes
-          const double x = at.at_rest(joint.fx) + u * at.inertial(joint.fx);
-          const double y = at.at_rest(joint.fy) + u * at.inertial(joint.fy);
-          const double scale = -joint.radial / std::sqrt(x * x + y * y);
-          error += scale * (x * at.influence.col(joint.fx) + y * at.influence.col(joint.fy));
+        const auto& [clearance, columns] = joint;
+        const auto reaction = [&](int column) { return at.at_rest(column) + u * at.inertial(column); };
+        if (clearance.radial > 0) {  // 0/0 where the force vanishes
+          const double x = reaction(columns.fx), y = reaction(columns.fy);
+          const double scale = -clearance.radial / std::sqrt(x * x + y * y);
+          error += scale * (x * at.influence.col(columns.fx) + y * at.influence.col(columns.fy));
         }
-        if (joint.angular > 0) {
-          const double m = at.at_rest(joint.couple) + u * at.inertial(joint.couple);
-          error += (m == 0 ? nan : -std::copysign(joint.angular, m)) * at.influence.col(joint.couple);
+        if (clearance.angular > 0) {
+          const double m = reaction(columns.couple);
+          error += (m == 0 ? nan : -std::copysign(clearance.angular, m)) * at.influence.col(columns.couple);
+        }
+        if (clearance.gap > 0) {
+          const double h = clearance.half_length;
+          std::array<double, 2> way = guide_ends(reaction(columns.normal), reaction(columns.tilt), h);
+          for (double& end : way) end = end == 0 ? nan : -std::copysign(clearance.gap, end);
+          error += (way[0] + way[1]) / 2 * at.influence.col(columns.normal) +
+                   (way[0] - way[1]) / (2 * h) * at.influence.col(columns.tilt);
         }
       }
       sweep.dx[sweep.index(p, s)] = error(0);

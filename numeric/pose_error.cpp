@@ -16,8 +16,10 @@ class Reach {
  public:
   Reach(const Influence& H, const std::vector<JointColumns>& columns, const std::vector<JointClearance>& clearances) {
     for (std::size_t j = 0; j < columns.size(); ++j) {
-      const auto& [fx, fy, couple, normal, tilt] = columns[j];
-      const auto& [radial, angular, gap, half_length] = clearances[j];
+      const int fx = columns[j].fx, fy = columns[j].fy, couple = columns[j].couple;
+      const int normal = columns[j].normal, tilt = columns[j].tilt;
+      const double radial = clearances[j].radial, angular = clearances[j].angular;
+      const double gap = clearances[j].gap, half_length = clearances[j].half_length;
       if (radial > 0 && fx >= 0 && fy >= 0)
         terms_.push_back({radial * H(0, fx), radial * H(1, fx), radial * H(0, fy), radial * H(1, fy)});
       if (angular > 0 && couple >= 0) terms_.push_back({angular * H(0, couple), angular * H(1, couple), 0, 0});
