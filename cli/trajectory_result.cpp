@@ -225,14 +225,14 @@ void print_trajectory(const TrajectoryResult& result) {
   const mechanism::Trajectory& trajectory = result.motion.timeline.trajectory;
   fmt::print("{}: {}, {} law, period {:.6g} s, length {:.6g} m\n\n", result.motion.model.mechanism.name,
              trajectory.name, to_string(trajectory.law.kind), result.period, result.motion.timeline.path.length());
-  fmt::print("{:<6}{:<18}{:>12}{:>12}{:>12}{:>16}  lost last\n", "stage", "from - to", "begins [s]", "ends [s]",
+  fmt::print("{:<6}{:<18}{:>12}{:>12}{:>14}{:>16}  lost last\n", "stage", "from - to", "begins [s]", "ends [s]",
              "carried [kg]", "free above [s]");
   const Json stages = stages_json(result);
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const Json& s = stages[k];
     const std::string critical =
         s["critical_period"].is_null() ? "never" : fmt::format("{:.6g}", s["critical_period"].get<double>());
-    fmt::print("{:<6}{:<18}{:>12.6g}{:>12.6g}{:>12.6g}{:>16}  {}\n", k + 1,
+    fmt::print("{:<6}{:<18}{:>12.6g}{:>12.6g}{:>14.6g}{:>16}  {}\n", k + 1,
                s["from"].get<std::string>() + " - " + s["to"].get<std::string>(), s["begins"].get<double>(),
                s["ends"].get<double>(), s["carried"].get<double>(), critical,
                s.contains("lost_last")
