@@ -183,19 +183,24 @@ double arc_length(const CubicPiece& p, double from, double to, int depth = 0) {
 
 /// Second derivatives of the natural cubic spline through values at the knots h apart (one coordinate).
 std::vector<double> spline_curvatures(const std::vector<double>& values, const std::vector<double>& h) {
+  struct Row {
+    double diagonal = 1, right = 0;
+  };
   const std::size_t n = values.size();
-  std::vector<double> m(n, 0.0), diagonal(n, 1.0), right(n, 0.0);
+  std::vector<double> curvatures(n, 0.0);
+  if (n < 3) return curvatures;
+  std::vector<Row> rows(n);
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    diagonal[i] = 2 * (h[i - 1] + h[i]);
-    right[i] = 6 * ((values[i + 1] - values[i]) / h[i] - (values[i] - values[i - 1]) / h[i - 1]);
+    rows[i].diagonal = 2 * (h[i - 1] + h[i]);
+    rows[i].right = 6 * ((values[i + 1] - values[i]) / h[i] - (values[i] - values[i - 1]) / h[i - 1]);
   }
   for (std::size_t i = 2; i + 1 < n; ++i) {
-    const double factor = h[i - 1] / diagonal[i - 1];
-    diagonal[i] -= factor * h[i - 1];
-    right[i] -= factor * right[i - 1];
+    const double factor = h[i - 1] / rows[i - 1].diagonal;
+    rows[i].diagonal -= factor * h[i - 1];
+    rows[i].right -= factor * rows[i - 1].right;
   }
-  for (std::size_t i = n - 2; i >= 1; --i) m[i] = (right[i] - h[i] * m[i + 1]) / diagonal[i];
-  return m;
+  for (std::size_t i = n - 1; i-- > 1;) curvatures[i] = (rows[i].right - h[i] * curvatures[i + 1]) / rows[i].diagonal;
+  return curvatures;
 }
 
 void add_spline(PathBuilder& builder, const std::vector<Place>& places) {
