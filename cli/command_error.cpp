@@ -13,6 +13,8 @@
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
+#include "cli/zone_errors.hpp"
+#include "cli/zone_search.hpp"
 #include "core/errors.hpp"
 #include "numeric/error_map.hpp"
 #include "report/field_exports.hpp"
@@ -33,6 +35,7 @@ struct Arguments {
   std::string formats = "png";
   bool without_loci = false;
   bool without_worst_case = false;
+  bool zones = false;
 };
 
 const std::vector<std::string> format_names = {"png", "svg", "pdf", "csv", "vtk"};
@@ -48,18 +51,27 @@ std::set<std::string> parse_formats(const std::string& text) {
   return formats;
 }
 
+/// A zone with the cells of the map that lie in it.
+struct ZoneCells {
+  const core::Zone* zone = nullptr;
+  std::vector<std::size_t> cells;
+};
+
 /// One working mode with its errors.
 struct ModeErrors {
   core::WorkingMode mode;
   numeric::ErrorMap errors;
+  std::vector<ZoneCells> zones;  ///< where they are wanted
 };
 
-/// Typical sizes: near direct singularities errors grow without bound, so means say nothing.
-Json sizes_json(const core::FieldMap& map, const core::Field& field) {
+/// Typical sizes: near direct singularities errors grow without bound, so means say nothing. `cells`: those that count;
+/// null: all.
+Json sizes_json(const core::FieldMap& map, const core::Field& field, const std::vector<std::size_t>* cells = nullptr) {
   std::vector<double> sizes;
   std::size_t at = 0;
   double largest = -1;
-  for (std::size_t k = 0; k < field.values.size(); ++k) {
+  for (std::size_t i = 0; i < (cells != nullptr ? cells->size() : field.values.size()); ++i) {
+    const std::size_t k = cells != nullptr ? (*cells)[i] : i;
     const double size = std::abs(field.values[k]);
     if (!std::isfinite(size)) continue;
     sizes.push_back(size);
@@ -93,6 +105,13 @@ Json result_json(const core::LocusMap& loci, const std::vector<ModeErrors>& mode
                    {"undefined", errors.undefined},
                    {"never_loaded", errors.never_loaded},
                    {"fields", std::move(fields)}});
+    for (const ZoneCells& zone : one.zones) {
+      Json in_zone = Json::object();
+      for (const core::Field& field : errors.map.fields)
+        in_zone[field.name] = sizes_json(errors.map, field, &zone.cells);
+      all.back()["zones"].push_back(
+          {{"id", zone.zone->id}, {"cells", zone.cells.size()}, {"fields", std::move(in_zone)}});
+    }
   }
   const core::FieldMap& map = modes.front().errors.map;
   return {{"format", 1},
@@ -101,6 +120,27 @@ Json result_json(const core::LocusMap& loci, const std::vector<ModeErrors>& mode
           {"box", {{map.lower[0], map.upper[0]}, {map.lower[1], map.upper[1]}}},
           {"grid", {map.nx, map.ny}},
           {"modes", std::move(all)}};
+}
+
+/// The bound that counts where the load is not known, zone by zone.
+void print_zones(const ModeErrors& one) {
+  const core::FieldMap& map = one.errors.map;
+  for (const core::Field& field : map.fields) {
+    if (field.name != "dp" && field.name != "worst_dp") continue;
+    fmt::print("{:<60}{:>12}{:>12}{:>12}  at\n", fmt::format("{} [{}], zone by zone", field.label, field.unit),
+               "median", "90 %", "largest");
+    for (const ZoneCells& zone : one.zones) {
+      const Json sizes = sizes_json(map, field, &zone.cells);
+      const std::string name = fmt::format("{}, {} cells", zone.zone->id, zone.cells.size());
+      if (sizes["median"].is_null())
+        fmt::print("{:<60}{:>12}\n", name, "none");
+      else
+        fmt::print("{:<60}{:>12.4g}{:>12.4g}{:>12.4g}  ({:.4g}, {:.4g})\n", name, sizes["median"].get<double>(),
+                   sizes["percentile_90"].get<double>(), std::abs(sizes["largest"].get<double>()),
+                   sizes["at"][0].get<double>(), sizes["at"][1].get<double>());
+    }
+    fmt::print("\n");
+  }
 }
 
 void print_table(const core::LocusMap& loci, const std::vector<ModeErrors>& modes) {
@@ -112,16 +152,17 @@ void print_table(const core::LocusMap& loci, const std::vector<ModeErrors>& mode
     if (!errors.never_loaded.empty())
       fmt::print("No error under the load: {} bear{} nothing in any pose, so the take-up is undefined.\n",
                  fmt::join(errors.never_loaded, ", "), errors.never_loaded.size() == 1 ? "s" : "");
-    fmt::print("\n{:<56}{:>12}{:>12}{:>12}  at\n", "absolute values", "median", "90 %", "largest");
+    fmt::print("\n{:<60}{:>12}{:>12}{:>12}  at\n", "absolute values", "median", "90 %", "largest");
     for (const core::Field& field : errors.map.fields) {
       const Json sizes = sizes_json(errors.map, field);
       if (sizes["median"].is_null()) continue;
-      fmt::print("{:<56}{:>12.4g}{:>12.4g}{:>12.4g}  ({:.4g}, {:.4g})\n",
+      fmt::print("{:<60}{:>12.4g}{:>12.4g}{:>12.4g}  ({:.4g}, {:.4g})\n",
                  fmt::format("{} [{}]", field.label, field.unit), sizes["median"].get<double>(),
                  sizes["percentile_90"].get<double>(), std::abs(sizes["largest"].get<double>()),
                  sizes["at"][0].get<double>(), sizes["at"][1].get<double>());
     }
     fmt::print("\n{} cells in the workspace, {} on a locus to the last bit\n\n", errors.reachable, errors.undefined);
+    if (!one.zones.empty()) print_zones(one);
   }
 }
 
@@ -161,12 +202,21 @@ int run(const Arguments& arguments) {
   const LociRequest request = loci_request(arguments.loci, mechanism, progress);
 
   std::vector<ModeErrors> modes;
-  const core::LocusMap loci = arguments.without_loci ? empty_map(mechanism) : trace_loci(mechanism, request);
+  if (arguments.zones && arguments.without_loci)
+    throw core::InputError({.file = "--zones"}, "zones are bounded by the loci", "leave --no-loci out");
+  core::ZoneMap zones;
+  if (arguments.zones) zones = find_zones(mechanism, request);
+  const core::LocusMap loci = arguments.zones          ? zones.loci
+                              : arguments.without_loci ? empty_map(mechanism)
+                                                       : trace_loci(mechanism, request);
   const numeric::ErrorGrid grid = {.nx = nx, .ny = ny, .worst_case = !arguments.without_worst_case};
   for (const DyadSides& sides : requested_modes(mechanism, request)) {
     progress.show(0.9, "errors");
     modes.push_back(
-        {loci.tower.roots.empty() ? sides : mode_of(sides, loci.tower), numeric::error_map(model, sides, grid)});
+        {loci.tower.roots.empty() ? sides : mode_of(sides, loci.tower), numeric::error_map(model, sides, grid), {}});
+    for (const core::Zone& zone : zones.zones)
+      if (zone.mode == modes.back().mode)
+        modes.back().zones.push_back({&zone, cells_in(zone, modes.back().errors.map)});
   }
   progress.clear();
 
@@ -196,6 +246,7 @@ Command add_error_command(CLI::App& program) {
       ->capture_default_str();
   app->add_flag("--no-loci", arguments->without_loci, "Pictures without the loci drawn over them");
   app->add_flag("--no-worst-case", arguments->without_worst_case, "Only the error under the file's load");
+  app->add_flag("--zones", arguments->zones, "Also the sizes of the errors in each discontinuity-free zone");
   app->footer(
       "Example: clearloci error examples/five_bar.yaml --grid 300x400 --export png,csv,vtk\n"
       "Writes error.json, a picture for each component (error-dx.png, ...) and for the worst case over all take-ups\n"

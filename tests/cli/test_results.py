@@ -219,6 +219,18 @@ class Error(InOwnFolder):
         self.assertAlmostEqual(float(row["dx"]), pose["pose_error"]["dx"], delta=1e-12)
         self.assertAlmostEqual(float(row["worst_dalpha"]), pose["worst_case"]["dalpha"], delta=1e-12)
 
+    def test_error_sizes_zone_by_zone(self):
+        options = ["--grid", "150x200", "--export", "csv", "--zones", "--json", "-o", self.folder / "zoned"]
+        mode = json.loads(self.run_program("error", FIVE_BAR, *options).stdout)["modes"][0]
+        zones = json.loads(self.run_program("zones", FIVE_BAR, "--json", "-o", self.folder / "zoned").stdout)["zones"]
+        self.assertEqual([z["id"] for z in mode["zones"]], [z["id"] for z in zones])
+        self.assertEqual(sum(z["cells"] for z in mode["zones"]), mode["reachable"])
+        cell = 1.5 / 150 * 2 / 200
+        for counted, zone in zip(mode["zones"], zones):
+            self.assertAlmostEqual(counted["cells"] * cell, zone["area"], delta=0.02)
+        largest = [z["fields"]["worst_dp"]["largest"] for z in mode["zones"] if z["cells"]]
+        self.assertEqual(max(largest), mode["fields"]["worst_dp"]["largest"])
+
     def test_all_working_modes(self):
         options = ("--working-mode", "all", "--grid", "20x20", "--no-loci", "--no-worst-case", "--json")
         result = json.loads(self.run_program("error", FIVE_BAR, *options).stdout)
