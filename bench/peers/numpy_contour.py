@@ -32,7 +32,8 @@ def dyad(a, p, side):
         return a + (d * v + side * root * normal) / (2 * d)
 
 
-def reactions(p):
+def newton_euler(p):
+    """The matrices of the poses, 12 x 12 each, the elbows, and which poses are reachable."""
     a1, a2 = np.array([0.0, 0.0]), np.array([D, 0.0])
     b1, b2 = dyad(a1, p, -1), dyad(a2, p, +1)
     matrix = np.zeros(p.shape[:-1] + (12, 12))
@@ -49,9 +50,14 @@ def reactions(p):
             matrix[..., 3 * link + 2, 2 * column + 1] = sign * arm[..., 0]
     matrix[..., 2, 10] = 1.0
     matrix[..., 11, 11] = 1.0
+    reachable = np.isfinite(b1).all(axis=-1) & np.isfinite(b2).all(axis=-1)
+    return matrix, (b1, b2), reachable
+
+
+def reactions(p):
+    matrix, _, reachable = newton_euler(p)
     right = np.zeros(p.shape[:-1] + (12, 1))
     right[..., 6:8, 0] = -LOAD
-    reachable = np.isfinite(b1).all(axis=-1) & np.isfinite(b2).all(axis=-1)
     result = np.full(p.shape[:-1] + (12,), np.nan)
     result[reachable] = np.linalg.solve(matrix[reachable], right[reachable])[..., 0]
     return result
