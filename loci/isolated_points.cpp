@@ -136,7 +136,8 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
 
 }  // namespace
 
-void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
+void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map,
+                             const std::function<bool()>& stop) {
   if (std::find(problem.quantities.begin(), problem.quantities.end(), Quantity::f) == problem.quantities.end()) return;
   const std::size_t first = map.isolated_points.size();
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
@@ -152,8 +153,9 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     }
     for (const core::LocusFactor* fx : x) {
       for (const core::LocusFactor* fy : y) {
-        const sheet::ZeroSet found = sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line},
-                                                           {fy->sheet, fy->line}, problem.lower, problem.upper);
+        const sheet::ZeroSet found =
+            sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
+                                  problem.upper, {.stop = stop});
         const auto add = [&](const core::Point2& at, bool certified) {
           if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
           add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
@@ -161,6 +163,10 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         };
         for (const sheet::SheetZero& zero : found.zeros) {
           if (!on_direct_singularity(problem, mode, zero)) add({zero.x, zero.y}, true);
+        }
+        if (stop && stop()) {
+          map.complete = false;
+          return;
         }
         // What no proof was had for is a point where Newton finds one, and else only worth a note.
         std::size_t open = 0;

@@ -2,6 +2,8 @@
 // section 5) and isolated real points of a single factor.
 #pragma once
 
+#include <functional>
+
 #include "core/locus_map.hpp"
 #include "loci/curve_arrangement.hpp"
 
@@ -9,7 +11,9 @@ namespace clearloci::loci {
 
 /// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no contact-loss curve of the
 /// map. Appended to the map; what stays undecided becomes a point that is not certified.
-void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
+/// `stop`: asked now and then, may be empty; true: what is found by then is added and the map marked incomplete.
+void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map,
+                             const std::function<bool()>& stop);
 
 /// The isolated real points of the arrangement's curves that lie on the mode's sheet.
 void add_isolated_curve_points(const core::LocusProblem& problem, const core::WorkingMode& mode,

@@ -10,6 +10,7 @@
 
 #include "loci/edge_labels.hpp"
 #include "loci/plane_curve.hpp"
+#include "loci/sheet/patch.hpp"
 #include "loci/sheet/sheet_program.hpp"
 #include "loci/sheet/subtower.hpp"
 #include "loci/vertex_placement.hpp"
@@ -190,17 +191,29 @@ class Gathering {
     return problem_.modes[static_cast<std::size_t>(share.mode)];
   }
 
+  /// Where a dyad's construction is undefined every numerator vanishes, which says nothing of the reaction.
+  bool at_base(const Point2& at) const {
+    const double near = on_curve * core::to_double(problem_.upper[0] - problem_.lower[0]);
+    const std::vector<Point2> all = sheet::bases(problem_.tower);
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Point2& base) { return std::hypot(base[0] - at[0], base[1] - at[1]) <= near; });
+  }
+
   void note(const SheetShare& share) {
     const LocusFactor& own = factor(share);
     if (share.traced.stopped) map_.complete = false;
     if (!share.traced.certified && !share.traced.stopped) {
+      const sheet::Region& first = share.traced.undecided.front();
       map_.notes.push_back(std::to_string(share.traced.undecided.size()) + " undecided cells on " +
-                           (own.cause.empty() ? own.expression.substr(0, 60) : own.cause));
+                           (own.cause.empty() ? own.expression.substr(0, 60) : own.cause) + ", the first near (" +
+                           std::to_string(0.5 * (first.x0 + first.x1)) + ", " +
+                           std::to_string(0.5 * (first.y0 + first.y1)) + ")");
     }
     const EdgeLabel label = label_of(problem_, {share.factor});
     if (own.role == FactorRole::reaction && label.vanishing.empty()) return;
     if (own.role == FactorRole::workspace_boundary) return;
     for (const Point2& at : share.traced.isolated_points) {
+      if (at_base(at)) continue;
       map_.isolated_points.push_back({label.kind, label.vanishing, {at[0], at[1]}, mode(share), false});
     }
   }

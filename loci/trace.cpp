@@ -75,6 +75,8 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
     (is_open ? open : settled).push_back(share);
   }
   if (open.empty()) return;
+  if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
+    throw core::LimitReached("the time limit was reached");
   LocusProblem rest = problem;
   rest.factors.clear();
   rest.modes.clear();
@@ -136,10 +138,12 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
       map = trace_exactly(problem, options);
     else
       trace_adaptively(problem, options, map);
+    const std::function<bool()> stop = [&] {
+      return options.deadline && std::chrono::steady_clock::now() > *options.deadline;
+    };
     for (const core::WorkingMode& mode : problem.modes) {
-      if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
-        throw core::LimitReached("the time limit was reached");
-      add_contact_loss_points(problem, mode, map);
+      if (stop()) throw core::LimitReached("the time limit was reached");
+      add_contact_loss_points(problem, mode, map, stop);
     }
   } catch (const core::LimitReached&) {
     map.complete = false;

@@ -50,6 +50,7 @@ class GraphBuilder {
     for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) meet_seams(static_cast<int>(p));
     for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) meet_border(static_cast<int>(p));
     for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) meet_rims(static_cast<int>(p));
+    graph_.stopped = graph_.stopped || (options_.stop && options_.stop());
     for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) pair_in_leaves(static_cast<int>(p));
     for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) join_clusters(static_cast<int>(p));
     if (!lucky()) return std::nullopt;
@@ -87,7 +88,8 @@ class GraphBuilder {
     const Cell& domain = graph_.patches[patch].domain;
     const double size = std::max(domain.x.width(), domain.y.width());
     const Cell segment = axis == 0 ? Cell{at, {from, to}} : Cell{{from, to}, at};
-    FoundZeros found = search.run({segment}, {smallest_on_edge * size, most_cells_on_edge, accuracy * size});
+    FoundZeros found =
+        search.run({segment}, {smallest_on_edge * size, most_cells_on_edge, accuracy * size, options_.stop});
     if (!found.undecided.empty()) return std::nullopt;
     for (const std::vector<Interval>& zero : found.enclosures) {
       if (!inside(zero[1 - axis], Interval(from, to))) return std::nullopt;
@@ -210,7 +212,8 @@ class GraphBuilder {
       mode.erase(mode.begin() + j);
       const Cell& domain = graph_.patches[patch].domain;
       const double size = std::max(domain.x.width(), domain.y.width());
-      FoundZeros found = ZeroSearch(rim, mode, {}).run(seeds, {1e-12 * size, most_rim_cells, accuracy * size});
+      FoundZeros found =
+          ZeroSearch(rim, mode, {}).run(seeds, {1e-12 * size, most_rim_cells, accuracy * size, options_.stop});
       for (const Cell& cell : found.undecided) {
         unlucky_ = true;
         graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));

@@ -1,6 +1,7 @@
 #include "loci/sheet/isolated_zeros.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/errors.hpp"
 
@@ -19,7 +20,7 @@ SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, c
     double scale = 1;
     if (chart.side != Chart::Side::plane) {
       const std::vector<int>& own = stars[chart.star].roots;
-      if (std::find(own.begin(), own.end(), static_cast<int>(j)) != own.end()) scale = enclosure[0].middle();
+      scale = std::pow(enclosure[0].middle(), std::count(own.begin(), own.end(), static_cast<int>(j)));
     }
     zero.roots.push_back(scale * enclosure[2 + j].middle());
     if (enclosure[2 + j].sign() == 0) zero.inside_workspace = false;
@@ -48,8 +49,9 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
     SheetProgram program(sheet.tower, sheet.functions);
     ZeroSearch search(program, mode, {});
     const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {-1, 1}}};
-    const FoundZeros found = search.run(
-        seeds, {options.smallest * (plane ? size : 1.0), static_cast<std::size_t>(options.most_cells), 2e-15 * size});
+    const FoundZeros found =
+        search.run(seeds, {options.smallest * (plane ? size : 1.0), static_cast<std::size_t>(options.most_cells),
+                           2e-15 * size, options.stop});
     result.gave_up = result.gave_up || found.gave_up;
     for (const Cell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
     for (const std::vector<Interval>& enclosure : found.enclosures) {

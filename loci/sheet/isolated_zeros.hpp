@@ -4,6 +4,7 @@
 // ends meet (patch.hpp).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "loci/sheet/patch.hpp"
@@ -19,8 +20,9 @@ struct SheetZero {
 };
 
 struct ZeroOptions {
-  double smallest = 1e-9;  ///< width, relative to the box, below which a cell is left undecided
-  int most_cells = 4096;   ///< live cells of one size: more of them mean that N1 and N2 share a curve
+  double smallest = 1e-9;           ///< width, relative to the box, below which a cell is left undecided
+  int most_cells = 4096;            ///< live cells of one size: more of them mean that N1 and N2 share a curve
+  std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
 };
 
 struct ZeroSet {

@@ -24,8 +24,9 @@ Polynomial as_polynomial(int variables, const Collected& collected) {
   return result;
 }
 
-bool holds_root(const Star& star, int root) {
-  return std::find(star.roots.begin(), star.roots.end(), root) != star.roots.end();
+/// The power of the distance with which a root vanishes at a star.
+int power_of_root(const Star& star, int root) {
+  return static_cast<int>(std::count(star.roots.begin(), star.roots.end(), root));
 }
 
 /// Lowest degree in the distance from a star at the origin; its roots count as a distance.
@@ -104,7 +105,9 @@ std::vector<Star> stars(const core::RootTower& tower) {
     bool reachable = true;
     for (std::size_t j = 0; j < tower.roots.size(); ++j) {
       const Polynomial square = moved_to(*star, tower.roots[j].square);
-      if (order_at_star(square, *star) >= 2) star->roots.push_back(static_cast<int>(j));
+      if (!square.is_zero())
+        star->roots.insert(star->roots.end(), static_cast<std::size_t>(order_at_star(square, *star) / 2),
+                           static_cast<int>(j));
       if (!square.is_zero() && square.is_constant()) continue;
       const std::vector<int> origin(square.variables, 0);
       if (!square.terms.empty() && square.terms.back().exponents == origin && square.terms.back().coefficient < 0 &&
@@ -202,7 +205,7 @@ core::Polynomial without_denominators(core::Polynomial function, const core::Roo
 namespace {
 
 /// A polynomial in (X, Y, roots...) around a star as a straight line in (u, X / u, Y / u, roots...), the star's roots
-/// divided by u, without `order` powers of u.
+/// divided by their powers of u, without `order` powers of u.
 core::StraightLine polar_line(const Polynomial& around_star, const Star& star, int order) {
   Polynomial polar{around_star.variables + 1, {}};
   for (const core::Term& term : around_star.terms) {
@@ -262,7 +265,7 @@ const Charting::AtStar& Charting::at_star(int index) {
   const Star& star = stars_[index];
   for (std::size_t j = 0; j < tower_.roots.size(); ++j)
     own.squares.push_back(
-        polar_line(moved_to(star, tower_.roots[j].square), star, holds_root(star, static_cast<int>(j)) ? 2 : 0));
+        polar_line(moved_to(star, tower_.roots[j].square), star, 2 * power_of_root(star, static_cast<int>(j))));
   for (const SheetFunction& f : functions_) {
     const Polynomial moved = moved_to(star, f.polynomial);
     own.functions.push_back(polar_line(moved, star, moved.is_zero() ? 0 : order_at_star(moved, star)));

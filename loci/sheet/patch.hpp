@@ -19,7 +19,9 @@ namespace clearloci::loci::sheet {
 
 struct Star {
   core::Rational x, y;
-  std::vector<int> roots;  ///< those whose square has a double zero there
+  /// Those that vanish there, once for every power of the distance: a root of a dyad on a dyad carries the squared
+  /// distance of the one below as a factor.
+  std::vector<int> roots;
 };
 
 /// The double zeros of root squares at rational points of the plane where a denominator of the tower vanishes.
@@ -69,7 +71,7 @@ class Charting {
   ChartedSheet in(const Chart& chart);
 
  private:
-  /// In (u, X / u, Y / u, roots...), those of the star divided by u, common powers of u taken out.
+  /// In (u, X / u, Y / u, roots...), those of the star divided by their powers of u, common powers of u taken out.
   struct AtStar {
     int star = -1;
     std::vector<core::StraightLine> squares, functions;

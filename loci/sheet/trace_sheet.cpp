@@ -82,7 +82,7 @@ class Tracer {
       trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
     trace.certified = trace.undecided.empty();
     // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
-    trace.stopped = graph_.stopped && options_.stop && options_.stop();
+    trace.stopped = options_.stop && options_.stop();
     return trace;
   }
 
@@ -140,8 +140,8 @@ class Tracer {
       const ChartedSheet sheet = charting.in(patch.chart);
       const SheetProgram program(sheet.tower, sheet.functions);
       const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
-      const FoundZeros found =
-          ZeroSearch(program, own_.mode, {}).run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size});
+      const FoundZeros found = ZeroSearch(program, own_.mode, {})
+                                   .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop});
       std::vector<Cell> open = found.undecided;
       for (const std::vector<Interval>& zero : found.enclosures)
         if (!cut_stretch(graph_, static_cast<int>(p), zero, cut.label)) open.push_back({zero[0], zero[1]});
@@ -191,8 +191,8 @@ class Tracer {
       if (chart.side == Chart::Side::plane || chart.star != star) continue;
       const ChartedSheet sheet = charting.in(chart);
       const SheetProgram program(sheet.tower, sheet.functions);
-      const FoundZeros found =
-          ZeroSearch(program, both.mode, {{0}, {1}}).run({{0.0, {-1, 1}}}, {smallest_cut, most_star_cells, 1e-13});
+      const FoundZeros found = ZeroSearch(program, both.mode, {{0}, {1}})
+                                   .run({{0.0, {-1, 1}}}, {smallest_cut, most_star_cells, 1e-13, options_.stop});
       if (!found.enclosures.empty() || !found.undecided.empty()) return true;
     }
     return false;
@@ -220,8 +220,8 @@ class Tracer {
       const ChartedSheet sheet = charting.in(chart);
       const SheetProgram program(sheet.tower, sheet.functions);
       const double size = chart.side == Chart::Side::plane ? size_ : 1.0;
-      const FoundZeros found =
-          ZeroSearch(program, both.mode, {}).run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size});
+      const FoundZeros found = ZeroSearch(program, both.mode, {})
+                                   .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop});
       for (const Cell& cell : found.undecided)
         if (cut.keep || !at_star(chart, cell)) open.push_back(chart.to_plane(cell));
       for (const std::vector<Interval>& zero : found.enclosures) {

@@ -26,6 +26,7 @@ constexpr int most_radii = 16;
 constexpr double first_radius = 0.02;  // relative to the accuracy wanted
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
+constexpr std::size_t cells_between_stops = 64;
 
 const Interval everything(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 
@@ -47,10 +48,14 @@ FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits)
   undecided_.clear();
   std::vector<Box> live, next;
   for (const Cell& seed : seeds) live.push_back({seed, {}});
-  while (!live.empty() && live.size() <= limits_.most_cells + seeds.size()) {
+  bool stopped = false;
+  while (!live.empty() && !stopped && live.size() <= limits_.most_cells + seeds.size()) {
     next.clear();
-    for (const Box& box : live) examine(box, next);
-    std::swap(live, next);
+    for (std::size_t i = 0; i < live.size() && !stopped; ++i) {
+      stopped = i % cells_between_stops == 0 && limits_.stop && limits_.stop();
+      if (!stopped) examine(live[i], next);
+    }
+    if (!stopped) std::swap(live, next);
   }
   FoundZeros result;
   result.gave_up = !live.empty();

@@ -2,6 +2,7 @@
 // Krawczyk's proof of existence and uniqueness.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "loci/sheet/krawczyk.hpp"
@@ -29,9 +30,10 @@ class ZeroSearch {
   ZeroSearch(const SheetProgram& program, const core::WorkingMode& mode, System system);
 
   struct Limits {
-    double smallest;         ///< width below which a cell is left undecided
-    std::size_t most_cells;  ///< more live cells than that of one size mean that the functions share a curve
-    double accuracy;         ///< width of enclosures that is worth multi-precision to get below
+    double smallest;                  ///< width below which a cell is left undecided
+    std::size_t most_cells;           ///< more live cells than that of one size mean that the functions share a curve
+    double accuracy;                  ///< width of enclosures that is worth multi-precision to get below
+    std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
   };
 
   /// All zeros in the seeds, which are thin in the coordinates that are not free.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 
 #include "cli/pipeline.hpp"
@@ -74,6 +75,72 @@ TEST(Engines, AgreeOnRandomDesigns) {
     SCOPED_TRACE(design.text());
     expect_agreement(mechanism::parse_mechanism(design.text(), "random.yaml"), all_modes(loci::Engine::adaptive));
   }
+}
+
+// The crank of one leg carries a dyad more: roots nest, and at A2 the upper one vanishes with a higher power of the
+// distance than the lower one.
+constexpr const char* seven_bar = R"(format: 1
+name: Seven-bar with a remote drive
+space: planar
+
+parameters:
+  L: 1/2
+  rod: 0.6
+  arm: 0.3
+
+workspace:
+  x: [-0.5, 1.0]
+  y: [-1.0, 1.0]
+
+points:
+  A1: [0, 0]
+  A2: [L, 0]
+  A3: [1.1, 0]
+  P:  [x, y]
+  B1: {dyad: [A1, P], lengths: [L, L], side: left}
+  B2: {dyad: [A2, P], lengths: [L, L], side: right}
+  D:  {on: [A2, B2], offset: [1/5, 0]}
+  C:  {dyad: [A3, D], lengths: [arm, rod], side: left}
+
+links:
+  A1B1: {points: [A1, B1], mass: 1}
+  B1P:  {points: [B1, P],  mass: 1}
+  PB2:  {points: [P, B2],  mass: 1}
+  A2B2: {points: [A2, B2, D], mass: 1}
+  DC:   {points: [D, C], mass: 0.5}
+  A3C:  {points: [A3, C], mass: 0.5}
+
+joints:
+  A1: {revolute: [ground, A1B1], at: A1, actuated: true, clearance: {radial: 10e-6, angular: 0.5e-3}}
+  B1: {revolute: [A1B1, B1P],    at: B1, clearance: {radial: 10e-6}}
+  P:  {revolute: [B1P, PB2],     at: P,  clearance: {radial: 10e-6}}
+  B2: {revolute: [A2B2, PB2],    at: B2, clearance: {radial: 10e-6}}
+  A2: {revolute: [ground, A2B2], at: A2, clearance: {radial: 10e-6}}
+  D:  {revolute: [A2B2, DC],     at: D,  clearance: {radial: 10e-6}}
+  C:  {revolute: [A3C, DC],      at: C,  clearance: {radial: 10e-6}}
+  A3: {revolute: [ground, A3C],  at: A3, actuated: true, clearance: {radial: 10e-6, angular: 0.5e-3}}
+
+end_effector: {link: PB2, at: P}
+
+loads:
+  - {link: PB2, at: P, force: [0, -100]}
+)";
+
+TEST(AdaptiveEngine, TracesADyadOnADyadThroughTheBaseOfTheLowerOne) {
+  const core::LocusMap map =
+      trace_loci(mechanism::parse_mechanism(seven_bar, "seven_bar.yaml"), {.engine = loci::Engine::adaptive});
+  EXPECT_TRUE(map.complete);
+  EXPECT_FALSE(map.curves.empty());
+  for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.factor;
+  EXPECT_TRUE(map.isolated_points.empty());
+}
+
+TEST(AdaptiveEngine, MarksWhatADeadlineCutShort) {
+  const auto mechanism = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml");
+  core::LocusProblem problem = trace_problem(mechanism).problem;
+  const core::LocusMap map =
+      loci::trace(problem, {.engine = loci::Engine::adaptive, .deadline = std::chrono::steady_clock::now()});
+  EXPECT_FALSE(map.complete);
 }
 
 // Any weight on the links makes the couples' curves ones of degree 24.
