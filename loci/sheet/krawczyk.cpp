@@ -1,37 +1,54 @@
 #include "loci/sheet/krawczyk.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "core/errors.hpp"
+
 namespace clearloci::loci::sheet {
 
-std::optional<std::vector<std::vector<double>>> approximate_inverse(std::vector<std::vector<double>> matrix) {
-  const std::size_t n = matrix.size();
-  std::vector<std::vector<double>> inverse(n, std::vector<double>(n, 0.0));
-  for (std::size_t i = 0; i < n; ++i) inverse[i][i] = 1;
-  for (std::size_t column = 0; column < n; ++column) {
-    std::size_t pivot = column;
-    for (std::size_t row = column + 1; row < n; ++row)
+namespace {
+
+// More unknowns than any sheet has roots to lift; matrices of this size need no memory from the heap.
+constexpr int most_unknowns = 16;
+
+struct SquareMatrix {
+  std::array<std::array<double, most_unknowns>, most_unknowns> entries;  // the first n rows and columns are in use
+  std::array<double, most_unknowns>& operator[](int row) { return entries[static_cast<std::size_t>(row)]; }
+};
+
+/// Y with Y matrix ~ 1, by Gauss-Jordan elimination with pivoting. False: singular to rounding.
+bool approximate_inverse(SquareMatrix& matrix, int n, SquareMatrix& inverse) {
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) inverse[i][k] = i == k ? 1 : 0;
+  for (int column = 0; column < n; ++column) {
+    int pivot = column;
+    for (int row = column + 1; row < n; ++row)
       if (std::abs(matrix[row][column]) > std::abs(matrix[pivot][column])) pivot = row;
-    std::swap(matrix[pivot], matrix[column]);
-    std::swap(inverse[pivot], inverse[column]);
+    for (int c = 0; c < n && pivot != column; ++c) {
+      std::swap(matrix[pivot][c], matrix[column][c]);
+      std::swap(inverse[pivot][c], inverse[column][c]);
+    }
     const double scale = 1 / matrix[column][column];
-    if (!std::isfinite(scale)) return std::nullopt;
-    for (std::size_t c = 0; c < n; ++c) matrix[column][c] *= scale, inverse[column][c] *= scale;
-    for (std::size_t row = 0; row < n; ++row) {
+    if (!std::isfinite(scale)) return false;
+    for (int c = 0; c < n; ++c) matrix[column][c] *= scale, inverse[column][c] *= scale;
+    for (int row = 0; row < n; ++row) {
       const double factor = matrix[row][column];
       if (row == column || factor == 0) continue;
-      for (std::size_t c = 0; c < n; ++c) {
+      for (int c = 0; c < n; ++c) {
         matrix[row][c] -= factor * matrix[column][c];
         inverse[row][c] -= factor * inverse[column][c];
       }
     }
   }
-  for (const auto& row : inverse)
-    for (const double entry : row)
-      if (!std::isfinite(entry)) return std::nullopt;
-  return inverse;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k)
+      if (!std::isfinite(inverse[i][k])) return false;
+  return true;
 }
+
+}  // namespace
 
 Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interval>& image) {
   const int given = static_cast<int>(system.functions.size());
@@ -41,12 +58,12 @@ Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interv
     const int c = coordinate(column);
     return row < given ? cell.slope(system.functions[row], c) : cell.bond_slope(row - given, c);
   };
-  std::vector<std::vector<double>> middle(n, std::vector<double>(n));
+  core::ensure(n <= most_unknowns, "a system has few unknowns");
+  SquareMatrix middle, inverse;
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column) middle[row][column] = slope(row, column).middle();
   image.clear();
-  const auto inverse = approximate_inverse(std::move(middle));
-  if (!inverse) return Verdict::unknown;
+  if (!approximate_inverse(middle, n, inverse)) return Verdict::unknown;
 
   bool contracted = true, none = false;
   for (int c = 0; c < cell.dimension(); ++c) image.push_back(cell.local(c));
@@ -55,11 +72,11 @@ Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interv
     Interval sum = cell.middle(own);
     for (int row = 0; row < n; ++row) {
       const Interval& value = row < given ? cell.middle_value(system.functions[row]) : cell.middle_bond(row - given);
-      sum = sum - Interval((*inverse)[i][row]) * value;
+      sum = sum - Interval(inverse[i][row]) * value;
     }
     for (int column = 0; column < n; ++column) {
       Interval defect = i == column ? 1.0 : 0.0;
-      for (int row = 0; row < n; ++row) defect = defect - Interval((*inverse)[i][row]) * slope(row, column);
+      for (int row = 0; row < n; ++row) defect = defect - Interval(inverse[i][row]) * slope(row, column);
       const int c = coordinate(column);
       sum = sum + defect * (cell.local(c) - Interval(cell.middle(c)));
     }

@@ -4,7 +4,6 @@
 // (Neumaier, Interval Methods for Systems of Equations, 1990, section 5.1).
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "loci/sheet/sheet_cell.hpp"
@@ -22,8 +21,5 @@ struct System {
 /// Verdict on the box that `cell` has entered and differentiated. `image`: K(X) in all local coordinates (those that
 /// are not free stay as they are), or empty where the middle Jacobian is singular.
 Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interval>& image);
-
-/// Y with Y matrix ~ 1, by Gauss-Jordan elimination with pivoting; none: singular to rounding.
-std::optional<std::vector<std::vector<double>>> approximate_inverse(std::vector<std::vector<double>> matrix);
 
 }  // namespace clearloci::loci::sheet

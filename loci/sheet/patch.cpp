@@ -235,6 +235,7 @@ core::StraightLine Chart::in_chart(const core::StraightLine& polar) const {
   constexpr int wide = 4, deep = 5;
   const int offset = static_cast<int>(line.steps.size());
   std::vector<int> place;
+  line.steps.reserve(line.steps.size() + polar.steps.size() + 1);
   for (const core::StraightLine::Step& step : polar.steps) {
     place.push_back(static_cast<int>(line.steps.size()));
     if (step.operation == Operation::variable && (step.first == 1 || step.first == 2)) {

@@ -3,7 +3,7 @@
 //     values        f(x, y, s1..sm)
 //     gradients     df/dv, dQ_j/dv for v in (x, y, s1..sm), by symbolic forward differentiation of the program
 // Where a function or a square comes with its straight line, that is compiled instead of the polynomial: it is shorter
-// and its enclosures are tighter. One program serves double, Interval and MultiInterval.
+// and its enclosures are tighter. One program serves double, Batch, Interval and MultiInterval.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 
 #include "core/polynomial.hpp"
 #include "core/root_tower.hpp"
+#include "loci/sheet/batch.hpp"
 #include "loci/sheet/interval.hpp"
 #include "loci/sheet/multi_interval.hpp"
 

@@ -73,7 +73,7 @@ void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
   };
   if (!cell_.enter(cell.x, cell.y, live.roots) || excluded([&](int f) { return cell_.value(f); }) || known(cell))
     return;
-  std::vector<Interval> box;
+  box_.clear();
   const std::vector<int> lifted = cell_.lifted();
   const auto is_free = [&](int c) {
     return c >= 2 || std::find(system_.free.begin(), system_.free.end(), c) != system_.free.end();
@@ -91,21 +91,20 @@ void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
   }
   for (int c = 0; c < cell_.dimension(); ++c) {
     const double share = lifted.empty() ? inflation : c < 2 ? lifted_inflation : root_inflation;
-    box.push_back(is_free(c) ? inflated(cell_.local(c), share) : cell_.local(c));
+    box_.push_back(is_free(c) ? inflated(cell_.local(c), share) : cell_.local(c));
   }
-  if (cell_.enter_local(box, lifted)) {
+  if (cell_.enter_local(box_, lifted)) {
     cell_.differentiate();
     if (width(cell) < near_smallest * limits_.smallest &&
         std::any_of(system_.functions.begin(), system_.functions.end(),
                     [&](int f) { return cell_.rounding_dominates(f); }))
       cell_.sharpen_middle();
     if (excluded([&](int f) { return cell_.centred(f); })) return;
-    std::vector<Interval> image;
-    Verdict verdict = krawczyk(cell_, system_, image);
+    Verdict verdict = krawczyk(cell_, system_, image_);
     if (verdict == Verdict::none) return;
     for (int trial = 0; verdict == Verdict::unknown && trial < most_widenings; ++trial)
-      verdict = try_wider(box, lifted, image);
-    if (verdict == Verdict::unique && accept(box, lifted, std::move(image), cell)) return;
+      verdict = try_wider(box_, lifted, image_);
+    if (verdict == Verdict::unique && accept(box_, lifted, image_, cell)) return;
   }
   if (width(cell) < limits_.smallest)
     undecided_.push_back(cell);

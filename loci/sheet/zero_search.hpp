@@ -72,6 +72,7 @@ class ZeroSearch {
   Limits limits_{};
   std::vector<CertifiedZero> zeros_;
   std::vector<Cell> undecided_;
+  std::vector<Interval> box_, image_;  // of the cell under examination
 };
 
 }  // namespace clearloci::loci::sheet

@@ -93,6 +93,28 @@ TEST_F(CompiledFiveBar, AgreesWithPolynomialsInDoubleIntervalAndMultiInterval) {
   }
 }
 
+TEST_F(CompiledFiveBar, GivesInBatchesWhatItGivesOneByOne) {
+  auto one = program.registers<double>();
+  auto batch = program.registers<Batch>();
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<Batch> at(4);
+  for (Batch& v : at)
+    for (double& lane : v.lanes) lane = number(random);
+  for (int v = 0; v < 4; ++v) batch.set(v, at[static_cast<std::size_t>(v)]);
+  for (int j = 0; j < 2; ++j) batch.run_square(j);
+  batch.run_values(), batch.run_gradients();
+  for (std::size_t lane = 0; lane < Batch::size; ++lane) {
+    for (int v = 0; v < 4; ++v) one.set(v, at[static_cast<std::size_t>(v)][lane]);
+    for (int j = 0; j < 2; ++j) one.run_square(j);
+    one.run_values(), one.run_gradients();
+    for (int f = 0; f < 2; ++f) {
+      EXPECT_DOUBLE_EQ(batch.value(f)[lane], one.value(f));
+      for (int v = 0; v < 4; ++v) EXPECT_DOUBLE_EQ(batch.partial(f, v)[lane], one.partial(f, v));
+    }
+  }
+}
+
 TEST_F(CompiledFiveBar, SharesSubexpressions) {
   const SheetProgram twice(sheet.tower, {sheet.moment_A1, sheet.moment_A1});
   const SheetProgram once(sheet.tower, {sheet.moment_A1});

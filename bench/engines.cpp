@@ -1,0 +1,231 @@
+// The engines against plain grids on one curve: M_A1 of the 5R with 1 kg links, of degree 24. Prints JSON;
+// bench/engines turns it into a table and a plot.
+//
+// Accuracy is measured alike for all: the distance of points on the chords from the curve, by one Newton step on the
+// compiled factor; of the curve's length the 99 % that are drawn best count, for a grid is at its worst next to the
+// workspace boundary, where a root's slope is unbounded.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "cli/pipeline.hpp"
+#include "loci/sheet/sheet_program.hpp"
+#include "loci/sheet/subtower.hpp"
+
+namespace {
+
+using clearloci::core::Point2;
+using clearloci::loci::sheet::Batch;
+using clearloci::loci::sheet::SheetProgram;
+using Clock = std::chrono::steady_clock;
+using Segments = std::vector<std::array<Point2, 2>>;
+
+double milliseconds(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Least time of a few runs, in ms.
+template <class F>
+double best_of(int runs, const F& work) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < runs; ++i) {
+    const Clock::time_point start = Clock::now();
+    work();
+    best = std::min(best, milliseconds(start));
+  }
+  return best;
+}
+
+/// The compiled factor of M_A1 at points of the working mode's sheet.
+class Factor {
+ public:
+  Factor(const clearloci::core::LocusProblem& problem, const clearloci::core::LocusFactor& factor)
+      : part_(clearloci::loci::sheet::subtower(problem.tower, problem.modes.front(), {factor.sheet})),
+        program_(part_.tower, std::vector<clearloci::loci::sheet::SheetFunction>{clearloci::loci::sheet::narrowed(
+                                  clearloci::loci::sheet::SheetFunction{factor.sheet, factor.line}, part_)}),
+        batch_(program_.registers<Batch>()) {}
+
+  /// Eight points at a time; not a number outside the workspace.
+  Batch operator()(const Batch& x, const Batch& y) {
+    batch_.set(0, x);
+    batch_.set(1, y);
+    for (int j = 0; j < program_.roots(); ++j) {
+      batch_.run_square(j);
+      const Batch root = square_root(batch_.square(j));
+      batch_.set(2 + j, Batch(part_.mode[static_cast<std::size_t>(j)]) * root);
+    }
+    batch_.run_values();
+    return batch_.value(0);
+  }
+
+  /// First-order distance from the curve; none outside the workspace.
+  std::optional<double> distance(const Point2& p) {
+    constexpr double h = 1e-7;
+    Batch x(p[0]), y(p[1]);
+    x[1] += h, x[2] -= h, y[3] += h, y[4] -= h;
+    const Batch f = (*this)(x, y);
+    const double slope = std::hypot(f[1] - f[2], f[3] - f[4]) / (2 * h);
+    if (!std::isfinite(slope) || slope == 0) return std::nullopt;
+    return std::abs(f[0]) / slope;
+  }
+
+ private:
+  clearloci::loci::sheet::Subtower part_;
+  SheetProgram program_;
+  SheetProgram::Registers<Batch> batch_;
+};
+
+/// Deviation within which 99 % of the length lie.
+double deviation(Factor& factor, const Segments& segments) {
+  std::vector<std::pair<double, double>> samples;  // deviation, length
+  double whole = 0;
+  for (const auto& [a, b] : segments) {
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    double worst = 0;
+    bool inside = length > 0;
+    for (const double t : {0.0, 0.25, 0.5, 0.75}) {
+      const std::optional<double> off = factor.distance({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
+      inside = inside && off;
+      worst = std::max(worst, off.value_or(0));
+    }
+    if (!inside) continue;
+    samples.emplace_back(worst, length);
+    whole += length;
+  }
+  std::sort(samples.begin(), samples.end());
+  double sum = 0;
+  for (const auto& [off, length] : samples)
+    if ((sum += length) >= 0.99 * whole) return off;
+  return 0;
+}
+
+/// Marching squares on n x n cells; the saddle is resolved by the mean of the corners.
+Segments marching_squares(Factor& factor, const clearloci::core::LocusProblem& problem, int n) {
+  double low[2], step[2];
+  for (const std::size_t i : {0u, 1u}) {
+    low[i] = clearloci::core::to_double(problem.lower[i]) + 1e-7;
+    step[i] = (clearloci::core::to_double(problem.upper[i]) - low[i]) / n;
+  }
+  const auto row = [&](int k, std::vector<double>& values) {
+    values.resize(static_cast<std::size_t>(n) + 1 + Batch::size);
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(n); i += Batch::size) {
+      Batch x;
+      for (std::size_t lane = 0; lane < Batch::size; ++lane) x[lane] = low[0] + step[0] * static_cast<double>(i + lane);
+      const Batch f = factor(x, Batch(low[1] + step[1] * k));
+      for (std::size_t lane = 0; lane < Batch::size; ++lane) values[i + lane] = f[lane];
+    }
+  };
+  Segments segments;
+  std::vector<double> below, above;
+  row(0, below);
+  for (int k = 0; k < n; ++k, std::swap(below, above)) {
+    row(k + 1, above);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+      const double f[4] = {below[i], below[i + 1], above[i + 1], above[i]};
+      if (!std::isfinite(f[0] + f[1] + f[2] + f[3])) continue;
+      static constexpr double corner_x[] = {0, 1, 1, 0}, corner_y[] = {0, 0, 1, 1};
+      std::vector<Point2> crossings;
+      for (std::size_t e = 0; e < 4; ++e) {
+        const std::size_t next = (e + 1) % 4;
+        if ((f[e] < 0) == (f[next] < 0)) continue;
+        const double t = f[e] / (f[e] - f[next]);
+        const double u = corner_x[e] + t * (corner_x[next] - corner_x[e]);
+        const double v = corner_y[e] + t * (corner_y[next] - corner_y[e]);
+        crossings.push_back({low[0] + step[0] * (static_cast<double>(i) + u), low[1] + step[1] * (k + v)});
+      }
+      if (crossings.size() == 2) segments.push_back({crossings[0], crossings[1]});
+      if (crossings.size() == 4) {
+        const std::size_t shift = (f[0] + f[1] + f[2] + f[3] < 0) == (f[0] < 0) ? 0 : 1;
+        segments.push_back({crossings[shift], crossings[shift + 1]});
+        segments.push_back({crossings[shift + 2], crossings[(shift + 3) % 4]});
+      }
+    }
+  }
+  return segments;
+}
+
+bool is_moment_A1(const clearloci::core::LocusCurve& curve) {
+  return std::any_of(curve.vanishing.begin(), curve.vanishing.end(),
+                     [](const auto& v) { return v.joint == "A1" && v.quantity == clearloci::core::Quantity::M; });
+}
+
+Segments segments_of(const clearloci::core::LocusMap& map) {
+  Segments segments;
+  for (const auto& curve : map.curves) {
+    if (!is_moment_A1(curve)) continue;
+    for (const auto& arc : curve.arcs)
+      for (std::size_t i = 1; i < arc.points.size(); ++i) segments.push_back({arc.points[i - 1], arc.points[i]});
+  }
+  return segments;
+}
+
+nlohmann::ordered_json drag(int designs) {
+  const clearloci::Loci loci = clearloci::Loci::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
+  std::vector<double> derive, whole;
+  for (int i = 0; i < designs; ++i) {
+    const Clock::time_point start = Clock::now();
+    const auto member = loci.mechanism({{"L", std::to_string(500 + i) + "/1000"}});
+    const clearloci::core::LocusMap map = loci.trace(member);
+    whole.push_back(milliseconds(start));
+    double seconds = 0;
+    for (const auto& [stage, time] : map.timing)
+      if (stage != "tracing") seconds += time;
+    derive.push_back(1e3 * seconds);
+  }
+  std::sort(derive.begin(), derive.end());
+  std::sort(whole.begin(), whole.end());
+  return {{"designs", designs}, {"equations", derive[derive.size() / 2]}, {"file_to_loci", whole[whole.size() / 2]}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool with_exact = argc > 1 && std::string_view(argv[1]) == "--exact";
+  const auto mechanism = clearloci::mechanism::read_mechanism(CLEARLOCI_SOURCE_DIR "/examples/five_bar_weights.yaml");
+  clearloci::LociRequest request;
+  request.selection.joints = {"A1"};
+  request.selection.quantities = {clearloci::core::Quantity::M};
+  request.engine = clearloci::loci::Engine::adaptive;
+  const clearloci::core::LocusProblem problem = clearloci::trace_problem(mechanism, request).problem;
+  const auto own = std::find_if(problem.factors.begin(), problem.factors.end(), [](const auto& factor) {
+    return factor.role == clearloci::core::FactorRole::reaction;
+  });
+  Factor factor(problem, *own);
+
+  nlohmann::ordered_json result;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+    clearloci::core::LocusProblem with = problem;
+    with.tolerance = tolerance;
+    clearloci::core::LocusMap map;
+    const double time = best_of(3, [&] { map = clearloci::loci::trace(with, {.engine = request.engine}); });
+    double length = 0;
+    std::size_t vertices = 0;
+    for (const auto& curve : map.curves)
+      for (const auto& arc : curve.arcs) length += arc.length, vertices += arc.points.size();
+    result["cost"].push_back({{"tolerance", tolerance},
+                              {"length", length},
+                              {"vertices", vertices},
+                              {"milliseconds", time},
+                              {"deviation", deviation(factor, segments_of(map))}});
+  }
+  for (const int n : {400, 800, 1600, 3200, 6400, 12800}) {
+    Segments segments;
+    const double time = best_of(n > 2000 ? 1 : 3, [&] { segments = marching_squares(factor, problem, n); });
+    result["grid"].push_back({{"cells", n}, {"milliseconds", time}, {"deviation", deviation(factor, segments)}});
+  }
+  if (with_exact) {
+    const double time =
+        best_of(1, [&] { clearloci::loci::trace(problem, {.engine = clearloci::loci::Engine::exact}); });
+    result["exact"] = {{"milliseconds", time}};
+  }
+  result["drag"] = drag(60);
+  std::printf("%s\n", result.dump(2).c_str());
+  return EXIT_SUCCESS;
+}
