@@ -15,7 +15,7 @@ namespace {
 constexpr unsigned most_attempts = 4;
 // A cell edge on which the curve cannot be told apart at this size, relative to the patch, is an unlucky edge.
 constexpr double smallest_on_edge = 1e-14;
-constexpr std::size_t most_cells_on_edge = 256;
+constexpr std::size_t most_cells_on_edge = 512;
 // Of crossings, relative to the patch: a tenth of what vertices are held to.
 constexpr double accuracy = 1e-13;
 constexpr std::size_t most_rim_cells = 8192;

@@ -26,7 +26,7 @@ struct SheetTraceOptions {
   std::function<int(const core::Point2&)> colour;
   /// Whether a plane curve is wanted as ends and a point between only, its vertices being known in closed form.
   std::vector<bool> closed_form;
-  int most_cells = 60000;      ///< budget of cells a patch
+  int most_cells = 150000;     ///< budget of cells a patch
   std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
 };
 
