@@ -278,13 +278,15 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
     for (std::size_t f = 0; f < problem.factors.size(); ++f)
       if (is_wanted(problem, f)) shares.push_back({static_cast<int>(f), static_cast<int>(m), {}});
 
-  // Long work first, so that the cores end together.
+  // Long work first, so that the cores end together; under a deadline short work first, so that most is whole by then.
   std::vector<std::size_t> order(shares.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto effort = [&](std::size_t i) {
     return problem.factors[static_cast<std::size_t>(shares[i].factor)].sheet.terms.size();
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return effort(a) > effort(b); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return options.deadline ? effort(a) < effort(b) : effort(a) > effort(b);
+  });
 
   std::atomic<std::size_t> next = 0, done = 0;
   std::exception_ptr failure;
