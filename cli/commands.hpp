@@ -17,6 +17,7 @@ Command add_equations_command(CLI::App& program);
 Command add_validate_command(CLI::App& program);
 Command add_pose_command(CLI::App& program);
 Command add_zones_command(CLI::App& program);
+Command add_verify_command(CLI::App& program);
 Command add_error_command(CLI::App& program);
 Command add_trajectory_command(CLI::App& program);
 

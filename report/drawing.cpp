@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "report/mechanism_drawing.hpp"
+#include "report/task_drawing.hpp"
 #include "report/zone_drawing.hpp"
 
 namespace clearloci::report {
@@ -231,7 +232,7 @@ void draw_axes(const Context& context, const Layout& layout) {
   context->restore();
 }
 
-void draw_sample(const Context& context, const LegendEntry& entry, const FieldLayer* layer) {
+void draw_sample(const Context& context, const LegendEntry& entry, const Subject& subject) {
   const double x = entry.box.x, y = entry.box.y + legend_line_height / 2, end = x + legend_sample_width;
   switch (entry.sample) {
     case SampleKind::curve:
@@ -261,16 +262,22 @@ void draw_sample(const Context& context, const LegendEntry& entry, const FieldLa
       draw_load_arrow(context, {x + 2, y}, {end - 2, y});
       break;
     case SampleKind::colour_bar:
-      draw_colour_bar(context, layer->scale, entry.box);
+      draw_colour_bar(context, subject.layer->scale, entry.box);
+      break;
+    case SampleKind::task:
+      draw_task_sample(context, *subject.task, x, y, legend_sample_width);
+      break;
+    case SampleKind::task_point:
+      draw_task_point_sample(context, *subject.task, (x + end) / 2, y);
       break;
     case SampleKind::remark:
       break;
   }
 }
 
-void draw_legend(const Context& context, const Layout& layout, const FieldLayer* layer) {
+void draw_legend(const Context& context, const Layout& layout, const Subject& subject) {
   for (const auto& entry : layout.legend) {
-    draw_sample(context, entry, layer);
+    draw_sample(context, entry, subject);
     const double indent = entry.sample == SampleKind::colour_bar ? 0 : legend_sample_width + legend_sample_gap;
     double baseline = entry.box.y + 0.5 * legend_line_height + 0.36 * legend_font.size;
     for (const auto& line : entry.lines) {
@@ -303,13 +310,14 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   if (subject.sketch != nullptr) draw_joints(context, layout, *subject.sketch);
   draw_isolated_points(context, subject, layout);
   if (subject.sketch != nullptr) draw_loads(context, layout, *subject.sketch);
-  if (subject.zones != nullptr) draw_zone_numbers(context, subject, layout);
+  if (subject.zones != nullptr && subject.task == nullptr) draw_zone_numbers(context, subject, layout);
+  if (subject.task != nullptr) draw_task(context, *subject.task, layout);
   context->restore();
 
   draw_axes(context, layout);
   set_colour(context, ink);
   for (const auto& line : layout.title) write_text(context, line.text, line.x, line.y, line.font);
-  draw_legend(context, layout, subject.layer);
+  draw_legend(context, layout, subject);
 }
 
 }  // namespace clearloci::report

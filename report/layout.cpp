@@ -94,12 +94,20 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
     add(SampleKind::curve, group.what, group.why).stroke = group.stroke;
   }
   for (const auto& group : subject.groups.points) add(SampleKind::point, group.label).marker = group.marker;
+  if (subject.task != nullptr) {
+    const TaskMark& task = *subject.task;
+    const std::string margin = task.margin > 0 ? " with its margin" : "";
+    add(SampleKind::task, task.verified ? "task, verified" + margin : "task, not verified");
+    if (!task.points.empty())
+      add(SampleKind::task_point, task.verified ? "nearest point of a locus" : "where the task fails");
+  }
   const core::LocusMap& map = *subject.map;
   const auto& regions = map.workspace;
   if (subject.layer == nullptr &&
       std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
     if (subject.zones != nullptr)
-      add(SampleKind::zones, "zones, the largest first", "dashed: the largest circle inside");
+      add(SampleKind::zones, "zones, the largest first",
+          subject.task == nullptr ? "dashed: the largest circle inside" : "");
     else
       add(SampleKind::workspace, "workspace");
   }

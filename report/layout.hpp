@@ -11,12 +11,25 @@
 #include "report/axis.hpp"
 #include "report/field_scale.hpp"
 #include "report/groups.hpp"
+#include "report/task_mark.hpp"
 #include "report/typesetting.hpp"
 
 namespace clearloci::report {
 
 /// What a legend entry shows a sample of.
-enum class SampleKind { curve, point, workspace, searched_box, mechanism, load, remark, colour_bar, zones };
+enum class SampleKind {
+  curve,
+  point,
+  workspace,
+  searched_box,
+  mechanism,
+  load,
+  remark,
+  colour_bar,
+  zones,
+  task,
+  task_point
+};
 
 struct LegendLine {
   std::string text;
@@ -63,6 +76,7 @@ struct Subject {
   const core::Sketch* sketch = nullptr;
   const FieldLayer* layer = nullptr;     ///< drawn in the place of the shaded workspace
   const core::ZoneMap* zones = nullptr;  ///< likewise
+  const TaskMark* task = nullptr;        ///< may be null too
 };
 
 Layout lay_out(const Subject& subject);

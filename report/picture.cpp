@@ -31,17 +31,23 @@ std::string drawn(const Subject& subject, PictureFormat format) {
 
 std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
                     PictureFormat format) {
-  return drawn({&map, mode, groups_of_mode(group_loci(map), mode), sketch, nullptr, nullptr}, format);
+  return drawn({&map, mode, groups_of_mode(group_loci(map), mode), sketch, nullptr, nullptr, nullptr}, format);
 }
 
 std::string field_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::FieldMap& fields,
                           const core::Field& field, PictureFormat format) {
   const FieldLayer layer{&fields, &field, scale_of(field.values, field.is_signed, field.unit)};
-  return drawn({&map, mode, groups_of_mode(group_loci(map), mode), nullptr, &layer, nullptr}, format);
+  return drawn({&map, mode, groups_of_mode(group_loci(map), mode), nullptr, &layer, nullptr, nullptr}, format);
 }
 
 std::string zone_picture(const core::ZoneMap& map, const core::WorkingMode& mode, PictureFormat format) {
-  return drawn({&map.loci, mode, groups_of_mode(group_loci(map.loci), mode), nullptr, nullptr, &map}, format);
+  return drawn({&map.loci, mode, groups_of_mode(group_loci(map.loci), mode), nullptr, nullptr, &map, nullptr}, format);
+}
+
+std::string task_picture(const core::ZoneMap& map, const core::WorkingMode& mode, const TaskMark& task,
+                         PictureFormat format) {
+  const Groups groups = groups_of_mode(group_loci(map.loci), mode);
+  return drawn({&map.loci, mode, groups, nullptr, nullptr, &map, &task}, format);
 }
 
 std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode) {

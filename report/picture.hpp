@@ -7,6 +7,7 @@
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
 #include "core/zone_map.hpp"
+#include "report/task_mark.hpp"
 
 namespace clearloci::report {
 
@@ -27,6 +28,10 @@ std::string field_picture(const core::LocusMap& map, const core::WorkingMode& mo
 
 /// The zones of one working mode in colours, numbered, with their largest circles, the loci drawn over them.
 std::string zone_picture(const core::ZoneMap& map, const core::WorkingMode& mode, PictureFormat format);
+
+/// The zones with a task over them.
+std::string task_picture(const core::ZoneMap& map, const core::WorkingMode& mode, const TaskMark& task,
+                         PictureFormat format);
 
 /// The legend's labels, unwrapped, in order: also the description inside the SVG.
 std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode);

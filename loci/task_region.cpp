@@ -1,0 +1,128 @@
+#include "loci/task_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace clearloci::loci {
+namespace {
+
+using core::Point2;
+using core::Polyline;
+using sheet::Interval;
+
+Point2 rounded(const core::RationalPoint& p) { return {core::to_double(p[0]), core::to_double(p[1])}; }
+
+double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
+  const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+  const double t = length2 > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(a[0] + t * dx - p[0], a[1] + t * dy - p[1]);
+}
+
+double distance_to_cell(const Point2& p, const Interval& x, const Interval& y) {
+  return std::hypot(std::max({x.lower() - p[0], p[0] - x.upper(), 0.0}),
+                    std::max({y.lower() - p[1], p[1] - y.upper(), 0.0}));
+}
+
+/// Whether a segment enters a cell (Liang and Barsky's clipping).
+bool enters(const Point2& a, const Point2& b, const Interval& x, const Interval& y) {
+  double from = 0, to = 1;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Interval& range = c == 0 ? x : y;
+    const double d = b[c] - a[c];
+    if (d == 0) {
+      if (!range.contains(a[c])) return false;
+      continue;
+    }
+    const double first = (range.lower() - a[c]) / d, second = (range.upper() - a[c]) / d;
+    from = std::max(from, std::min(first, second));
+    to = std::min(to, std::max(first, second));
+  }
+  return from <= to;
+}
+
+}  // namespace
+
+TaskRegion::TaskRegion(const core::TaskShape& shape) {
+  const auto [low, high] = core::bounds(shape);
+  lower_ = rounded(low);
+  upper_ = rounded(high);
+  if (const auto* circle = std::get_if<core::TaskCircle>(&shape)) {
+    circle_ = true;
+    round_ = {rounded(circle->centre), core::to_double(circle->radius)};
+  } else if (std::holds_alternative<core::TaskBox>(shape)) {
+    box_ = true;
+    line_ = {lower_, {upper_[0], lower_[1]}, upper_, {lower_[0], upper_[1]}, lower_};
+  } else if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) {
+    for (const core::RationalPoint& p : polygon->corners) line_.push_back(rounded(p));
+    line_.push_back(line_.front());
+  } else {
+    for (const core::RationalPoint& p : std::get<core::TaskPath>(shape).points) line_.push_back(rounded(p));
+    filled_ = false;
+  }
+}
+
+bool TaskRegion::inside(const Point2& at) const {
+  bool result = false;
+  for (std::size_t i = 1; i < line_.size(); ++i) {
+    const Point2 &a = line_[i - 1], &b = line_[i];
+    if ((a[1] > at[1]) != (b[1] > at[1]) && at[0] < a[0] + (b[0] - a[0]) * (at[1] - a[1]) / (b[1] - a[1]))
+      result = !result;
+  }
+  return result;
+}
+
+double TaskRegion::signed_distance(const Point2& at) const {
+  if (circle_) return std::hypot(at[0] - round_.centre[0], at[1] - round_.centre[1]) - round_.radius;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < line_.size(); ++i)
+    least = std::min(least, distance_to_segment(at, line_[i - 1], line_[i]));
+  return filled_ && inside(at) ? -least : least;
+}
+
+double TaskRegion::distance(const Interval& x, const Interval& y) const {
+  if (circle_) return std::max(0.0, distance_to_cell(round_.centre, x, y) - round_.radius);
+  const std::array<Point2, 4> corners = {
+      {{x.lower(), y.lower()}, {x.upper(), y.lower()}, {x.upper(), y.upper()}, {x.lower(), y.upper()}}};
+  if (filled_ && inside(corners[0])) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < line_.size(); ++i) {
+    const Point2 &a = line_[i - 1], &b = line_[i];
+    if (enters(a, b, x, y)) return 0;
+    least = std::min({least, distance_to_cell(a, x, y), distance_to_cell(b, x, y)});
+    for (const Point2& corner : corners) least = std::min(least, distance_to_segment(corner, a, b));
+  }
+  return least;
+}
+
+Polyline TaskRegion::samples() const {
+  if (circle_) {
+    Polyline points = {round_.centre};
+    for (const Point2& p : outline()) points.push_back(p);
+    return points;
+  }
+  Polyline points;
+  const Point2 middle = {(lower_[0] + upper_[0]) / 2, (lower_[1] + upper_[1]) / 2};
+  if (filled_ && inside(middle)) points.push_back(middle);
+  for (std::size_t i = 1; i < line_.size(); ++i)
+    for (const double t : {0.5, 0.0, 0.25, 0.75})
+      points.push_back({line_[i - 1][0] + t * (line_[i][0] - line_[i - 1][0]),
+                        line_[i - 1][1] + t * (line_[i][1] - line_[i - 1][1])});
+  points.push_back(line_.back());
+  return points;
+}
+
+Polyline TaskRegion::outline() const {
+  if (!circle_) return line_;
+  constexpr int chords = 64;
+  Polyline points;
+  for (int i = 0; i <= chords; ++i) {
+    const double angle = 2 * std::numbers::pi * (i % chords) / chords;
+    points.push_back(
+        {round_.centre[0] + round_.radius * std::cos(angle), round_.centre[1] + round_.radius * std::sin(angle)});
+  }
+  return points;
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,35 @@
+// A task's shape in doubles: how far points, cells and arcs are from it.
+#pragma once
+
+#include "core/task.hpp"
+#include "loci/sheet/interval.hpp"
+
+namespace clearloci::loci {
+
+class TaskRegion {
+ public:
+  explicit TaskRegion(const core::TaskShape& shape);
+
+  /// Of a point from the shape, m; negative: the depth inside it. A path has no inside.
+  double signed_distance(const core::Point2& at) const;
+
+  /// Not more than the least distance of a cell from the shape; 0 where they meet.
+  double distance(const sheet::Interval& x, const sheet::Interval& y) const;
+
+  core::Point2 lower() const { return lower_; }
+  core::Point2 upper() const { return upper_; }
+  /// A few points of the shape, one in its middle first.
+  core::Polyline samples() const;
+  /// Its outline, the first point repeated at the end, circles by chords; of a path the path.
+  core::Polyline outline() const;
+
+ private:
+  bool inside(const core::Point2& at) const;
+
+  bool circle_ = false, box_ = false, filled_ = true;
+  core::Polyline line_;  ///< the border, closed, or the path
+  core::Circle round_;
+  core::Point2 lower_{}, upper_{};
+};
+
+}  // namespace clearloci::loci

@@ -1,0 +1,192 @@
+// Task files.
+#include "mechanism/read_task.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+using core::RationalPoint;
+
+const std::vector<std::string> shape_keys = {"box", "circle", "polygon", "path"};
+
+RationalPoint read_pair(const Mechanism& mechanism, const Value& value) {
+  const std::vector<Value> parts = elements(value, 2);
+  return {read_number(mechanism, parts[0], Sign::any).value, read_number(mechanism, parts[1], Sign::any).value};
+}
+
+core::TaskBox read_box(const Mechanism& mechanism, const Value& value) {
+  std::vector<std::string> names;
+  for (const Coordinate& coordinate : mechanism.coordinates) names.push_back(coordinate.name);
+  const Mapping ranges(value, names);
+  core::TaskBox box;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Value range = ranges.at(names[c]);
+    const RationalPoint ends = read_pair(mechanism, range);
+    if (ends[0] >= ends[1])
+      throw InputError(range.where,
+                       range.what + " is empty: from " + core::to_string(ends[0]) + " to " + core::to_string(ends[1]),
+                       "write [lower, upper]");
+    box.lower[c] = ends[0];
+    box.upper[c] = ends[1];
+  }
+  return box;
+}
+
+core::TaskCircle read_circle(const Mechanism& mechanism, const Value& value) {
+  const Mapping circle(value, {"centre", "radius"});
+  return {read_pair(mechanism, circle.at("centre")), read_number(mechanism, circle.at("radius"), Sign::positive).value};
+}
+
+/// With the places of the points.
+std::vector<std::pair<RationalPoint, core::SourcePosition>> read_points_of(const Mechanism& mechanism,
+                                                                           const Value& value, std::size_t least) {
+  std::vector<std::pair<RationalPoint, core::SourcePosition>> points;
+  for (Value point : elements(value)) {
+    point.what = "point " + std::to_string(points.size() + 1) + " of " + value.what;
+    points.emplace_back(read_pair(mechanism, point), point.where);
+    if (points.size() > 1 && points.back().first == points[points.size() - 2].first)
+      throw InputError(point.where, point.what + " is the one before it again", "leave it out");
+  }
+  if (points.size() < least)
+    throw InputError(value.where, value.what + " has " + std::to_string(points.size()) + " points",
+                     "write " + std::to_string(least) + " at least: [[x, y], [x, y], ...]");
+  return points;
+}
+
+/// Twice the area of a triangle: its sign is that of the turn.
+Rational turn(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+bool between(const RationalPoint& a, const RationalPoint& b, const RationalPoint& p) {
+  for (std::size_t c = 0; c < 2; ++c)
+    if (p[c] < std::min(a[c], b[c]) || p[c] > std::max(a[c], b[c])) return false;
+  return true;
+}
+
+/// Whether two closed segments share a point.
+bool meet(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c, const RationalPoint& d) {
+  const int s1 = sgn(turn(a, b, c)), s2 = sgn(turn(a, b, d)), s3 = sgn(turn(c, d, a)), s4 = sgn(turn(c, d, b));
+  if (s1 * s2 < 0 && s3 * s4 < 0) return true;
+  return (s1 == 0 && between(a, b, c)) || (s2 == 0 && between(a, b, d)) || (s3 == 0 && between(c, d, a)) ||
+         (s4 == 0 && between(c, d, b));
+}
+
+core::TaskPolygon read_polygon(const Mechanism& mechanism, const Value& value) {
+  const auto points = read_points_of(mechanism, value, 3);
+  const std::size_t n = points.size();
+  const auto at = [&](std::size_t i) -> const RationalPoint& { return points[i % n].first; };
+  for (std::size_t i = 0; i < n; ++i) {
+    // A side and the next share their corner; they must not run back on each other.
+    const bool back = turn(at(i), at(i + 1), at(i + 2)) == 0 && !between(at(i), at(i + 2), at(i + 1));
+    bool crossed = back;
+    for (std::size_t k = i + 2; k < n && !crossed; ++k)
+      if (k + 1 < n || i > 0) crossed = meet(at(i), at(i + 1), at(k), at(k + 1));
+    if (crossed)
+      throw InputError(points[i].second, value.what + " crosses itself: side " + std::to_string(i + 1),
+                       "write its corners in their order round it");
+  }
+  core::TaskPolygon polygon;
+  for (const auto& [point, where] : points) polygon.corners.push_back(point);
+  return polygon;
+}
+
+core::TaskPath read_path(const Mechanism& mechanism, const Value& value) {
+  core::TaskPath path;
+  for (const auto& [point, where] : read_points_of(mechanism, value, 2)) path.points.push_back(point);
+  return path;
+}
+
+std::pair<core::TaskShape, Value> read_shape(const Mechanism& mechanism, const Value& document, const Mapping& root) {
+  std::optional<std::pair<std::string, Value>> found;
+  for (const std::string& key : shape_keys) {
+    const auto value = root.find(key);
+    if (!value) continue;
+    if (found)
+      throw InputError(value->where, "the task has both a " + found->first + " and a " + key, "leave one of them out");
+    found = {key, *value};
+  }
+  if (!found) throw InputError(document.where, "the task has no shape", "write one of " + join(shape_keys));
+  Value& value = found->second;
+  value.what = "the " + found->first;
+  if (found->first == "box") return {read_box(mechanism, value), value};
+  if (found->first == "circle") return {read_circle(mechanism, value), value};
+  if (found->first == "polygon") return {read_polygon(mechanism, value), value};
+  return {read_path(mechanism, value), value};
+}
+
+void check_inside_box(const Mechanism& mechanism, const core::TaskShape& shape, const Value& value) {
+  const auto [lower, upper] = core::bounds(shape);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Coordinate& coordinate = mechanism.coordinates[c];
+    if (lower[c] >= coordinate.lower && upper[c] <= coordinate.upper) continue;
+    throw InputError(value.where,
+                     value.what + " leaves the mechanism's box: " + coordinate.name + " from " +
+                         core::to_string(lower[c]) + " to " + core::to_string(upper[c]) + ", not within [" +
+                         core::to_string(coordinate.lower) + ", " + core::to_string(coordinate.upper) + "]",
+                     "move the task or widen the workspace of " + mechanism.file);
+  }
+}
+
+core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) {
+  const bool one_force = mechanism.loads.size() == 1 && !mechanism.loads.front().force.empty();
+  if (!one_force)
+    throw InputError(value.where,
+                     value.what + " takes the place of a mechanism's one force, but " + mechanism.file + " has " +
+                         std::to_string(mechanism.loads.size()) + " loads",
+                     "give the mechanism a single load with a force");
+  const std::vector<Value> ends = elements(value, 2);
+  core::LoadRange range{read_pair(mechanism, ends[0]), read_pair(mechanism, ends[1])};
+  const auto& [f, g] = std::tie(range.first, range.second);
+  const bool opposite = f[0] * g[1] - f[1] * g[0] == 0 && f[0] * g[0] + f[1] * g[1] <= 0;
+  if (opposite)
+    throw InputError(value.where, value.what + " passes through no load at all: its ends are opposite or zero",
+                     "write two vectors less than half a turn apart");
+  return range;
+}
+
+}  // namespace
+
+core::Task parse_task(const std::string& text, const std::string& file, const Mechanism& mechanism) {
+  const Value document = parse_document(text, file);
+  if (!document.is_map())
+    throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
+  const Mapping root(document, {"format", "name", "box", "circle", "polygon", "path", "margin", "min_force",
+                                "min_couple", "loads_from"});
+  const Value format = root.at("format");
+  if (text_of(format) != "1")
+    throw InputError(format.where, "the format is '" + text_of(format) + "', but this version reads format 1",
+                     "write format: 1");
+  const std::size_t coordinates = mechanism.coordinates.size();
+  const bool angle = std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                                 [](const Coordinate& c) { return c.angle; });
+  if (coordinates != 2 || angle)
+    throw InputError(
+        {mechanism.file, 0, 0},
+        angle ? "tasks lie in a plane, and a free coordinate of the mechanism is an angle"
+              : "tasks lie in the plane of two free coordinates, and the mechanism has " + std::to_string(coordinates),
+        "make the others numbers or parameters");
+
+  core::Task task;
+  task.file = file;
+  auto [shape, place] = read_shape(mechanism, document, root);
+  check_inside_box(mechanism, shape, place);
+  task.shape = std::move(shape);
+  if (const auto margin = root.find("margin")) task.margin = read_number(mechanism, *margin, Sign::not_negative).value;
+  if (const auto force = root.find("min_force")) task.min_force = read_number(mechanism, *force, Sign::positive).value;
+  if (const auto couple = root.find("min_couple"))
+    task.min_couple = read_number(mechanism, *couple, Sign::positive).value;
+  if (const auto loads = root.find("loads_from")) task.loads = read_loads_from(mechanism, *loads);
+  return task;
+}
+
+core::Task read_task(const std::string& path, const Mechanism& mechanism) {
+  return parse_task(read_text(path, "the task file"), path, mechanism);
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,18 @@
+// A task in a picture. Private to report/.
+#pragma once
+
+#include <cairomm/context.h>
+
+#include "report/layout.hpp"
+
+namespace clearloci::report {
+
+/// The task and its margin: green and solid where it is verified, red and dashed where it is not.
+void draw_task(const Cairo::RefPtr<Cairo::Context>& context, const TaskMark& task, const Layout& layout);
+
+/// Samples for the legend, with their left ends at (x, y).
+void draw_task_sample(const Cairo::RefPtr<Cairo::Context>& context, const TaskMark& task, double x, double y,
+                      double width);
+void draw_task_point_sample(const Cairo::RefPtr<Cairo::Context>& context, const TaskMark& task, double x, double y);
+
+}  // namespace clearloci::report

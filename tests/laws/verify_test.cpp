@@ -1,0 +1,197 @@
+// Verifying a design against a task (method.md section 9): the paper's path, answers known in closed form, and that
+// dense sampling of the reactions never contradicts a proof. CLEARLOCI_DESIGNS=n in the environment tries n designs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "cli/verification.hpp"
+#include "loci/task_region.hpp"
+#include "mechanism/read_task.hpp"
+#include "numeric/reactions.hpp"
+#include "tests/laws/design_texts.hpp"
+
+namespace clearloci {
+namespace {
+
+mechanism::Mechanism five_bar() {
+  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml");
+}
+
+Verification verified(const mechanism::Mechanism& mechanism, const std::string& task) {
+  return verify_task(mechanism, mechanism::parse_task("format: 1\n" + task, "task.yaml", mechanism), {});
+}
+
+TEST(Verify, ThePapersPathLiesInOneZone) {
+  const mechanism::Mechanism mechanism = five_bar();
+  const std::string file = std::string(CLEARLOCI_SOURCE_DIR) + "/examples/tasks/pick_and_place.yaml";
+  const Verification result = verify_task(mechanism, mechanism::read_task(file, mechanism), {});
+  EXPECT_TRUE(result.verified);
+  EXPECT_EQ(result.zone, "z1");
+  // The outer boundary of leg 2 is the circle of radius 1 about (1/2, 0).
+  const double distance = 1 - std::hypot(0.5, 0.7);
+  EXPECT_NEAR(result.nearest->distance, distance, 1e-9);
+  EXPECT_LE(result.margin, distance);
+  EXPECT_GE(result.margin, 0.99 * distance);
+}
+
+TEST(Verify, ACircleBetweenTheCirclesFitsUpToAQuarterMetre) {
+  const mechanism::Mechanism mechanism = five_bar();
+  EXPECT_TRUE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.2499}").verified);
+  const Verification touching = verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 1/4}");
+  EXPECT_FALSE(touching.verified);
+  ASSERT_TRUE(touching.witness);
+  EXPECT_NEAR(std::hypot(touching.witness->at[0] - 0.25, touching.witness->at[1] - 0.5), 0.25, 1e-7);
+  EXPECT_FALSE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.24}\nmargin: 0.0101").verified);
+  EXPECT_TRUE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.24}\nmargin: 0.0099").verified);
+}
+
+TEST(Verify, ATaskOutOfReachHasAWitnessOutOfReach) {
+  const mechanism::Mechanism mechanism = five_bar();
+  const Verification result = verified(mechanism, "box: {x: [0.9, 1.0], y: [0.9, 1.0]}");
+  EXPECT_FALSE(result.verified);
+  ASSERT_TRUE(result.witness);
+  EXPECT_FALSE(numeric::reachable(numeric::compile(mechanism), result.witness->at, mechanism::working_mode(mechanism)));
+}
+
+TEST(Verify, HoldsTheLeastForce) {
+  const mechanism::Mechanism mechanism = five_bar();
+  const std::string box = "box: {x: [0.2, 0.3], y: [-0.75, -0.65]}\n";
+  const Verification free = verified(mechanism, box + "min_force: 5");
+  EXPECT_TRUE(free.verified);
+  EXPECT_FALSE(verified(mechanism, box + "min_force: 1000").verified);
+  EXPECT_FALSE(verified(mechanism, box + "min_couple: 1000").verified);
+}
+
+/// Signs of |A| and the couples, and the contact forces, at a pose; none out of reach.
+struct Sampled {
+  std::vector<int> signs;
+  std::vector<std::array<double, 2>> forces;
+};
+
+std::optional<Sampled> sampled(const numeric::NumericModel& model, const std::vector<int>& mode,
+                               const core::Point2& at) {
+  const numeric::Posture posture = numeric::posture(model, at, mode);
+  if (!posture.reachable()) return std::nullopt;
+  const numeric::Reactions reactions = numeric::solve_reactions(model, posture);
+  Sampled result;
+  result.signs.push_back(reactions.determinant > 0 ? 1 : -1);
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+    const double value = reactions.values[static_cast<Eigen::Index>(k)];
+    if (model.unknowns[k].quantity == core::Quantity::M) result.signs.push_back(value > 0 ? 1 : -1);
+    if (model.unknowns[k].quantity == core::Quantity::fx) result.forces.push_back({value, 0});
+    if (model.unknowns[k].quantity == core::Quantity::fy) result.forces.back()[1] = value;
+  }
+  return result;
+}
+
+/// A task of any kind within 1/4 m of a reachable pose.
+std::string random_task(std::mt19937& random, const core::Point2& near) {
+  const auto number = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto place = [&] {
+    return "[" + std::to_string(near[0] + number(-0.1, 0.1)) + ", " + std::to_string(near[1] + number(-0.1, 0.1)) + "]";
+  };
+  const std::string margin = "\nmargin: " + std::to_string(number(0, 0.03));
+  switch (random() % 4) {
+    case 0:
+      return "box: {x: [" + std::to_string(near[0] - number(0.01, 0.1)) + ", " +
+             std::to_string(near[0] + number(0.01, 0.1)) + "], y: [" + std::to_string(near[1] - number(0.01, 0.1)) +
+             ", " + std::to_string(near[1] + number(0.01, 0.1)) + "]}" + margin;
+    case 1:
+      return "circle: {centre: " + place() + ", radius: " + std::to_string(number(0.01, 0.1)) + "}" + margin;
+    case 2:
+      return "polygon: [" + place() + ", " + place() + ", " + place() + "]" + margin;
+    default:
+      return "path: [" + place() + ", " + place() + ", " + place() + "]" + margin;
+  }
+}
+
+TEST(VerifyRandomDesigns, NoSampleContradictsAProof) {
+  const char* wanted = std::getenv("CLEARLOCI_DESIGNS");
+  const int designs = wanted != nullptr ? std::atoi(wanted) : 40;
+  std::mt19937 random(20110579);
+  const auto number = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int proven = 0, refused = 0;
+  for (int i = 0; i < designs; ++i) {
+    const test::FiveBarDesign design = test::random_five_bar(random, i % 4 == 3);
+    const mechanism::Mechanism mechanism = mechanism::parse_mechanism(design.text(), "random.yaml");
+    const numeric::NumericModel model = numeric::compile(mechanism);
+    const std::vector<int> mode = mechanism::working_mode(mechanism);
+    core::Point2 near{};
+    do near = {number(-0.8, 1.2), number(-0.8, 0.8)};
+    while (!numeric::reachable(model, near, mode));
+    std::string text = "format: 1\n" + random_task(random, near);
+    const bool cone = i % 3 == 2;
+    if (cone)
+      text += "\nloads_from: [[" + std::to_string(number(-50, 50)) + ", -100], [" + std::to_string(number(-50, 50)) +
+              ", -60]]";
+    SCOPED_TRACE(design.text() + "\n" + text);
+    const core::Task task = mechanism::parse_task(text, "task.yaml", mechanism);
+    const Verification result = verify_task(mechanism, task, {});
+    ++(result.verified ? proven : refused);
+    if (!result.verified) {
+      EXPECT_TRUE(result.witness);
+      continue;
+    }
+    EXPECT_GE(result.margin, core::to_double(task.margin));
+    // Poses of the task and of its margin, under loads of the range.
+    const loci::TaskRegion region(task.shape);
+    std::optional<Sampled> first;
+    const double m = result.margin;
+    for (int s = 0; s < 300; ++s) {
+      const core::Point2 at = {number(region.lower()[0] - m, region.upper()[0] + m),
+                               number(region.lower()[1] - m, region.upper()[1] + m)};
+      if (region.signed_distance(at) > m) continue;
+      mechanism::Mechanism loaded = mechanism;
+      if (cone) {
+        const core::Rational t(number(0, 1));
+        for (std::size_t c = 0; c < 2; ++c)
+          loaded.loads.front().force[c] =
+              core::Expression::number((1 - t) * task.loads->first[c] + t * task.loads->second[c]);
+      }
+      const auto now = sampled(cone ? numeric::compile(loaded) : model, mode, at);
+      ASSERT_TRUE(now) << at[0] << " " << at[1];
+      if (!first) first = now;
+      EXPECT_EQ(now->signs, first->signs) << at[0] << " " << at[1];
+      for (const auto& f : now->forces) EXPECT_GT(std::hypot(f[0], f[1]), 0);
+    }
+  }
+  EXPECT_GT(proven, designs / 10);
+  EXPECT_GT(refused, designs / 10);
+}
+
+TEST(VerifyFit, FindsTheShortestMoveThatVerifies) {
+  const mechanism::Mechanism mechanism = five_bar();
+  // Too low by 0.05: the box's lower corners leave the workspace, symmetrically.
+  const core::Task task =
+      mechanism::parse_task("format: 1\nbox: {x: [0.15, 0.35], y: [-0.95, -0.85]}\nmargin: 0.01", "t.yaml", mechanism);
+  EXPECT_FALSE(verify_task(mechanism, task, {}).verified);
+  const Verification nearest = fit_task(mechanism, task, {}, loci::FitGoal::nearest);
+  ASSERT_TRUE(nearest.by);
+  EXPECT_TRUE(nearest.verified);
+  // The corner (0.15, y) stays 0.01 within the circle of radius 1 about (1/2, 0).
+  const double up = 0.95 - std::sqrt(0.99 * 0.99 - 0.35 * 0.35);
+  const double moved = std::hypot(core::to_double((*nearest.by)[0]), core::to_double((*nearest.by)[1]));
+  EXPECT_GE(moved, up - 1e-6);
+  EXPECT_LE(moved, up + 1e-3);
+  const Verification best = fit_task(mechanism, task, {}, loci::FitGoal::best);
+  EXPECT_TRUE(best.verified);
+  EXPECT_GT(best.margin, 0.1);
+}
+
+TEST(VerifyFit, SaysThatThereIsNoPlace) {
+  const mechanism::Mechanism mechanism = five_bar();
+  const core::Task task =
+      mechanism::parse_task("format: 1\nbox: {x: [-0.4, 0.9], y: [-0.8, 0.8]}", "t.yaml", mechanism);
+  const Verification result = fit_task(mechanism, task, {}, loci::FitGoal::nearest);
+  EXPECT_FALSE(result.verified);
+  EXPECT_FALSE(result.by);
+}
+
+}  // namespace
+}  // namespace clearloci

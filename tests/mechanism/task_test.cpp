@@ -1,0 +1,71 @@
+// Task files: what they mean, and what is said of wrong ones.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "mechanism/read.hpp"
+#include "mechanism/read_task.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+const Mechanism& example(const std::string& name) {
+  static std::map<std::string, Mechanism> known;
+  const auto found = known.find(name);
+  if (found != known.end()) return found->second;
+  return known.emplace(name, read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml"))
+      .first->second;
+}
+
+core::Task parse(const std::string& text) { return parse_task("format: 1\n" + text, "task.yaml", example("five_bar")); }
+
+std::string complaint(const std::string& text, const std::string& mechanism = "five_bar") {
+  try {
+    (void)parse_task("format: 1\n" + text, "task.yaml", example(mechanism));
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Task, IsReadExactly) {
+  const core::Task task =
+      parse("box: {x: [L/5, 0.4], y: [-0.8, -0.6]}\nmargin: 0.01\nloads_from: [[1, -100], [2, -1]]");
+  const auto& box = std::get<core::TaskBox>(task.shape);
+  EXPECT_EQ(box.lower, (core::RationalPoint{core::Rational(1, 10), core::Rational(-4, 5)}));
+  EXPECT_EQ(box.upper, (core::RationalPoint{core::Rational(2, 5), core::Rational(-3, 5)}));
+  EXPECT_EQ(task.margin, core::Rational(1, 100));
+  ASSERT_TRUE(task.loads);
+  EXPECT_EQ(task.loads->second[0], 2);
+  EXPECT_FALSE(task.min_force);
+}
+
+TEST(Task, WrongOnesAreToldWhereAndHowToMendThem) {
+  EXPECT_EQ(complaint("margin: 1"), "task.yaml:1:1: the task has no shape; write one of box, circle, polygon, path");
+  EXPECT_EQ(complaint("path: []"), "task.yaml:2:7: the path has 0 points; write 2 at least: [[x, y], [x, y], ...]");
+  EXPECT_EQ(complaint("box: {x: [0.4, 0.1], y: [-0.5, 0.3]}"),
+            "task.yaml:2:10: the x of the box is empty: from 2/5 to 1/10; write [lower, upper]");
+  EXPECT_EQ(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0, -0.6], [0.5, -0.6]]"),
+            "task.yaml:2:22: the polygon crosses itself: side 2; write its corners in their order round it");
+  EXPECT_NE(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0.2, -0.7]]").find("crosses itself"), std::string::npos);
+  EXPECT_NE(complaint("path: [[0, -0.7], [1.5, -0.9]]").find("leaves the mechanism's box"), std::string::npos);
+  EXPECT_NE(complaint("circle: {centre: [0, 0], radius: -1}").find("task.yaml:2:"), std::string::npos);
+  EXPECT_NE(complaint("circle: {centre: [0, 0], radius: 1/4}\nbox: {x: [0, 1], y: [0, 1]}").find("leave one"),
+            std::string::npos);
+  EXPECT_NE(complaint("path: [[0, 0], [0, 0]]").find("the one before it again"), std::string::npos);
+  EXPECT_NE(complaint("path: [[0, 0], [0, 0.1]]\nloads_from: [[1, 0], [-2, 0]]").find("no load at all"),
+            std::string::npos);
+  EXPECT_NE(complaint("bocks: 1").find("unknown key 'bocks'"), std::string::npos);
+}
+
+TEST(Task, NeedsAPlaneOfTwoCoordinates) {
+  EXPECT_NE(complaint("path: [[0, 0], [0, 0.1]]", "four_bar").find("tasks lie in"), std::string::npos);
+}
+
+TEST(Task, ConvexAndConcavePolygonsAreFine) {
+  EXPECT_EQ(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0.25, -0.6]]"), "");
+  EXPECT_EQ(complaint("polygon: [[0, -0.8], [0.5, -0.8], [0.5, -0.6], [0.25, -0.75], [0, -0.6]]"), "");
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism
