@@ -1,5 +1,7 @@
 #include "cli/pipeline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -93,8 +95,18 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
   return true;
 }
 
+void check_coordinates(const mechanism::Mechanism& mechanism) {
+  const std::size_t count = mechanism.coordinates.size();
+  if (count == 2) return;
+  throw core::InputError(
+      {mechanism.file, 0, 0}, fmt::format("loci are traced over two free coordinates, and the mechanism has {}", count),
+      count > 2 ? "fix the others by numbers or parameters, or print the loci's polynomials with clearloci equations"
+                : "print the polynomials whose roots are its loci with clearloci equations");
+}
+
 TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
                            const symbolic::LocusFamily* family) {
+  check_coordinates(mechanism);
   check_sides(mechanism, request);
   TracedProblem traced = derive_and_trace(mechanism, request, family);
   core::LocusMap& map = traced.map;

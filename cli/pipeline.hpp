@@ -31,7 +31,7 @@ struct LociRequest {
   std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
 };
 
-/// The discontinuity loci of a mechanism with two free coordinates (or, with one, their points).
+/// The discontinuity loci of a mechanism with two free coordinates.
 /// Throws core::InputError where the mechanism has no loci to speak of: a system that is not square, a determinant that
 /// vanishes in every pose, an unknown joint, a working mode of the wrong length.
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {});

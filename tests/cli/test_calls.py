@@ -23,8 +23,23 @@ class WrongCalls(InOwnFolder):
         self.assertIn("loci, equations, validate, pose", message)
 
     def test_no_model(self):
-        for command in ("loci", "equations", "validate", "pose", "error", "trajectory"):
+        for command in ("loci", "equations", "validate", "pose", "error", "zones", "verify", "trajectory"):
             self.assertIn("MODEL", self.complaint(command))
+
+    def test_mechanisms_that_a_command_is_not_for(self):
+        examples = FIVE_BAR.parent
+        for command in ("loci", "validate", "zones", "error"):
+            for name in ("four_bar", "gough_stewart"):
+                self.assertIn(f"{name}.yaml: ", self.complaint(command, examples / f"{name}.yaml"))
+
+    def test_wrong_tasks(self):
+        self.assertIn("TASK", self.complaint("verify", FIVE_BAR))
+        self.assertIn("no such file", self.complaint("verify", FIVE_BAR, "none.yaml"))
+        (self.folder / "task.yaml").write_text("format: 1\nbox: {x: [0, 9], y: [-0.8, -0.6]}\n", encoding="utf-8")
+        self.assertIn("task.yaml:2:6: the box leaves", self.complaint("verify", FIVE_BAR, "task.yaml"))
+        (self.folder / "task.yaml").write_text("format: 1\npath: [[0, -0.7], [0.1, -0.7]]\n", encoding="utf-8")
+        self.assertIn("nearest, best", self.complaint("verify", FIVE_BAR, "task.yaml", "--fit", "first"))
+        self.assertIn("one working mode", self.complaint("verify", FIVE_BAR, "task.yaml", "--working-mode", "all"))
 
     def test_unknown_option(self):
         self.assertIn("--frobnicate", self.complaint("loci", FIVE_BAR, "--frobnicate"))
@@ -133,7 +148,7 @@ class WrongCalls(InOwnFolder):
 class Help(InOwnFolder):
     def test_every_command_has_an_example(self):
         self.assertIn("Exit status", self.run_program("--help").stdout)
-        for command in ("loci", "equations", "validate", "pose", "error", "trajectory"):
+        for command in ("loci", "equations", "validate", "pose", "error", "zones", "verify", "trajectory"):
             process = self.run_program(command, "--help")
             self.assertIn(f"Example: clearloci {command} ", process.stdout)
             self.assertEqual(process.stderr, "")

@@ -219,6 +219,22 @@ class Error(InOwnFolder):
         self.assertAlmostEqual(float(row["dx"]), pose["pose_error"]["dx"], delta=1e-12)
         self.assertAlmostEqual(float(row["worst_dalpha"]), pose["worst_case"]["dalpha"], delta=1e-12)
 
+    def test_verify_says_yes_no_and_why(self):
+        (self.folder / "good.yaml").write_text("format: 1\nbox: {x: [0.2, 0.3], y: [-0.7, -0.6]}\n", encoding="utf-8")
+        (self.folder / "bad.yaml").write_text("format: 1\nbox: {x: [0.2, 0.3], y: [-0.7, 0.6]}\n", encoding="utf-8")
+        good = json.loads(self.run_program("verify", FIVE_BAR, "good.yaml", "--json").stdout)
+        self.assertTrue(good["verified"])
+        self.assertEqual(good["zone"], "z1")
+        self.assertLess(good["margin"], good["nearest"]["distance"])
+        bad = json.loads(self.run_program("verify", FIVE_BAR, "bad.yaml", "--json", status=1).stdout)
+        self.assertFalse(bad["verified"])
+        self.assertTrue(0.2 <= bad["witness"]["at"][0] <= 0.3)
+        self.assertIn("direct singularity", bad["witness"]["reason"])
+        for name in ("verify.json", "verify.svg", "verify.png"):
+            self.assertTrue((self.folder / "out" / "five_bar" / name).exists(), name)
+        moved = json.loads(self.run_program("verify", FIVE_BAR, "good.yaml", "--fit", "best", "--json").stdout)
+        self.assertGreater(moved["margin"], good["margin"])
+
     def test_error_sizes_zone_by_zone(self):
         options = ["--grid", "150x200", "--export", "csv", "--zones", "--json", "-o", self.folder / "zoned"]
         mode = json.loads(self.run_program("error", FIVE_BAR, *options).stdout)["modes"][0]
