@@ -226,7 +226,7 @@ class Verifier {
   }
 
   loci::TaskProof proof(const loci::TaskRegion& region, double margin, int most_cells) {
-    for (int count = 1;; count *= 2) {
+    while (true) {
       std::vector<loci::LoadCase> loads;
       for (const Case& one : cases_)
         loads.push_back({&one.traced.problem, task_.loads ? signs_of(one, region) : std::map<loci::Component, int>{}});
