@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <utility>
 
+#include "core/angle_chart.hpp"
 #include "core/errors.hpp"
 #include "numeric/sketch.hpp"
 
@@ -45,6 +47,54 @@ core::LocusMap nothing_known(const mechanism::Mechanism& mechanism, const std::s
   return map;
 }
 
+/// The maps of a coordinate's pieces as one: a length is one piece, an angle one a half turn (core/angle_chart.hpp).
+core::LocusMap join_charts(const mechanism::Mechanism& mechanism, const std::vector<symbolic::DerivedProblem>& charts,
+                           const std::vector<core::LocusMap>& maps) {
+  constexpr double same_angle = 1e-12;  // rad: two charts round the angle at which they meet differently
+  core::LocusMap joined = maps.front();
+  joined.isolated_points.clear();
+  joined.reachable.clear();
+  const mechanism::Coordinate& coordinate = mechanism.coordinates.front();
+  joined.tower.coordinates = {coordinate.name};
+  joined.lower = {coordinate.lower};
+  joined.upper = {coordinate.upper};
+  if (coordinate.angle) joined.angles = {true};
+  for (const core::WorkingMode& mode : charts.front().problem.modes) {
+    std::vector<core::IsolatedPoint> points;
+    std::vector<core::ReachableInterval> reachable;
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      const auto& chart = charts[i].problem.charts;
+      const auto value = [&](double t) {
+        return chart.empty() || !chart.front() ? t : core::angle_at(*chart.front(), t);
+      };
+      const std::size_t before = points.size();
+      for (core::IsolatedPoint point : maps[i].isolated_points) {
+        if (point.mode != mode) continue;
+        point.at[0] = value(point.at[0]);
+        const bool known = std::any_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(before),
+                                       [&](const core::IsolatedPoint& other) {
+                                         return other.kind == point.kind && other.vanishing == point.vanishing &&
+                                                std::abs(other.at[0] - point.at[0]) < same_angle;
+                                       });
+        if (!known) points.push_back(std::move(point));
+      }
+      for (core::ReachableInterval interval : maps[i].reachable) {
+        if (interval.mode != mode) continue;
+        interval.from = value(interval.from);
+        interval.to = value(interval.to);
+        if (i > 0 && !reachable.empty() && std::abs(reachable.back().to - interval.from) < same_angle)
+          reachable.back().to = interval.to;
+        else
+          reachable.push_back(std::move(interval));
+      }
+    }
+    joined.isolated_points.insert(joined.isolated_points.end(), points.begin(), points.end());
+    joined.reachable.insert(joined.reachable.end(), reachable.begin(), reachable.end());
+  }
+  for (const core::LocusMap& map : maps) joined.complete = joined.complete && map.complete;
+  return joined;
+}
+
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
 /// `family`: of which the mechanism is a member; may be null.
 TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
@@ -59,21 +109,32 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
   try {
     if (request.progress) request.progress(0, "equations");
     check_deadline();
-    symbolic::DerivedProblem derived = family != nullptr
-                                           ? symbolic::locus_problem(mechanism, request.selection, *family)
-                                           : symbolic::locus_problem(mechanism, request.selection);
-    symbolic = derived.symbolic_seconds;
-    elimination = derived.elimination_seconds;
-    derived.problem.tolerance = request.tolerance;
-    derived.problem.modes = modes_to_trace(mechanism, request, derived.problem.tower);
+    const bool one_coordinate = mechanism.coordinates.size() == 1;
+    std::vector<symbolic::DerivedProblem> charts;
+    if (one_coordinate)
+      charts = family != nullptr ? family->problems(mechanism, request.selection)
+                                 : symbolic::locus_problems(mechanism, request.selection);
+    else
+      charts.push_back(family != nullptr ? symbolic::locus_problem(mechanism, request.selection, *family)
+                                         : symbolic::locus_problem(mechanism, request.selection));
+    for (symbolic::DerivedProblem& derived : charts) {
+      symbolic += derived.symbolic_seconds;
+      elimination += derived.elimination_seconds;
+      derived.problem.tolerance = request.tolerance;
+      derived.problem.modes = modes_to_trace(mechanism, request, derived.problem.tower);
+    }
 
     start = Clock::now();
-    check_deadline();
-    map = loci::trace(derived.problem,
-                      {.engine = request.engine, .progress = request.progress, .deadline = request.deadline});
+    std::vector<core::LocusMap> maps;
+    for (const symbolic::DerivedProblem& derived : charts) {
+      check_deadline();
+      maps.push_back(loci::trace(
+          derived.problem, {.engine = request.engine, .progress = request.progress, .deadline = request.deadline}));
+    }
+    map = one_coordinate ? join_charts(mechanism, charts, maps) : std::move(maps.front());
     tracing = seconds_since(start);
-    map.notes.insert(map.notes.begin(), derived.notes.begin(), derived.notes.end());
-    traced.problem = std::move(derived.problem);
+    map.notes.insert(map.notes.begin(), charts.front().notes.begin(), charts.front().notes.end());
+    traced.problem = std::move(charts.front().problem);
   } catch (const core::LimitReached& limit) {
     (symbolic > 0 ? tracing : symbolic) = seconds_since(start);
     map = nothing_known(mechanism, limit.what());
@@ -95,18 +156,9 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
   return true;
 }
 
-void check_coordinates(const mechanism::Mechanism& mechanism) {
-  const std::size_t count = mechanism.coordinates.size();
-  if (count == 2) return;
-  throw core::InputError(
-      {mechanism.file, 0, 0}, fmt::format("loci are traced over two free coordinates, and the mechanism has {}", count),
-      count > 2 ? "fix the others by numbers or parameters, or print the loci's polynomials with clearloci equations"
-                : "print the polynomials whose roots are its loci with clearloci equations");
-}
-
 TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
                            const symbolic::LocusFamily* family) {
-  check_coordinates(mechanism);
+  require_coordinates(mechanism, 1, 2, "loci are traced");
   check_sides(mechanism, request);
   TracedProblem traced = derive_and_trace(mechanism, request, family);
   core::LocusMap& map = traced.map;
@@ -165,6 +217,18 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
   return map;
 }
 
+void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t least, std::size_t most,
+                         const std::string& what) {
+  const std::size_t count = mechanism.coordinates.size();
+  if (least <= count && count <= most) return;
+  const std::string wanted = least == most ? std::to_string(least) : "one or two";
+  throw core::InputError(
+      {mechanism.file}, what + " over " + wanted + " free coordinates; this workspace has " + std::to_string(count),
+      count > most
+          ? "make " + std::to_string(count - most) + " of them a parameter, such as z: 0.5, and vary it with --set"
+          : "give 'workspace' another coordinate with its range");
+}
+
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   return trace_member(mechanism, request, nullptr).map;
 }
@@ -211,6 +275,7 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
 
 LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                              const numeric::GridSpec& grid) {
+  require_coordinates(mechanism, 2, 2, "loci are held against a grid");
   request.selection.quantities.assign(core::all_quantities.begin(), core::all_quantities.end());
   core::LocusMap map = trace_loci(mechanism, request);
   if (!map.complete)

@@ -62,6 +62,9 @@ class Loci {
   std::string text_, file_;
   symbolic::LocusFamily family_;
 };
+/// Throws core::InputError, saying what has no meaning here, where the number of free coordinates is another.
+void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t least, std::size_t most,
+                         const std::string& what);
 
 /// The working modes that a request means, as sides of the dyads: the file's own where it names none.
 std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, const LociRequest& request);

@@ -105,6 +105,14 @@ struct IsolatedPoint {
   std::vector<double> at;  ///< one value a coordinate
   WorkingMode mode;
   bool certified = false;
+  std::string factor = {};  ///< what vanishes there and why, where a single coordinate is free; else empty
+  std::string cause = {};
+};
+
+/// One free coordinate: a piece of its range in which the mode's posture exists.
+struct ReachableInterval {
+  WorkingMode mode;
+  double from = 0, to = 0;
 };
 
 /// The workspace of one mode inside the box: rings to be filled by the even-odd rule.
@@ -124,6 +132,8 @@ struct LocusMap {
   std::vector<LocusCurve> curves;
   std::vector<IsolatedPoint> isolated_points;
   std::vector<WorkspaceRegion> workspace;
+  std::vector<ReachableInterval> reachable;            ///< with one free coordinate, ascending within a mode
+  std::vector<bool> angles;                            ///< which coordinates are angles, in rad; empty: none
   std::vector<std::pair<std::string, double>> timing;  ///< stage, s
 };
 

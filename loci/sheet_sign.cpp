@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "loci/tower_algebra.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -20,40 +21,6 @@ Interval enclose(const core::Rational& lower, const core::Rational& upper) {
   const double low = lower.get_d(), high = upper.get_d();
   return {std::nextafter(low, -std::numeric_limits<double>::infinity()),
           std::nextafter(high, std::numeric_limits<double>::infinity())};
-}
-
-/// N = a + b s: splits off one variable of a polynomial linear in it.
-std::pair<Polynomial, Polynomial> split(const Polynomial& p, int variable) {
-  Polynomial a, b;
-  a.variables = b.variables = p.variables;
-  for (core::Term term : p.terms) {
-    int& exponent = term.exponents[static_cast<std::size_t>(variable)];
-    core::ensure(exponent <= 1, "a sheet polynomial linear in its roots");
-    Polynomial& part = exponent == 0 ? a : b;
-    exponent = 0;
-    part.terms.push_back(std::move(term));
-  }
-  return {a, b};
-}
-
-/// Powers of the roots put back, last root first.
-Polynomial reduce(Polynomial p, const core::RootTower& tower) {
-  const int coordinates = static_cast<int>(tower.coordinates.size());
-  for (int j = static_cast<int>(tower.roots.size()) - 1; j >= 0; --j) {
-    const int variable = coordinates + j;
-    while (core::degree_in(p, variable) > 1) {
-      Polynomial low, high;
-      low.variables = high.variables = p.variables;
-      for (core::Term term : p.terms) {
-        int& exponent = term.exponents[static_cast<std::size_t>(variable)];
-        Polynomial& part = exponent > 1 ? high : low;
-        if (exponent > 1) exponent -= 2;
-        part.terms.push_back(std::move(term));
-      }
-      p = low + high * tower.roots[static_cast<std::size_t>(j)].square;
-    }
-  }
-  return p;
 }
 
 template <typename Number>

@@ -6,6 +6,7 @@
 #include "core/errors.hpp"
 #include "loci/exact_trace.hpp"
 #include "loci/isolated_points.hpp"
+#include "loci/points.hpp"
 #include "loci/sheet_loci.hpp"
 #include "loci/workspace_rings.hpp"
 
@@ -131,10 +132,13 @@ void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
 }  // namespace
 
 LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
-  core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
+  const std::size_t coordinates = problem.tower.coordinates.size();
+  core::ensure(coordinates == 1 || coordinates == 2, "one or two free coordinates");
   LocusMap map;
   try {
-    if (options.engine == Engine::exact)
+    if (coordinates == 1)
+      add_points_of_one_coordinate(problem, options, map);
+    else if (options.engine == Engine::exact)
       map = trace_exactly(problem, options);
     else
       trace_adaptively(problem, options, map);
@@ -142,6 +146,7 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
       return options.deadline && std::chrono::steady_clock::now() > *options.deadline;
     };
     for (const core::WorkingMode& mode : problem.modes) {
+      if (coordinates == 1) break;
       if (stop()) throw core::LimitReached("the time limit was reached");
       add_contact_loss_points(problem, mode, map, stop);
     }

@@ -21,7 +21,8 @@ struct TraceOptions {
   std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
 };
 
-/// Every curve, isolated point and workspace region of the problem's modes. Two free coordinates required.
+/// Every curve, isolated point and workspace region of the problem's modes; over one free coordinate its points and
+/// reachable intervals. One or two free coordinates required.
 /// The map's mechanism name, parameters, notes and other timings are left to the caller.
 core::LocusMap trace(const core::LocusProblem& problem, const TraceOptions& options = {});
 

@@ -91,11 +91,17 @@ Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
 }
 
 Json isolated_point_object(const core::LocusMap& map, const core::IsolatedPoint& point) {
-  return {{"kind", core::to_string(point.kind)},
-          {"vanishing", vanishing_array(point.vanishing)},
-          {"at", point.at},
-          {"certified", point.certified},
-          {"working_mode", mode_object(map.tower, point.mode)}};
+  Json body;
+  body["kind"] = core::to_string(point.kind);
+  body["vanishing"] = vanishing_array(point.vanishing);
+  if (!point.factor.empty()) {
+    body["factor"] = printable(point.factor);
+    body["cause"] = printable(point.cause);
+  }
+  body["at"] = point.at;
+  body["certified"] = point.certified;
+  body["working_mode"] = mode_object(map.tower, point.mode);
+  return body;
 }
 
 Json box_array(const core::LocusMap& map) {
@@ -154,6 +160,9 @@ Json loci_object(const core::LocusMap& map) {
   root["parameters"] = Json::object();
   for (const auto& [name, value] : map.parameters) root["parameters"][printable(name)] = value;
   root["coordinates"] = map.tower.coordinates;
+  if (!map.angles.empty()) {
+    for (const bool angle : map.angles) root["units"].push_back(angle ? "rad" : "m");
+  }
   root["box"] = box_array(map);
   root["tolerance"] = map.tolerance;
   root["complete"] = map.complete;
@@ -164,6 +173,10 @@ Json loci_object(const core::LocusMap& map) {
   root["workspace"] = Json::array();
   for (const auto& region : map.workspace) {
     root["workspace"].push_back({{"working_mode", mode_object(map.tower, region.mode)}, {"rings", region.rings}});
+  }
+  for (const auto& interval : map.reachable) {
+    root["reachable"].push_back(
+        {{"working_mode", mode_object(map.tower, interval.mode)}, {"from", interval.from}, {"to", interval.to}});
   }
   root["notes"] = Json::array();
   for (const auto& note : map.notes) root["notes"].push_back(printable(note));

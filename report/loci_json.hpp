@@ -11,6 +11,8 @@ namespace clearloci::report {
 /// The object of results.md, keys in its order. Besides the keys shown there: `cause` after `factor`, `multiplicity` in
 /// a vanishing reaction where it is above 1, `working_mode` in an isolated point, and before `timing`
 /// `workspace` (`working_mode`, `rings`: to be filled by the even-odd rule) and `notes` (sentences).
+/// With one free coordinate a point has its `factor` and `cause`, and `reachable` lists the intervals of each mode
+/// (`working_mode`, `from`, `to`); `units` says where a coordinate is in rad.
 /// A closed form is null, {"line": {"a", "b", "c"}}, {"circle": {"centre", "radius"}} or {"conic": {"type",
 /// "coefficients", "centre", "semi_axes", "angle"}}. A circle whose radius is irrational has `radius` as a rounded
 /// number and its square, exactly, as `radius_squared`.

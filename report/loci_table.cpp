@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "report/wording.hpp"
 #include "report/wrap.hpp"
@@ -146,6 +147,44 @@ std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode)
   return rows.empty() ? "" : "\nisolated points\n" + format_rows(heading, rows);
 }
 
+bool is_angle(const core::LocusMap& map) { return !map.angles.empty() && map.angles.front(); }
+
+/// A value of the one coordinate: m, or deg.
+std::string place(const core::LocusMap& map, double value) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  return fmt::format("{:.9f}", is_angle(map) ? value * degrees : value);
+}
+
+/// With one free coordinate: the reachable intervals, then a row a point, with the reason.
+std::string single_coordinate_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
+  const std::string name = printable(map.tower.coordinates.front());
+  const std::string unit = is_angle(map) ? "deg" : "m";
+  std::string out = "reachable: ";
+  bool any = false;
+  for (const auto& interval : map.reachable) {
+    if (interval.mode != mode) continue;
+    out += (any ? ", " : "") + place(map, interval.from) + " to " + place(map, interval.to);
+    any = true;
+  }
+  out += any ? " " + unit + "\n" : "nowhere\n";
+  std::vector<Column> heading = {
+      {"point", 8}, {"kind", 18}, {"what vanishes, where", 60}, {name + "/" + unit, 16, true}};
+  if (is_angle(map)) heading.push_back({name + "/rad", 14, true});
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
+    const auto& point = map.isolated_points[i];
+    if (point.mode != mode) continue;
+    constexpr int readable = 60;
+    std::string why = point.cause.empty() ? point.factor : point.cause;
+    if (columns(why) > 2 * readable) why = "factor without a short form";
+    const std::string what = what_vanishes(point.vanishing);
+    rows.push_back({"p" + std::to_string(i + 1), kind_words(point.kind),
+                    what + (what.empty() ? "" : "\n") + printable(why), place(map, point.at.front())});
+    if (is_angle(map)) rows.back().push_back(fmt::format("{:.11f}", point.at.front()));
+  }
+  return out + (rows.empty() ? "no points\n" : format_rows(heading, rows));
+}
+
 std::string notes(const core::LocusMap& map) {
   const auto measure = [](std::string_view text) { return static_cast<double>(columns(text)); };
   std::vector<std::string> sentences = map.notes;
@@ -171,11 +210,14 @@ std::string loci_table(const core::LocusMap& map) {
   if (!parameters.empty()) out += "\n" + parameters;
   out += "\n";
   std::vector<core::WorkingMode> modes = modes_of(map);
-  if (modes.empty()) out += "\nno curves\n";
+  if (modes.empty()) out += map.tower.coordinates.size() == 1 ? "\nout of reach in the whole range\n" : "\nno curves\n";
   for (const auto& mode : modes) {
     const std::string words = printable(mode_words(map.tower, mode));
     out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";
-    out += curve_rows(map, mode) + point_rows(map, mode);
+    if (map.tower.coordinates.size() == 1)
+      out += single_coordinate_rows(map, mode);
+    else
+      out += curve_rows(map, mode) + point_rows(map, mode);
   }
   return out + notes(map);
 }

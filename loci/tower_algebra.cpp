@@ -1,0 +1,61 @@
+#include "loci/tower_algebra.hpp"
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci {
+
+using core::Polynomial;
+
+std::pair<Polynomial, Polynomial> split(const Polynomial& p, int variable) {
+  Polynomial a, b;
+  a.variables = b.variables = p.variables;
+  for (core::Term term : p.terms) {
+    int& exponent = term.exponents[static_cast<std::size_t>(variable)];
+    core::ensure(exponent <= 1, "a sheet polynomial linear in its roots");
+    Polynomial& part = exponent == 0 ? a : b;
+    exponent = 0;
+    part.terms.push_back(std::move(term));
+  }
+  return {a, b};
+}
+
+Polynomial reduce(Polynomial p, const core::RootTower& tower) {
+  const int coordinates = static_cast<int>(tower.coordinates.size());
+  for (int j = static_cast<int>(tower.roots.size()) - 1; j >= 0; --j) {
+    const int variable = coordinates + j;
+    while (core::degree_in(p, variable) > 1) {
+      Polynomial low, high;
+      low.variables = high.variables = p.variables;
+      for (core::Term term : p.terms) {
+        int& exponent = term.exponents[static_cast<std::size_t>(variable)];
+        Polynomial& part = exponent > 1 ? high : low;
+        if (exponent > 1) exponent -= 2;
+        part.terms.push_back(std::move(term));
+      }
+      p = low + high * tower.roots[static_cast<std::size_t>(j)].square;
+    }
+  }
+  return p;
+}
+
+int top_root(const Polynomial& p, const core::RootTower& tower) {
+  const int coordinates = static_cast<int>(tower.coordinates.size());
+  int top = static_cast<int>(tower.roots.size()) - 1;
+  while (top >= 0 && !core::depends_on(p, coordinates + top)) --top;
+  return top;
+}
+
+Polynomial conjugate_product(const Polynomial& p, int root, const core::RootTower& tower) {
+  const auto [a, b] = split(p, static_cast<int>(tower.coordinates.size()) + root);
+  return reduce(a * a - b * b * tower.roots[static_cast<std::size_t>(root)].square, tower);
+}
+
+Polynomial norm(Polynomial p, const core::RootTower& tower) {
+  for (int root = top_root(p, tower); root >= 0; root = top_root(p, tower)) {
+    p = conjugate_product(p, root, tower);
+    if (!p.is_zero()) p = core::primitive_part(p);
+  }
+  return core::with_variables(p, static_cast<int>(tower.coordinates.size()));
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,25 @@
+// Arithmetic of polynomials in the roots of a tower: N = a + b s, s^2 = Q.
+#pragma once
+
+#include <utility>
+
+#include "core/root_tower.hpp"
+
+namespace clearloci::loci {
+
+/// N = a + b s: a and b, free of the variable. Required: p linear in it.
+std::pair<core::Polynomial, core::Polynomial> split(const core::Polynomial& p, int variable);
+
+/// The same element without powers of the roots above the first.
+core::Polynomial reduce(core::Polynomial p, const core::RootTower& tower);
+
+/// The last root that occurs in p; -1: none.
+int top_root(const core::Polynomial& p, const core::RootTower& tower);
+
+/// Product of an element with its conjugates under the sign of root `root`: a^2 - b^2 Q.
+core::Polynomial conjugate_product(const core::Polynomial& p, int root, const core::RootTower& tower);
+
+/// Every root eliminated: in the coordinates alone, zero wherever p is.
+core::Polynomial norm(core::Polynomial p, const core::RootTower& tower);
+
+}  // namespace clearloci::loci

@@ -1,0 +1,209 @@
+#include "loci/univariate.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::Integer;
+using core::Rational;
+
+/// Drops leading zeros, divides by the content, makes the leading coefficient positive.
+void make_primitive(Univariate& p) {
+  while (!p.empty() && p.back() == 0) p.pop_back();
+  if (p.empty()) return;
+  Integer content = 0;
+  for (const Integer& c : p) content = gcd(content, c);
+  if (p.back() < 0) content = -content;
+  for (Integer& c : p) mpz_divexact(c.get_mpz_t(), c.get_mpz_t(), content.get_mpz_t());
+}
+
+Univariate derivative(const Univariate& p) {
+  Univariate d;
+  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<unsigned long>(i));
+  make_primitive(d);
+  return d;
+}
+
+/// Remainder of a by b up to a constant factor.
+Univariate pseudo_remainder(Univariate a, const Univariate& b) {
+  while (a.size() >= b.size()) {
+    const Integer lead = a.back();
+    const std::size_t shift = a.size() - b.size();
+    for (Integer& c : a) c *= b.back();
+    for (std::size_t i = 0; i < b.size(); ++i) a[shift + i] -= lead * b[i];
+    while (!a.empty() && a.back() == 0) a.pop_back();
+  }
+  make_primitive(a);
+  return a;
+}
+
+int variations(const Univariate& p) {
+  int count = 0, last = 0;
+  for (const Integer& c : p) {
+    const int sign = sgn(c);
+    if (sign == 0) continue;
+    if (last != 0 && sign != last) ++count;
+    last = sign;
+  }
+  return count;
+}
+
+/// x -> x + 1.
+void shift_by_one(Univariate& p) {
+  for (std::size_t i = 0; i + 1 < p.size(); ++i)
+    for (std::size_t k = p.size() - 1; k > i; --k) p[k - 1] += p[k];
+}
+
+/// Descartes' bound of the number of roots strictly between: exact where it is 0 or 1.
+int descartes_bound(const Univariate& p, const Rational& lower, const Rational& upper) {
+  // p(lower + (upper - lower) x) by Horner, then its roots in (0, 1) moved to the positive numbers.
+  std::vector<Rational> moved;
+  const Rational width = upper - lower;
+  for (auto c = p.rbegin(); c != p.rend(); ++c) {
+    moved.insert(moved.begin(), Rational(0));
+    for (std::size_t i = 0; i + 1 < moved.size(); ++i) moved[i] += lower * moved[i + 1];
+    moved[0] += *c;
+  }
+  Rational power = 1;
+  Integer denominator = 1;
+  for (Rational& c : moved) {
+    c *= power;
+    power *= width;
+    denominator = lcm(denominator, c.get_den());
+  }
+  Univariate scaled;
+  for (const Rational& c : moved) scaled.push_back(c.get_num() * (denominator / c.get_den()));
+  std::reverse(scaled.begin(), scaled.end());
+  shift_by_one(scaled);
+  return variations(scaled);
+}
+
+Univariate linear_factor(const Rational& root) { return {-root.get_num(), root.get_den()}; }
+
+}  // namespace
+
+Univariate univariate(const core::Polynomial& p) {
+  core::ensure(p.variables == 1, "a polynomial in one variable");
+  Univariate result;
+  if (p.is_zero()) return result;
+  const core::Polynomial whole = core::primitive_part(p);
+  result.assign(static_cast<std::size_t>(core::degree_in(whole, 0)) + 1, Integer(0));
+  for (const core::Term& term : whole.terms)
+    result[static_cast<std::size_t>(term.exponents[0])] = term.coefficient.get_num();
+  return result;
+}
+
+Univariate greatest_common_divisor(Univariate a, Univariate b) {
+  while (!b.empty()) {
+    Univariate rest = pseudo_remainder(std::move(a), b);
+    a = std::move(b);
+    b = std::move(rest);
+  }
+  make_primitive(a);
+  return a;
+}
+
+Univariate exact_quotient(Univariate a, const Univariate& b) {
+  core::ensure(!b.empty() && a.size() >= b.size(), "a divisor");
+  Univariate quotient(a.size() - b.size() + 1);
+  for (std::size_t k = quotient.size(); k-- > 0;) {
+    quotient[k] = a[k + b.size() - 1] / b.back();
+    for (std::size_t i = 0; i < b.size(); ++i) a[k + i] -= quotient[k] * b[i];
+  }
+  core::ensure(std::all_of(a.begin(), a.end(), [](const Integer& c) { return c == 0; }), "a division without rest");
+  make_primitive(quotient);
+  return quotient;
+}
+
+Univariate square_free_part(const Univariate& p) {
+  if (p.size() <= 2) return p;
+  const Univariate common = greatest_common_divisor(p, derivative(p));
+  return common.size() <= 1 ? p : exact_quotient(p, common);
+}
+
+int sign_at(const Univariate& p, const Rational& x) {
+  // Numerator of p(n/d): Horner over the integers.
+  Integer sum = 0, power = 1;
+  for (auto c = p.rbegin(); c != p.rend(); ++c) {
+    sum = sum * x.get_num() + *c * power;
+    power *= x.get_den();
+  }
+  return sgn(sum);
+}
+
+std::vector<RealRoot> real_roots(Univariate p, const Rational& lower, const Rational& upper) {
+  core::ensure(!p.empty(), "a polynomial that is not zero");
+  std::vector<RealRoot> roots;
+  const auto take_exact = [&](const Rational& x) {
+    if (p.size() <= 1 || sign_at(p, x) != 0) return;
+    p = exact_quotient(p, linear_factor(x));
+    roots.push_back({linear_factor(x), x, x});
+  };
+  take_exact(lower);
+  if (lower < upper) take_exact(upper);
+  // Roots at the ends of pending intervals are divided out: no end is a root of what is left.
+  std::vector<std::pair<Rational, Rational>> pending = {{lower, upper}};
+  while (!pending.empty()) {
+    const auto [from, to] = pending.back();
+    pending.pop_back();
+    if (from >= to || p.size() <= 1) continue;
+    const int bound = descartes_bound(p, from, to);
+    if (bound == 0) continue;
+    if (bound == 1) {
+      roots.push_back({p, from, to});
+      continue;
+    }
+    const Rational middle = (from + to) / 2;
+    take_exact(middle);
+    pending.emplace_back(middle, to);
+    pending.emplace_back(from, middle);
+  }
+  // Isolating intervals meet in their ends at most, and an end is a root only where it is an exact one.
+  std::sort(roots.begin(), roots.end(),
+            [](const RealRoot& a, const RealRoot& b) { return a.lower + a.upper < b.lower + b.upper; });
+  return roots;
+}
+
+void narrow(RealRoot& root) {
+  if (root.exact()) return;
+  const Rational middle = (root.lower + root.upper) / 2;
+  const int sign = sign_at(root.polynomial, middle);
+  if (sign == 0)
+    root.lower = root.upper = middle;
+  else
+    (sign == sign_at(root.polynomial, root.lower) ? root.lower : root.upper) = middle;
+}
+
+int sign_at(const Univariate& q, RealRoot& root) {
+  if (q.empty()) return 0;
+  if (root.exact()) return sign_at(q, root.lower);
+  const Univariate common = greatest_common_divisor(root.polynomial, q);
+  if (common.size() > 1 && sign_at(common, root.lower) != sign_at(common, root.upper)) return 0;
+  while (!root.exact() && descartes_bound(q, root.lower, root.upper) != 0) narrow(root);
+  return sign_at(q, (root.lower + root.upper) / 2);
+}
+
+std::vector<Univariate> coprime_base(const std::vector<Univariate>& polynomials) {
+  std::vector<Univariate> base;
+  for (Univariate p : polynomials) {
+    std::vector<Univariate> refined;
+    for (Univariate& old : base) {
+      if (old == p) p = {Integer(1)};  // its roots are there already
+      const Univariate common = p.size() > 1 ? greatest_common_divisor(p, old) : Univariate{Integer(1)};
+      if (common.size() > 1) {
+        p = exact_quotient(p, common);
+        old = exact_quotient(old, common);
+        refined.push_back(common);
+      }
+      if (old.size() > 1) refined.push_back(std::move(old));
+    }
+    if (p.size() > 1) refined.push_back(std::move(p));
+    base = std::move(refined);
+  }
+  return base;
+}
+
+}  // namespace clearloci::loci

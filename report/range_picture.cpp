@@ -1,0 +1,204 @@
+#include "report/range_picture.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "report/surface.hpp"
+#include "report/typesetting.hpp"
+#include "report/wording.hpp"
+#include "report/wrap.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Context = Cairo::RefPtr<Cairo::Context>;
+
+constexpr double page_width = 640, margin = 16, label_width = 190, label_gap = 12;  // pt
+constexpr double line_height = 11, row_padding = 10, axis_height = 44;              // pt
+const Font text_font{9}, small_font{8}, title_font{12, true};
+
+struct Row {
+  core::LocusKind kind = core::LocusKind::contact_loss;
+  std::vector<std::string> lines;
+  std::vector<double> at;
+  double y = 0, height = 0;
+};
+
+struct Range {
+  double from = 0, to = 1, factor = 1;  ///< page unit a unit of the map
+  std::string label;
+};
+
+Range range_of(const core::LocusMap& map) {
+  const bool angle = !map.angles.empty() && map.angles.front();
+  const double factor = angle ? 180 / std::numbers::pi : 1;
+  return {core::to_double(map.lower.front()) * factor, core::to_double(map.upper.front()) * factor, factor,
+          printable(map.tower.coordinates.front()) + (angle ? " / deg" : " / m")};
+}
+
+std::string words_of(const core::IsolatedPoint& point) {
+  const std::string what = vanishing_words(point.kind, point.vanishing);
+  return printable(what.empty() ? kind_words(point.kind) : what);
+}
+
+std::vector<Row> rows_of(const core::LocusMap& map, const core::WorkingMode& mode) {
+  std::vector<std::pair<std::string, Row>> rows;
+  for (const auto& point : map.isolated_points) {
+    if (point.mode != mode) continue;
+    const std::string words = words_of(point);
+    auto row = rows.begin();
+    while (row != rows.end() && (row->first != words || row->second.kind != point.kind)) ++row;
+    if (row == rows.end()) {
+      Row fresh;
+      fresh.kind = point.kind;
+      fresh.lines = wrap(words, label_width, measure_in(text_font));
+      row = rows.insert(rows.end(), {words, std::move(fresh)});
+    }
+    row->second.at.push_back(point.at.front());
+  }
+  std::vector<Row> sorted;
+  for (int kind = 0; kind <= static_cast<int>(core::LocusKind::workspace_boundary); ++kind)
+    for (auto& [words, row] : rows)
+      if (static_cast<int>(row.kind) == kind) sorted.push_back(std::move(row));
+  return sorted;
+}
+
+/// Colours apart for the colour-blind (Okabe and Ito 2008); the marks differ in shape too.
+void set_colour(const Context& context, core::LocusKind kind) {
+  switch (kind) {
+    case core::LocusKind::contact_loss:
+      return context->set_source_rgb(0.835, 0.369, 0);
+    case core::LocusKind::backlash:
+      return context->set_source_rgb(0, 0.447, 0.698);
+    case core::LocusKind::component:
+      return context->set_source_rgb(0, 0.62, 0.451);
+    case core::LocusKind::margin:
+      return context->set_source_rgb(0.8, 0.475, 0.655);
+    case core::LocusKind::direct_singularity:
+      return context->set_source_rgb(0, 0, 0);
+    default:
+      return context->set_source_rgb(0.45, 0.45, 0.45);
+  }
+}
+
+void draw_mark(const Context& context, core::LocusKind kind, double x, double y) {
+  constexpr double r = 4;
+  context->begin_new_path();
+  if (kind == core::LocusKind::contact_loss) {
+    context->arc(x, y, r, 0, 2 * std::numbers::pi);
+    return context->fill();
+  }
+  if (kind == core::LocusKind::backlash) {
+    context->move_to(x, y - r), context->line_to(x + r, y), context->line_to(x, y + r), context->line_to(x - r, y);
+    return context->fill();
+  }
+  context->set_line_width(1.5);
+  if (kind == core::LocusKind::direct_singularity) {
+    context->move_to(x - r, y - r), context->line_to(x + r, y + r);
+    context->move_to(x - r, y + r), context->line_to(x + r, y - r);
+  } else if (kind == core::LocusKind::workspace_boundary) {
+    context->move_to(x, y - r), context->line_to(x, y + r);
+  } else {
+    context->rectangle(x - r + 1, y - r + 1, 2 * r - 2, 2 * r - 2);
+  }
+  context->stroke();
+}
+
+/// 1, 2 or 5 times a power of ten; of an angle a part of the full turn.
+double tick_step(const Range& range) {
+  const double span = range.to - range.from;
+  if (range.factor != 1) {
+    for (const double step : {5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0})
+      if (span / step <= 13) return step;
+    return 180;
+  }
+  const double power = std::pow(10, std::floor(std::log10(span / 8)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (span / (digit * power) <= 12) return digit * power;
+  return 10 * power;
+}
+
+}  // namespace
+
+std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mode, PictureFormat format) {
+  const Range range = range_of(map);
+  std::vector<Row> rows = rows_of(map, mode);
+  const double left = margin + label_width + label_gap, right = page_width - margin - 8;
+  const double top = margin + 40;
+  double y = top;
+  for (Row& row : rows) {
+    row.y = y;
+    row.height = line_height * static_cast<double>(row.lines.size()) + row_padding;
+    y += row.height;
+  }
+  const double bottom = std::max(y, top + 40);
+  const auto page = [&](double value) {
+    return left + (value - range.from) / (range.to - range.from) * (right - left);
+  };
+  const std::string words = printable(mode_words(map.tower, mode));
+  const std::string title = printable(map.mechanism);
+
+  const auto draw = [&](const Context& context) {
+    context->set_source_rgb(1, 1, 1);
+    context->paint();
+    context->set_source_rgb(0, 0, 0);
+    write_text(context, title, margin, margin + 10, title_font);
+    write_text(
+        context,
+        "Discontinuity loci over one coordinate" + (words.empty() ? "" : ": " + words) + "; shaded: within reach",
+        margin, margin + 25, text_font);
+    context->set_source_rgb(0.93, 0.95, 0.97);
+    for (const auto& interval : map.reachable) {
+      if (interval.mode != mode) continue;
+      const double from = page(interval.from * range.factor), to = page(interval.to * range.factor);
+      context->rectangle(from, top, to - from, bottom - top);
+      context->fill();
+    }
+    context->set_line_width(0.5);
+    context->set_source_rgb(0.8, 0.8, 0.8);
+    for (const Row& row : rows) {
+      context->move_to(margin, row.y + row.height);
+      context->line_to(right, row.y + row.height);
+    }
+    context->stroke();
+    context->set_dash(std::vector<double>{2, 3}, 0);
+    context->set_source_rgb(0.6, 0.6, 0.6);
+    for (const Row& row : rows)
+      for (const double value : row.at) {
+        context->move_to(page(value * range.factor), top);
+        context->line_to(page(value * range.factor), bottom);
+      }
+    context->stroke();
+    context->unset_dash();
+    for (const Row& row : rows) {
+      context->set_source_rgb(0, 0, 0);
+      double line = row.y + row_padding / 2 + 8;
+      for (const std::string& text : row.lines) {
+        write_text(context, text, margin, line, text_font);
+        line += line_height;
+      }
+      set_colour(context, row.kind);
+      for (const double value : row.at)
+        draw_mark(context, row.kind, page(value * range.factor), row.y + row.height / 2);
+    }
+    context->set_source_rgb(0, 0, 0);
+    context->set_line_width(0.8);
+    context->rectangle(left, top, right - left, bottom - top);
+    const double step = tick_step(range);
+    for (double k = std::ceil(range.from / step - 1e-9); k * step <= range.to + 1e-9 * step; ++k) {
+      context->move_to(page(k * step), bottom);
+      context->line_to(page(k * step), bottom + 4);
+    }
+    context->stroke();
+    for (double k = std::ceil(range.from / step - 1e-9); k * step <= range.to + 1e-9 * step; ++k)
+      write_text(context, short_number(k * step, 6), page(k * step), bottom + 15, small_font, Align::centre);
+    write_text(context, range.label, (left + right) / 2, bottom + 30, text_font, Align::centre);
+  };
+  std::string description;
+  for (const Row& row : rows)
+    for (const std::string& text : row.lines) description += text + "\n";
+  return render({page_width, std::ceil(bottom + axis_height), title, description}, format, draw);
+}
+
+}  // namespace clearloci::report
