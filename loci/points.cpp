@@ -38,8 +38,7 @@ MultiInterval evaluate(const Polynomial& p, const std::vector<MultiInterval>& at
 /// The configurations of one mode at one value of the coordinate.
 class Place {
  public:
-  Place(const core::RootTower& tower, const core::WorkingMode& mode, RealRoot& root)
-      : tower_(tower), mode_(mode), root_(root) {
+  Place(const core::RootTower& tower, const core::WorkingMode& mode, RealRoot& root) : tower_(tower), root_(root) {
     values_.emplace_back(root.lower, root.upper);
     for (std::size_t j = 0; j < tower.roots.size(); ++j) {
       const int square = sign(tower.roots[j].square);
@@ -75,7 +74,6 @@ class Place {
   static int leading_sign(const Polynomial& p) { return sgn(p.terms.front().coefficient); }
 
   const core::RootTower& tower_;
-  const core::WorkingMode& mode_;
   RealRoot& root_;
   std::vector<MultiInterval> values_;  ///< coordinate, then the roots placed so far
   std::vector<int> signs_;
