@@ -49,8 +49,7 @@ class Workspace {
 class ModeZones {
  public:
   ModeZones(const core::LocusProblem& problem, const LocusMap& map, const core::WorkingMode& mode)
-      : problem_(problem),
-        map_(map),
+      : map_(map),
         mode_(mode),
         workspace_(problem.tower, mode),
         projections_(problem, map),
@@ -270,7 +269,6 @@ class ModeZones {
   static constexpr double most_sites = 4000;  ///< on a zone's border
   static constexpr std::size_t most_candidates = 3;
 
-  const core::LocusProblem& problem_;
   const LocusMap& map_;
   core::WorkingMode mode_;
   Workspace workspace_;
