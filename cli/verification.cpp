@@ -247,13 +247,18 @@ class Verifier {
     }
     result.margin = wanted;
     if (!result.nearest) return;
-    for (const double part : {1 - 1e-3, 1 - 1e-2, 0.9, 0.5}) {
-      const double margin = rounded_down(part * result.nearest->distance);
-      if (margin <= wanted) return;
-      if (!proof(region, margin, cells_of_a_margin).proven) continue;
-      result.margin = margin;
-      return;
-    }
+    // What lies outside the box is not among the nearest loci, but counts in the proof: bisection where that is so.
+    double good = wanted, bad = result.nearest->distance;
+    const auto holds = [&](double margin) {
+      const bool held = margin > good && proof(region, margin, cells_of_a_margin).proven;
+      (held ? good : bad) = margin;
+      return held;
+    };
+    for (const double part : {1 - 1e-3, 1 - 1e-2, 0.9})
+      if (holds(rounded_down(part * result.nearest->distance))) break;
+    for (int i = 0; i < 6 && good < 0.9 * result.nearest->distance && bad - good > 0.01 * bad; ++i)
+      holds((good + bad) / 2);
+    result.margin = good;
   }
 
   const mechanism::Mechanism& mechanism_;

@@ -37,9 +37,9 @@ struct Fit {
 using SignatureAt = std::function<std::optional<std::vector<int>>(const core::Point2&)>;
 
 /// Translations that keep the task in the box, from the best on, each with at least `clearance`: the shortest ones
-/// first, or those with the largest clearance. By branch and bound: the clearance changes no faster than the task
-/// moves, so that a cell of translations whose middle falls short by more than its half diagonal holds none. Cells are
-/// told apart down to 2e-4 of the box.
+/// first, or those with the largest clearance inside the box. By branch and bound: the clearance changes no faster than
+/// the task moves, so that a cell of translations whose middle falls short by more than its half diagonal holds none.
+/// Cells are told apart down to 2e-4 of the box.
 ///
 /// `maps`: the loci of every load; read before the first call of `accept`. `accept`: the proof; the search goes on
 /// until it says yes.

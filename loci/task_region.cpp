@@ -17,7 +17,8 @@ Point2 rounded(const core::RationalPoint& p) { return {core::to_double(p[0]), co
 double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
   const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
   const double t = length2 > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(a[0] + t * dx - p[0], a[1] + t * dy - p[1]);
+  const double x = a[0] + t * dx - p[0], y = a[1] + t * dy - p[1];
+  return std::sqrt(x * x + y * y);
 }
 
 double distance_to_cell(const Point2& p, const Interval& x, const Interval& y) {
@@ -74,7 +75,10 @@ bool TaskRegion::inside(const Point2& at) const {
 }
 
 double TaskRegion::signed_distance(const Point2& at) const {
-  if (circle_) return std::hypot(at[0] - round_.centre[0], at[1] - round_.centre[1]) - round_.radius;
+  if (circle_) {
+    const double dx = at[0] - round_.centre[0], dy = at[1] - round_.centre[1];
+    return std::sqrt(dx * dx + dy * dy) - round_.radius;
+  }
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < line_.size(); ++i)
     least = std::min(least, distance_to_segment(at, line_[i - 1], line_[i]));
