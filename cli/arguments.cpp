@@ -166,6 +166,14 @@ std::pair<int, int> parse_grid(const std::string& text) {
          fmt::format("give the nodes along each coordinate, from 2 to {}, e.g. --grid 400x400", most));
 }
 
+int parse_steps(const std::string& text) {
+  constexpr int most = 1000000;
+  const std::optional<int> steps = whole_number(text);
+  if (steps && *steps >= 2 && *steps <= most) return *steps;
+  refuse("--grid", fmt::format("'{}' is no number of steps along the only free coordinate", text),
+         fmt::format("give one number from 2 to {}, e.g. --grid 720", most));
+}
+
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism) {
   std::vector<std::string> known;
   for (const mechanism::Joint& joint : mechanism.joints) known.push_back(joint.name);

@@ -53,6 +53,9 @@ std::vector<core::Rational> parse_pose(const std::string& text, const mechanism:
 /// "400x400": nodes along each coordinate.
 std::pair<int, int> parse_grid(const std::string& text);
 
+/// "720": steps along the only coordinate.
+int parse_steps(const std::string& text);
+
 /// `options.joints`, each of which may list several after commas; checked against the mechanism.
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism);
 

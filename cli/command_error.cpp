@@ -10,6 +10,7 @@
 #include <set>
 
 #include "cli/commands.hpp"
+#include "cli/coordinate_errors.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
@@ -31,7 +32,7 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   CommonArguments common;
   LociArguments loci;
-  std::string grid = "400x400";
+  std::string grid;
   std::string formats = "png";
   bool without_loci = false;
   bool without_worst_case = false;
@@ -193,10 +194,57 @@ std::vector<std::string> write_files(const std::set<std::string>& formats, const
   return names;
 }
 
+/// One free coordinate: take-up and error over its range.
+int run_over_coordinate(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+  constexpr const char* usual_steps = "720";
+  const std::set<std::string> formats = parse_formats(arguments.formats);
+  if (formats.contains("vtk"))
+    throw core::InputError({.file = "--export"}, "vtk holds maps over two coordinates, and the workspace has one",
+                           "choose from png, svg, pdf, csv");
+  if (arguments.zones)
+    throw core::InputError({.file = "--zones"}, "zones are cut from two free coordinates, and the workspace has one",
+                           "leave it out: the table lists the jumps between the pieces of the range");
+  const int steps = parse_steps(arguments.grid.empty() ? usual_steps : arguments.grid);
+  Progress progress(arguments.common.quiet);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress);
+  const CoordinateResult result =
+      coordinate_errors(mechanism, arguments.without_loci ? empty_map(mechanism) : trace_loci(mechanism, request),
+                        requested_modes(mechanism, request), steps, !arguments.without_worst_case);
+  const std::string json = report::json_text(coordinate_errors_json(result));
+  const std::filesystem::path folder = output_folder(arguments.common);
+  std::vector<std::string> names;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    report::write_atomically(folder / name, bytes);
+    names.push_back(name);
+  };
+  write("error.json", json);
+  for (const CoordinateErrors& one : result.modes) {
+    const std::string which = result.modes.size() > 1 ? "-" + report::mode_slug(result.loci.tower, one.mode) : "";
+    if (formats.contains("csv"))
+      write("error" + which + ".csv", report::table_csv(one.columns.names, one.columns.columns));
+  }
+  for (const report::NamedChart& chart : coordinate_charts(result)) {
+    if (formats.contains("png")) write(chart.name + ".png", report::chart(chart.chart, report::PictureFormat::png));
+    if (formats.contains("svg")) write(chart.name + ".svg", report::chart(chart.chart, report::PictureFormat::svg));
+    if (formats.contains("pdf")) write(chart.name + ".pdf", report::chart(chart.chart, report::PictureFormat::pdf));
+  }
+  progress.clear();
+  if (arguments.common.json) {
+    fmt::print("{}", json);
+  } else if (!arguments.common.quiet) {
+    print_coordinate_errors(result);
+    fmt::print("Written to {}: {}\n", folder.string(), fmt::join(names, ", "));
+  }
+  if (result.loci.complete) return exit_done;
+  throw core::LimitReached("the time limit was reached; loci are missing from the pictures, the errors are whole");
+}
+
 int run(const Arguments& arguments) {
   const std::set<std::string> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  const auto [nx, ny] = parse_grid(arguments.grid);
+  if (mechanism.coordinates.size() == 1) return run_over_coordinate(arguments, mechanism);
+  constexpr const char* usual_grid = "400x400";
+  const auto [nx, ny] = parse_grid(arguments.grid.empty() ? usual_grid : arguments.grid);
   const numeric::NumericModel model = numeric::compile(mechanism);
   Progress progress(arguments.common.quiet);
   const LociRequest request = loci_request(arguments.loci, mechanism, progress);
@@ -239,7 +287,9 @@ Command add_error_command(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
-  app->add_option("--grid", arguments->grid, "Cells along each coordinate")->type_name("NXxNY")->capture_default_str();
+  app->add_option("--grid", arguments->grid,
+                  "Cells along each coordinate (default: 400x400), or steps along a single one (default: 720)")
+      ->type_name("NXxNY|N");
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides error.json, several after commas: {}", fmt::join(format_names, ", ")))
       ->type_name("LIST")
@@ -250,7 +300,11 @@ Command add_error_command(CLI::App& program) {
   app->footer(
       "Example: clearloci error examples/five_bar.yaml --grid 300x400 --export png,csv,vtk\n"
       "Writes error.json, a picture for each component (error-dx.png, ...) and for the worst case over all take-ups\n"
-      "(error-worst-dx.png, ...) to ./out/<name of MODEL>, or to the folder of -o.");
+      "(error-worst-dx.png, ...) to ./out/<name of MODEL>, or to the folder of -o. With one free coordinate the "
+      "error,\n"
+      "the take-up of every joint and the reactions are drawn over it (error.png, take-up.png, reactions.png), and "
+      "the\n"
+      "table lists how far the end effector jumps at each locus: clearloci error examples/four_bar.yaml");
   return {app, [arguments] { return run(*arguments); }};
 }
 

@@ -90,11 +90,11 @@ std::vector<std::string> write_files(const std::set<std::string>& formats, const
   if (formats.contains("csv")) {
     write("trajectory.csv", report::table_csv(result.columns.names, result.columns.columns));
     if (result.sweep) {
-      const TrajectoryColumns table = sweep_columns(*result.sweep);
+      const Columns table = sweep_columns(*result.sweep);
       write("periods.csv", report::table_csv(table.names, table.columns));
     }
   }
-  const std::vector<NamedChart> charts = trajectory_charts(result);
+  const std::vector<report::NamedChart> charts = trajectory_charts(result);
   for (std::size_t i = 0; i < charts.size(); ++i) {
     progress.show(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(charts.size()), "pictures");
     const auto draw = [&](const char* format, report::PictureFormat as) {

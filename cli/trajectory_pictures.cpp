@@ -4,17 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace clearloci::cli {
 namespace {
 
-using core::Point2;
 using report::Chart;
 using report::ChartPanel;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using report::NamedChart;
 
 enum MarkStyle { stop_mark, couple_mark, force_mark, jump_mark };
 
@@ -44,31 +40,13 @@ void add_marks(const TrajectoryResult& result, Chart& chart, bool over_time) {
   }
 }
 
-/// y over x, broken where y is not a number; `factor` on y.
-core::Polyline line(const std::vector<double>& x, const std::vector<double>& y, double factor = 1) {
-  core::Polyline points;
-  for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], factor * y[i]});
-  return points;
-}
-
-/// An angle in degrees, broken where it passes from 180 to -180.
-core::Polyline angle_line(const std::vector<double>& x, const std::vector<double>& y) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  core::Polyline points;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (i > 0 && std::abs(y[i] - y[i - 1]) > 1.5 * std::numbers::pi) points.push_back({nan, nan});
-    points.push_back({x[i], degrees * y[i]});
-  }
-  return points;
-}
-
 NamedChart path_chart(const TrajectoryResult& result) {
   Chart chart = frame(result, "path, nominal and actual");
   chart.x_label = "x (m)";
   chart.equal_scales = true;
   ChartPanel panel;
   panel.y_label = "y (m)";
-  const TrajectoryColumns& c = result.columns;
+  const Columns& c = result.columns;
   panel.series.push_back({"nominal", {line(c.at("px"), c.at("py"))}, -1, true});
   const auto &x = c.at("actual_px"), &y = c.at("actual_py"), &stage = c.at("stage");
   for (std::size_t k = 0; k < result.motion.timeline.stages.size(); ++k) {
@@ -84,7 +62,7 @@ NamedChart path_chart(const TrajectoryResult& result) {
 NamedChart error_chart(const TrajectoryResult& result) {
   Chart chart = frame(result, "pose error");
   chart.x_label = "distance along the path (m)";
-  const TrajectoryColumns& c = result.columns;
+  const Columns& c = result.columns;
   const auto add = [&](const char* column, const char* label, const char* y_label, int number) {
     ChartPanel panel;
     panel.y_label = y_label;
@@ -101,12 +79,13 @@ NamedChart error_chart(const TrajectoryResult& result) {
 NamedChart take_up_chart(const TrajectoryResult& result) {
   Chart chart = frame(result, "direction of the take-up");
   chart.x_label = "time (s)";
-  const TrajectoryColumns& c = result.columns;
+  const Columns& c = result.columns;
   for (std::size_t j = 0; j < result.motion.columns.size(); ++j) {
     if (!(result.motion.clearances[j].radial > 0)) continue;
     const std::string& name = result.motion.model.mechanism.joints[j].name;
     ChartPanel panel;
     panel.y_label = "β (deg)";
+    panel.degrees = true;
     panel.y_range = {-190, 190};
     panel.series.push_back({"β of " + name, {angle_line(c.at("time"), c.at("beta_" + name))}, static_cast<int>(j)});
     chart.panels.push_back(std::move(panel));
@@ -119,7 +98,7 @@ NamedChart take_up_chart(const TrajectoryResult& result) {
 NamedChart reactions_chart(const TrajectoryResult& result) {
   Chart chart = frame(result, "reactions");
   chart.x_label = "time (s)";
-  const TrajectoryColumns& c = result.columns;
+  const Columns& c = result.columns;
   ChartPanel forces, couples;
   forces.y_label = "|f| (N)";
   couples.y_label = "M (N m)";
@@ -149,7 +128,7 @@ NamedChart reactions_chart(const TrajectoryResult& result) {
 NamedChart motion_chart(const TrajectoryResult& result) {
   Chart chart = frame(result, "motion of the end effector");
   chart.x_label = "time (s)";
-  const TrajectoryColumns& c = result.columns;
+  const Columns& c = result.columns;
   const auto add = [&](const char* y_label, const std::string& ending, const std::string& what) {
     ChartPanel panel;
     panel.y_label = y_label;
@@ -209,7 +188,7 @@ NamedChart sweep_chart(const TrajectoryResult& result, const std::string& name, 
 
 }  // namespace
 
-std::vector<NamedChart> trajectory_charts(const TrajectoryResult& result) {
+std::vector<report::NamedChart> trajectory_charts(const TrajectoryResult& result) {
   std::vector<NamedChart> charts = {path_chart(result), error_chart(result), take_up_chart(result),
                                     reactions_chart(result), motion_chart(result)};
   if (!result.sweep) return charts;

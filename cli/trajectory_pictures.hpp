@@ -9,13 +9,8 @@
 
 namespace clearloci::cli {
 
-struct NamedChart {
-  std::string name;  ///< of the file, without its ending
-  report::Chart chart;
-};
-
 /// The path, nominal and actual; the error over distance; take-up angles, reactions and the motion over time; with a
 /// sweep, the error over distance and period. The charts refer to `result`, which must outlive them.
-std::vector<NamedChart> trajectory_charts(const TrajectoryResult& result);
+std::vector<report::NamedChart> trajectory_charts(const TrajectoryResult& result);
 
 }  // namespace clearloci::cli

@@ -16,31 +16,7 @@ using numeric::Instant;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// JSON has neither infinities nor NaN.
-Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-class ColumnTable {
- public:
-  explicit ColumnTable(TrajectoryColumns& table) : table_(table) {}
-  void put(const std::string& name, double value) {
-    if (first_row_) {
-      table_.names.push_back(name);
-      table_.columns.emplace_back();
-    }
-    table_.columns[next_++].push_back(value);
-  }
-  void end_row() {
-    first_row_ = false;
-    next_ = 0;
-  }
-
- private:
-  TrajectoryColumns& table_;
-  bool first_row_ = true;
-  std::size_t next_ = 0;
-};
-
-void put_motion(ColumnTable& row, const numeric::Motion& motion, const Instant& at, double period) {
+void put_motion(ColumnRows& row, const numeric::Motion& motion, const Instant& at, double period) {
   const auto put = [&](const std::string& name, const numeric::Series& s) {
     row.put(name, s.c[0]);
     row.put(name + "_rate", s.c[1] / period);
@@ -53,7 +29,7 @@ void put_motion(ColumnTable& row, const numeric::Motion& motion, const Instant& 
   put("py", p[1]);
 }
 
-void put_joints(ColumnTable& row, const numeric::Motion& motion, const Instant& at, double period,
+void put_joints(ColumnRows& row, const numeric::Motion& motion, const Instant& at, double period,
                 const std::vector<numeric::TakeUp>& take_up) {
   const Eigen::VectorXd w = at.reactions(period), rates = at.reaction_rates(period);
   for (std::size_t k = 0; k < motion.model.unknowns.size(); ++k)
@@ -69,9 +45,9 @@ void put_joints(ColumnTable& row, const numeric::Motion& motion, const Instant& 
   }
 }
 
-TrajectoryColumns columns_of(const TrajectoryResult& result) {
-  TrajectoryColumns table;
-  ColumnTable row(table);
+Columns columns_of(const TrajectoryResult& result) {
+  Columns table;
+  ColumnRows row(table);
   for (const auto& instants : result.samples) {
     for (const Instant& at : instants) {
       const numeric::InstantError e = numeric::instant_error(result.motion, at, result.period);
@@ -156,13 +132,6 @@ Json stages_json(const TrajectoryResult& result) {
 
 }  // namespace
 
-const std::vector<double>& TrajectoryColumns::at(const std::string& name) const {
-  for (std::size_t c = 0; c < names.size(); ++c)
-    if (names[c] == name) return columns[c];
-  core::ensure(false, "the column is there");
-  return columns.front();
-}
-
 std::string loss_name(const TrajectoryResult& result, mechanism::JointIndex joint, bool couple) {
   return (couple ? "M_" : "f_") + result.motion.model.mechanism.joints[static_cast<std::size_t>(joint)].name;
 }
@@ -187,11 +156,6 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
 
 Json trajectory_json(const TrajectoryResult& result) {
   const mechanism::Trajectory& trajectory = result.motion.timeline.trajectory;
-  Json samples = Json::object();
-  for (std::size_t c = 0; c < result.columns.names.size(); ++c) {
-    Json& column = samples[result.columns.names[c]] = Json::array();
-    for (const double value : result.columns.columns[c]) column.push_back(number_json(value));
-  }
   Json json = {{"format", 1},
                {"mechanism", result.motion.model.mechanism.name},
                {"trajectory", trajectory.name},
@@ -205,12 +169,12 @@ Json trajectory_json(const TrajectoryResult& result) {
     const auto& periods = result.sweep->periods;
     json["periods"] = {{"from", periods.front()}, {"to", periods.back()}, {"count", periods.size()}};
   }
-  json["samples"] = std::move(samples);
+  json["samples"] = columns_json(result.columns);
   return json;
 }
 
-TrajectoryColumns sweep_columns(const numeric::PeriodSweep& sweep) {
-  TrajectoryColumns table{{"period", "distance", "dx", "dy", "dalpha"}, std::vector<std::vector<double>>(5)};
+Columns sweep_columns(const numeric::PeriodSweep& sweep) {
+  Columns table{{"period", "distance", "dx", "dy", "dalpha"}, std::vector<std::vector<double>>(5)};
   for (const double period : sweep.periods) {
     table.columns[0].insert(table.columns[0].end(), sweep.distance.size(), period);
     table.columns[1].insert(table.columns[1].end(), sweep.distance.begin(), sweep.distance.end());

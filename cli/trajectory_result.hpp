@@ -6,17 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/columns.hpp"
 #include "numeric/period_sweep.hpp"
 
 namespace clearloci::cli {
-
-/// One row a sample: at the seams of intervals two, the limits from both sides.
-struct TrajectoryColumns {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> columns;
-
-  const std::vector<double>& at(const std::string& name) const;
-};
 
 struct TrajectoryResult {
   numeric::Motion motion;
@@ -25,7 +18,7 @@ struct TrajectoryResult {
   std::vector<std::vector<numeric::Instant>> samples;
   std::vector<numeric::ContactLoss> losses;
   std::vector<numeric::CriticalPeriod> critical;
-  TrajectoryColumns columns;
+  Columns columns;  ///< one row a sample: at the seams of intervals two, the limits from both sides
   std::optional<numeric::PeriodSweep> sweep;
   std::vector<numeric::LossCurve> loss_curves;  ///< with a sweep
 };
@@ -46,7 +39,7 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
 nlohmann::ordered_json trajectory_json(const TrajectoryResult& result);
 
 /// period, distance, dx, dy, dalpha.
-TrajectoryColumns sweep_columns(const numeric::PeriodSweep& sweep);
+Columns sweep_columns(const numeric::PeriodSweep& sweep);
 
 void print_trajectory(const TrajectoryResult& result);
 

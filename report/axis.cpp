@@ -25,8 +25,9 @@ double nice_step(double least) {
 
 }  // namespace
 
-std::vector<Tick> ticks(double low, double high, double least_step) {
-  const double step = nice_step(least_step);
+namespace {
+
+std::vector<Tick> multiples(double low, double high, double step) {
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   std::vector<Tick> result;
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) {
@@ -35,6 +36,19 @@ std::vector<Tick> ticks(double low, double high, double least_step) {
     result.push_back({k * step, std::move(label)});
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<Tick> ticks(double low, double high, double least_step) {
+  return multiples(low, high, nice_step(least_step));
+}
+
+std::vector<Tick> angle_ticks(double low, double high, double least_step) {
+  if (least_step <= 5) return ticks(low, high, least_step);
+  for (const double step : {10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0})
+    if (step >= least_step) return multiples(low, high, step);
+  return multiples(low, high, 360);
 }
 
 void draw_colour_bar(const Cairo::RefPtr<Cairo::Context>& context, const FieldScale& scale, const Box& box) {

@@ -29,6 +29,9 @@ struct Box {
 /// typographic one.
 std::vector<Tick> ticks(double low, double high, double least_step);
 
+/// The same for degrees: parts of a full turn.
+std::vector<Tick> angle_ticks(double low, double high, double least_step);
+
 inline constexpr Font tick_font{8.5, false, false};
 inline constexpr Font label_font{9.5, false, true};
 

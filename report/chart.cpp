@@ -116,8 +116,7 @@ class ChartDrawing {
       f.box = {0, y, plot_width, chart_.panel_height > 0 ? chart_.panel_height : single ? 280.0 : 120.0};
       if (chart_.equal_scales) equalise(f);
       y = f.box.bottom() + gap;
-      for (const Tick& tick : ticks(f.low[1], f.high[1], 19 / f.box.height * (f.high[1] - f.low[1])))
-        labels = std::max(labels, text_width(tick.label, tick_font));
+      for (const Tick& tick : y_ticks(panel, f)) labels = std::max(labels, text_width(tick.label, tick_font));
       frames_.push_back(f);
     }
     for (Frame& f : frames_) f.box.x = margin + 18 + labels + 8;
@@ -148,14 +147,14 @@ class ChartDrawing {
     if (panel.field)
       draw_field(context, *panel.field, scales_[i], f);
     else
-      draw_grid(context, f);
+      draw_grid(context, panel, f);
     for (const ChartMark& mark : chart_.marks) draw_mark(context, f, mark);
     for (const ChartSeries& series : panel.series) {
       if (panel.field) stroke(context, f, series, {{1, 1, 1}, 2.4, {}, true});
       stroke(context, f, series, stroke_of(series));
     }
     context->restore();
-    draw_axes(context, f, panel.y_label, i + 1 == frames_.size());
+    draw_axes(context, panel, f, i + 1 == frames_.size());
     draw_legend(context, i);
   }
 
@@ -219,20 +218,22 @@ class ChartDrawing {
     context->restore();
   }
 
-  static std::vector<Tick> x_ticks(const Frame& f) {
-    return ticks(f.low[0], f.high[0], 52 / f.box.width * (f.high[0] - f.low[0]));
+  std::vector<Tick> x_ticks(const Frame& f) const {
+    const double least = (chart_.degrees ? 40 : 52) / f.box.width * (f.high[0] - f.low[0]);
+    return chart_.degrees ? angle_ticks(f.low[0], f.high[0], least) : ticks(f.low[0], f.high[0], least);
   }
-  static std::vector<Tick> y_ticks(const Frame& f) {
-    return ticks(f.low[1], f.high[1], 19 / f.box.height * (f.high[1] - f.low[1]));
+  static std::vector<Tick> y_ticks(const ChartPanel& panel, const Frame& f) {
+    const double least = 19 / f.box.height * (f.high[1] - f.low[1]);
+    return panel.degrees ? angle_ticks(f.low[1], f.high[1], least) : ticks(f.low[1], f.high[1], least);
   }
 
-  static void draw_grid(const Context& context, const Frame& f) {
+  void draw_grid(const Context& context, const ChartPanel& panel, const Frame& f) const {
     set_stroke(context, {grid, 0.4, {}, false});
     for (const Tick& tick : x_ticks(f)) {
       context->move_to(f.page({tick.at, 0})[0], f.box.y);
       context->line_to(f.page({tick.at, 0})[0], f.box.bottom());
     }
-    for (const Tick& tick : y_ticks(f)) {
+    for (const Tick& tick : y_ticks(panel, f)) {
       context->move_to(f.box.x, f.page({0, tick.at})[1]);
       context->line_to(f.box.right(), f.page({0, tick.at})[1]);
     }
@@ -250,7 +251,7 @@ class ChartDrawing {
     context->stroke();
   }
 
-  static void draw_axes(const Context& context, const Frame& f, const std::string& y_label, bool with_x) {
+  void draw_axes(const Context& context, const ChartPanel& panel, const Frame& f, bool with_x) const {
     constexpr double tick_length = 4;
     set_stroke(context, {frame, 0.8, {}, false});
     context->rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
@@ -264,7 +265,7 @@ class ChartDrawing {
       set_colour(context, ink);
       if (with_x) write_text(context, tick.label, x, f.box.bottom() + tick_length + 10, tick_font, Align::centre);
     }
-    for (const Tick& tick : y_ticks(f)) {
+    for (const Tick& tick : y_ticks(panel, f)) {
       const double y = f.page({0, tick.at})[1];
       set_colour(context, frame);
       context->move_to(f.box.x, y);
@@ -276,7 +277,7 @@ class ChartDrawing {
     context->save();
     context->translate(margin + 10, f.box.y + f.box.height / 2);
     context->rotate(-std::numbers::pi / 2);
-    write_text(context, y_label, 0, 0, label_font, Align::centre);
+    write_text(context, panel.y_label, 0, 0, label_font, Align::centre);
     context->restore();
   }
 

@@ -36,6 +36,7 @@ struct ChartField {
 
 struct ChartPanel {
   std::string y_label;
+  bool degrees = false;  ///< the y axis bears degrees
   std::vector<ChartSeries> series;
   std::optional<ChartField> field;
   std::optional<std::array<double, 2>> y_range;  ///< else what the series need
@@ -44,12 +45,18 @@ struct ChartPanel {
 struct Chart {
   std::string title, subtitle;
   std::string x_label;
+  bool degrees = false;                          ///< the x axis bears degrees
   std::optional<std::array<double, 2>> x_range;  ///< else what the series need
   std::vector<ChartPanel> panels;
   std::vector<ChartMark> marks;
   std::vector<std::string> mark_labels;  ///< by style
   bool equal_scales = false;             ///< one panel whose axes are of one kind
   double panel_height = 0;               ///< pt; 0: by the number of panels
+};
+
+struct NamedChart {
+  std::string name;  ///< of the file, without its ending
+  Chart chart;
 };
 
 std::string chart(const Chart& chart, PictureFormat format);

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "report/axis.hpp"
 #include "report/surface.hpp"
 #include "report/typesetting.hpp"
 #include "report/wording.hpp"
@@ -105,19 +106,7 @@ void draw_mark(const Context& context, core::LocusKind kind, double x, double y)
   context->stroke();
 }
 
-/// 1, 2 or 5 times a power of ten; of an angle a part of the full turn.
-double tick_step(const Range& range) {
-  const double span = range.to - range.from;
-  if (range.factor != 1) {
-    for (const double step : {5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0})
-      if (span / step <= 13) return step;
-    return 180;
-  }
-  const double power = std::pow(10, std::floor(std::log10(span / 8)));
-  for (const double digit : {1.0, 2.0, 5.0})
-    if (span / (digit * power) <= 12) return digit * power;
-  return 10 * power;
-}
+constexpr double least_tick_gap = 30;  // pt
 
 }  // namespace
 
@@ -185,14 +174,16 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
     context->set_source_rgb(0, 0, 0);
     context->set_line_width(0.8);
     context->rectangle(left, top, right - left, bottom - top);
-    const double step = tick_step(range);
-    for (double k = std::ceil(range.from / step - 1e-9); k * step <= range.to + 1e-9 * step; ++k) {
-      context->move_to(page(k * step), bottom);
-      context->line_to(page(k * step), bottom + 4);
+    const double least = least_tick_gap / (right - left) * (range.to - range.from);
+    const std::vector<Tick> marks =
+        range.factor != 1 ? angle_ticks(range.from, range.to, least) : ticks(range.from, range.to, least);
+    for (const Tick& tick : marks) {
+      context->move_to(page(tick.at), bottom);
+      context->line_to(page(tick.at), bottom + 4);
     }
     context->stroke();
-    for (double k = std::ceil(range.from / step - 1e-9); k * step <= range.to + 1e-9 * step; ++k)
-      write_text(context, short_number(k * step, 6), page(k * step), bottom + 15, small_font, Align::centre);
+    for (const Tick& tick : marks)
+      write_text(context, tick.label, page(tick.at), bottom + 15, small_font, Align::centre);
     write_text(context, range.label, (left + right) / 2, bottom + 30, text_font, Align::centre);
   };
   std::string description;

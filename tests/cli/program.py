@@ -10,6 +10,7 @@ PROGRAM = pathlib.Path(os.environ["CLEARLOCI_PROGRAM"])
 SOURCE = pathlib.Path(os.environ["CLEARLOCI_SOURCE_DIR"])
 BUILD = pathlib.Path(os.environ["CLEARLOCI_BUILD_DIR"])
 FIVE_BAR = SOURCE / "examples" / "five_bar.yaml"
+FOUR_BAR = SOURCE / "examples" / "four_bar.yaml"
 PICK_AND_PLACE = [SOURCE / "examples" / "pick_and_place" / name for name in ("manipulator.yaml", "path.yaml")]
 
 

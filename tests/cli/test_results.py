@@ -2,10 +2,12 @@
 
 import csv
 import json
+import math
 import re
 import unittest
 
-from program import FIVE_BAR, PICK_AND_PLACE, InOwnFolder
+import four_bar
+from program import FIVE_BAR, FOUR_BAR, PICK_AND_PLACE, InOwnFolder
 
 
 def without_timing(text):
@@ -253,6 +255,66 @@ class Error(InOwnFolder):
         self.assertEqual(len(result["modes"]), 4)
         self.assertEqual(set(result["modes"][0]["fields"]), {"dx", "dy", "dalpha", "dp"})
         self.assertEqual(len(list((self.folder / "out" / "five_bar").glob("error-dx-*.png"))), 4)
+
+
+class ErrorOverOneCoordinate(InOwnFolder):
+    def setUp(self):
+        super().setUp()
+        result = json.loads(self.run_program("error", FOUR_BAR, "--grid", "100", "--json").stdout)
+        self.mode = result["modes"][0]
+
+    def test_agrees_with_the_mechanism_closed_by_hand(self):
+        samples = self.mode["samples"]
+        compared = 0
+        for i, theta in enumerate(samples["theta"]):
+            if samples["dx"][i] is None:
+                continue
+            *forces, couple = four_bar.reactions(theta)
+            for joint, force in zip("ABCD", forces):
+                self.assertAlmostEqual(samples[f"f{joint}x"][i], force.real, delta=1e-7)
+                self.assertAlmostEqual(samples[f"f{joint}y"][i], force.imag, delta=1e-7)
+            self.assertAlmostEqual(samples["MA"][i], couple, delta=1e-7)
+            self.assertAlmostEqual(samples["theta_A"][i], -math.copysign(four_bar.ANGULAR, couple), delta=1e-15)
+            error = four_bar.pose_error(theta)
+            self.assertAlmostEqual(samples["dx"][i], error.real, delta=1e-6 * 0.5)
+            self.assertAlmostEqual(samples["dy"][i], error.imag, delta=1e-6 * 0.5)
+            compared += 1
+        self.assertGreater(compared, 95)
+
+    def test_jumps_where_the_rocker_is_upright(self):
+        # There the rocker bears the load alone, and the force in the coupler changes its sign.
+        self.assertEqual(len(self.mode["jumps"]), 4)
+        upright = [jump for jump in self.mode["jumps"] if jump["kind"] == "contact-loss"]
+        self.assertEqual(len(upright), 2)
+        for jump in upright:
+            theta = jump["at"][0]
+            b = four_bar.CRANK * complex(math.cos(theta), math.sin(theta))
+            self.assertAlmostEqual(abs(complex(four_bar.BASE, four_bar.ROCKER) - b), four_bar.COUPLER, delta=1e-12)
+            step = 1e-6
+            across = four_bar.pose_error(theta + step) - four_bar.pose_error(theta - step)
+            self.assertAlmostEqual(jump["dx"], across.real, delta=1e-6)
+            self.assertEqual(jump["dy"], 0)
+        # Where crank and coupler are in line the drive's play moves the crank alone.
+        for jump in self.mode["jumps"]:
+            if jump["kind"] == "backlash":
+                self.assertEqual([jump["dx"], jump["dy"], jump["dalpha"]], [0, 0, 0])
+
+    def test_files(self):
+        for folder in ("first", "second"):
+            self.run_program("error", FOUR_BAR, "--export", "png,svg,pdf,csv", "-o", folder)
+        names = sorted(path.name for path in (self.folder / "first").iterdir())
+        charts = ("error", "reactions", "take-up")
+        wanted = ["error.json", "error.csv"] + [f"{chart}.{kind}" for chart in charts for kind in ("png", "svg", "pdf")]
+        self.assertEqual(names, sorted(wanted))
+        for name in names:
+            first, second = ((self.folder / folder / name).read_bytes() for folder in ("first", "second"))
+            self.assertEqual(first, second, name)
+
+    def test_what_has_no_meaning(self):
+        for options, word in ((("--grid", "20x20"), "steps"), (("--zones",), "zones"), (("--export", "vtk"), "vtk")):
+            process = self.run_program("error", FOUR_BAR, *options, status=2)
+            self.assertIn(word, process.stderr)
+            self.assertEqual(process.stderr.count("\n"), 1)
 
 
 class Trajectory(InOwnFolder):
