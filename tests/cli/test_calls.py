@@ -29,7 +29,7 @@ class WrongCalls(InOwnFolder):
     def test_mechanisms_that_a_command_is_not_for(self):
         examples = FIVE_BAR.parent
         for command in ("validate", "zones", "error"):
-            for name in ("four_bar", "gough_stewart"):
+            for name in ("gough_stewart",) if command == "error" else ("four_bar", "gough_stewart"):
                 self.assertIn(f"{name}.yaml: ", self.complaint(command, examples / f"{name}.yaml"))
         self.assertIn("gough_stewart.yaml: ", self.complaint("loci", examples / "gough_stewart.yaml"))
 
