@@ -27,25 +27,27 @@ bool makes_vanish(const core::LocusFactor& factor, const std::string& joint, Qua
                      [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
 }
 
-/// Whether a contact-loss curve of the joint passes within `reach` of a point.
-bool on_contact_loss_curve(const LocusMap& map, const WorkingMode& mode, const std::string& joint,
-                           const core::Point2& at, double reach) {
-  for (const core::LocusCurve& curve : map.curves) {
-    const bool own =
-        curve.mode == mode && std::any_of(curve.vanishing.begin(), curve.vanishing.end(),
-                                          [&](const auto& v) { return v.joint == joint && v.quantity == Quantity::f; });
-    if (!own) continue;
-    for (const core::Arc& arc : curve.arcs) {
-      for (std::size_t i = 1; i < arc.points.size(); ++i) {
-        const core::Point2 &a = arc.points[i - 1], &b = arc.points[i];
-        const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-        const double t =
-            length2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-        if (std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]) <= reach) return true;
-      }
+/// Whether a curve passes within `reach` of a point.
+bool passes(const core::LocusCurve& curve, const core::Point2& at, double reach) {
+  for (const core::Arc& arc : curve.arcs) {
+    for (std::size_t i = 1; i < arc.points.size(); ++i) {
+      const core::Point2 &a = arc.points[i - 1], &b = arc.points[i];
+      const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+      const double t = length2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
+      if (std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]) <= reach) return true;
     }
   }
   return false;
+}
+
+/// Whether a contact-loss curve of the joint passes within `reach` of a point.
+bool on_contact_loss_curve(const LocusMap& map, const WorkingMode& mode, const std::string& joint,
+                           const core::Point2& at, double reach) {
+  return std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
+    return curve.mode == mode && passes(curve, at, reach) &&
+           std::any_of(curve.vanishing.begin(), curve.vanishing.end(),
+                       [&](const auto& v) { return v.joint == joint && v.quantity == Quantity::f; });
+  });
 }
 
 /// Value of a sheet polynomial where (x, y) and the roots are enclosed.
@@ -188,6 +190,36 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         }
       }
     }
+  }
+}
+
+void add_touching_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
+  const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
+                               core::to_double(problem.upper[1] - problem.lower[1]));
+  for (const sheet::Star& touch : sheet::touches(problem.tower)) {
+    std::vector<core::Rational> exact(static_cast<std::size_t>(problem.tower.variables()), core::Rational(0));
+    exact[0] = touch.x;
+    exact[1] = touch.y;
+    const bool in_box = problem.lower[0] <= touch.x && touch.x <= problem.upper[0] && problem.lower[1] <= touch.y &&
+                        touch.y <= problem.upper[1];
+    const std::vector<MultiInterval> on = on_sheet(problem.tower, mode, {{touch.x, touch.y}, {touch.x, touch.y}});
+    if (!in_box || on.empty()) continue;
+    const core::Point2 at = {core::to_double(touch.x), core::to_double(touch.y)};
+    const auto vanishes = [&](const core::Polynomial& sheet) {
+      for (std::size_t j = 0; j < problem.tower.roots.size(); ++j)
+        if (touch.power_of_root(static_cast<int>(j)) == 0 && core::depends_on(sheet, 2 + static_cast<int>(j)))
+          return false;
+      return core::evaluate(sheet, exact) == 0;
+    };
+    const bool singular =
+        std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+          return factor.role == FactorRole::direct_singularity && vanishes(factor.sheet);
+        });
+    const bool reached = std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
+      return curve.mode == mode && curve.kind == LocusKind::direct_singularity && passes(curve, at, 1e-9 * size);
+    });
+    if (singular && !reached)
+      add_point(map, 0, {LocusKind::direct_singularity, {}, {at[0], at[1]}, mode, true}, 1e-9 * size);
   }
 }
 

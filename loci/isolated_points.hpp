@@ -15,6 +15,10 @@ namespace clearloci::loci {
 void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map,
                              const std::function<bool()>& stop);
 
+/// The points at which workspace boundaries touch and |A| vanishes though no curve of the map with |A| = 0 arrives in
+/// this mode: both legs are in line with each other there.
+void add_touching_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
+
 /// The isolated real points of the arrangement's curves that lie on the mode's sheet.
 void add_isolated_curve_points(const core::LocusProblem& problem, const core::WorkingMode& mode,
                                const CurveArrangement& arrangement,

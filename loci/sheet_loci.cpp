@@ -88,6 +88,16 @@ bool is_line_or_circle(const core::ClosedForm& form) {
   return std::holds_alternative<core::LineForm>(form) || std::holds_alternative<core::CircleForm>(form);
 }
 
+/// A branch of |A| = 0 reaches the star on the mode's sheet.
+bool is_singular(const LocusProblem& problem, const core::WorkingMode& mode, const sheet::Star& star) {
+  const std::array<double, 4> box = {core::to_double(problem.lower[0]), core::to_double(problem.upper[0]),
+                                     core::to_double(problem.lower[1]), core::to_double(problem.upper[1])};
+  return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
+    return factor.role == FactorRole::direct_singularity &&
+           sheet::reaches(problem.tower, mode, {factor.sheet, factor.line}, star, box);
+  });
+}
+
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
                               const std::vector<sheet::Cutter>& cutters, sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
@@ -96,6 +106,10 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
     if (factor.implicit.size() > 1) curves.emplace_back(p);
   }
   if (curves.size() > 1) options.colour = [&curves](const Point2& at) { return nearest_curve(curves, at); };
+  for (sheet::Star& corner : sheet::corners_on(problem.tower, factor.sheet)) {
+    corner.singular = is_singular(problem, mode, corner);
+    options.special.push_back(std::move(corner));
+  }
   const bool cut = factor.role == FactorRole::reaction || factor.role == FactorRole::margin;
   return sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, {factor.sheet, factor.line},
                             cut ? cutters : std::vector<sheet::Cutter>{}, options);
@@ -273,6 +287,10 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   if (options.deadline)
     sheet_options.stop = [deadline = *options.deadline] { return std::chrono::steady_clock::now() > deadline; };
 
+  std::vector<std::vector<sheet::Star>> touches(problem.modes.size(), sheet::touches(problem.tower));
+  for (std::size_t m = 0; m < problem.modes.size(); ++m)
+    for (sheet::Star& touch : touches[m]) touch.singular = is_singular(problem, problem.modes[m], touch);
+
   std::vector<SheetShare> shares;
   for (std::size_t m = 0; m < problem.modes.size(); ++m)
     for (std::size_t f = 0; f < problem.factors.size(); ++f)
@@ -295,8 +313,11 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
     for (std::size_t i = next++; i < shares.size(); i = next++) {
       SheetShare& share = shares[order[i]];
       try {
+        const auto mode = static_cast<std::size_t>(share.mode);
+        sheet::SheetTraceOptions own = sheet_options;
+        own.special = touches[mode];
         share.traced = trace_share(problem, problem.factors[static_cast<std::size_t>(share.factor)],
-                                   problem.modes[static_cast<std::size_t>(share.mode)], cutters, sheet_options);
+                                   problem.modes[mode], cutters, std::move(own));
         const std::lock_guard lock(mutex);
         if (options.progress)
           options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");

@@ -149,6 +149,7 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
       if (coordinates == 1) break;
       if (stop()) throw core::LimitReached("the time limit was reached");
       add_contact_loss_points(problem, mode, map, stop);
+      add_touching_points(problem, mode, map);
     }
   } catch (const core::LimitReached&) {
     map.complete = false;

@@ -1,11 +1,9 @@
 // A sheet cut into patches on which it is smooth.
 //
-// Where a dyad's lengths are equal, Q = 4 a^2 D - k^2 has a factor D = |P - A|^2: at P = A the sheet s^2 = Q has the
-// point of a cone, and every numerator vanishes there with some power of the distance. Such a point, a *star*, is blown
-// up: a rectangle around it is cut into four triangles, each with polar coordinates (u, t),
-//     P = A + u (E(t) - A),  E(t) on the triangle's outer side,  u in [0, 1], t in [-1, 1],  s_j = u sigma_j,
-// in which sigma_j^2 = Q_j / u^2 is smooth, and the function, divided by its power of u, has simple zeros at u = 0:
-// the directions in which branches reach the star.
+// Around a star (star.hpp) the sheet is blown up: a rectangle around it is cut into four pieces, each with coordinates
+// (u, t) in which t runs along one of the rectangle's sides and u leads from the star to there along a curve on which
+// coordinates shrink with their weights: for a cone
+//     P = A + u (E(t) - A),  E(t) on the piece's outer side,  u in [0, 1], t in [-1, 1]
 #pragma once
 
 #include <array>
@@ -13,19 +11,10 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
+#include "loci/sheet/star.hpp"
 #include "loci/sheet/zero_search.hpp"
 
 namespace clearloci::loci::sheet {
-
-struct Star {
-  core::Rational x, y;
-  /// Those that vanish there, once for every power of the distance: a root of a dyad on a dyad carries the squared
-  /// distance of the one below as a factor.
-  std::vector<int> roots;
-};
-
-/// The double zeros of root squares at rational points of the plane where a denominator of the tower vanishes.
-std::vector<Star> stars(const core::RootTower& tower);
 
 /// The coordinates (p, q) of a patch: the plane itself, or the triangle over one side of a star's rectangle.
 struct Chart {
@@ -45,18 +34,30 @@ struct Chart {
   /// A cell that holds the part of the place that lies in the chart; none: there is no such part.
   std::optional<Cell> share_of(const Cell& place) const;
 
-  /// A straight line in (u, X / u, Y / u, roots...), (X, Y) = P - A, in the chart's coordinates (u, t, roots...).
+  /// A straight line in (u, X', Y', roots...) (star.hpp) in the chart's coordinates (u, t, roots...).
   core::StraightLine in_chart(const core::StraightLine& polar) const;
 
  private:
-  /// x = a + u depth and y = b + u (middle + t half), for a chart on the right or left; x and y exchanged for others.
+  /// `a`, `b`: of the star, across the side and along it; the side's distance from the star, its middle and half
+  /// length; where it is sheared the tangent's slope.
+  template <class T>
   struct Frame {
-    Interval a, b, depth, middle, half;
-    double a_, b_, depth_, middle_, half_;
-    core::Rational exact_depth, exact_middle, exact_half;
+    T a, b, depth, middle, half, slope;
   };
   bool along_x() const { return side == Side::right || side == Side::left; }
-  Frame frame_{};
+  /// From the star, across the side and along it.
+  template <class T>
+  std::array<T, 2> from_star(const Frame<T>& frame, const T& u, const T& t) const;
+  /// u of a place so far from the star across the side and along it; below 0 where no place of the chart is.
+  Interval distance(const Interval& deep, const Interval& wide) const;
+  /// Where the curve from the star through the place meets the line of the side, counted from the star.
+  Interval on_side(const Interval& u, const Interval& deep, const Interval& wide) const;
+
+  bool sheared_ = false, doubled_ = false;
+  bool deep_is_along_ = true;  ///< where it is sheared: the way across the side is the one along the tangent
+  core::Rational exact_depth_, exact_middle_, exact_half_, exact_slope_;
+  Frame<Interval> interval_{};
+  Frame<double> double_{};
 };
 
 /// The tower and functions written in a chart's coordinates, without the common powers of u.
@@ -71,7 +72,7 @@ class Charting {
   ChartedSheet in(const Chart& chart);
 
  private:
-  /// In (u, X / u, Y / u, roots...), those of the star divided by their powers of u, common powers of u taken out.
+  /// In (u, X', Y', roots...), those of the star divided by their powers of u, common powers of u taken out.
   struct AtStar {
     int star = -1;
     std::vector<core::StraightLine> squares, functions;
@@ -87,9 +88,6 @@ class Charting {
 ChartedSheet charted(const core::RootTower& tower, const std::vector<SheetFunction>& functions, const Chart& chart,
                      const std::vector<Star>& stars);
 
-/// p / divisor where that is a polynomial; none: not divisible.
-std::optional<core::Polynomial> exact_quotient(const core::Polynomial& p, const core::Polynomial& divisor);
-
 /// The functions without the tower's denominators as factors, which say nothing about the curve.
 core::Polynomial without_denominators(core::Polynomial function, const core::RootTower& tower);
 
@@ -101,15 +99,15 @@ struct Partition {
   std::vector<Chart> charts;                 ///< the plane first, then four a star
 };
 /// `bases`: points that no rectangle may come near unless it is their own; those of a whole tower make the partitions
-/// of its parts agree on the rectangles they have in common.
-Partition partition(const core::RootTower& tower, const std::array<double, 4>& box,
-                    const std::vector<core::Point2>& bases);
+/// of its parts agree on the rectangles they have in common. `special`: stars besides the cones of the tower.
+Partition partition(const core::RootTower& tower, const std::array<double, 4>& box, std::vector<core::Point2> bases,
+                    const std::vector<Star>& special);
 
 /// The points of the plane where a denominator of the tower vanishes.
 std::vector<core::Point2> bases(const core::RootTower& tower);
 
 inline Partition partition(const core::RootTower& tower, const std::array<double, 4>& box) {
-  return partition(tower, box, bases(tower));
+  return partition(tower, box, bases(tower), touches(tower));
 }
 
 /// The part of the domain outside the holes, as rectangles.

@@ -11,6 +11,8 @@ namespace {
 // A root is lifted where its square varies by more than this ratio over the cell: the chain rule's 1/(2 s) then spans
 // a factor 2 or more and loses more than the extra coordinate costs.
 constexpr double lift_ratio = 0.25;
+// A range of a root is kept as a coordinate where it is this much narrower than what the cell allows.
+constexpr double worth_keeping = 0.75;
 
 template <class T>
 T signed_root(int sign, const T& square) {
@@ -58,12 +60,16 @@ bool SheetCell::enter(const Interval& x, const Interval& y, const std::vector<In
     const Interval& square = over_.square(j);
     if (square.upper() < 0) return false;
     Interval root = signed_root(mode_[j], square);
+    bool cut = false;
     if (!ranges.empty()) {
       if (disjoint(root, ranges[j])) return false;
+      // A range that says more than the cell is the better coordinate: next to Q_j = 0 curves that are far apart in s_j
+      // run side by side in (x, y).
+      cut = ranges[j].width() < worth_keeping * root.width();
       root = meet(root, ranges[j]);
     }
     over_.set(2 + j, root);
-    is_lifted_[j] = square.lower() <= lift_ratio * square.upper();
+    is_lifted_[j] = cut || square.lower() <= lift_ratio * square.upper();
     if (is_lifted_[j]) {
       lifted_.push_back(j);
       local_.push_back(over_.root(j));

@@ -33,6 +33,21 @@ struct Cut {
   bool keep;
 };
 
+/// Whether a function on a part of a tower has zeros in some direction from a star of the partition.
+bool found_at_star(const Subtower& part, const SheetFunction& sheet, const Partition& parts, int star,
+                   const std::function<bool()>& stop) {
+  Charting charting(part.tower, {narrowed(sheet, part)}, parts.stars);
+  for (const Chart& chart : parts.charts) {
+    if (chart.side == Chart::Side::plane || chart.star != star) continue;
+    const ChartedSheet charted = charting.in(chart);
+    const SheetProgram program(charted.tower, charted.functions);
+    const FoundZeros found =
+        ZeroSearch(program, part.mode, {{0}, {1}}).run({{0.0, {-1, 1}}}, {smallest_cut, most_star_cells, 1e-13, stop});
+    if (!found.enclosures.empty() || !found.undecided.empty()) return true;
+  }
+  return false;
+}
+
 class Tracer {
  public:
   Tracer(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<core::Rational>& lower,
@@ -54,12 +69,15 @@ class Tracer {
   }
 
   SheetTrace run(const std::vector<Cutter>& cutters) {
-    const Partition parts = partition(own_.tower, wide_, bases_);
+    const Partition parts = parts_of(own_);
     TreeOptions tree;
     tree.most_cells = options_.most_cells;
     tree.stop = options_.stop;
     own_stars_ = parts.stars;
     graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+    for (Crossing& crossing : graph_.crossings)
+      if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].singular && !cutters.empty())
+        crossing.label = core::ArcEnd::direct_singularity;
     std::vector<Cut> cuts;
     for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
     for (const int j : own_.dropped)
@@ -87,6 +105,10 @@ class Tracer {
   }
 
  private:
+  Partition parts_of(const Subtower& part) const {
+    return partition(part.tower, wide_, bases_, narrowed(options_.special, part));
+  }
+
   TracedArc place(const Chain& chain) const {
     TracedArc traced;
     traced.colour = chain.colour;
@@ -158,17 +180,18 @@ class Tracer {
 
   /// Branches that reach a star end there where the cutter reaches it too, in whatever direction.
   void cut_at_stars(const Subtower& both, const Cut& cut) {
-    const Partition parts = partition(both.tower, wide_, bases_);
+    const Partition parts = parts_of(both);
     for (std::size_t i = 0; i < parts.stars.size(); ++i) {
       const Star& star = parts.stars[i];
+      if (star.shape != Star::Shape::cone) continue;
       std::vector<Crossing*> ends;
       for (Crossing& crossing : graph_.crossings)
-        if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].x == star.x &&
-            own_stars_[crossing.star].y == star.y)
+        if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].at_same_place(star))
           ends.push_back(&crossing);
       const core::Point2 at = {core::to_double(star.x), core::to_double(star.y)};
       const bool passes = ends.empty() && passes_through(at);
-      if ((ends.empty() && !passes) || !reaches(both, cut, parts, static_cast<int>(i))) continue;
+      if ((ends.empty() && !passes) || !found_at_star(both, cut.sheet, parts, static_cast<int>(i), options_.stop))
+        continue;
       for (Crossing* end : ends) end->label = cut.label;
       const double r = at_rounding * size_;
       if (passes) cut_at({{at[0] - r, at[0] + r}, {at[1] - r, at[1] + r}}, cut.label);
@@ -185,19 +208,6 @@ class Tracer {
     return std::abs(here.value(0).middle()) <= at_rounding * size_ * slope;
   }
 
-  bool reaches(const Subtower& both, const Cut& cut, const Partition& parts, int star) {
-    Charting charting(both.tower, {narrowed(cut.sheet, both)}, parts.stars);
-    for (const Chart& chart : parts.charts) {
-      if (chart.side == Chart::Side::plane || chart.star != star) continue;
-      const ChartedSheet sheet = charting.in(chart);
-      const SheetProgram program(sheet.tower, sheet.functions);
-      const FoundZeros found = ZeroSearch(program, both.mode, {{0}, {1}})
-                                   .run({{0.0, {-1, 1}}}, {smallest_cut, most_star_cells, 1e-13, options_.stop});
-      if (!found.enclosures.empty() || !found.undecided.empty()) return true;
-    }
-    return false;
-  }
-
   /// The place is, to rounding, an end of the curve anyway: cutting there again would say nothing.
   bool at_end(const Cell& place) const {
     const double width = same_place * size_;
@@ -211,7 +221,7 @@ class Tracer {
 
   /// The cutter has roots that the curve does not: search the curve's cells on the sheet of both.
   void cut_on_both(const Subtower& both, const Cut& cut) {
-    const Partition parts = partition(both.tower, wide_, bases_);
+    const Partition parts = parts_of(both);
     std::vector<Cell> open;
     Charting charting(both.tower, {narrowed(sheet_, both), narrowed(cut.sheet, both)}, parts.stars);
     for (const Chart& chart : parts.charts) {
@@ -353,6 +363,15 @@ void append(SheetTrace& all, SheetTrace part) {
 
 }  // namespace
 
+bool reaches(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& sheet, const Star& star,
+             const std::array<double, 4>& box) {
+  const Subtower part = subtower(tower, mode, {sheet.polynomial});
+  const Partition parts = partition(part.tower, box, bases(tower), narrowed({star}, part));
+  for (std::size_t i = 0; i < parts.stars.size(); ++i)
+    if (parts.stars[i].at_same_place(star)) return found_at_star(part, sheet, parts, static_cast<int>(i), {});
+  return false;
+}
+
 SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mode,
                        const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
                        const SheetFunction& function, const std::vector<Cutter>& cutters,
@@ -375,7 +394,9 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
     }
     const core::RootTower below = on_rim(tower, static_cast<int>(j));
     const core::Polynomial boundary = rim ? sheet : without_denominators(square, tower);
-    SheetTrace all = trace_sheet(below, rest, lower, upper, {without_variable(boundary, v)}, on_boundary, options);
+    SheetTraceOptions there = options;
+    there.special = on_rim(options.special, static_cast<int>(j));
+    SheetTrace all = trace_sheet(below, rest, lower, upper, {without_variable(boundary, v)}, on_boundary, there);
     if (!rim) {
       core::Polynomial quotient = sheet;
       for (core::Term& term : quotient.terms) --term.exponents[v];

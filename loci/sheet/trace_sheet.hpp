@@ -11,6 +11,7 @@
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
 #include "loci/sheet/sheet_program.hpp"
+#include "loci/sheet/star.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -26,6 +27,8 @@ struct SheetTraceOptions {
   std::function<int(const core::Point2&)> colour;
   /// Whether a plane curve is wanted as ends and a point between only, its vertices being known in closed form.
   std::vector<bool> closed_form;
+  /// Of the whole tower: where the sheet is not smooth besides its cones, and corners that the curve passes.
+  std::vector<Star> special;
   int most_cells = 150000;     ///< budget of cells a patch
   std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
 };
@@ -48,6 +51,10 @@ struct SheetTrace {
   bool stopped = false;                       ///< by SheetTraceOptions::stop
   std::vector<Region> undecided;
 };
+
+/// Whether a branch of N = 0 on the mode's sheet reaches a star of the whole tower. `box`: x0, x1, y0, y1.
+bool reaches(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& sheet, const Star& star,
+             const std::array<double, 4>& box);
 
 /// All of N = 0 in the box and the mode's workspace. The box counts as wider by 1e-9 of its size on every side, so that
 /// a curve that touches an edge is one arc; ends at an edge lie on it.

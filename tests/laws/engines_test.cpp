@@ -77,6 +77,56 @@ TEST(Engines, AgreeOnRandomDesigns) {
   }
 }
 
+/// Both boundaries' circles touch, from outside or from inside, on bases of several inclinations.
+std::vector<test::FiveBarDesign> touching_designs() {
+  std::vector<test::FiveBarDesign> designs(5);
+  const auto set = [](test::FiveBarDesign& design, std::array<std::string, 2> a2, const char* proximal1,
+                      const char* distal1, const char* proximal2, const char* distal2) {
+    design.a2 = std::move(a2);
+    design.proximal1 = proximal1;
+    design.distal1 = distal1;
+    design.proximal2 = proximal2;
+    design.distal2 = distal2;
+  };
+  set(designs[0], {"1/5", "0"}, "26/60", "37/60", "30/60", "31/60");
+  set(designs[1], {"3/10", "2/5"}, "1/2", "7/10", "2/5", "7/10");
+  set(designs[2], {"2/5", "-3/10"}, "1/2", "7/10", "2/5", "7/10");
+  set(designs[3], {"3/10", "2/5"}, "2/5", "3/5", "7/10", "4/5");
+  set(designs[4], {"2/5", "3/10"}, "2/5", "3/5", "9/10", "2/5");
+  return designs;
+}
+
+TEST(Engines, AgreeWhereWorkspaceBoundariesTouch) {
+  for (const test::FiveBarDesign& design : touching_designs()) {
+    SCOPED_TRACE(design.text());
+    expect_agreement(mechanism::parse_mechanism(design.text(), "touch.yaml"), all_modes(loci::Engine::adaptive));
+  }
+}
+
+TEST(AdaptiveEngine, CertifiesWeightsWhereWorkspaceBoundariesTouch) {
+  for (test::FiveBarDesign design : touching_designs()) {
+    design.gravity = {"0", "-9.81"};
+    SCOPED_TRACE(design.text());
+    expect_certified(
+        trace_loci(mechanism::parse_mechanism(design.text(), "touch.yaml"), all_modes(loci::Engine::adaptive)));
+  }
+}
+
+// Where P is above A2 on the rim of leg 2 neither weight nor load has a moment about A2, whatever leg 1 does; there
+// leg 1 is stretched out.
+TEST(AdaptiveEngine, CertifiesACurveThroughTheCornerOfTwoBoundaries) {
+  test::FiveBarDesign design;
+  design.a1 = {"1/10", "-1/10"};
+  design.a2 = {"1/2", "3/10"};
+  design.proximal1 = "24/60";
+  design.distal1 = design.distal2 = "27/60";
+  design.proximal2 = "48/60";
+  design.gravity = {"0", "-9.81"};
+  design.force = {"50", "0"};
+  expect_certified(
+      trace_loci(mechanism::parse_mechanism(design.text(), "corner.yaml"), all_modes(loci::Engine::adaptive)));
+}
+
 // The crank of one leg carries a dyad more: roots nest, and at A2 the upper one vanishes with a higher power of the
 // distance than the lower one.
 constexpr const char* seven_bar = R"(format: 1

@@ -138,13 +138,13 @@ TEST(IsolatedZeros, ContactLossOfTheWeightedFiveBar) {
 // The double point of a dyad with equal lengths, Q = D (4 a^2 - D), blown up.
 TEST(Stars, AreFoundWhereLengthsAreEqual) {
   const auto equal = testing::five_bar_sheet({.a2 = {3, 5}});
-  const auto found = stars(equal.tower);
+  const auto found = cones(equal.tower);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].x, 0);
   EXPECT_EQ(found[0].roots, std::vector<int>{0});
-  EXPECT_TRUE(stars(testing::five_bar_sheet({.a1 = {2, 5}, .a2 = {3, 5}}).tower).empty());
+  EXPECT_TRUE(cones(testing::five_bar_sheet({.a1 = {2, 5}, .a2 = {3, 5}}).tower).empty());
   // The leg of the other side does not reach this far.
-  EXPECT_TRUE(stars(testing::five_bar_sheet({.d = 3, .a2 = {3, 5}}).tower).empty());
+  EXPECT_TRUE(cones(testing::five_bar_sheet({.d = 3, .a2 = {3, 5}}).tower).empty());
 }
 
 TEST(Stars, ChartsDescribeTheSameSheet) {

@@ -1,0 +1,344 @@
+#include "loci/sheet/star.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+using core::Polynomial;
+using core::Rational;
+
+// Exponents in lexicographically descending order, as core::Polynomial wants them.
+using Collected = std::map<std::vector<int>, Rational, std::greater<>>;
+
+Polynomial as_polynomial(int variables, const Collected& collected) {
+  Polynomial result{variables, {}};
+  for (const auto& [exponents, coefficient] : collected)
+    if (coefficient != 0) result.terms.push_back({exponents, coefficient});
+  return result;
+}
+
+bool has_roots(const core::Term& term) {
+  return std::any_of(term.exponents.begin() + 2, term.exponents.end(), [](int e) { return e != 0; });
+}
+
+/// A circle on which a root's square vanishes.
+struct BoundaryCircle {
+  int root = 0;
+  Rational x, y, radius_squared;
+};
+
+/// The coefficients of p as a polynomial of degree 1 or 2 in D, if it is one.
+std::optional<std::array<Rational, 3>> in_powers_of(const Polynomial& distance, Polynomial p) {
+  std::array<Rational, 3> coefficients = {0, 0, 0};
+  const Polynomial square = distance * distance;
+  const std::vector<int> x4 = square.terms.front().exponents, x2 = distance.terms.front().exponents;
+  coefficients[2] = core::coefficient(p, x4) / square.terms.front().coefficient;
+  p = p - core::constant_polynomial(p.variables, coefficients[2]) * square;
+  coefficients[1] = core::coefficient(p, x2) / distance.terms.front().coefficient;
+  p = p - core::constant_polynomial(p.variables, coefficients[1]) * distance;
+  if (!p.is_constant()) return std::nullopt;
+  coefficients[0] = p.is_zero() ? Rational(0) : p.terms.front().coefficient;
+  return coefficients;
+}
+
+/// The positive zeros of a polynomial of degree at most 2 that are rational.
+std::vector<Rational> positive_zeros(const std::array<Rational, 3>& c) {
+  std::vector<Rational> zeros;
+  if (c[2] == 0) {
+    if (c[1] != 0) zeros.emplace_back(-c[0] / c[1]);
+  } else if (const auto root = core::square_root(Rational(c[1] * c[1] - 4 * c[0] * c[2]))) {
+    zeros.emplace_back((-c[1] + *root) / (2 * c[2]));
+    if (*root != 0) zeros.emplace_back((-c[1] - *root) / (2 * c[2]));
+  }
+  zeros.erase(std::remove_if(zeros.begin(), zeros.end(), [](const Rational& z) { return z <= 0; }), zeros.end());
+  return zeros;
+}
+
+std::vector<BoundaryCircle> boundary_circles(const core::RootTower& tower) {
+  std::vector<BoundaryCircle> circles;
+  for (std::size_t j = 0; j < tower.roots.size(); ++j)
+    for (const Polynomial& denominator : tower.denominators) {
+      const auto centre = double_point(denominator);
+      if (!centre) continue;
+      const auto coefficients = in_powers_of(denominator, tower.roots[j].square);
+      if (!coefficients) continue;
+      const Rational scale = denominator.terms.front().coefficient;
+      for (const Rational& zero : positive_zeros(*coefficients))
+        circles.push_back({static_cast<int>(j), (*centre)[0], (*centre)[1], zero / scale});
+      break;
+    }
+  return circles;
+}
+
+/// Two circles of different roots, with what they have in common.
+struct CirclePair {
+  BoundaryCircle first, second;
+  Rational dx, dy;  ///< from one centre to the other
+  Rational along;   ///< of the chord's middle, as a part of the way
+  Rational rise;    ///< (half the chord / the way)^2; 0: they touch; < 0: they do not meet
+};
+
+std::vector<CirclePair> meeting_circles(const core::RootTower& tower) {
+  std::vector<CirclePair> pairs;
+  const std::vector<BoundaryCircle> circles = boundary_circles(tower);
+  for (std::size_t i = 0; i < circles.size(); ++i)
+    for (std::size_t k = i + 1; k < circles.size(); ++k) {
+      const BoundaryCircle &a = circles[i], &b = circles[k];
+      CirclePair pair{a, b, b.x - a.x, b.y - a.y, 0, 0};
+      const Rational way = pair.dx * pair.dx + pair.dy * pair.dy;
+      if (a.root == b.root || way == 0) continue;
+      pair.along = (way + a.radius_squared - b.radius_squared) / (2 * way);
+      pair.rise = a.radius_squared / way - pair.along * pair.along;
+      if (pair.rise >= 0) pairs.push_back(pair);
+    }
+  return pairs;
+}
+
+void add(std::vector<Star>& stars, Star star) {
+  const bool again =
+      std::any_of(stars.begin(), stars.end(), [&](const Star& other) { return other.at_same_place(star); });
+  if (!again) stars.push_back(std::move(star));
+}
+
+/// The other roots' squares do not vanish there too: what happens then is not told by two circles.
+bool alone(const core::RootTower& tower, const Star& star) {
+  std::vector<Rational> at(static_cast<std::size_t>(tower.variables()), Rational(0));
+  at[0] = star.x;
+  at[1] = star.y;
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    const Polynomial& square = tower.roots[j].square;
+    if (star.power_of_root(static_cast<int>(j)) > 0) continue;
+    const bool plain = std::none_of(square.terms.begin(), square.terms.end(), has_roots);
+    if (!plain || core::evaluate(square, at) == 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::array<int, 2> Star::weights() const {
+  const int along = is_doubled() ? 2 : 1, off = is_sheared() ? 2 * along : along;
+  return along_y ? std::array{off, along} : std::array{along, off};
+}
+
+int Star::power_of_root(int root) const { return static_cast<int>(std::count(roots.begin(), roots.end(), root)); }
+
+std::optional<std::array<Rational, 2>> double_point(const Polynomial& d) {
+  Rational xx, yy, x, y, constant;
+  for (const core::Term& term : d.terms) {
+    if (has_roots(term)) return std::nullopt;
+    const int i = term.exponents[0], j = term.exponents[1];
+    if (i == 2 && j == 0)
+      xx = term.coefficient;
+    else if (i == 0 && j == 2)
+      yy = term.coefficient;
+    else if (i == 1 && j == 0)
+      x = term.coefficient;
+    else if (i == 0 && j == 1)
+      y = term.coefficient;
+    else if (i == 0 && j == 0)
+      constant = term.coefficient;
+    else
+      return std::nullopt;
+  }
+  if (xx == 0 || xx != yy) return std::nullopt;
+  const Rational a = -x / (2 * xx), b = -y / (2 * xx);
+  if (xx * (a * a + b * b) != constant) return std::nullopt;
+  return std::array<Rational, 2>{a, b};
+}
+
+std::vector<Star> cones(const core::RootTower& tower) {
+  std::vector<Star> result;
+  for (const Polynomial& denominator : tower.denominators) {
+    const auto place = double_point(denominator);
+    if (!place) continue;
+    Star star;
+    star.x = (*place)[0];
+    star.y = (*place)[1];
+    bool reachable = true;
+    for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+      const Polynomial square = around(star, tower.roots[j].square);
+      if (!square.is_zero())
+        star.roots.insert(star.roots.end(), static_cast<std::size_t>(order_at(star, square) / 2), static_cast<int>(j));
+      if (!square.is_zero() && square.is_constant()) continue;
+      const std::vector<int> origin(square.variables, 0);
+      if (!square.terms.empty() && square.terms.back().exponents == origin && square.terms.back().coefficient < 0 &&
+          std::none_of(square.terms.begin(), square.terms.end(), has_roots))
+        reachable = false;
+    }
+    if (reachable && !star.roots.empty()) add(result, std::move(star));
+  }
+  return result;
+}
+
+namespace {
+
+/// The tangent of a circle whose radius at the star points to (dx, dy) is (-dy, dx).
+void set_tangent(Star& star, const Rational& dx, const Rational& dy) {
+  star.along_y = abs(dx) > abs(dy);
+  star.slope = star.along_y ? -dy / dx : -dx / dy;
+}
+
+/// The derivative by a root at a place where all roots are 0.
+Rational slope_in_root(const Polynomial& function, int root, const std::vector<Rational>& at) {
+  return core::evaluate(core::derivative(function, 2 + root), at);
+}
+
+}  // namespace
+
+std::vector<Star> touches(const core::RootTower& tower) {
+  std::vector<Star> result;
+  for (const CirclePair& pair : meeting_circles(tower)) {
+    if (pair.rise != 0) continue;
+    Star star;
+    star.shape = Star::Shape::touch;
+    star.x = pair.first.x + pair.along * pair.dx;
+    star.y = pair.first.y + pair.along * pair.dy;
+    star.roots = {pair.first.root, pair.second.root};
+    set_tangent(star, pair.dx, pair.dy);
+    if (alone(tower, star)) add(result, std::move(star));
+  }
+  return result;
+}
+
+std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& function) {
+  std::vector<Star> result;
+  for (const CirclePair& pair : meeting_circles(tower)) {
+    const int first = pair.first.root, second = pair.second.root;
+    const auto rise = core::square_root(pair.rise);
+    const bool others = std::any_of(function.terms.begin(), function.terms.end(), [&](const core::Term& term) {
+      for (std::size_t v = 2; v < term.exponents.size(); ++v)
+        if (const int j = static_cast<int>(v) - 2; term.exponents[v] != 0 && j != first && j != second) return true;
+      return false;
+    });
+    const bool on_either = core::depends_on(function, 2 + first) || core::depends_on(function, 2 + second);
+    if (pair.rise == 0 || !rise || others || !on_either) continue;
+    for (const int side : {1, -1}) {
+      std::vector<Rational> at(static_cast<std::size_t>(tower.variables()), Rational(0));
+      at[0] = pair.first.x + pair.along * pair.dx - side * *rise * pair.dy;
+      at[1] = pair.first.y + pair.along * pair.dy + side * *rise * pair.dx;
+      if (core::evaluate(function, at) != 0) continue;
+      Star star;
+      star.shape = Star::Shape::corner;
+      star.x = at[0];
+      star.y = at[1];
+      star.roots = {first, second};
+      // Where the function changes with one root only, that root is of the other one's second order.
+      const bool by_first = slope_in_root(function, first, at) != 0;
+      const bool by_second = slope_in_root(function, second, at) != 0;
+      if (by_first != by_second) {
+        const BoundaryCircle& touched = by_first ? pair.first : pair.second;
+        star.shape = Star::Shape::bend;
+        star.roots.push_back(touched.root);
+        set_tangent(star, star.x - touched.x, star.y - touched.y);
+      }
+      if (alone(tower, star)) add(result, std::move(star));
+    }
+  }
+  return result;
+}
+
+std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
+  for (Star& star : stars) {
+    std::vector<int> roots;
+    for (const int root : star.roots) {
+      const auto place = std::find(part.kept.begin(), part.kept.end(), root);
+      if (place != part.kept.end()) roots.push_back(static_cast<int>(place - part.kept.begin()));
+    }
+    star.roots = std::move(roots);
+  }
+  return stars;
+}
+
+std::vector<Star> on_rim(std::vector<Star> stars, int root) {
+  for (Star& star : stars) {
+    star.roots.erase(std::remove(star.roots.begin(), star.roots.end(), root), star.roots.end());
+    for (int& other : star.roots)
+      if (other > root) --other;
+  }
+  return stars;
+}
+
+Polynomial around(const Star& star, const Polynomial& p) {
+  Polynomial moved = shifted(shifted(p, 0, star.x), 1, star.y);
+  if (!star.is_sheared() || star.slope == 0) return moved;
+  // off = off' + slope along
+  const std::size_t along = star.along_y ? 1 : 0, off = 1 - along;
+  Collected sheared;
+  for (const core::Term& term : moved.terms) {
+    const int power = term.exponents[off];
+    Rational binomial = 1, slopes = 1;
+    for (int k = 0; k <= power; ++k) {
+      std::vector<int> exponents = term.exponents;
+      exponents[off] = power - k;
+      exponents[along] += k;
+      sheared[exponents] += term.coefficient * binomial * slopes;
+      binomial = binomial * (power - k) / (k + 1);
+      slopes *= star.slope;
+    }
+  }
+  return as_polynomial(p.variables, sheared);
+}
+
+namespace {
+
+int order_of(const Star& star, const core::Term& term) {
+  const auto [v, w] = star.weights();
+  int order = v * term.exponents[0] + w * term.exponents[1];
+  for (const int root : star.roots) order += term.exponents[2 + root];
+  return order;
+}
+
+}  // namespace
+
+int order_at(const Star& star, const Polynomial& around_star) {
+  int order = std::numeric_limits<int>::max();
+  for (const core::Term& term : around_star.terms) order = std::min(order, order_of(star, term));
+  return order;
+}
+
+core::StraightLine polar_line(const Star& star, const Polynomial& around_star, int order) {
+  Polynomial polar{around_star.variables + 1, {}};
+  for (const core::Term& term : around_star.terms) {
+    core::Term own = term;
+    own.exponents.insert(own.exponents.begin(), order_of(star, term) - order);
+    polar.terms.push_back(std::move(own));
+  }
+  core::StraightLineBuilder builder;
+  std::vector<int> variables;
+  for (int v = 0; v < polar.variables; ++v) variables.push_back(builder.variable(v));
+  return builder.line(builder.polynomial(polar, variables));
+}
+
+std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& divisor) {
+  core::ensure(!divisor.is_zero(), "a divisor is not zero");
+  const core::Term& leading = divisor.terms.front();
+  Collected rest, quotient;
+  for (const core::Term& term : p.terms) rest.emplace_hint(rest.end(), term.exponents, term.coefficient);
+  while (!rest.empty()) {
+    const auto [exponents, coefficient] = *rest.begin();
+    if (coefficient == 0) {
+      rest.erase(rest.begin());
+      continue;
+    }
+    std::vector<int> factor = exponents;
+    for (std::size_t v = 0; v < factor.size(); ++v)
+      if ((factor[v] -= leading.exponents[v]) < 0) return std::nullopt;
+    const Rational scale = coefficient / leading.coefficient;
+    quotient[factor] += scale;
+    for (const core::Term& term : divisor.terms) {
+      std::vector<int> place = factor;
+      for (std::size_t v = 0; v < place.size(); ++v) place[v] += term.exponents[v];
+      rest[place] -= scale * term.coefficient;
+    }
+  }
+  return as_polynomial(p.variables, quotient);
+}
+
+}  // namespace clearloci::loci::sheet

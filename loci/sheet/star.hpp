@@ -1,0 +1,78 @@
+// Points of the plane at which a sheet is not smooth in (x, y) and its roots, and how it shrinks towards them.
+//
+// Around a star at A, with (X, Y) = P - A, the sheet and the curves on it are quasi-homogeneous: with weights (v, w)
+//     X = u^v X',  Y = u^w Y',  s_j = u^k sigma_j
+// sigma_j^2 = Q_j / u^2k is smooth, and so is the function divided by its power of u; its zeros at u = 0 are the
+// directions in which branches reach the star.
+//     cone    (1, 1)  a dyad's ends meet and its lengths are equal: Q = 4 a^2 D - k^2 has a factor D = |P - A|^2
+//     touch   (1, 2)  two workspace boundaries touch: X along the common tangent, Y off it, both roots vanish as u does
+//     corner  (2, 2)  two workspace boundaries cross where the curve passes: both roots vanish as u does
+//     bend    (2, 4)  the same where the curve touches the second boundary, whose root vanishes as u^2 does: X along it
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/root_tower.hpp"
+#include "loci/sheet/subtower.hpp"
+
+namespace clearloci::loci::sheet {
+
+struct Star {
+  enum class Shape { cone, touch, corner, bend };
+
+  core::Rational x, y;
+  /// Those that vanish there, once for every power of the distance: a root of a dyad on a dyad carries the squared
+  /// distance of the one below as a factor.
+  std::vector<int> roots;
+  Shape shape = Shape::cone;
+  /// Where it is sheared: whether the tangent is nearer to the y axis, and its rise per unit of the nearer axis, at
+  /// most 1.
+  bool along_y = false;
+  core::Rational slope;
+  /// Of a touch or a corner: a branch of a direct singularity reaches it on the working mode's sheet.
+  bool singular = false;
+
+  /// One coordinate is counted off a tangent.
+  bool is_sheared() const { return shape == Shape::touch || shape == Shape::bend; }
+  /// Weights are even: coordinates go with the squares of the roots.
+  bool is_doubled() const { return shape == Shape::corner || shape == Shape::bend; }
+  bool at_same_place(const Star& other) const { return x == other.x && y == other.y; }
+  /// Powers of u of the first and the second coordinate.
+  std::array<int, 2> weights() const;
+  /// The power of u with which a root vanishes.
+  int power_of_root(int root) const;
+};
+
+/// The double zeros of root squares at rational points of the plane where a denominator of the tower vanishes.
+std::vector<Star> cones(const core::RootTower& tower);
+
+/// The points at which the boundary circles of two roots touch, each a circle around a rational centre.
+std::vector<Star> touches(const core::RootTower& tower);
+
+/// The rational points at which the boundary circles of two roots cross and the function vanishes with both roots.
+std::vector<Star> corners_on(const core::RootTower& tower, const core::Polynomial& function);
+
+/// Stars of a whole tower for a part of it, and for the tower without one root.
+std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part);
+std::vector<Star> on_rim(std::vector<Star> stars, int root);
+
+/// c ((x - a)^2 + (y - b)^2): the point (a, b), if the polynomial is such.
+std::optional<std::array<core::Rational, 2>> double_point(const core::Polynomial& p);
+
+/// A polynomial in (x, y, roots...) written in the star's coordinates (X, Y, roots...): moved, and sheared where it is,
+/// so that one coordinate is the distance off the tangent along an axis.
+core::Polynomial around(const Star& star, const core::Polynomial& p);
+
+/// The lowest power of u in such a polynomial.
+int order_at(const Star& star, const core::Polynomial& around_star);
+
+/// Such a polynomial as a straight line in (u, X', Y', roots...), the star's roots divided by their powers of u,
+/// without `order` powers of u.
+core::StraightLine polar_line(const Star& star, const core::Polynomial& around_star, int order);
+
+/// p / divisor where that is a polynomial; none: not divisible.
+std::optional<core::Polynomial> exact_quotient(const core::Polynomial& p, const core::Polynomial& divisor);
+
+}  // namespace clearloci::loci::sheet
