@@ -99,6 +99,30 @@ struct LocusCurve {
   std::vector<Arc> arcs;
 };
 
+using Point3 = std::array<double, 3>;
+
+/// Over three free coordinates: where a factor vanishes in one working mode, as triangles. Coordinates are those of the
+/// map, angles in rad. Edges of one triangle only are the surface's rim: on the box or on the workspace's boundary.
+struct LocusSurface {
+  std::string id;  ///< "s1"
+  LocusKind kind = LocusKind::contact_loss;
+  std::vector<Vanishing> vanishing;
+  std::string factor;        ///< LocusFactor::expression
+  std::string cause;         ///< LocusFactor::cause
+  Polynomial implicit = {};  ///< zero where it is not known, or where an angle has several charts with one each
+  std::vector<std::string> variables = {};  ///< of `implicit`: the coordinates, of an angle "tan(phi/2)"
+  WorkingMode mode;
+  std::vector<Point3> vertices;
+  std::vector<std::array<int, 3>> triangles;  ///< seen from where the factor is positive: counter-clockwise
+  int components = 0;
+  int euler_characteristic = 0;  ///< vertices - edges + triangles
+  double area = 0;               ///< m^2 where all coordinates are lengths, else of the coordinates as they are
+  double deviation = 0;          ///< largest distance of a triangle's middle from the surface, to first order, likewise
+  /// Proven: wherever else in the workspace the factor may vanish is within `resolution` of the triangles.
+  bool certified = false;
+  Point3 resolution{};  ///< along each coordinate
+};
+
 struct IsolatedPoint {
   LocusKind kind = LocusKind::contact_loss;
   std::vector<Vanishing> vanishing;
@@ -130,6 +154,7 @@ struct LocusMap {
   bool complete = true;
   std::vector<std::string> notes;  ///< degenerate mathematics worth a sentence, e.g. a reaction that is zero everywhere
   std::vector<LocusCurve> curves;
+  std::vector<LocusSurface> surfaces;  ///< with three free coordinates
   std::vector<IsolatedPoint> isolated_points;
   std::vector<WorkspaceRegion> workspace;
   std::vector<ReachableInterval> reachable;            ///< with one free coordinate, ascending within a mode

@@ -269,7 +269,6 @@ SheetProgram::SheetProgram(const core::RootTower& tower, const std::vector<Sheet
 }
 
 void SheetProgram::compile() {
-  core::ensure(tower_.coordinates.size() == 2, "a sheet has two free coordinates");
   Builder builder(variables());
   std::vector<int> square_nodes, value_nodes;
   for (const core::Root& root : tower_.roots) {

@@ -37,14 +37,15 @@ struct SheetFunction {
 
 class SheetProgram {
  public:
-  /// `functions` in (x, y, s1..sm); `lines`: none, or one a function, empty where it has none. Required: two free
-  /// coordinates.
+  /// `functions` in (x, y, s1..sm), or with the tower's other number of coordinates before the roots; `lines`: none, or
+  /// one a function, empty where it has none.
   SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions,
                std::vector<core::StraightLine> lines = {});
   SheetProgram(const core::RootTower& tower, const std::vector<SheetFunction>& functions);
 
+  int coordinates() const { return static_cast<int>(tower_.coordinates.size()); }
   int roots() const { return static_cast<int>(tower_.roots.size()); }
-  int variables() const { return 2 + roots(); }
+  int variables() const { return coordinates() + roots(); }
   int functions() const { return static_cast<int>(functions_.size()); }
   const core::RootTower& tower() const { return tower_; }
   SheetFunction function(int index) const { return {functions_[index], lines_[index]}; }
@@ -54,7 +55,7 @@ class SheetProgram {
   class Registers {
    public:
     void set(int variable, const T& value) { values_[variable] = value; }
-    const T& root(int j) const { return values_[2 + j]; }
+    const T& root(int j) const { return values_[program_->coordinates() + j]; }
     const T& square(int root) const { return values_[program_->squares_[root]]; }
     const T& value(int function) const { return values_[program_->values_[function]]; }
     const T& partial(int function, int v) const { return values_[program_->partials_[function][v]]; }

@@ -1,0 +1,73 @@
+// The unit cube cut into an octree until every cell is free of the surface or as small as the mesh asks for; smaller
+// where two parts of the surface may pass through one cell. Neighbours, over corners too, differ by one level at most.
+// Private to loci/surface.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "loci/surface/field.hpp"
+
+namespace clearloci::loci::surface {
+
+/// Units of the lattice on which corners, middles of faces and of cells lie.
+inline constexpr int deepest = 11;
+inline constexpr std::int32_t lattice = 1 << (deepest + 1);
+
+using Place = std::array<std::int32_t, 3>;  ///< on the lattice
+
+inline Point unit_of(const Place& place) {
+  constexpr double step = 1.0 / lattice;
+  return {place[0] * step, place[1] * step, place[2] * step};
+}
+
+struct OctreeCell {
+  Place corner{};  ///< the lowest
+  int level = 0;
+  int children = -1;  ///< the first of eight; -1: a leaf
+  Proof proof;
+
+  std::int32_t size() const { return lattice >> level; }
+  Place middle() const { return {corner[0] + size() / 2, corner[1] + size() / 2, corner[2] + size() / 2}; }
+  Box box() const {
+    constexpr double step = 1.0 / lattice;  // a power of two: exact
+    Box result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = {corner[i] * step, (corner[i] + size()) * step};
+    return result;
+  }
+  bool leaf() const { return children < 0; }
+  /// The surface may pass through.
+  bool active() const { return leaf() && !proof.outside && !proof.zero_free; }
+};
+
+struct CellLimits {
+  int level = 4;       ///< of cells that the surface passes through
+  int finest = 7;      ///< where it may do so more than once
+  int most = 60000;    ///< cells examined before cells stay larger than `finest`
+  std::function<bool()> stop = {};  ///< asked now and then; true: throws core::LimitReached
+};
+
+class Cells {
+ public:
+  Cells(Field& field, const CellLimits& limits);
+
+  const std::vector<OctreeCell>& cells() const { return cells_; }
+  /// The smallest cell of at most the given level that holds a place of the lattice's interior; -1: outside the cube.
+  int at(const Place& inner, int level) const;
+  /// Whether the place lies inside a cell of the given level that is cut further.
+  bool finer_at(const Place& inner, int level) const;
+
+ private:
+  void examine(OctreeCell& cell);
+  void split(int cell);
+  void balance(int cell);
+  bool worth_splitting(const OctreeCell& cell) const;
+
+  Field* field_;
+  CellLimits limits_;
+  std::vector<OctreeCell> cells_;
+  int examined_ = 0;
+};
+
+}  // namespace clearloci::loci::surface

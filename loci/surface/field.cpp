@@ -1,0 +1,301 @@
+#include "loci/surface/field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::surface {
+namespace {
+
+using core::LocusProblem;
+using sheet::Interval;
+
+/// Beyond rounding of tan and of multiples of pi.
+constexpr double angle_rounding = 1e-14;
+/// Two ends of charts are one seam: they are the same angle but for rounding.
+constexpr double same_angle = 1e-9;
+
+const std::optional<core::AngleChart>* chart_of(const LocusProblem& problem, std::size_t i) {
+  return problem.charts.empty() || !problem.charts[i] ? nullptr : &problem.charts[i];
+}
+
+double coordinate_at(const LocusProblem& problem, std::size_t i, const core::Rational& variable) {
+  const double value = core::to_double(variable);
+  const auto* chart = chart_of(problem, i);
+  return chart == nullptr ? value : core::angle_at(**chart, value);
+}
+
+/// The variable of the polynomials, and how much it moves with the coordinate.
+double variable_at(const LocusProblem& problem, std::size_t i, double coordinate, double& slope) {
+  slope = 1;
+  const auto* chart = chart_of(problem, i);
+  if (chart == nullptr) return coordinate;
+  const double t = core::parameter_at(**chart, coordinate);
+  slope = (1 + t * t) / 2;
+  return t;
+}
+
+Interval variable_over(const LocusProblem& problem, std::size_t i, const Interval& coordinate) {
+  const auto* chart = chart_of(problem, i);
+  if (chart == nullptr) return coordinate;
+  const double lower = core::to_double(problem.lower[i]), upper = core::to_double(problem.upper[i]);
+  const auto t = [&](double angle) { return core::parameter_at(**chart, angle); };
+  // Beyond a half turn the tangent starts anew: the cell is cut to the chart first.
+  const double from = std::max(coordinate.lower(), core::angle_at(**chart, lower));
+  const double to = std::min(coordinate.upper(), core::angle_at(**chart, upper));
+  return sheet::meet(Interval(t(from) - angle_rounding, std::max(t(from), t(to)) + angle_rounding),
+                     Interval(lower - angle_rounding, upper + angle_rounding));
+}
+
+}  // namespace
+
+Point Frame::place(const Point& unit) const {
+  Point result{};
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = unit[i] == 0 ? lower[i] : unit[i] == 1 ? upper[i] : lower[i] + unit[i] * width(i);
+  return result;
+}
+
+Frame frame_of(const std::vector<const LocusProblem*>& charts) {
+  Frame frame;
+  for (std::size_t i = 0; i < 3; ++i) {
+    frame.angle[i] = chart_of(*charts.front(), i) != nullptr;
+    frame.lower[i] = coordinate_at(*charts.front(), i, charts.front()->lower[i]);
+    frame.upper[i] = coordinate_at(*charts.front(), i, charts.front()->upper[i]);
+    for (const LocusProblem* chart : charts) {
+      frame.lower[i] = std::min(frame.lower[i], coordinate_at(*chart, i, chart->lower[i]));
+      frame.upper[i] = std::max(frame.upper[i], coordinate_at(*chart, i, chart->upper[i]));
+    }
+  }
+  return frame;
+}
+
+bool are_neighbours(const LocusProblem& a, const LocusProblem& b) {
+  int seams = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (chart_of(a, i) == nullptr) continue;
+    const double from_a = coordinate_at(a, i, a.lower[i]), to_a = coordinate_at(a, i, a.upper[i]);
+    const double from_b = coordinate_at(b, i, b.lower[i]), to_b = coordinate_at(b, i, b.upper[i]);
+    if (std::abs(from_a - from_b) < same_angle) continue;
+    if (std::abs(to_a - from_b) > same_angle && std::abs(to_b - from_a) > same_angle) return false;
+    ++seams;
+  }
+  return seams == 1;
+}
+
+std::optional<int> sign_across_seam(const LocusProblem& a, const sheet::SheetFunction& of_a, const LocusProblem& b,
+                                    const sheet::SheetFunction& of_b, const core::WorkingMode& mode) {
+  constexpr int compared = 200;
+  Point from{}, to{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    from[i] = std::max(coordinate_at(a, i, a.lower[i]), coordinate_at(b, i, b.lower[i]));
+    to[i] = std::min(coordinate_at(a, i, a.upper[i]), coordinate_at(b, i, b.upper[i]));
+  }
+  Field one({{&a, of_a, 1}}, mode), other({{&b, of_b, 1}}, mode);
+  const auto unit_in = [](const Frame& frame, const Point& place) {
+    Point unit{};
+    for (std::size_t i = 0; i < 3; ++i) unit[i] = (place[i] - frame.lower[i]) / frame.width(i);
+    return unit;
+  };
+  int same = 0, opposite = 0;
+  double sequence[3] = {0.5, 0.5, 0.5};
+  for (int k = 0; k < compared; ++k) {
+    Point place{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      // Weyl's sequence of the roots of x^4 = x + 1: places spread evenly over the seam.
+      constexpr double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+      sequence[i] = std::fmod(sequence[i] + steps[i], 1.0);
+      place[i] = from[i] + sequence[i] * (to[i] - from[i]);
+    }
+    const Point in_one = unit_in(one.frame(), place), in_other = unit_in(other.frame(), place);
+    if (!one.inside(in_one) || !other.inside(in_other)) continue;
+    const double product = one.value(in_one) * other.value(in_other);
+    if (product > 0) ++same;
+    if (product < 0) ++opposite;
+  }
+  if (opposite == 0) return 1;
+  if (same == 0) return -1;
+  return std::nullopt;
+}
+
+Field::Chart::Chart(const Part& part, const core::WorkingMode& mode)
+    : problem(part.problem),
+      program(part.problem->tower, std::vector<sheet::SheetFunction>{part.function}),
+      at(program.registers<double>()),
+      over(program.registers<Interval>()),
+      sign(part.sign) {
+  core::ensure(static_cast<int>(mode.size()) == program.roots(), "a working mode has a sign for every root");
+  for (std::size_t i = 0; i < 3; ++i) {
+    lower[i] = coordinate_at(*problem, i, problem->lower[i]);
+    upper[i] = coordinate_at(*problem, i, problem->upper[i]);
+  }
+}
+
+Field::Field(const std::vector<Part>& parts, core::WorkingMode mode) : mode_(std::move(mode)) {
+  std::vector<const LocusProblem*> problems;
+  for (const Part& part : parts) {
+    problems.push_back(part.problem);
+    charts_.push_back(std::make_unique<Chart>(part, mode_));
+  }
+  frame_ = frame_of(problems);
+}
+
+Field::Chart& Field::enter(const Point& unit, int held) {
+  const Point place = frame_.place(unit);
+  Chart* chart = charts_.front().get();
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& candidate : charts_) {
+    double off = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      off = std::max({off, candidate->lower[i] - place[i], place[i] - candidate->upper[i]});
+    if (off < least) {
+      least = off;
+      chart = candidate.get();
+    }
+    if (off == 0) break;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    chart->at.set(static_cast<int>(i), variable_at(*chart->problem, i, place[i], scale_[i]));
+    scale_[i] *= frame_.width(i);
+  }
+  for (int j = 0; j < roots(); ++j) {
+    chart->at.run_square(j);
+    const double root = j == held ? 0 : std::sqrt(std::max(0.0, chart->at.square(j)));
+    chart->at.set(3 + j, mode_[static_cast<std::size_t>(j)] * root);
+  }
+  return *chart;
+}
+
+double Field::value(const Point& unit) {
+  Chart& chart = enter(unit);
+  chart.at.run_values();
+  return chart.sign * chart.at.value(0);
+}
+
+double Field::square(const Point& unit, int root) { return enter(unit).at.square(root); }
+
+bool Field::inside(const Point& unit) {
+  const Chart& chart = enter(unit);
+  for (int j = 0; j < roots(); ++j)
+    if (chart.at.square(j) < 0) return false;
+  return true;
+}
+
+/// Chain rule through the roots, the last first; `gradient_` holds the derivatives by the program's variables.
+Point Field::reduced(Chart& chart, int held) {
+  for (int j = roots() - 1; j >= 0; --j) {
+    const double own = gradient_[static_cast<std::size_t>(3 + j)];
+    const double root = chart.at.root(j);
+    if (own == 0 || root == 0 || j == held) continue;
+    for (int v = 0; v < 3 + j; ++v)
+      gradient_[static_cast<std::size_t>(v)] += own / (2 * root) * chart.at.square_partial(j, v);
+  }
+  return {gradient_[0] * scale_[0], gradient_[1] * scale_[1], gradient_[2] * scale_[2]};
+}
+
+double Field::gradient(const Point& unit, Point& slopes) { return gradient_on_rim(unit, -1, slopes); }
+
+double Field::gradient_on_rim(const Point& unit, int root, Point& slopes) {
+  Chart& chart = enter(unit, root);
+  chart.at.run_values();
+  chart.at.run_gradients();
+  gradient_.resize(static_cast<std::size_t>(chart.program.variables()));
+  for (std::size_t v = 0; v < gradient_.size(); ++v)
+    gradient_[v] = chart.sign * chart.at.partial(0, static_cast<int>(v));
+  slopes = reduced(chart, root);
+  return chart.sign * chart.at.value(0);
+}
+
+double Field::square_gradient(const Point& unit, int root, Point& slopes) {
+  Chart& chart = enter(unit);
+  chart.at.run_values();
+  chart.at.run_gradients();
+  gradient_.resize(static_cast<std::size_t>(chart.program.variables()));
+  for (std::size_t v = 0; v < gradient_.size(); ++v)
+    gradient_[v] = chart.at.square_partial(root, static_cast<int>(v));
+  slopes = reduced(chart, root);
+  return chart.at.square(root);
+}
+
+Proof Field::examine(const Box& unit) {
+  Box place;
+  for (std::size_t i = 0; i < 3; ++i)
+    place[i] = Interval(frame_.lower[i]) + unit[i] * (Interval(frame_.upper[i]) - Interval(frame_.lower[i]));
+  Proof whole{.outside = true, .zero_free = true, .one_sheet = true, .rim = false};
+  int common = 0;
+  for (const auto& chart : charts_) {
+    bool apart = false;
+    for (std::size_t i = 0; i < 3; ++i)
+      apart = apart || place[i].upper() < chart->lower[i] || place[i].lower() > chart->upper[i];
+    if (apart) continue;
+    int sign = 0;
+    const Proof own = examine(*chart, place, sign);
+    if (own.outside) continue;
+    whole.outside = false;
+    whole.zero_free = whole.zero_free && own.zero_free && (common == 0 || sign == common);
+    whole.one_sheet = whole.one_sheet && own.one_sheet;
+    whole.rim = whole.rim || own.rim;
+    if (sign != 0) common = sign;
+  }
+  return whole;
+}
+
+Proof Field::examine(Chart& chart, const Box& place, int& sign) {
+  Proof proof;
+  Box variables;
+  for (std::size_t i = 0; i < 3; ++i) {
+    variables[i] = variable_over(*chart.problem, i, place[i]);
+    chart.over.set(static_cast<int>(i), variables[i]);
+  }
+  for (int j = 0; j < roots(); ++j) {
+    chart.over.run_square(j);
+    if (chart.over.square(j).upper() < 0) return {.outside = true, .zero_free = true};
+    const Interval root = sheet::square_root(chart.over.square(j));
+    chart.over.set(3 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
+  }
+  chart.over.run_values();
+  sign = chart.sign * chart.over.value(0).sign();
+  proof.zero_free = sign != 0;
+  if (proof.zero_free) return proof;
+
+  chart.over.run_gradients();
+  enclosed_.resize(static_cast<std::size_t>(chart.program.variables()));
+  for (std::size_t v = 0; v < enclosed_.size(); ++v) enclosed_[v] = chart.over.partial(0, static_cast<int>(v));
+  for (int j = roots() - 1; j >= 0; --j) {
+    const Interval& own = enclosed_[static_cast<std::size_t>(3 + j)];
+    if (own.lower() == 0 && own.upper() == 0) continue;
+    if (chart.over.square(j).lower() <= 0) {
+      proof.rim = true;
+      return proof;
+    }
+    const Interval factor = own * sheet::inverse(Interval(2.0) * chart.over.root(j));
+    for (int v = 0; v < 3 + j; ++v)
+      enclosed_[static_cast<std::size_t>(v)] =
+          enclosed_[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);
+  }
+  Interval product = 0;
+  Box from_middle;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Interval scaled = enclosed_[i] * Interval(frame_.width(i));
+    if (frame_.angle[i]) scaled = scaled * (Interval(1.0) + sheet::squared(variables[i])) * Interval(0.5);
+    product = product + scaled * scaled;
+    const double middle = variables[i].middle();
+    from_middle[i] = enclosed_[i] * (variables[i] - Interval(middle));
+    chart.over.set(static_cast<int>(i), Interval(middle));
+  }
+  proof.one_sheet = product.lower() > 0;
+  for (int j = 0; j < roots(); ++j) {
+    chart.over.run_square(j);
+    const Interval& square = chart.over.square(j);
+    const Interval root = square.upper() < 0 ? Interval(0.0) : sheet::square_root(square);
+    chart.over.set(3 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
+  }
+  chart.over.run_values();
+  const Interval centred = chart.over.value(0) + from_middle[0] + from_middle[1] + from_middle[2];
+  sign = chart.sign * centred.sign();
+  proof.zero_free = sign != 0;
+  return proof;
+}
+
+}  // namespace clearloci::loci::surface

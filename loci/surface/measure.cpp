@@ -1,0 +1,98 @@
+#include "loci/surface/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::surface {
+namespace {
+
+constexpr int cuts_of_a_cell = 5;
+constexpr int most_examined = 200000;
+
+Point place_of(const Frame& frame, const Mesh& mesh, int point) {
+  return frame.place(mesh.points[static_cast<std::size_t>(point)]);
+}
+
+/// Whether no zero is in the box, within the workspace; cut into eight so many times. `budget`: boxes left to look at.
+bool is_free(Field& field, const Box& box, int cuts, int& budget) {
+  if (--budget < 0) return false;
+  const Proof proof = field.examine(box);
+  if (proof.outside || proof.zero_free) return true;
+  if (cuts == 0) return false;
+  for (int part = 0; part < 8; ++part) {
+    Box smaller;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double middle = box[i].middle();
+      smaller[i] = (part >> i & 1) != 0 ? sheet::Interval(middle, box[i].upper())
+                                        : sheet::Interval(box[i].lower(), middle);
+    }
+    if (!is_free(field, smaller, cuts - 1, budget)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double area(const Frame& frame, const Mesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Point a = place_of(frame, mesh, t[0]);
+    const Point normal = cross(place_of(frame, mesh, t[1]) - a, place_of(frame, mesh, t[2]) - a);
+    sum += 0.5 * std::sqrt(dot(normal, normal));
+  }
+  return sum;
+}
+
+double deviation(Field& field, const Mesh& mesh) {
+  const Frame& frame = field.frame();
+  double most = 0;
+  for (const Triangle& t : mesh.triangles) {
+    Point middle{}, slopes{};
+    for (const int corner : t) middle = middle + 1.0 / 3 * mesh.points[static_cast<std::size_t>(corner)];
+    if (!field.inside(middle)) continue;
+    const double value = field.gradient(middle, slopes);
+    for (std::size_t i = 0; i < 3; ++i) slopes[i] /= frame.width(i);
+    const double slope = std::sqrt(dot(slopes, slopes));
+    if (!(slope > 0) || !std::isfinite(slope)) continue;
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point side = place_of(frame, mesh, t[i]) - place_of(frame, mesh, t[(i + 1) % 3]);
+      longest = std::max(longest, std::sqrt(dot(side, side)));
+    }
+    // Where the gradient vanishes nearby, first order says nothing: the triangle's own size bounds what can be meant.
+    most = std::max(most, std::min(std::abs(value) / slope, longest));
+  }
+  return most;
+}
+
+Unexplained unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh,
+                        const std::function<bool()>& stop) {
+  const int side = 1 << level;
+  const auto bin = [&](double unit) { return std::clamp(static_cast<int>(unit * side), 0, side - 1); };
+  std::vector<bool> near(static_cast<std::size_t>(side) * side * side, false);
+  const auto flag = [&](int x, int y, int z) { return (static_cast<std::size_t>(x) * side + y) * side + z; };
+  for (const Triangle& t : mesh.triangles) {
+    // Triangles are no larger than a cell: their middles are as near as need be.
+    Point middle{};
+    for (const int corner : t) middle = middle + 1.0 / 3 * mesh.points[static_cast<std::size_t>(corner)];
+    const int x = bin(middle[0]), y = bin(middle[1]), z = bin(middle[2]);
+    for (int i = std::max(0, x - 1); i <= std::min(side - 1, x + 1); ++i)
+      for (int j = std::max(0, y - 1); j <= std::min(side - 1, y + 1); ++j)
+        for (int k = std::max(0, z - 1); k <= std::min(side - 1, z + 1); ++k) near[flag(i, j, k)] = true;
+  }
+  Unexplained result;
+  int budget = most_examined;
+  for (const OctreeCell& cell : cells.cells()) {
+    if (!cell.active()) continue;
+    const Point middle = unit_of(cell.middle());
+    if (cell.level >= level && near[flag(bin(middle[0]), bin(middle[1]), bin(middle[2]))]) continue;
+    if (stop && stop()) throw core::LimitReached("the time limit was reached");
+    if (is_free(field, cell.box(), cuts_of_a_cell, budget)) continue;
+    if (result.cells++ == 0) result.at = middle;
+  }
+  return result;
+}
+
+}  // namespace clearloci::loci::surface

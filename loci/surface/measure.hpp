@@ -1,0 +1,28 @@
+// What is said of a finished surface. Private to loci/surface.
+#pragma once
+
+#include "loci/surface/cells.hpp"
+#include "loci/surface/mesh.hpp"
+
+namespace clearloci::loci::surface {
+
+/// In the coordinates of the frame.
+double area(const Frame& frame, const Mesh& mesh);
+
+/// Largest distance of a triangle's middle from the surface, to first order, in the coordinates of the frame. Triangles
+/// next to the workspace boundary, where slopes are unbounded, do not count.
+double deviation(Field& field, const Mesh& mesh);
+
+/// The cells in which a zero could not be excluded, though cut up further, and no triangle is within two cells of the
+/// mesh's own size.
+struct Unexplained {
+  int cells = 0;
+  Point at{};  ///< unit coordinates of one
+};
+Unexplained unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh,
+                        const std::function<bool()>& stop);
+
+/// The distance, in unit coordinates, that `unexplained` allows.
+inline double resolution(int level) { return 2.0 / (1 << level); }
+
+}  // namespace clearloci::loci::surface

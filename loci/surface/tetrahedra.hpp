@@ -1,0 +1,19 @@
+// The active cells of an octree as tetrahedra: (middle of the cell, middle of a face, two neighbouring points of its
+// rim). Where the cells beyond a face are smaller, the face is cut as theirs are; where a smaller cell touches an edge,
+// the middle of that edge is a point of the rim. Private to loci/surface.
+#pragma once
+
+#include <vector>
+
+#include "loci/surface/cells.hpp"
+
+namespace clearloci::loci::surface {
+
+struct Tetrahedra {
+  std::vector<Place> corners;
+  std::vector<std::array<int, 4>> tetrahedra;
+};
+
+Tetrahedra tetrahedra_of(const Cells& cells);
+
+}  // namespace clearloci::loci::surface

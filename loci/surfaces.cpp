@@ -1,0 +1,343 @@
+#include "loci/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <tuple>
+
+#include "core/errors.hpp"
+#include "loci/edge_labels.hpp"
+#include "loci/surface/march.hpp"
+#include "loci/surface/measure.hpp"
+#include "loci/surface/rim.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::FactorRole;
+using core::LocusFactor;
+using core::LocusKind;
+using core::LocusMap;
+using core::LocusProblem;
+using core::LocusSurface;
+using surface::Field;
+using surface::Mesh;
+using surface::Point;
+
+/// Cells smaller than the mesh asks for, by so many halvings, where the surface may pass through more than once.
+constexpr int extra_levels = 3;
+/// A factor vanishes at a point where its zero is this near, in unit coordinates, to first order.
+constexpr double vanishes_within = 1e-8;
+/// Points of a component at which other factors are looked at.
+constexpr std::size_t samples = 24;
+
+/// A factor of the first chart that has it, with what continues it in the other charts.
+struct Whole {
+  std::vector<Field::Part> parts;
+  const LocusFactor* factor = nullptr;  ///< of the first part
+  std::optional<int> root;              ///< the factor is s_j itself: it vanishes on the boundary Q_j = 0
+};
+
+std::optional<int> root_dividing(const core::Polynomial& p, std::size_t roots) {
+  for (std::size_t j = 0; j < roots; ++j)
+    if (!p.terms.empty() && std::all_of(p.terms.begin(), p.terms.end(),
+                                        [&](const core::Term& term) { return term.exponents[3 + j] > 0; }))
+      return static_cast<int>(j);
+  return std::nullopt;
+}
+
+/// Joins the factors of all charts across the seams.
+std::vector<Whole> joined(const std::vector<const LocusProblem*>& charts, const core::WorkingMode& mode) {
+  std::vector<std::vector<bool>> taken;
+  for (const LocusProblem* chart : charts) taken.emplace_back(chart->factors.size(), false);
+  std::vector<Whole> wholes;
+  for (std::size_t first = 0; first < charts.size(); ++first)
+    for (std::size_t f = 0; f < charts[first]->factors.size(); ++f) {
+      if (taken[first][f]) continue;
+      taken[first][f] = true;
+      const LocusFactor& factor = charts[first]->factors[f];
+      if (factor.role == FactorRole::construction) continue;
+      Whole whole{{{charts[first], {factor.sheet, factor.line}, 1}},
+                  &factor,
+                  root_dividing(factor.sheet, charts[first]->tower.roots.size())};
+      for (std::size_t part = 0; part < whole.parts.size(); ++part)
+        for (std::size_t next = 0; next < charts.size(); ++next) {
+          const Field::Part own = whole.parts[part];
+          const bool has = std::any_of(whole.parts.begin(), whole.parts.end(),
+                                       [&](const Field::Part& other) { return other.problem == charts[next]; });
+          if (has || !surface::are_neighbours(*own.problem, *charts[next])) continue;
+          for (std::size_t g = 0; g < charts[next]->factors.size(); ++g) {
+            const LocusFactor& other = charts[next]->factors[g];
+            if (taken[next][g] || other.role != factor.role || other.vanishing != factor.vanishing) continue;
+            const sheet::SheetFunction function{other.sheet, other.line};
+            const auto sign = surface::sign_across_seam(*own.problem, own.function, *charts[next], function, mode);
+            if (!sign) continue;
+            taken[next][g] = true;
+            whole.parts.push_back({charts[next], function, own.sign * *sign});
+            break;
+          }
+        }
+      wholes.push_back(std::move(whole));
+    }
+  return wholes;
+}
+
+bool shares_surface(const LocusFactor& a, const LocusFactor& b) {
+  if (a.implicit_too_heavy || b.implicit_too_heavy) return true;
+  return std::any_of(a.implicit.begin(), a.implicit.end(), [&](const core::Polynomial& p) {
+    return std::find(b.implicit.begin(), b.implicit.end(), p) != b.implicit.end();
+  });
+}
+
+/// Surfaces of the factor are asked for: alone, or where others vanish too.
+bool is_wanted(const LocusProblem& problem, const std::vector<Whole>& wholes, const Whole& whole) {
+  const LocusFactor& factor = *whole.factor;
+  if (factor.implicit.empty() && !factor.implicit_too_heavy) return false;
+  if (factor.role != FactorRole::reaction) return true;
+  if (!reaction_label(problem, {&factor}).vanishing.empty()) return true;
+  std::vector<const LocusFactor*> together = {&factor};
+  for (const Whole& other : wholes)
+    if (&other != &whole && other.factor->role == FactorRole::reaction && shares_surface(factor, *other.factor))
+      together.push_back(other.factor);
+  return !reaction_label(problem, together).vanishing.empty();
+}
+
+/// A mesh and what is needed to judge it.
+struct Meshed {
+  Mesh mesh;
+  std::optional<int> boundary;  ///< it lies on Q_j = 0
+  surface::Unexplained unexplained;
+};
+
+class ModeSurfaces {
+ public:
+  ModeSurfaces(const std::vector<const LocusProblem*>& charts, const core::WorkingMode& mode, int level,
+               std::function<bool()> stop)
+      : problem_(*charts.front()), mode_(mode), level_(level), stop_(std::move(stop)), wholes_(joined(charts, mode)) {
+    for (const Whole& whole : wholes_) fields_.push_back(std::make_unique<Field>(whole.parts, mode));
+  }
+
+  std::size_t size() const { return wholes_.size(); }
+
+  /// The surfaces of one factor.
+  void add(std::size_t f, LocusMap& map) {
+    if (wholes_[f].root || !is_wanted(problem_, wholes_, wholes_[f])) return;
+    const Meshed meshed = mesh_of(*fields_[f]);
+    const std::vector<int> component = surface::components_of(meshed.mesh);
+    const int count = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+    std::vector<EdgeLabel> labels;
+    std::vector<std::vector<int>> components;  // of each label
+    for (int c = 0; c < count; ++c) {
+      std::vector<bool> own;
+      for (const int one : component) own.push_back(one == c);
+      for (EdgeLabel& label : labels_of(f, surface::part_of(meshed.mesh, own), meshed.boundary)) {
+        const auto known = std::find(labels.begin(), labels.end(), label);
+        const auto place = static_cast<std::size_t>(known - labels.begin());
+        if (known == labels.end()) {
+          labels.push_back(std::move(label));
+          components.emplace_back();
+        }
+        components[place].push_back(c);
+      }
+    }
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      std::vector<bool> own;
+      for (const int one : component)
+        own.push_back(std::find(components[i].begin(), components[i].end(), one) != components[i].end());
+      map.surfaces.push_back(finished(f, labels[i], surface::part_of(meshed.mesh, own), meshed));
+      map.surfaces.back().components = static_cast<int>(components[i].size());
+    }
+    if (meshed.unexplained.cells > 0) note(f, meshed, map);
+  }
+
+ private:
+  Meshed mesh_of(Field& field) const {
+    const surface::Cells cells(
+        field, {.level = level_, .finest = std::min(level_ + extra_levels, surface::deepest), .stop = stop_});
+    Meshed result;
+    result.mesh = surface::march(field, cells);
+    if (stop_ && stop_()) throw core::LimitReached("the time limit was reached");
+    result.boundary = surface::boundary_of(field, result.mesh);
+    result.mesh = surface::within_workspace(field, std::move(result.mesh), result.boundary);
+    result.unexplained = surface::unexplained(field, cells, level_, result.mesh, stop_);
+    return result;
+  }
+
+  /// Whether a factor vanishes all over a mesh.
+  bool vanishes_on(std::size_t g, const Mesh& mesh, std::optional<int> boundary) {
+    if (wholes_[g].root) return wholes_[g].root == boundary;
+    Field& field = *fields_[g];
+    const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / samples);
+    int seen = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += step) {
+      Point slopes{};
+      const Point& at = mesh.points[static_cast<std::size_t>(mesh.triangles[t][0])];
+      if (!boundary && !field.inside(at)) continue;
+      const double value = boundary ? field.gradient_on_rim(at, *boundary, slopes) : field.gradient(at, slopes);
+      const double slope = std::sqrt(surface::dot(slopes, slopes));
+      if (!(std::abs(value) <= vanishes_within * slope) && value != 0) return false;
+      ++seen;
+    }
+    return seen > 0;
+  }
+
+  /// What vanishes on a component of the mesh of factor `f`; empty where another factor's mesh has it.
+  std::vector<EdgeLabel> labels_of(std::size_t f, const Mesh& part, std::optional<int> boundary) {
+    const LocusFactor& own = *wholes_[f].factor;
+    std::vector<const LocusFactor*> reactions;
+    std::vector<EdgeLabel> labels;
+    for (std::size_t g = 0; g < wholes_.size(); ++g) {
+      const LocusFactor& other = *wholes_[g].factor;
+      const bool same = g == f;
+      if (!same && !wholes_[g].root && other.role != own.role) continue;
+      if (!same && (!shares_surface(own, other) || !vanishes_on(g, part, boundary))) continue;
+      if (!same && !wholes_[g].root && g < f) return {};
+      switch (other.role) {
+        case FactorRole::reaction:
+          reactions.push_back(&other);
+          break;
+        case FactorRole::margin:
+          labels.push_back({LocusKind::margin, other.vanishing, other.expression, other.cause});
+          break;
+        case FactorRole::direct_singularity:
+          labels.push_back({LocusKind::direct_singularity, {}, other.expression, other.cause});
+          break;
+        case FactorRole::workspace_boundary:
+          labels.push_back({LocusKind::workspace_boundary, {}, other.expression, other.cause});
+          break;
+        case FactorRole::construction:
+          break;
+      }
+    }
+    EdgeLabel label = reaction_label(problem_, reactions);
+    if (!label.vanishing.empty()) labels.insert(labels.begin(), std::move(label));
+    return labels;
+  }
+
+  LocusSurface finished(std::size_t f, const EdgeLabel& label, const Mesh& part, const Meshed& meshed) {
+    const Whole& whole = wholes_[f];
+    Field& field = *fields_[f];
+    LocusSurface result;
+    result.kind = label.kind;
+    result.vanishing = label.vanishing;
+    result.factor = label.factor;
+    result.cause = label.cause;
+    if (whole.parts.size() == 1 && whole.factor->implicit.size() == 1) {
+      result.implicit = whole.factor->implicit.front();
+      result.variables = problem_.tower.coordinates;
+    }
+    result.mode = mode_;
+    for (const Point& point : part.points) result.vertices.push_back(field.frame().place(point));
+    result.triangles = part.triangles;
+    result.euler_characteristic = static_cast<int>(part.points.size()) -
+                                  static_cast<int>(surface::edges_of(part).size()) +
+                                  static_cast<int>(part.triangles.size());
+    result.area = surface::area(field.frame(), part);
+    result.deviation = surface::deviation(field, part);
+    result.certified = meshed.unexplained.cells == 0;
+    for (std::size_t i = 0; i < 3; ++i) result.resolution[i] = surface::resolution(level_) * field.frame().width(i);
+    return result;
+  }
+
+  void note(std::size_t f, const Meshed& meshed, LocusMap& map) {
+    const LocusFactor& factor = *wholes_[f].factor;
+    std::string what = factor.cause.empty() ? factor.expression : factor.cause;
+    constexpr std::size_t readable = 60;
+    if (what.size() > readable) what = core::to_string(gravest_kind(factor.vanishing));
+    if (factor.role == FactorRole::direct_singularity) what = "direct singularity";
+    const Point at = fields_[f]->frame().place(meshed.unexplained.at);
+    std::ostringstream text;
+    text.precision(3);
+    text << what << ": further parts of the surface could not be excluded in " << meshed.unexplained.cells
+         << " cells away from it, one of them at (" << at[0] << ", " << at[1] << ", " << at[2]
+         << "); a smaller --mesh-size looks closer.";
+    map.notes.push_back(text.str());
+  }
+
+  const LocusProblem& problem_;
+  core::WorkingMode mode_;
+  int level_;
+  std::function<bool()> stop_;
+  std::vector<Whole> wholes_;
+  std::vector<std::unique_ptr<Field>> fields_;
+};
+
+/// Forces that are several components vanish on curves or at points of the three coordinates, which are not traced.
+void note_forces(const LocusProblem& problem, LocusMap& map) {
+  if (std::find(problem.quantities.begin(), problem.quantities.end(), core::Quantity::f) == problem.quantities.end())
+    return;
+  std::string names;
+  for (const std::string& joint : problem.joints) {
+    const bool has = std::any_of(map.surfaces.begin(), map.surfaces.end(), [&](const LocusSurface& one) {
+      return std::any_of(one.vanishing.begin(), one.vanishing.end(), [&](const core::Vanishing& v) {
+        return v.joint == joint && v.quantity == core::Quantity::f;
+      });
+    });
+    const std::vector<core::Quantity> components = core::force_components(problem, joint);
+    const auto zero = [&](core::Quantity component) {
+      return std::any_of(problem.always_zero.begin(), problem.always_zero.end(), [&](const core::Vanishing& v) {
+        return v.joint == joint && v.quantity == component;
+      });
+    };
+    if (has || components.empty() || std::all_of(components.begin(), components.end(), zero)) continue;
+    names += (names.empty() ? "" : ", ") + joint;
+  }
+  if (!names.empty())
+    map.notes.push_back("The contact force of " + names +
+                        " vanishes on no surface in the box, at most along curves or at points: these are not traced.");
+}
+
+void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
+  const auto key = [&](const LocusSurface& one) {
+    return std::tuple(std::find(modes.begin(), modes.end(), one.mode) - modes.begin(), one.kind);
+  };
+  std::stable_sort(map.surfaces.begin(), map.surfaces.end(),
+                   [&](const LocusSurface& a, const LocusSurface& b) { return key(a) < key(b); });
+  int number = 0;
+  for (LocusSurface& one : map.surfaces) one.id = "s" + std::to_string(++number);
+}
+
+}  // namespace
+
+LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const SurfaceOptions& options) {
+  core::ensure(!charts.empty() && charts.front()->tower.coordinates.size() == 3, "three free coordinates");
+  // The triangles of a cell are about half as large as the cell.
+  const int level = static_cast<int>(std::ceil(std::log2(0.5 / options.mesh_size) - 1e-9));
+  if (level < 1 || level > surface::deepest - 1)
+    throw core::InputError({.file = "--mesh-size"}, "no size for a mesh",
+                           "give a part of the box between 0.0005 and 0.25");
+  const LocusProblem& problem = *charts.front();
+  LocusMap map;
+  const std::function<bool()> stop = [&] {
+    return options.trace.deadline && std::chrono::steady_clock::now() > *options.trace.deadline;
+  };
+  try {
+    for (std::size_t m = 0; m < problem.modes.size(); ++m) {
+      ModeSurfaces surfaces(charts, problem.modes[m], level, stop);
+      for (std::size_t f = 0; f < surfaces.size(); ++f) {
+        if (stop()) throw core::LimitReached("the time limit was reached");
+        if (options.trace.progress)
+          options.trace.progress(
+              (static_cast<double>(m) + static_cast<double>(f) / static_cast<double>(surfaces.size())) /
+                  static_cast<double>(problem.modes.size()),
+              "surfaces");
+        surfaces.add(f, map);
+      }
+    }
+    note_forces(problem, map);
+  } catch (const core::LimitReached&) {
+    map.complete = false;
+  }
+  map.tower = problem.tower;
+  map.lower = problem.lower;
+  map.upper = problem.upper;
+  map.tolerance = problem.tolerance;
+  const surface::Frame frame = surface::frame_of(charts);
+  map.angles = {frame.angle[0], frame.angle[1], frame.angle[2]};
+  sort_and_name(map, problem.modes);
+  return map;
+}
+
+}  // namespace clearloci::loci
