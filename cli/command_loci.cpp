@@ -38,9 +38,22 @@ std::set<report::FileFormat> parse_formats(const std::string& text) {
   return formats;
 }
 
+/// Asked for, not merely a default.
+void check_formats(const std::set<report::FileFormat>& formats, std::size_t coordinates) {
+  for (const std::string& name : report::file_format_names()) {
+    const report::FileFormat format = *report::file_format(name);
+    if (!formats.contains(format) || report::can_hold(format, coordinates)) continue;
+    throw core::InputError(
+        {.file = "--export"},
+        fmt::format("{} does not hold loci over {} free coordinate{}", name, coordinates, coordinates == 1 ? "" : "s"),
+        coordinates == 3 ? "surfaces go to stl, obj, vtk, csv and pictures" : "leave it out");
+  }
+}
+
 int run(const Arguments& arguments) {
   const std::set<report::FileFormat> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
+  check_formats(formats, mechanism.coordinates.size());
   Progress progress(arguments.common.quiet);
   const core::LocusMap map = trace_loci(mechanism, loci_request(arguments.loci, mechanism, progress));
   progress.clear();
@@ -69,6 +82,7 @@ Command add_loci_command(CLI::App& program) {
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
+  add_mesh_argument(*app, arguments->loci);
   app->add_option(
          "--export", arguments->formats,
          fmt::format("Files besides loci.json, several after commas: {}", fmt::join(report::file_format_names(), ", ")))
@@ -76,6 +90,8 @@ Command add_loci_command(CLI::App& program) {
       ->capture_default_str();
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"
+      "With three free coordinates the loci are surfaces:\n"
+      "  clearloci loci examples/gough_stewart.yaml --mesh-size 1/48 --export png,stl,obj,vtk\n"
       "The files go to ./out/<name of MODEL>, or to the folder of -o.");
   return {app, [arguments] { return run(*arguments); }};
 }

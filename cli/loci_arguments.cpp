@@ -53,6 +53,14 @@ void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
       ->capture_default_str();
 }
 
+void add_mesh_argument(CLI::App& command, LociArguments& arguments) {
+  command
+      .add_option("--mesh-size", arguments.mesh_size,
+                  "Over three coordinates: edges of a surface's triangles, about, as a part of the box")
+      ->type_name("PART")
+      ->capture_default_str();
+}
+
 LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress) {
   LociRequest request;
   request.selection.joints = parse_joints(arguments.joints, mechanism);
@@ -62,6 +70,7 @@ LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechan
   if (!arguments.min_couple.empty())
     request.selection.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism);
   request.tolerance = core::to_double(parse_positive(arguments.tolerance, "--tolerance", mechanism));
+  request.mesh_size = core::to_double(parse_positive(arguments.mesh_size, "--mesh-size", mechanism));
   if (arguments.working_mode == "all")
     request.all_working_modes = true;
   else if (!arguments.working_mode.empty())

@@ -15,7 +15,7 @@ namespace clearloci::cli {
 struct LociArguments {
   std::vector<std::string> joints;
   std::string quantities = "f,M";
-  std::string min_force, min_couple, tolerance = "1e-5", working_mode, time_limit;
+  std::string min_force, min_couple, tolerance = "1e-5", mesh_size = "1/32", working_mode, time_limit;
   std::string engine = "automatic";
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
@@ -25,6 +25,9 @@ void add_tracing_arguments(CLI::App& command, LociArguments& arguments);
 
 /// --quantity, --min-force, --min-couple, --tolerance.
 void add_locus_arguments(CLI::App& command, LociArguments& arguments);
+
+/// --mesh-size.
+void add_mesh_argument(CLI::App& command, LociArguments& arguments);
 
 /// `progress` must outlive the request.
 LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress);

@@ -11,6 +11,7 @@
 
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
+#include "loci/surfaces.hpp"
 #include "numeric/sketch.hpp"
 
 namespace clearloci {
@@ -95,6 +96,38 @@ core::LocusMap join_charts(const mechanism::Mechanism& mechanism, const std::vec
   return joined;
 }
 
+/// The coordinates of the mechanism in place of those of the charts.
+void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map) {
+  map.tower.coordinates.clear();
+  map.lower.clear();
+  map.upper.clear();
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
+    map.tower.coordinates.push_back(coordinate.name);
+    map.lower.push_back(coordinate.lower);
+    map.upper.push_back(coordinate.upper);
+  }
+}
+
+/// Of the charts of one mechanism together.
+core::LocusMap trace_charts(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                            const std::vector<symbolic::DerivedProblem>& charts) {
+  const loci::TraceOptions options{
+      .engine = request.engine, .progress = request.progress, .deadline = request.deadline};
+  if (mechanism.coordinates.size() == 3) {
+    std::vector<const core::LocusProblem*> problems;
+    for (const symbolic::DerivedProblem& derived : charts) problems.push_back(&derived.problem);
+    core::LocusMap map = loci::trace_surfaces(problems, {.trace = options, .mesh_size = request.mesh_size});
+    name_coordinates(mechanism, map);
+    return map;
+  }
+  std::vector<core::LocusMap> maps;
+  for (const symbolic::DerivedProblem& derived : charts) {
+    if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
+    maps.push_back(loci::trace(derived.problem, options));
+  }
+  return mechanism.coordinates.size() == 1 ? join_charts(mechanism, charts, maps) : std::move(maps.front());
+}
+
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
 /// `family`: of which the mechanism is a member; may be null.
 TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
@@ -109,9 +142,8 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
   try {
     if (request.progress) request.progress(0, "equations");
     check_deadline();
-    const bool one_coordinate = mechanism.coordinates.size() == 1;
     std::vector<symbolic::DerivedProblem> charts;
-    if (one_coordinate)
+    if (mechanism.coordinates.size() != 2)
       charts = family != nullptr ? family->problems(mechanism, request.selection)
                                  : symbolic::locus_problems(mechanism, request.selection);
     else
@@ -125,13 +157,8 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
     }
 
     start = Clock::now();
-    std::vector<core::LocusMap> maps;
-    for (const symbolic::DerivedProblem& derived : charts) {
-      check_deadline();
-      maps.push_back(loci::trace(
-          derived.problem, {.engine = request.engine, .progress = request.progress, .deadline = request.deadline}));
-    }
-    map = one_coordinate ? join_charts(mechanism, charts, maps) : std::move(maps.front());
+    check_deadline();
+    map = trace_charts(mechanism, request, charts);
     tracing = seconds_since(start);
     map.notes.insert(map.notes.begin(), charts.front().notes.begin(), charts.front().notes.end());
     traced.problem = std::move(charts.front().problem);
@@ -158,7 +185,7 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
 
 TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
                            const symbolic::LocusFamily* family) {
-  require_coordinates(mechanism, 1, 2, "loci are traced");
+  require_coordinates(mechanism, 1, 3, "loci are traced");
   check_sides(mechanism, request);
   TracedProblem traced = derive_and_trace(mechanism, request, family);
   core::LocusMap& map = traced.map;
@@ -221,7 +248,7 @@ void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t leas
                          const std::string& what) {
   const std::size_t count = mechanism.coordinates.size();
   if (least <= count && count <= most) return;
-  const std::string wanted = least == most ? std::to_string(least) : "one or two";
+  const std::string wanted = least == most ? std::to_string(least) : "one to three";
   throw core::InputError(
       {mechanism.file}, what + " over " + wanted + " free coordinates; this workspace has " + std::to_string(count),
       count > most

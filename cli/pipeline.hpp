@@ -24,6 +24,7 @@ using DyadSides = std::vector<int>;
 struct LociRequest {
   symbolic::Selection selection = {};         ///< joints, quantities, margins
   double tolerance = 1e-5;                    ///< largest distance of a chord from its curve, m
+  double mesh_size = 1.0 / 32;                ///< of surfaces: edges of triangles, as a part of the box's extent
   std::vector<DyadSides> working_modes = {};  ///< empty: the file's
   bool all_working_modes = false;             ///< every combination of sides, the file's first
   loci::Engine engine = loci::Engine::automatic;
@@ -31,7 +32,7 @@ struct LociRequest {
   std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
 };
 
-/// The discontinuity loci of a mechanism with two free coordinates.
+/// The discontinuity loci of a mechanism: points over one free coordinate, curves over two, surfaces over three.
 /// Throws core::InputError where the mechanism has no loci to speak of: a system that is not square, a determinant that
 /// vanishes in every pose, an unknown joint, a working mode of the wrong length.
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {});

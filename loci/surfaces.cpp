@@ -42,8 +42,8 @@ struct Whole {
 
 std::optional<int> root_dividing(const core::Polynomial& p, std::size_t roots) {
   for (std::size_t j = 0; j < roots; ++j)
-    if (!p.terms.empty() && std::all_of(p.terms.begin(), p.terms.end(),
-                                        [&](const core::Term& term) { return term.exponents[3 + j] > 0; }))
+    if (!p.terms.empty() &&
+        std::all_of(p.terms.begin(), p.terms.end(), [&](const core::Term& term) { return term.exponents[3 + j] > 0; }))
       return static_cast<int>(j);
   return std::nullopt;
 }
@@ -271,15 +271,13 @@ void note_forces(const LocusProblem& problem, LocusMap& map) {
   std::string names;
   for (const std::string& joint : problem.joints) {
     const bool has = std::any_of(map.surfaces.begin(), map.surfaces.end(), [&](const LocusSurface& one) {
-      return std::any_of(one.vanishing.begin(), one.vanishing.end(), [&](const core::Vanishing& v) {
-        return v.joint == joint && v.quantity == core::Quantity::f;
-      });
+      return std::any_of(one.vanishing.begin(), one.vanishing.end(),
+                         [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == core::Quantity::f; });
     });
     const std::vector<core::Quantity> components = core::force_components(problem, joint);
     const auto zero = [&](core::Quantity component) {
-      return std::any_of(problem.always_zero.begin(), problem.always_zero.end(), [&](const core::Vanishing& v) {
-        return v.joint == joint && v.quantity == component;
-      });
+      return std::any_of(problem.always_zero.begin(), problem.always_zero.end(),
+                         [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == component; });
     };
     if (has || components.empty() || std::all_of(components.begin(), components.end(), zero)) continue;
     names += (names.empty() ? "" : ", ") + joint;
@@ -303,11 +301,11 @@ void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
 
 LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const SurfaceOptions& options) {
   core::ensure(!charts.empty() && charts.front()->tower.coordinates.size() == 3, "three free coordinates");
+  constexpr double finest_mesh = 1.0 / 256, coarsest_mesh = 1.0 / 4;
+  if (!(options.mesh_size >= finest_mesh && options.mesh_size <= coarsest_mesh))
+    throw core::InputError({.file = "--mesh-size"}, "no size for a mesh", "give a part of the box, from 1/256 to 1/4");
   // The triangles of a cell are about half as large as the cell.
   const int level = static_cast<int>(std::ceil(std::log2(0.5 / options.mesh_size) - 1e-9));
-  if (level < 1 || level > surface::deepest - 1)
-    throw core::InputError({.file = "--mesh-size"}, "no size for a mesh",
-                           "give a part of the box between 0.0005 and 0.25");
   const LocusProblem& problem = *charts.front();
   LocusMap map;
   const std::function<bool()> stop = [&] {

@@ -44,6 +44,12 @@ std::string csv(const core::LocusMap& map) {
       for (const auto& point : curve.arcs[i].points) append_row(out, start, point);
     }
   }
+  for (const auto& surface : map.surfaces) {
+    const std::string start = field(surface.id) + ",," + field(core::to_string(surface.kind)) + "," +
+                              field(reaction_names(surface.vanishing)) + "," +
+                              field(mode_words(map.tower, surface.mode)) + ",false";
+    for (const auto& point : surface.vertices) append_row(out, start, point);
+  }
   for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
     const auto& point = map.isolated_points[i];
     const std::string start = "p" + std::to_string(i + 1) + ",," + field(core::to_string(point.kind)) + "," +

@@ -9,7 +9,8 @@
 namespace clearloci::report {
 
 /// RFC 4180 with "\n": a header row, then one row a vertex: `curve` (id; p1, p2, ... for isolated points), `arc` (from
-/// 1; empty for an isolated point), `kind`, `vanishing` ("f_A1 f_B1 M_A1"), `mode` ("B1 right, B2 left"), `closed`
+/// 1; empty for an isolated point and for the vertices of a surface), `kind`, `vanishing` ("f_A1 f_B1 M_A1"), `mode`
+/// ("B1 right, B2 left"), `closed`
 /// ("true" or "false"), then one column a coordinate, by its name.
 std::string csv(const core::LocusMap& map);
 
@@ -26,9 +27,20 @@ std::string dxf(const core::LocusMap& map, DxfVersion version = DxfVersion::r200
 /// feature, with curve, arc, kind, vanishing, factor, cause, mode, certified, closed, ends and length.
 std::string geojson(const core::LocusMap& map);
 
-/// VTK XML PolyData: isolated points as vertices, arcs as polylines, in the plane z = 0. Cell data: `curve` (index from
-/// 0, -1 for isolated points), `arc`, `kind` and `mode` (indices into the field data `kind_names`, `mode_names`),
-/// `closed`.
+/// VTK XML PolyData: isolated points as vertices, arcs as polylines, in the plane z = 0; triangles of surfaces. Cell
+/// data: `curve` (index from 0, of curves or of surfaces, -1 for isolated points), `arc`, `kind` and `mode` (indices
+/// into the field data `kind_names`, `mode_names`), `closed`.
 std::string vtp(const core::LocusMap& map);
+
+/// "s1-contact-loss": a surface in the names of files and groups.
+std::string mesh_name(const core::LocusSurface& surface);
+
+/// Binary STL of one surface: little-endian, 50 bytes a triangle after a header of 84, unit normals towards the side on
+/// which the factor is positive.
+std::string stl(const core::LocusSurface& surface);
+
+/// Wavefront OBJ: one group a surface, "g s1-contact-loss", with materials from `mtl`, which is to be in loci.mtl.
+std::string obj(const core::LocusMap& map);
+std::string mtl(const core::LocusMap& map);
 
 }  // namespace clearloci::report

@@ -27,7 +27,7 @@ Stroke reaction_stroke(core::LocusKind kind, int within_kind, int number) {
   static const Dashes component = {{0, 2.4}, {3, 2.4}, {0, 5}, {3, 2.4, dot, 2.4}};
   static const Dashes margin = {{4, 2.5}, {2, 2}, {7, 3}, {7, 2, 2, 2}};
   const auto pick = [&](const Dashes& dashes) { return dashes[static_cast<std::size_t>(within_kind) % dashes.size()]; };
-  const Colour colour = palette[static_cast<std::size_t>(number) % palette.size()];
+  const Colour colour = palette_colour(number);
   switch (kind) {
     case core::LocusKind::contact_loss:
       return {colour, 2.2, pick(contact_loss), false};
@@ -121,6 +121,8 @@ void choose_strokes(Groups& groups) {
 }
 
 }  // namespace
+
+Colour palette_colour(int number) { return palette[static_cast<std::size_t>(number) % palette.size()]; }
 
 Groups group_loci(const core::LocusMap& map) {
   Groups groups;

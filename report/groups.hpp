@@ -28,6 +28,9 @@ struct Marker {
   Colour colour;
 };
 
+/// Colours of reaction loci, in turn.
+Colour palette_colour(int number);
+
 /// Curves of one kind on which the same reactions vanish for the same reason; all direct singularities; the whole
 /// workspace boundary.
 struct CurveGroup {

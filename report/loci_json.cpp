@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/exports.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -90,6 +91,30 @@ Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
   return body;
 }
 
+Json surface_object(const core::LocusMap& map, const core::LocusSurface& surface) {
+  Json body;
+  body["id"] = surface.id;
+  body["kind"] = core::to_string(surface.kind);
+  body["vanishing"] = vanishing_array(surface.vanishing);
+  body["factor"] = printable(surface.factor);
+  body["cause"] = printable(surface.cause);
+  body["implicit"] = nullptr;
+  if (!surface.implicit.is_zero())
+    body["implicit"] = {{"polynomial", core::to_string(surface.implicit, surface.variables)},
+                        {"degree", core::total_degree(surface.implicit)}};
+  body["working_mode"] = mode_object(map.tower, surface.mode);
+  body["certified"] = surface.certified;
+  body["resolution"] = surface.resolution;
+  body["components"] = surface.components;
+  body["euler_characteristic"] = surface.euler_characteristic;
+  body["area"] = surface.area;
+  body["deviation"] = surface.deviation;
+  body["vertices"] = surface.vertices.size();
+  body["triangles"] = surface.triangles.size();
+  body["mesh"] = {{"file", "loci.obj"}, {"group", mesh_name(surface)}};
+  return body;
+}
+
 Json isolated_point_object(const core::LocusMap& map, const core::IsolatedPoint& point) {
   Json body;
   body["kind"] = core::to_string(point.kind);
@@ -168,6 +193,10 @@ Json loci_object(const core::LocusMap& map) {
   root["complete"] = map.complete;
   root["curves"] = Json::array();
   for (const auto& curve : map.curves) root["curves"].push_back(curve_object(map, curve));
+  if (map.tower.coordinates.size() == 3) {
+    root["surfaces"] = Json::array();
+    for (const auto& surface : map.surfaces) root["surfaces"].push_back(surface_object(map, surface));
+  }
   root["isolated_points"] = Json::array();
   for (const auto& point : map.isolated_points) root["isolated_points"].push_back(isolated_point_object(map, point));
   root["workspace"] = Json::array();

@@ -147,6 +147,36 @@ std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode)
   return rows.empty() ? "" : "\nisolated points\n" + format_rows(heading, rows);
 }
 
+/// Where it vanishes: the cause, the factor where it is short, or the degree.
+std::string where(const core::LocusSurface& surface) {
+  const std::string what = what_vanishes(surface.vanishing);
+  const std::string start = what.empty() ? "" : what + "\n";
+  constexpr int readable = 60;
+  if (!surface.cause.empty()) return start + printable(surface.cause);
+  if (!surface.factor.empty() && columns(surface.factor) <= readable) return start + printable(surface.factor);
+  return start + (surface.factor.empty() ? "" : "factor without a short form");
+}
+
+std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
+  const bool lengths = std::none_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; });
+  const std::vector<Column> heading = {{"surface", 8},
+                                       {"kind", 18},
+                                       {"what vanishes, where", 52},
+                                       {"degree", 6, true},
+                                       {"pieces", 6, true},
+                                       {"triangles", 9, true},
+                                       {lengths ? "area/m^2" : "area", 9, true}};
+  std::vector<Row> rows;
+  for (const auto& surface : map.surfaces) {
+    if (surface.mode != mode) continue;
+    const int degree = core::total_degree(surface.implicit);
+    rows.push_back({printable(surface.id) + (surface.certified ? "" : "*"), kind_words(surface.kind), where(surface),
+                    degree > 0 ? std::to_string(degree) : "-", std::to_string(surface.components),
+                    std::to_string(surface.triangles.size()), fmt::format("{:.4f}", surface.area)});
+  }
+  return rows.empty() ? "no surfaces\n" : format_rows(heading, rows);
+}
+
 bool is_angle(const core::LocusMap& map) { return !map.angles.empty() && map.angles.front(); }
 
 /// A value of the one coordinate: m, or deg.
@@ -193,6 +223,8 @@ std::string notes(const core::LocusMap& map) {
       std::any_of(map.isolated_points.begin(), map.isolated_points.end(), uncertain)) {
     sentences.emplace_back("*: traced, but its topology is not certified.");
   }
+  if (std::any_of(map.surfaces.begin(), map.surfaces.end(), uncertain))
+    sentences.emplace_back("*: meshed; that nothing of the surface is missing is not certified.");
   if (!map.complete) sentences.emplace_back("Incomplete: the work was stopped at its time limit.");
   std::string out;
   for (const auto& sentence : sentences) {
@@ -210,12 +242,17 @@ std::string loci_table(const core::LocusMap& map) {
   if (!parameters.empty()) out += "\n" + parameters;
   out += "\n";
   std::vector<core::WorkingMode> modes = modes_of(map);
-  if (modes.empty()) out += map.tower.coordinates.size() == 1 ? "\nout of reach in the whole range\n" : "\nno curves\n";
+  if (modes.empty())
+    out += map.tower.coordinates.size() == 1   ? "\nout of reach in the whole range\n"
+           : map.tower.coordinates.size() == 3 ? "\nno surfaces in the box\n"
+                                               : "\nno curves\n";
   for (const auto& mode : modes) {
     const std::string words = printable(mode_words(map.tower, mode));
     out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";
     if (map.tower.coordinates.size() == 1)
       out += single_coordinate_rows(map, mode);
+    else if (map.tower.coordinates.size() == 3)
+      out += surface_rows(map, mode);
     else
       out += curve_rows(map, mode) + point_rows(map, mode);
   }

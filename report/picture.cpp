@@ -2,6 +2,7 @@
 
 #include "report/drawing.hpp"
 #include "report/range_picture.hpp"
+#include "report/space_picture.hpp"
 #include "report/surface.hpp"
 #include "report/wording.hpp"
 
@@ -32,6 +33,7 @@ std::string drawn(const Subject& subject, PictureFormat format) {
 
 std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
                     PictureFormat format) {
+  if (map.tower.coordinates.size() == 3) return space_picture(map, mode, format);
   if (map.tower.coordinates.size() == 1) return range_picture(map, mode, format);
   return drawn({&map, mode, groups_of_mode(group_loci(map), mode), sketch, nullptr, nullptr, nullptr}, format);
 }

@@ -17,13 +17,14 @@ struct Cell {
 };
 
 struct Cells {
-  std::vector<Cell> vertices, lines;
-  std::string coordinates;  ///< of all points, vertices first
+  std::vector<Cell> vertices, lines, triangles;
+  std::string coordinates;   ///< of all points, vertices first, then lines
+  std::string connectivity;  ///< of the triangles
   std::size_t points = 0;
 };
 
-void append_point(Cells& cells, double x, double y) {
-  cells.coordinates += exact_number(x) + " " + exact_number(y) + " 0\n";
+void append_point(Cells& cells, double x, double y, double z = 0) {
+  cells.coordinates += exact_number(x) + " " + exact_number(y) + " " + exact_number(z) + "\n";
   ++cells.points;
 }
 
@@ -33,7 +34,7 @@ Cells cells_of(const core::LocusMap& map, const std::vector<core::WorkingMode>& 
   };
   Cells cells;
   for (const auto& point : map.isolated_points) {
-    append_point(cells, point.at[0], point.at.size() > 1 ? point.at[1] : 0);
+    append_point(cells, point.at[0], point.at.size() > 1 ? point.at[1] : 0, point.at.size() > 2 ? point.at[2] : 0);
     cells.vertices.push_back({-1, -1, static_cast<int>(point.kind), mode_index(point.mode), false, 1});
   }
   for (std::size_t c = 0; c < map.curves.size(); ++c) {
@@ -43,6 +44,17 @@ Cells cells_of(const core::LocusMap& map, const std::vector<core::WorkingMode>& 
       for (const auto& point : arc.points) append_point(cells, point[0], point[1]);
       cells.lines.push_back({static_cast<int>(c), static_cast<int>(a), static_cast<int>(curve.kind),
                              mode_index(curve.mode), arc.closed, arc.points.size()});
+    }
+  }
+  for (std::size_t s = 0; s < map.surfaces.size(); ++s) {
+    const core::LocusSurface& surface = map.surfaces[s];
+    const std::size_t first = cells.points;
+    for (const auto& point : surface.vertices) append_point(cells, point[0], point[1], point[2]);
+    for (const auto& triangle : surface.triangles) {
+      for (const int corner : triangle)
+        cells.connectivity += std::to_string(first + static_cast<std::size_t>(corner)) + " ";
+      cells.triangles.push_back(
+          {static_cast<int>(s), 0, static_cast<int>(surface.kind), mode_index(surface.mode), false, triangle.size()});
     }
   }
   return cells;
@@ -67,19 +79,24 @@ void append_strings(std::string& out, std::string_view name, const std::vector<s
       strings.size(), codes);
 }
 
-/// Connectivity and offsets of cells whose points follow one another from `first`.
-void append_topology(std::string& out, std::string_view element, const std::vector<Cell>& cells, std::size_t first) {
-  std::string connectivity, offsets;
+/// Cells of the given points.
+void append_cells(std::string& out, std::string_view element, const std::vector<Cell>& cells,
+                  std::string_view connectivity) {
+  std::string offsets;
   std::size_t end = 0;
-  for (const auto& cell : cells) {
-    for (std::size_t i = 0; i < cell.points; ++i) connectivity += std::to_string(first + end + i) + " ";
-    end += cell.points;
-    offsets += std::to_string(end) + " ";
-  }
+  for (const auto& cell : cells) offsets += std::to_string(end += cell.points) + " ";
   fmt::format_to(std::back_inserter(out), "      <{}>\n", element);
   append_array(out, "Int64", "connectivity", connectivity);
   append_array(out, "Int64", "offsets", offsets);
   fmt::format_to(std::back_inserter(out), "      </{}>\n", element);
+}
+
+/// Connectivity and offsets of cells whose points follow one another from `first`.
+void append_topology(std::string& out, std::string_view element, const std::vector<Cell>& cells, std::size_t first) {
+  std::string connectivity;
+  for (const auto& cell : cells)
+    for (std::size_t i = 0; i < cell.points; ++i) connectivity += std::to_string(first++) + " ";
+  append_cells(out, element, cells, connectivity);
 }
 
 void append_cell_data(std::string& out, const Cells& cells) {
@@ -87,6 +104,7 @@ void append_cell_data(std::string& out, const Cells& cells) {
     std::string values;
     for (const auto& cell : cells.vertices) values += std::to_string(value(cell)) + " ";
     for (const auto& cell : cells.lines) values += std::to_string(value(cell)) + " ";
+    for (const auto& cell : cells.triangles) values += std::to_string(value(cell)) + " ";
     return values;
   };
   out += "      <CellData Scalars=\"curve\">\n";
@@ -106,6 +124,14 @@ std::vector<std::string> kind_names() {
   return names;
 }
 
+/// One of all lengths; one a coordinate where angles are among them.
+std::vector<std::string> units_of(const core::LocusMap& map) {
+  if (std::none_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; })) return {"m"};
+  std::vector<std::string> units;
+  for (const bool angle : map.angles) units.emplace_back(angle ? "rad" : "m");
+  return units;
+}
+
 }  // namespace
 
 std::string vtp(const core::LocusMap& map) {
@@ -114,21 +140,22 @@ std::string vtp(const core::LocusMap& map) {
   std::vector<std::string> mode_names, curve_names;
   for (const auto& mode : modes) mode_names.push_back(mode_words(map.tower, mode));
   for (const auto& curve : map.curves) curve_names.push_back(curve.id);
+  for (const auto& surface : map.surfaces) curve_names.push_back(surface.id);
 
   std::string out =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "  <PolyData>\n    <FieldData>\n";
   append_strings(out, "mechanism", {printable(map.mechanism)});
-  append_strings(out, "units", {"m"});
+  append_strings(out, "units", units_of(map));
   append_strings(out, "kind_names", kind_names());
   append_strings(out, "mode_names", mode_names);
   append_strings(out, "curve_names", curve_names);
   out += "    </FieldData>\n";
   fmt::format_to(std::back_inserter(out),
                  "    <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
-                 "NumberOfPolys=\"0\">\n      <PointData/>\n",
-                 cells.points, cells.vertices.size(), cells.lines.size());
+                 "NumberOfPolys=\"{}\">\n      <PointData/>\n",
+                 cells.points, cells.vertices.size(), cells.lines.size(), cells.triangles.size());
   append_cell_data(out, cells);
   fmt::format_to(std::back_inserter(out),
                  "      <Points>\n        <DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" "
@@ -136,6 +163,7 @@ std::string vtp(const core::LocusMap& map) {
                  cells.coordinates);
   append_topology(out, "Verts", cells.vertices, 0);
   append_topology(out, "Lines", cells.lines, cells.vertices.size());
+  if (!cells.triangles.empty()) append_cells(out, "Polys", cells.triangles, cells.connectivity);
   return out + "    </Piece>\n  </PolyData>\n</VTKFile>\n";
 }
 

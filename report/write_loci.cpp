@@ -19,15 +19,17 @@ struct Naming {
   std::string_view file;  ///< after "loci"
 };
 
-constexpr std::array<Naming, 9> namings = {{{FileFormat::json, "json", ".json"},
-                                            {FileFormat::csv, "csv", ".csv"},
-                                            {FileFormat::svg, "svg", ".svg"},
-                                            {FileFormat::png, "png", ".png"},
-                                            {FileFormat::pdf, "pdf", ".pdf"},
-                                            {FileFormat::dxf, "dxf", ".dxf"},
-                                            {FileFormat::dxf_r12, "dxf-r12", "-r12.dxf"},
-                                            {FileFormat::geojson, "geojson", ".geojson"},
-                                            {FileFormat::vtk, "vtk", ".vtp"}}};
+constexpr std::array<Naming, 11> namings = {{{FileFormat::json, "json", ".json"},
+                                             {FileFormat::csv, "csv", ".csv"},
+                                             {FileFormat::svg, "svg", ".svg"},
+                                             {FileFormat::png, "png", ".png"},
+                                             {FileFormat::pdf, "pdf", ".pdf"},
+                                             {FileFormat::dxf, "dxf", ".dxf"},
+                                             {FileFormat::dxf_r12, "dxf-r12", "-r12.dxf"},
+                                             {FileFormat::geojson, "geojson", ".geojson"},
+                                             {FileFormat::vtk, "vtk", ".vtp"},
+                                             {FileFormat::stl, "stl", ".stl"},
+                                             {FileFormat::obj, "obj", ".obj"}}};
 
 std::optional<PictureFormat> picture_format(FileFormat format) {
   switch (format) {
@@ -54,6 +56,8 @@ std::string bytes_of(const core::LocusMap& map, FileFormat format) {
       return geojson(map);
     case FileFormat::vtk:
       return vtp(map);
+    case FileFormat::obj:
+      return obj(map);
     default:
       return json_text(loci_object(map));
   }
@@ -92,6 +96,12 @@ std::set<FileFormat> default_file_formats() {
   return {FileFormat::json, FileFormat::svg, FileFormat::png, FileFormat::csv};
 }
 
+bool can_hold(FileFormat format, std::size_t coordinates) {
+  const bool of_surfaces = format == FileFormat::stl || format == FileFormat::obj;
+  const bool of_curves = format == FileFormat::dxf || format == FileFormat::dxf_r12 || format == FileFormat::geojson;
+  return coordinates == 3 ? !of_curves : !of_surfaces;
+}
+
 std::vector<std::filesystem::path> write_loci(const core::LocusMap& map, const std::vector<ModeSketch>& sketches,
                                               const std::filesystem::path& directory,
                                               const std::set<FileFormat>& formats) {
@@ -101,8 +111,15 @@ std::vector<std::filesystem::path> write_loci(const core::LocusMap& map, const s
     written.push_back(directory / name);
   };
   const auto modes = modes_to_draw(map, sketches);
+  const bool surfaces = map.tower.coordinates.size() == 3;
   for (const auto& naming : namings) {
-    if (!formats.contains(naming.format)) continue;
+    const bool wanted = formats.contains(naming.format) || (surfaces && naming.format == FileFormat::obj);
+    if (!wanted || !can_hold(naming.format, map.tower.coordinates.size())) continue;
+    if (naming.format == FileFormat::stl) {
+      for (const auto& surface : map.surfaces) write("loci-" + mesh_name(surface) + ".stl", stl(surface));
+      continue;
+    }
+    if (naming.format == FileFormat::obj) write("loci.mtl", mtl(map));
     const auto drawn = picture_format(naming.format);
     if (!drawn) {
       write("loci" + std::string(naming.file), bytes_of(map, naming.format));

@@ -42,9 +42,9 @@ struct OctreeCell {
 };
 
 struct CellLimits {
-  int level = 4;       ///< of cells that the surface passes through
-  int finest = 7;      ///< where it may do so more than once
-  int most = 60000;    ///< cells examined before cells stay larger than `finest`
+  int level = 4;                    ///< of cells that the surface passes through
+  int finest = 7;                   ///< where it may do so more than once
+  int most = 60000;                 ///< cells examined before cells stay larger than `finest`
   std::function<bool()> stop = {};  ///< asked now and then; true: throws core::LimitReached
 };
 

@@ -185,7 +185,7 @@ bool Field::inside(const Point& unit) {
 /// Chain rule through the roots, the last first; `gradient_` holds the derivatives by the program's variables.
 Point Field::reduced(Chart& chart, int held) {
   for (int j = roots() - 1; j >= 0; --j) {
-    const double own = gradient_[static_cast<std::size_t>(3 + j)];
+    const double own = gradient_[static_cast<std::size_t>(j) + 3];
     const double root = chart.at.root(j);
     if (own == 0 || root == 0 || j == held) continue;
     for (int v = 0; v < 3 + j; ++v)
@@ -212,8 +212,7 @@ double Field::square_gradient(const Point& unit, int root, Point& slopes) {
   chart.at.run_values();
   chart.at.run_gradients();
   gradient_.resize(static_cast<std::size_t>(chart.program.variables()));
-  for (std::size_t v = 0; v < gradient_.size(); ++v)
-    gradient_[v] = chart.at.square_partial(root, static_cast<int>(v));
+  for (std::size_t v = 0; v < gradient_.size(); ++v) gradient_[v] = chart.at.square_partial(root, static_cast<int>(v));
   slopes = reduced(chart, root);
   return chart.at.square(root);
 }
@@ -263,7 +262,7 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
   enclosed_.resize(static_cast<std::size_t>(chart.program.variables()));
   for (std::size_t v = 0; v < enclosed_.size(); ++v) enclosed_[v] = chart.over.partial(0, static_cast<int>(v));
   for (int j = roots() - 1; j >= 0; --j) {
-    const Interval& own = enclosed_[static_cast<std::size_t>(3 + j)];
+    const Interval& own = enclosed_[static_cast<std::size_t>(j) + 3];
     if (own.lower() == 0 && own.upper() == 0) continue;
     if (chart.over.square(j).lower() <= 0) {
       proof.rim = true;

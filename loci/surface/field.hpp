@@ -102,9 +102,9 @@ class Field {
   Frame frame_;
   core::WorkingMode mode_;
   std::vector<std::unique_ptr<Chart>> charts_;
-  std::vector<double> gradient_;             ///< of variables, being reduced to the coordinates
-  std::vector<sheet::Interval> enclosed_;    ///< likewise
-  Point scale_{};                            ///< of the last point entered: d variable / d unit coordinate
+  std::vector<double> gradient_;           ///< of variables, being reduced to the coordinates
+  std::vector<sheet::Interval> enclosed_;  ///< likewise
+  Point scale_{};                          ///< of the last point entered: d variable / d unit coordinate
 };
 
 }  // namespace clearloci::loci::surface

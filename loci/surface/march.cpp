@@ -178,7 +178,8 @@ class Marcher {
     for (const int c : zero) polygon.push_back(point_at_corner(c));
     if (positive.size() == 2 && negative.size() == 2) {
       for (const auto& [p, n] : {std::pair{0, 0}, {0, 1}, {1, 1}, {1, 0}})
-        polygon.push_back(point_at_crossing(positive[static_cast<std::size_t>(p)], negative[static_cast<std::size_t>(n)]));
+        polygon.push_back(
+            point_at_crossing(positive[static_cast<std::size_t>(p)], negative[static_cast<std::size_t>(n)]));
       const auto length = [&](int i, int k) {
         const Point way = mesh_.points[static_cast<std::size_t>(polygon[static_cast<std::size_t>(i)])] -
                           mesh_.points[static_cast<std::size_t>(polygon[static_cast<std::size_t>(k)])];

@@ -1,7 +1,7 @@
-// The surface in the cells of an octree: every cell is cut into tetrahedra that fit those of its neighbours, of whatever
-// size these are, and in each of them the zero set is a triangle or two between the crossings of its edges. The result
-// is a manifold: it ends only where the cells do. Corners close to a crossing are moved onto it first, which keeps the
-// triangles from becoming slivers. Private to loci/surface.
+// The surface in the cells of an octree: every cell is cut into tetrahedra that fit those of its neighbours, of
+// whatever size these are, and in each of them the zero set is a triangle or two between the crossings of its edges.
+// The result is a manifold: it ends only where the cells do. Corners close to a crossing are moved onto it first, which
+// keeps the triangles from becoming slivers. Private to loci/surface.
 #pragma once
 
 #include "loci/surface/cells.hpp"

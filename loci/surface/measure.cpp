@@ -25,8 +25,8 @@ bool is_free(Field& field, const Box& box, int cuts, int& budget) {
     Box smaller;
     for (std::size_t i = 0; i < 3; ++i) {
       const double middle = box[i].middle();
-      smaller[i] = (part >> i & 1) != 0 ? sheet::Interval(middle, box[i].upper())
-                                        : sheet::Interval(box[i].lower(), middle);
+      smaller[i] =
+          (part >> i & 1) != 0 ? sheet::Interval(middle, box[i].upper()) : sheet::Interval(box[i].lower(), middle);
     }
     if (!is_free(field, smaller, cuts - 1, budget)) return false;
   }

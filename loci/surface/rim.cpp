@@ -53,8 +53,7 @@ class Clipper {
 
   Cut& cut(int a, int b) {
     if (a > b) std::swap(a, b);
-    const auto [known, fresh] =
-        cuts_.try_emplace(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b));
+    const auto [known, fresh] = cuts_.try_emplace(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b));
     if (fresh) {
       Cut& own = known->second;
       own.at = solve(at(a), at(b));

@@ -39,7 +39,8 @@ class Cutter {
     const Place beyond = moved(cell.middle(), axis, side * cell.size());
     if (!cells_.finer_at(beyond, cell.level)) return add_fan(cell, middle, axis, side, half);
     for (const int du : {-1, 1})
-      for (const int dv : {-1, 1}) add_fan(cell, moved(moved(middle, u, du * half / 2), v, dv * half / 2), axis, 0, half / 2);
+      for (const int dv : {-1, 1})
+        add_fan(cell, moved(moved(middle, u, du * half / 2), v, dv * half / 2), axis, 0, half / 2);
   }
 
   /// A square of the face, `half` an edge round its middle. `side` 0: edges have no middles to heed.
@@ -63,8 +64,7 @@ class Cutter {
   /// Whether smaller cells meet an edge: the one between the face (axis, side) and the face (other, way).
   bool cut_beside(const OctreeCell& cell, int axis, int side, int other, int way) const {
     const Place beside = moved(cell.middle(), other, way * cell.size());
-    return cells_.finer_at(beside, cell.level) ||
-           cells_.finer_at(moved(beside, axis, side * cell.size()), cell.level);
+    return cells_.finer_at(beside, cell.level) || cells_.finer_at(moved(beside, axis, side * cell.size()), cell.level);
   }
 
   const Cells& cells_;

@@ -31,7 +31,12 @@ class WrongCalls(InOwnFolder):
         for command in ("validate", "zones", "error"):
             for name in ("gough_stewart",) if command == "error" else ("four_bar", "gough_stewart"):
                 self.assertIn(f"{name}.yaml: ", self.complaint(command, examples / f"{name}.yaml"))
-        self.assertIn("gough_stewart.yaml: ", self.complaint("loci", examples / "gough_stewart.yaml"))
+        for command in ("validate", "zones", "error"):
+            self.assertIn("free coordinates", self.complaint(command, examples / "three_rpr_orientation.yaml"))
+        self.assertIn("dxf does not hold loci over 3 free coordinates",
+                      self.complaint("loci", examples / "three_upu.yaml", "--export", "dxf"))
+        self.assertIn("stl does not hold loci over 2 free coordinates", self.complaint("loci", FIVE_BAR, "--export", "stl"))
+        self.assertIn("--mesh-size", self.complaint("loci", examples / "three_upu.yaml", "--mesh-size", "0.4"))
 
     def test_wrong_tasks(self):
         self.assertIn("TASK", self.complaint("verify", FIVE_BAR))

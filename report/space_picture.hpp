@@ -1,0 +1,12 @@
+// Loci over three free coordinates: shaded surfaces in a box, seen from two sides.
+// Private to report/.
+#pragma once
+
+#include "report/picture.hpp"
+
+namespace clearloci::report {
+
+/// The surfaces of one working mode. Lines on them are at equal values of the third coordinate.
+std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mode, PictureFormat format);
+
+}  // namespace clearloci::report

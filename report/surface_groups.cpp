@@ -1,0 +1,77 @@
+#include "report/surface_groups.hpp"
+
+#include <algorithm>
+
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+bool is_reaction(core::LocusKind kind) {
+  return kind != core::LocusKind::direct_singularity && kind != core::LocusKind::workspace_boundary;
+}
+
+std::string reason_words(const core::LocusSurface& surface) {
+  if (!surface.cause.empty()) return printable(surface.cause);
+  constexpr int readable = 44;
+  if (!surface.factor.empty() && columns(surface.factor) <= readable) return printable(surface.factor) + " = 0";
+  const int degree = core::total_degree(surface.implicit);
+  return degree > 0 ? "surface of degree " + std::to_string(degree) : "";
+}
+
+void choose_colours(std::vector<SurfaceGroup>& groups) {
+  int number = 0;
+  for (SurfaceGroup& group : groups) {
+    if (group.kind == core::LocusKind::direct_singularity) {
+      group.colour = {0.5, 0.5, 0.53};
+      group.opacity = 0.62;
+    } else if (group.kind == core::LocusKind::workspace_boundary) {
+      group.colour = {0.72, 0.74, 0.76};
+      group.opacity = 0.22;
+    } else {
+      group.colour = palette_colour(number++);
+      group.opacity = 0.62;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceGroup> group_surfaces(const core::LocusMap& map) {
+  std::vector<SurfaceGroup> groups;
+  for (const core::LocusSurface& surface : map.surfaces) {
+    const bool reaction = is_reaction(surface.kind);
+    const std::string reason = !reaction ? "" : surface.cause.empty() ? surface.factor : surface.cause;
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const SurfaceGroup& one) {
+      return one.kind == surface.kind && (!reaction || (one.reason == reason && one.vanishing == surface.vanishing));
+    });
+    if (group == groups.end()) {
+      SurfaceGroup fresh;
+      fresh.kind = surface.kind;
+      fresh.reason = reason;
+      fresh.what = kind_words(surface.kind);
+      if (reaction) {
+        fresh.vanishing = surface.vanishing;
+        fresh.what = printable(vanishing_words(surface.kind, surface.vanishing));
+        fresh.why = reason_words(surface);
+      }
+      group = groups.insert(groups.end(), std::move(fresh));
+    }
+    group->surfaces.push_back(&surface);
+  }
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const SurfaceGroup& a, const SurfaceGroup& b) { return a.kind < b.kind; });
+  choose_colours(groups);
+  return groups;
+}
+
+std::vector<SurfaceGroup> groups_of_mode(const std::vector<SurfaceGroup>& groups, const core::WorkingMode& mode) {
+  std::vector<SurfaceGroup> chosen;
+  for (SurfaceGroup group : groups) {
+    std::erase_if(group.surfaces, [&](const auto* surface) { return surface->mode != mode; });
+    if (!group.surfaces.empty()) chosen.push_back(std::move(group));
+  }
+  return chosen;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,32 @@
+// Surfaces that are drawn alike, and their colours.
+// Private to report/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/groups.hpp"
+
+namespace clearloci::report {
+
+/// Surfaces of one kind on which the same reactions vanish for the same reason; all direct singularities; the whole
+/// workspace boundary.
+struct SurfaceGroup {
+  core::LocusKind kind = core::LocusKind::contact_loss;
+  std::vector<core::Vanishing> vanishing;
+  std::string reason;
+  std::string what;  ///< for the legend: what happens there
+  std::string why;   ///< and the reason in words; may be empty
+  Colour colour;
+  double opacity = 1;
+  std::vector<const core::LocusSurface*> surfaces;
+};
+
+/// Of the whole map, so that a locus looks the same in the pictures of all modes. Gravest kind first. The groups point
+/// into `map`, which must outlive them.
+std::vector<SurfaceGroup> group_surfaces(const core::LocusMap& map);
+
+/// With the members of one mode alone; groups without any are left out.
+std::vector<SurfaceGroup> groups_of_mode(const std::vector<SurfaceGroup>& groups, const core::WorkingMode& mode);
+
+}  // namespace clearloci::report
