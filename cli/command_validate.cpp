@@ -70,8 +70,9 @@ void print_table(const LociValidation& validation, const numeric::GridSpec& grid
   const core::WorkingMode* mode = nullptr;
   for (const numeric::ReactionTally& tally : report.tallies) {
     if (mode == nullptr || *mode != tally.mode) {
-      fmt::print("\n{:<16}{:>10}{:>10}{:>10}{:>10}  edges; {}\n", "reaction", "held", "disputed", "undecided",
-                 "outside", report::mode_words(validation.map.tower, tally.mode));
+      const std::string words = report::mode_words(validation.map.tower, tally.mode);
+      fmt::print("\n{:<16}{:>10}{:>10}{:>10}{:>10}  edges{}{}\n", "reaction", "held", "disputed", "undecided",
+                 "outside", words.empty() ? "" : "; ", words);
       mode = &tally.mode;
     }
     const std::string name = reaction_name(tally.reaction);
@@ -84,9 +85,10 @@ void print_table(const LociValidation& validation, const numeric::GridSpec& grid
              report.outside);
   for (std::size_t i = 0; i < report.disputed_edges.size() && i < edges_shown; ++i) {
     const numeric::DisputedEdge& edge = report.disputed_edges[i];
-    fmt::print("disputed: {} {} from ({}, {}) to ({}, {}), crossed by {} arcs; {}\n", reaction_name(edge.reaction),
+    const std::string words = report::mode_words(validation.map.tower, edge.mode);
+    fmt::print("disputed: {} {} from ({}, {}) to ({}, {}), crossed by {} arcs{}{}\n", reaction_name(edge.reaction),
                edge.sign_change ? "changes sign" : "keeps its sign", edge.from[0], edge.from[1], edge.to[0], edge.to[1],
-               edge.crossings, report::mode_words(validation.map.tower, edge.mode));
+               edge.crossings, words.empty() ? "" : "; ", words);
   }
   if (report.disputed > edges_shown) fmt::print("... --json lists more disputed edges\n");
 }

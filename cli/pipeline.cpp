@@ -294,8 +294,7 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
     if (!wanted) continue;
     for (const core::Quantity quantity : mechanism::reaction_components(mechanism, joint))
       reactions.push_back({joint.name, quantity});
-    if (joint.actuated && mechanism.space == mechanism::Space::planar)
-      reactions.push_back({joint.name, mechanism::actuator_quantity(joint)});
+    if (joint.actuated) reactions.push_back({joint.name, mechanism::actuator_quantity(joint)});
   }
   return reactions;
 }

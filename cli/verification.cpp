@@ -174,13 +174,23 @@ class Verifier {
                                core::to_string(*task_.min_couple));
         }
       }
-      if (q == Quantity::fx && task_.min_force && k + 1 < model.unknowns.size() &&
-          model.unknowns[k + 1].joint == unknown.joint && model.unknowns[k + 1].quantity == Quantity::fy) {
-        for (std::size_t i = 0; i < numerators.size(); ++i) {
-          const double f = std::hypot(size(i, k), size(i, k + 1));
-          if (f < core::to_double(*task_.min_force))
-            return fmt::format("|f_{}| is {:.6g} N, less than {}", joint, f, core::to_string(*task_.min_force));
+    }
+    if (!task_.min_force) return std::nullopt;
+    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j) {
+      const mechanism::Joint& joint = mechanism_.joints[j];
+      const std::vector<Quantity> parts = mechanism::force_components(mechanism_, joint);
+      if (parts.empty() ||
+          std::none_of(wanted.begin(), wanted.end(), [&](const auto& w) { return w.joint == joint.name; }))
+        continue;
+      for (const numeric::BoundedNumerators& n : numerators) {
+        double square = 0;
+        for (const Quantity part : parts) {
+          const int column = numeric::column_of(model, static_cast<int>(j), part);
+          square += std::pow(n.values[static_cast<std::size_t>(column)].value / n.determinant.value, 2);
         }
+        if (std::sqrt(square) < core::to_double(*task_.min_force))
+          return fmt::format("|f_{}| is {:.6g} N, less than {}", joint.name, std::sqrt(square),
+                             core::to_string(*task_.min_force));
       }
     }
     return std::nullopt;

@@ -28,12 +28,15 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
     for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
       const mechanism::Unknown& unknown = model.unknowns[k];
       const std::string& joint = mechanism.joints[static_cast<std::size_t>(unknown.joint)].name;
-      const bool component = unknown.quantity == core::Quantity::fx || unknown.quantity == core::Quantity::fy;
+      const core::Quantity q = unknown.quantity;
+      const bool guide =
+          mechanism.space == mechanism::Space::planar && (q == core::Quantity::N || q == core::Quantity::T);
+      const bool component = !guide && q != core::Quantity::M && q != core::Quantity::F;
       const bool chosen = std::any_of(wanted.begin(), wanted.end(), [&](const numeric::TracedReaction& reaction) {
-        return reaction.joint == joint && reaction.quantity == unknown.quantity;
+        return reaction.joint == joint && reaction.quantity == q;
       });
       if (!component && chosen)
-        zone.signs.emplace_back(core::Vanishing{joint, unknown.quantity, 1}, sign(at.values[k]) * zone.assembly_mode);
+        zone.signs.emplace_back(core::Vanishing{joint, q, 1}, sign(at.values[k]) * zone.assembly_mode);
     }
   }
 }

@@ -134,6 +134,9 @@ void check_inside_box(const Mechanism& mechanism, const core::TaskShape& shape, 
 }
 
 core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) {
+  if (mechanism.space == Space::spatial)
+    throw InputError(value.where, value.what + " are forces of the plane, and " + mechanism.file + " is spatial",
+                     "leave it out and verify the task once for every load");
   const bool one_force = mechanism.loads.size() == 1 && !mechanism.loads.front().force.empty();
   if (!one_force)
     throw InputError(value.where,

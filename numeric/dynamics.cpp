@@ -196,6 +196,9 @@ void check_instants(const Motion& motion, const std::vector<std::vector<Instant>
 
 Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                       std::vector<int> mode) {
+  if (mechanism.space != mechanism::Space::planar)
+    throw core::InputError({mechanism.file, 0, 0}, "the mechanism is spatial, and trajectories are those of the plane",
+                           "solve single poses of it with clearloci pose");
   Motion motion{compile(mechanism), std::move(mode), compile_timeline(trajectory), {}, {}, {}, {}};
   core::ensure(motion.mode.size() == motion.model.dyads.size(), "a working mode has one sign for each dyad");
   std::vector<bool> turns(mechanism.links.size(), false);

@@ -155,6 +155,9 @@ void check_model(const NumericModel& model, const ErrorGrid& grid) {
     throw core::InputError({model.mechanism.file, 0, 0}, problem, mend);
   };
   if (grid.nx < 1 || grid.ny < 1) throw core::InputError({}, "the grid has no cells", "ask for 1x1 at least");
+  if (model.mechanism.space != mechanism::Space::planar)
+    refuse("the mechanism is spatial, and error maps are those of planar ones",
+           "solve single poses with clearloci pose");
   if (model.box.size() != 2)
     refuse("an error map needs two free coordinates, and the workspace has " + std::to_string(model.box.size()),
            "write the others as parameters, or use clearloci pose");

@@ -33,9 +33,11 @@ class Evaluator {
   /// All points finite. Only after run_tape().
   bool reachable(int lane) const {
     double witness = 0;  // stays 0 unless something is infinite or NaN
-    for (const auto& [x, y] : model_.points) witness += 0 * nominal(*at(x, lane)) + 0 * nominal(*at(y, lane));
+    for (const Register r : model_.placed) witness += 0 * nominal(*at(r, lane));
     return witness == 0;
   }
+
+  const T& value(Register r, int lane) const { return *at(r, lane); }
 
   /// N_k = w_k |A| of every unknown, then |A|: Lanes values each. Only after run_tape().
   void solve(const Elimination& e, T* numerators) {

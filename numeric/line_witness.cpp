@@ -6,7 +6,7 @@
 namespace clearloci::numeric {
 
 bool is_decided(const BoundedNumerators& numerators, const WitnessColumns& columns) {
-  for (const int column : {columns.first, columns.second}) {
+  for (const int column : {columns.first, columns.second, columns.third}) {
     if (column < 0) continue;
     const Bounded& n = numerators.values[static_cast<std::size_t>(column)];
     if (std::abs(n.value) > n.error) return true;
@@ -26,14 +26,14 @@ bool LineWitness::reachable_around(double position, double radius) {
   for (int k = 0; k < 8; ++k) {
     const double angle = k * std::numbers::pi / 4;
     const core::Point2 p = {centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)};
-    if (posture(model_, p, mode_).reachable()) return true;
+    if (numeric::reachable(model_, p, mode_)) return true;
   }
   return false;
 }
 
 bool LineWitness::reachable_between(double a, double b, int samples) {
   for (int k = 1; k <= samples; ++k) {
-    if (!posture(model_, point(a + (b - a) * k / (samples + 1)), mode_).reachable()) return false;
+    if (!numeric::reachable(model_, point(a + (b - a) * k / (samples + 1)), mode_)) return false;
   }
   return true;
 }
@@ -43,14 +43,14 @@ bool LineWitness::decided(const WitnessColumns& columns, double position) {
   return n.reachable && is_decided(n, columns);
 }
 
-LineWitness::Pair LineWitness::pair(const WitnessColumns& columns, double position) {
+ForceNumerators LineWitness::force(const WitnessColumns& columns, double position) {
   const BoundedNumerators& n = at(position);
   const auto value = [&](int column) { return column < 0 ? 0.0 : n.values[static_cast<std::size_t>(column)].value; };
-  return {value(columns.first), value(columns.second)};
+  return {value(columns.first), value(columns.second), value(columns.third)};
 }
 
 Parity LineWitness::sign_changes(const WitnessColumns& columns, double a, double b) {
-  if (columns.second < 0) return (pair(columns, a)[0] > 0) == (pair(columns, b)[0] > 0) ? Parity::even : Parity::odd;
+  if (columns.second < 0) return (force(columns, a)[0] > 0) == (force(columns, b)[0] > 0) ? Parity::even : Parity::odd;
   constexpr int pieces = 16;  // a turn that cancels a flip over the whole stretch does not do so over each piece
   int odd = 0;
   double from = a;
@@ -73,23 +73,34 @@ bool LineWitness::cancels(const WitnessColumns& columns, double a, double b) {
   };
   const int first = sign(a);
   if (first * sign(b) >= 0) return false;
+  const double least = a, most = b;
   constexpr int halvings = 60;  // more than a double has digits
   for (int k = 0; k < halvings; ++k) {
     const double middle = (a + b) / 2;
     if (middle == a || middle == b || !reachable(middle)) break;
     const int here = sign(middle);
-    if (here == 0) return !decided(columns, middle);
+    if (here == 0) {
+      a = b = middle;
+      break;
+    }
     (here == first ? a : b) = middle;
   }
-  return (pair(columns, a)[0] > 0) != (pair(columns, b)[0] > 0) || !decided(columns, a) || !decided(columns, b);
+  // Both rounding errors hide where exactly: out from there to where the numerator is decided on both sides.
+  const double place = (a + b) / 2;
+  for (double radius = std::max(b - a, smallest_ / 1024); radius <= 1024 * smallest_; radius *= 2) {
+    const double before = std::max(least, place - radius), after = std::min(most, place + radius);
+    if (sign(before) == 0 || sign(after) == 0 || !decided(columns, before) || !decided(columns, after)) continue;
+    return (force(columns, before)[0] > 0) != (force(columns, after)[0] > 0);
+  }
+  return !decided(columns, place);
 }
 
 /// A direction that merely turns does so by little between near enough positions; one that flips does not, however near
 /// they are.
 Parity LineWitness::flips(const WitnessColumns& columns, double a, double b) {
-  const Pair n_a = pair(columns, a), n_b = pair(columns, b);
+  const ForceNumerators n_a = force(columns, a), n_b = force(columns, b);
   if (turn_cosine(n_a, n_b) > least_cosine) return Parity::even;
-  if (std::abs(b - a) < smallest_) return n_a[0] * n_b[0] + n_a[1] * n_b[1] > 0 ? Parity::even : Parity::odd;
+  if (std::abs(b - a) < smallest_) return turn_cosine(n_a, n_b) > 0 ? Parity::even : Parity::odd;
   const double middle = a + (std::numbers::sqrt2 - 1) * (b - a);  // off centre, where symmetric designs flip
   if (!decided(columns, middle)) return Parity::unknown;
   const Parity left = flips(columns, a, middle), right = flips(columns, middle, b);
@@ -97,8 +108,8 @@ Parity LineWitness::flips(const WitnessColumns& columns, double a, double b) {
   return left == right ? Parity::even : Parity::odd;
 }
 
-double turn_cosine(const std::array<double, 2>& p, const std::array<double, 2>& q) {
-  return (p[0] * q[0] + p[1] * q[1]) / (std::hypot(p[0], p[1]) * std::hypot(q[0], q[1]));
+double turn_cosine(const ForceNumerators& p, const ForceNumerators& q) {
+  return (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]) / (std::hypot(p[0], p[1], p[2]) * std::hypot(q[0], q[1], q[2]));
 }
 
 }  // namespace clearloci::numeric

@@ -10,14 +10,18 @@
 
 namespace clearloci::numeric {
 
-/// Columns of the unknowns that vanish together: one for fx, fy, M; the two components for f.
+/// Columns of the unknowns that vanish together: one for fx, fy, M; the two, or in space three, components for f.
 struct WitnessColumns {
   int first = -1;
   int second = -1;  ///< -1: a single component
+  int third = -1;   ///< -1: none, in the plane
 };
 
-/// Cosine of the angle between two numerator pairs; NaN where one is zero.
-double turn_cosine(const std::array<double, 2>& p, const std::array<double, 2>& q);
+/// The numerators of such columns; 0 for those that there are not.
+using ForceNumerators = std::array<double, 3>;
+
+/// Cosine of the angle between two forces' numerators; NaN where one is zero.
+double turn_cosine(const ForceNumerators& p, const ForceNumerators& q);
 
 /// Two directions that differ by less than 25 degrees are taken for neighbours without a flip between them.
 inline constexpr double least_cosine = 0.9;
@@ -56,8 +60,7 @@ class LineWitness {
   bool cancels(const WitnessColumns& columns, double a, double b);
 
  private:
-  using Pair = std::array<double, 2>;
-  Pair pair(const WitnessColumns& columns, double position);
+  ForceNumerators force(const WitnessColumns& columns, double position);
   Parity flips(const WitnessColumns& columns, double a, double b);
 
   const NumericModel& model_;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/errors.hpp"
+#include "numeric/named_tape.hpp"
+#include "numeric/spatial_model.hpp"
 
 namespace clearloci::numeric {
 
@@ -14,14 +15,7 @@ using mechanism::Mechanism;
 
 class ModelBuilder {
  public:
-  explicit ModelBuilder(const Mechanism& m) : m_(m) {
-    for (const auto& parameter : m.parameters) {
-      names_[parameter.name] = tape_.compile(core::Expression::number(parameter.value), lookup());
-    }
-    int input = 0;
-    for (const auto& coordinate : m.coordinates) names_[coordinate.name] = tape_.input(input++);
-    for (const int dyad : mechanism::dyad_points(m)) sign_of_[dyad] = tape_.input(input++);
-  }
+  explicit ModelBuilder(const Mechanism& m) : m_(m), named_(m), tape_(named_.builder()) {}
 
   NumericModel build() {
     NumericModel model;
@@ -31,6 +25,7 @@ class ModelBuilder {
     for (const auto& c : m_.coordinates) model.box.push_back({core::to_double(c.lower), core::to_double(c.upper)});
     for (std::size_t i = 0; i < m_.points.size(); ++i) points_.push_back(place(static_cast<int>(i)));
     model.points = points_;
+    for (const auto& p : points_) model.placed.insert(model.placed.end(), p.begin(), p.end());
     model.loads = loads();
     for (const auto& joint : m_.joints) axes_.push_back(axis(joint));
     model.axes = axes_;
@@ -45,7 +40,7 @@ class ModelBuilder {
     for (int c = 0; c < 3; ++c) {
       SparseEquations unit = matrix;
       add(unit, m_.end_effector_link, c, unit.unknowns, tape_.constant(1.0));
-      model.unit_wrenches[static_cast<std::size_t>(c)] = eliminate(tape_, std::move(unit));
+      model.unit_wrenches.push_back(eliminate(tape_, std::move(unit)));
     }
     model.tape = tape_.tape();
     return model;
@@ -54,15 +49,7 @@ class ModelBuilder {
  private:
   using Pair = std::array<Register, 2>;
 
-  std::function<Register(const std::string&)> lookup() {
-    return [this](const std::string& name) {
-      const auto found = names_.find(name);
-      core::ensure(found != names_.end(), "an expression of a mechanism uses no unknown name");
-      return found->second;
-    };
-  }
-
-  Register compile(const core::Expression& e) { return tape_.compile(e, lookup()); }
+  Register compile(const core::Expression& e) { return named_.compile(e); }
   Pair point(int index) const { return points_[static_cast<std::size_t>(index)]; }
   Pair minus(Pair p, Pair q) { return {tape_.subtract(p[0], q[0]), tape_.subtract(p[1], q[1])}; }
   Register squared_length(Pair v) { return tape_.add(tape_.square(v[0]), tape_.square(v[1])); }
@@ -80,14 +67,14 @@ class ModelBuilder {
       const Register x = compile(e->coordinates.at(0));
       return {x, compile(e->coordinates.at(1))};
     }
-    if (const auto* d = std::get_if<mechanism::DyadPoint>(&form)) return dyad(*d, sign_of_.at(index));
+    if (const auto* d = std::get_if<mechanism::DyadPoint>(&form)) return dyad(*d, named_.sign_of(index));
     if (const auto* o = std::get_if<mechanism::OffsetPoint>(&form)) {
       const Pair r = minus(point(o->second), point(o->first));
       const Register length = tape_.sqrt(squared_length(r));
       const Register along = compile(o->along);
       return offset(point(o->first), {tape_.divide(r[0], length), tape_.divide(r[1], length)}, along, compile(o->left));
     }
-    if (const auto* s = std::get_if<mechanism::SliderPoint>(&form)) return slider(*s, sign_of_.at(index));
+    if (const auto* s = std::get_if<mechanism::SliderPoint>(&form)) return slider(*s, named_.sign_of(index));
     const auto& mean = std::get<mechanism::MeanPoint>(form);
     const Pair p = point(mean.first), q = point(mean.second);
     const Register half = tape_.constant(0.5);
@@ -252,9 +239,8 @@ class ModelBuilder {
   }
 
   const Mechanism& m_;
-  TapeBuilder tape_;
-  std::map<std::string, Register> names_;
-  std::map<int, Register> sign_of_;
+  NamedTape named_;
+  TapeBuilder& tape_;
   std::vector<Pair> points_;
   std::vector<std::optional<Pair>> axes_;  ///< of every joint
 };
@@ -265,15 +251,12 @@ NumericModel compile(const Mechanism& m) {
   const auto refuse = [&](const std::string& problem, const std::string& mend) {
     throw core::InputError({m.file, 0, 0}, problem, mend);
   };
-  if (m.space != mechanism::Space::planar)
-    refuse("the mechanism is spatial",
-           "this command handles planar mechanisms; loci, equations and pose take spatial ones");
-  const std::size_t rows = 3 * m.links.size(), columns = mechanism::unknowns(m).size();
+  const std::size_t rows = mechanism::equations_per_link(m) * m.links.size(), columns = mechanism::unknowns(m).size();
   if (rows != columns) {
     refuse(std::to_string(rows) + " equations for " + std::to_string(columns) + " unknowns",
            columns > rows ? "remove a joint or an actuator" : "add a joint or an actuator");
   }
-  return ModelBuilder(m).build();
+  return m.space == mechanism::Space::spatial ? compile_spatial(m) : ModelBuilder(m).build();
 }
 
 Posture posture(const NumericModel& model, std::span<const double> pose, std::span<const int> mode) {
@@ -304,6 +287,23 @@ Posture posture(const NumericModel& model, std::span<const double> pose, std::sp
                             load.weight});
   }
   return result;
+}
+
+int column_of(const NumericModel& model, mechanism::JointIndex joint, core::Quantity quantity) {
+  using core::Quantity;
+  if (model.mechanism.space == mechanism::Space::spatial) {
+    const auto& across = model.across[static_cast<std::size_t>(joint)];
+    const auto component = [](Quantity x, int direction) {
+      return static_cast<Quantity>(static_cast<int>(x) + direction);
+    };
+    if (quantity == Quantity::f1 || quantity == Quantity::f2)
+      quantity = component(Quantity::fx, across[quantity == Quantity::f1 ? 0 : 1]);
+    if (quantity == Quantity::m1 || quantity == Quantity::m2)
+      quantity = component(Quantity::mx, across[quantity == Quantity::m1 ? 0 : 1]);
+  }
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k)
+    if (model.unknowns[k].joint == joint && model.unknowns[k].quantity == quantity) return static_cast<int>(k);
+  return -1;
 }
 
 double typical_length(const NumericModel& model, const Posture& p) {

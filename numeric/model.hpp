@@ -25,27 +25,41 @@ struct LoadRegisters {
   bool weight = false;
 };
 
+/// A mechanism of the plane or of space. Both have a tape, unknowns, an elimination and the registers that must be
+/// finite: enough for the reactions at many poses (evaluator.hpp). What is of the plane or of space alone says so.
 struct NumericModel {
   mechanism::Mechanism mechanism;
-  std::vector<mechanism::Unknown> unknowns;     ///< columns of A
-  std::vector<mechanism::PointIndex> dyads;     ///< dyads and sliders: the working mode has a sign for each
-  std::vector<std::array<double, 2>> box;       ///< lower, upper of each free coordinate, m or rad
-  Tape tape;                                    ///< inputs: free coordinates, then the signs of the working mode
-  int posture_size = 0;                         ///< instructions that compute points and loads
-  int reaction_size = 0;                        ///< and with them the reactions; the rest serves the unit wrenches
+  std::vector<mechanism::Unknown> unknowns;  ///< columns of A; in space: of the equations of spatial_model.hpp
+  std::vector<mechanism::PointIndex> dyads;  ///< dyads and sliders: the working mode has a sign for each
+  std::vector<std::array<double, 2>> box;    ///< lower, upper of each free coordinate, m or rad
+  Tape tape;                                 ///< inputs: free coordinates, then the signs of the working mode
+  int posture_size = 0;                      ///< instructions that compute points and loads
+  int reaction_size = 0;                     ///< and with them the reactions; the rest serves the unit wrenches
+  std::vector<Register> placed;              ///< finite where every point can be placed
+  Elimination elimination;
+  /// The same matrix under a unit of each component of a wrench on the end effector, 3 or 6.
+  std::vector<Elimination> unit_wrenches;
+
+  // Of the plane:
   std::vector<std::array<Register, 2>> points;  ///< of every point
   std::vector<LoadRegisters> loads;             ///< the file's loads in order, then the weights
   /// Of every joint: the unit vector of its axis; nothing for a joint without one.
   std::vector<std::optional<std::array<Register, 2>>> axes;
   std::optional<std::array<Register, 2>> gravity;
-  Elimination elimination;
-  std::array<Elimination, 3> unit_wrenches;  ///< the same matrix under a unit fx, fy, couple on the end effector
+
+  // Of space:
+  std::vector<std::optional<std::array<Register, 3>>> space_axes;  ///< as `axes`; of a universal joint the first
+  /// Of every joint: the Cartesian directions, 0 to 2, of its components 1 and 2 across the axis.
+  std::vector<std::array<int, 2>> across;
 
   int inputs() const { return static_cast<int>(box.size() + dyads.size()); }
 };
 
-/// Requires: a planar mechanism with as many unknowns as equations. Throws core::InputError otherwise.
+/// Requires as many unknowns as equations. Throws core::InputError otherwise.
 NumericModel compile(const mechanism::Mechanism& mechanism);
+
+/// The column of a joint's reaction; -1 where it has none of that kind.
+int column_of(const NumericModel& model, mechanism::JointIndex joint, core::Quantity quantity);
 
 /// A force (N) and couple (N m, counter-clockwise) applied to a link from outside the mechanism.
 struct AppliedLoad {
@@ -56,7 +70,7 @@ struct AppliedLoad {
   bool weight = false;
 };
 
-/// Every point and load at one pose. Coordinates in m, in the ground's frame.
+/// Every point and load at one pose of a planar mechanism. Coordinates in m, in the ground's frame.
 struct Posture {
   std::vector<Point2> points;                        ///< as mechanism.points; NaN from the unreachable one on
   std::vector<AppliedLoad> loads;                    ///< as NumericModel::loads

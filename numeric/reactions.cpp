@@ -149,7 +149,11 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
 }
 
 bool reachable(const NumericModel& model, std::span<const double> pose, std::span<const int> mode) {
-  return posture(model, pose, mode).reachable();
+  core::ensure(pose.size() == model.box.size(), "a pose has one value for each free coordinate");
+  Evaluator<double, 1> evaluator(model, mode, model.posture_size);
+  for (std::size_t c = 0; c < pose.size(); ++c) evaluator.input(c, 0) = pose[c];
+  evaluator.run_tape();
+  return evaluator.reachable(0);
 }
 
 }  // namespace clearloci::numeric

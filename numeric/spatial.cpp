@@ -150,16 +150,13 @@ class Solver {
       for (const Vector3d& v : across) force(v);
     else
       for (const Vector3d& v : unit) force(v);
+    if (joint.actuated && slides) columns_.push_back({j, u, none, true});
     if (joint.type == JointType::prismatic)
       for (const Vector3d& v : unit) couple(v);
     if (joint.type == JointType::revolute || joint.type == JointType::cylindrical)
       for (const Vector3d& v : across) couple(v);
     if (joint.type == JointType::universal) couple(u.cross(axis(joint, 1)).normalized());
-    if (!joint.actuated) return;
-    if (slides)
-      columns_.push_back({j, u, none, true});
-    else
-      columns_.push_back({j, none, u, true});
+    if (joint.actuated && !slides) columns_.push_back({j, none, u, true});
   }
 
   Eigen::VectorXd loads(Eigen::Index size) const {

@@ -47,8 +47,8 @@ std::vector<WorkingMode> modes_of(const LocusMap& map) {
   return modes;
 }
 
-/// How often a quantity of a joint vanishes on a curve.
-int weight(const LocusCurve& curve, const TracedReaction& reaction) {
+/// How often a quantity of a joint vanishes on a curve. `parts`: the components of that joint's f.
+int weight(const LocusCurve& curve, const TracedReaction& reaction, const std::vector<Quantity>& parts) {
   if (curve.kind == LocusKind::margin) return 0;  // there a reaction equals its least size
   const auto multiplicity = [&](Quantity quantity) {
     const auto found = std::find_if(curve.vanishing.begin(), curve.vanishing.end(), [&](const core::Vanishing& v) {
@@ -57,23 +57,38 @@ int weight(const LocusCurve& curve, const TracedReaction& reaction) {
     return found == curve.vanishing.end() ? 0 : found->multiplicity;
   };
   if (const int own = multiplicity(reaction.quantity)) return own;
-  if (reaction.quantity == Quantity::f) return std::min(multiplicity(Quantity::fx), multiplicity(Quantity::fy));
-  if (reaction.quantity == Quantity::fx || reaction.quantity == Quantity::fy) return multiplicity(Quantity::f);
-  return 0;
+  const bool is_part = std::find(parts.begin(), parts.end(), reaction.quantity) != parts.end();
+  if (is_part) return multiplicity(Quantity::f);
+  if (reaction.quantity != Quantity::f || parts.empty()) return 0;
+  int least = multiplicity(parts.front());
+  for (const Quantity part : parts) least = std::min(least, multiplicity(part));
+  return least;
+}
+
+int joint_of(const NumericModel& model, const TracedReaction& reaction) {
+  const auto& joints = model.mechanism.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].name == reaction.joint) return static_cast<int>(j);
+  return -1;
 }
 
 WitnessColumns columns_of(const NumericModel& model, const TracedReaction& reaction) {
+  const int joint = joint_of(model, reaction);
   const auto column = [&](Quantity quantity) {
-    for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
-      const auto& joint = model.mechanism.joints[static_cast<std::size_t>(model.unknowns[k].joint)];
-      if (joint.name == reaction.joint && model.unknowns[k].quantity == quantity) return static_cast<int>(k);
-    }
+    const int found = joint < 0 ? -1 : column_of(model, joint, quantity);
+    if (found >= 0) return found;
     throw core::InputError({model.mechanism.file, 0, 0},
                            "joint " + reaction.joint + " has no reaction " + core::to_string(reaction.quantity),
                            "name a joint of the mechanism, and M only where it is actuated");
   };
-  if (reaction.quantity == Quantity::f) return {column(Quantity::fx), column(Quantity::fy)};
-  return {column(reaction.quantity), -1};
+  if (reaction.quantity != Quantity::f) return {column(reaction.quantity)};
+  if (model.mechanism.space == mechanism::Space::planar) return {column(Quantity::fx), column(Quantity::fy)};
+  return {column(Quantity::fx), column(Quantity::fy), column(Quantity::fz)};
+}
+
+std::vector<Quantity> force_parts(const NumericModel& model, const TracedReaction& reaction) {
+  const int joint = joint_of(model, reaction);
+  return mechanism::force_components(model.mechanism, model.mechanism.joints[static_cast<std::size_t>(joint)]);
 }
 
 GridAxis axis(double lower, double upper, int nodes, double shift) {
@@ -84,7 +99,8 @@ GridAxis axis(double lower, double upper, int nodes, double shift) {
 struct CheckedReaction {
   TracedReaction reaction;
   WitnessColumns columns;
-  std::vector<int> weights;  ///< a curve of the map each, in the mode at hand
+  std::vector<Quantity> force;  ///< components of the joint's f
+  std::vector<int> weights;     ///< a curve of the map each, in the mode at hand
 };
 
 struct LineTally {
@@ -99,11 +115,12 @@ class ModeValidation {
                  const std::vector<TracedReaction>& traced, double reach, double diagonal)
       : model_(model), grid_(grid), mode_(mode), signs_(dyad_signs(model, map.tower, mode)), reach_(reach) {
     smallest_ = flip_resolution * diagonal;
-    for (const auto& reaction : traced) reactions_.push_back({reaction, columns_of(model, reaction), {}});
+    for (const auto& reaction : traced)
+      reactions_.push_back({reaction, columns_of(model, reaction), force_parts(model, reaction), {}});
     for (const auto& curve : map.curves) {
       const bool here = curve.mode == mode;
       boundary_.push_back(here && curve.kind == LocusKind::workspace_boundary ? 1 : 0);
-      for (auto& r : reactions_) r.weights.push_back(here ? weight(curve, r.reaction) : 0);
+      for (auto& r : reactions_) r.weights.push_back(here ? weight(curve, r.reaction, r.force) : 0);
     }
     std::vector<int> numbers;
     for (std::size_t c = 0; c < map.curves.size(); ++c) {
@@ -174,8 +191,11 @@ class ModeValidation {
     EdgeNodes nodes{node_reachable(i, j), node_reachable(i2, j2), Parity::unknown};
     if (!nodes.first_reachable || !nodes.second_reachable) return nodes;
     // One component: the cosine is a sign. Two: in between, the turn has to be followed.
-    const double cosine = turn_cosine({numerator(columns.first, i, j), numerator(columns.second, i, j)},
-                                      {numerator(columns.first, i2, j2), numerator(columns.second, i2, j2)});
+    const auto force = [&](int a, int b) {
+      return ForceNumerators{numerator(columns.first, a, b), numerator(columns.second, a, b),
+                             numerator(columns.third, a, b)};
+    };
+    const double cosine = turn_cosine(force(i, j), force(i2, j2));
     if (std::abs(cosine) > least_cosine) nodes.change = cosine > 0 ? Parity::even : Parity::odd;
     return nodes;
   }

@@ -429,14 +429,37 @@ class Derivation {
     }
   }
 
+  const Poly* numerator(const std::string& joint, Quantity quantity) const {
+    for (const Reaction& reaction : reactions_)
+      if (reaction.joint == joint && reaction.quantity == quantity) return &reaction.numerator;
+    return nullptr;
+  }
+
+  /// Numerators of the Cartesian components of a joint's contact force; none of a prismatic joint.
+  std::vector<Poly> force_numerators(const mechanism::Joint& joint) const {
+    std::vector<Poly> parts;
+    for (const Quantity quantity : mechanism::force_components(mechanism_, joint)) {
+      if (selection_.min_force && quantity == Quantity::f1)
+        throw core::InputError(joint.where,
+                               "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
+                                   " cannot be traced: its components lie across a moving axis",
+                               "leave the least force out, or name the other joints with --joint");
+      if (const Poly* part = numerator(joint.name, quantity)) parts.push_back(*part);
+    }
+    return parts;
+  }
+
+  /// |u|^2 of an actuated joint's axis, of which M = u . m is made; 1 in the plane.
+  Poly squared_axis(const mechanism::Joint& joint) const {
+    if (mechanism_.space == mechanism::Space::planar) return geometry_.poly(1);
+    GiNaC::ex square = 0;
+    for (const GiNaC::ex& u : geometry_.vector(joint.axes.at(0))) square += u * u;
+    return geometry_.poly(square.expand());
+  }
+
   /// |f_J|^2 = f_min^2 and M_J^2 = M_min^2, cleared of |A|^2 (method.md section 5).
   void add_margins() {
     const Poly& determinant = determinants_.determinant;
-    const auto numerator = [&](const std::string& joint, Quantity quantity) -> const Poly* {
-      for (const Reaction& reaction : reactions_)
-        if (reaction.joint == joint && reaction.quantity == quantity) return &reaction.numerator;
-      return nullptr;
-    };
     // Joints of one chain bear the same force: their margins are one curve.
     struct Margin {
       Poly natural;
@@ -453,31 +476,40 @@ class Derivation {
       if (known == margins.end()) known = margins.insert(known, {natural, quantity, bound, {}});
       if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
     };
-    for (const std::string& joint : result_.problem.joints) {
-      const Poly* fx = numerator(joint, Quantity::fx);
-      const Poly* fy = numerator(joint, Quantity::fy);
-      const Poly* couple = numerator(joint, Quantity::M);
-      if (selection_.min_force && fx != nullptr && fy != nullptr && !(fx->is_zero() && fy->is_zero())) {
+    for (const mechanism::Joint& joint : mechanism_.joints) {
+      if (!selected(joint.name)) continue;
+      const std::vector<Poly> force = force_numerators(joint);
+      const bool loaded = std::any_of(force.begin(), force.end(), [](const Poly& part) { return !part.is_zero(); });
+      if (selection_.min_force && loaded) {
         const core::Rational& bound = *selection_.min_force;
-        const Poly common = gcd(*fx, *fy);
-        const Poly x = fx->exact_quotient(common), y = fy->exact_quotient(common);
+        Poly common = force.front();
+        for (const Poly& part : force) common = gcd(common, part);
+        Poly square(geometry_.ring());  // of what is left of the force
+        for (const Poly& part : force) square += part.exact_quotient(common) * part.exact_quotient(common);
         const Poly shared = gcd(common, determinant);
         const Poly size = common.exact_quotient(shared), d = determinant.exact_quotient(shared);
-        // A two-force link bears (x, y) of constant length: then |f| = f_min is two linear conditions.
-        const std::optional<core::Rational> length2 = elimination_.constant_over_tower(x * x + y * y);
+        // A two-force link of the plane bears (x, y) of constant length: then |f| = f_min is two linear conditions.
+        const std::optional<core::Rational> length2 = elimination_.constant_over_tower(square);
         if (const auto length = length2 ? rational_root(*length2) : std::nullopt) {
-          add_margin(joint, Quantity::f, size.scaled(*length) - d.scaled(bound), bound);
-          add_margin(joint, Quantity::f, size.scaled(*length) + d.scaled(bound), bound);
+          add_margin(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound);
+          add_margin(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound);
         } else {
-          add_margin(joint, Quantity::f, size * size * (x * x + y * y) - (d * d).scaled(bound * bound), bound);
+          add_margin(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound);
         }
       }
+      const Poly* couple = numerator(joint.name, Quantity::M);
       if (selection_.min_couple && couple != nullptr) {
+        const core::Rational& bound = *selection_.min_couple;
         const Poly shared = gcd(*couple, determinant);
-        const Poly c = couple->exact_quotient(shared),
-                   d = determinant.exact_quotient(shared).scaled(*selection_.min_couple);
-        add_margin(joint, Quantity::M, c - d, *selection_.min_couple);
-        add_margin(joint, Quantity::M, c + d, *selection_.min_couple);
+        const Poly c = couple->exact_quotient(shared), d = determinant.exact_quotient(shared);
+        const Poly axis2 = squared_axis(joint);
+        const std::optional<core::Rational> length2 = elimination_.constant_over_tower(axis2);
+        if (const auto length = length2 ? rational_root(*length2) : std::nullopt) {
+          add_margin(joint.name, Quantity::M, c - d.scaled(bound * *length), bound);
+          add_margin(joint.name, Quantity::M, c + d.scaled(bound * *length), bound);
+        } else {
+          add_margin(joint.name, Quantity::M, c * c - (d * d * axis2).scaled(bound * bound), bound);
+        }
       }
     }
     for (const Margin& margin : margins) {

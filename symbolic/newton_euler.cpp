@@ -58,7 +58,8 @@ Vector axis_vector(std::size_t axis) {
 }
 
 /// Two vectors across an axis u, v_i = u_k e_i - u_i e_k for the two i other than k. Their cross product is u_k u:
-/// where u_k is no constant they fall together where it vanishes.
+/// where u_k is no constant they fall together where it vanishes. k is the first component that is constant and not
+/// zero, else the first that is not zero everywhere.
 struct AcrossBasis {
   std::array<Vector, 2> vectors;
   GiNaC::ex divisor;  ///< u_k
@@ -66,12 +67,10 @@ struct AcrossBasis {
 
 AcrossBasis across(const Geometry& geometry, const Vector& u) {
   std::size_t k = 3;
-  const auto worth = [&](std::size_t i) {
-    const Poly p = geometry.poly(u[i]);
-    return p.is_constant() ? std::size_t{0} : p.length();
-  };
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!u[i].is_zero() && (k == 3 || worth(i) < worth(k))) k = i;
+  for (std::size_t i = 3; i-- > 0;)
+    if (!u[i].is_zero()) k = i;
+  for (std::size_t i = 3; i-- > 0;)
+    if (!u[i].is_zero() && geometry.poly(u[i]).is_constant()) k = i;
   core::ensure(k < 3, "an axis with a direction");
   AcrossBasis basis;
   basis.divisor = u[k];

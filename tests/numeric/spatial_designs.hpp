@@ -1,0 +1,21 @@
+// Files of spatial mechanisms with random numbers: slices z = const over (x, y), every joint with its clearance.
+#pragma once
+
+#include <random>
+#include <string>
+#include <vector>
+
+namespace clearloci::test {
+
+/// 6-UPS: bases and platform joints near a ring, the platform's turned by a random orientation. `with_weights`: the
+/// platform, the rods and one cylinder have masses.
+std::string random_gough_stewart(std::mt19937& random, bool with_weights);
+
+/// Tsai's translational 3-UPU with unequal legs.
+std::string random_three_upu(std::mt19937& random);
+
+/// 3-RCU with actuated revolute joints on the ground, or (one in two) with a passive revolute and an actuated prismatic
+/// joint in its legs: axes that move, forces and couples across them.
+std::string random_three_leg(std::mt19937& random);
+
+}  // namespace clearloci::test
