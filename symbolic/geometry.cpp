@@ -10,7 +10,6 @@ namespace {
 
 using core::Expression;
 using core::Rational;
-using core::RootRole;
 using mechanism::DyadPoint;
 using mechanism::ExplicitPoint;
 using mechanism::MeanPoint;
@@ -258,6 +257,7 @@ void Geometry::place_angles() {
     const int sign = charts_[i]->half_turns % 2 == 0 ? 1 : -1;
     angles_.push_back({variable, variable + 1, {(one - t * t).scaled(sign), t.scaled(2 * sign), one + t * t}});
     positive_units_.push_back(angles_.back().place.w);
+    positive_.push_back(angles_.back().place.w);
     variable += 2;
   }
 }
@@ -368,81 +368,6 @@ core::RootTower Geometry::plain_tower() const {
   return tower;
 }
 
-void Geometry::place(PointIndex point) {
-  const mechanism::PointForm& form = mechanism_->points[index(point)].form;
-  if (const auto* by_coordinates = std::get_if<ExplicitPoint>(&form)) place_explicit(point, *by_coordinates);
-  if (const auto* mean = std::get_if<MeanPoint>(&form)) place_mean(point, *mean);
-  if (const auto* dyad = std::get_if<DyadPoint>(&form)) place_dyad(point, *dyad);
-  if (const auto* offset = std::get_if<OffsetPoint>(&form)) place_offset(point, *offset);
-  if (const auto* slider = std::get_if<SliderPoint>(&form)) place_slider(point, *slider);
-}
-
-void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
-  auto& own = natural_[index(point)];
-  for (std::size_t i = 0; i < form.coordinates.size(); ++i) own[i] = expression(form.coordinates[i]).expand();
-  TowerPoint place(poly(own[0]), poly(own[1]), poly(own[2]), Poly(*ring_, 1));
-  for (const Substitution& angle : angles_) {
-    const int degree = std::max({degree_in(place.x, angle), degree_in(place.y, angle), degree_in(place.z, angle)});
-    place = {substituted(place.x, angle, degree), substituted(place.y, angle, degree),
-             substituted(place.z, angle, degree), place.w * angle.place.w.pow(static_cast<unsigned>(degree))};
-  }
-  tower_[index(point)] = place;
-}
-
-void Geometry::place_mean(PointIndex point, const MeanPoint& form) {
-  const TowerPoint& a = tower(form.first);
-  const TowerPoint& b = tower(form.second);
-  for (std::size_t i = 0; i < 3; ++i) {
-    natural_[index(point)][i] = ((natural(form.first)[i] + natural(form.second)[i]) / 2).expand();
-  }
-  tower_[index(point)] = {reduce(a.x * b.w + b.x * a.w), reduce(a.y * b.w + b.y * a.w), reduce(a.z * b.w + b.z * a.w),
-                          reduce(a.w * b.w).scaled(2)};
-}
-
-void Geometry::construct(PointIndex point) {
-  const auto own =
-      std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
-  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own->x))), GiNaC::ex(symbol(ring_->name(own->y))),
-                            own->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(own->z)))};
-}
-
-void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
-  construct(point);
-  const TowerPoint& a = tower(form.from);
-  const TowerPoint& p = tower(form.to);
-  const Poly from_length = poly(expression(form.from_length).expand());
-  const Poly to_length = poly(expression(form.to_length).expand());
-  // P - A = (u, v) / w; D = d / w^2; k = kn / w^2; Q = square / w^4 and s is scaled by w^2 > 0 likewise.
-  const Poly u = reduce(p.x * a.w - a.x * p.w);
-  const Poly v = reduce(p.y * a.w - a.y * p.w);
-  const Poly w = reduce(a.w * p.w);
-  const Poly w2 = reduce(w * w);
-  const Poly d = reduce(u * u + v * v);
-  const Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + d);
-  const Poly square = reduce((from_length * from_length * d * w2).scaled(4) - kn * kn);
-  const int variable = first_root_ + static_cast<int>(roots_.size());
-  roots_.push_back({point, variable, RootRole::working_mode, square});
-  denominators_.push_back(d);
-  const Poly s = Poly::variable(*ring_, variable);
-  tower_[index(point)] = {reduce((d * p.w * a.x).scaled(2) + kn * u - s * v),
-                          reduce((d * p.w * a.y).scaled(2) + kn * v + s * u), reduce(d * w).scaled(2)};
-}
-
-TowerPoint Geometry::offset_over_tower(const OffsetPoint& form, const Poly& length_numerator,
-                                       const Poly& length_denominator) const {
-  const TowerPoint& a = tower(form.first);
-  const TowerPoint& b = tower(form.second);
-  const Poly along = poly(expression(form.along).expand());
-  const Poly left = poly(expression(form.left).expand());
-  const Poly u = b.x * a.w - a.x * b.w;
-  const Poly v = b.y * a.w - a.y * b.w;
-  const Poly h = b.z * a.w - a.z * b.w;
-  // A + (along u - left v) / (w length): over the common denominator A.w B.w length.
-  return {reduce(a.x * b.w * length_numerator + (along * u - left * v) * length_denominator),
-          reduce(a.y * b.w * length_numerator + (along * v + left * u) * length_denominator),
-          reduce(a.z * b.w * length_numerator + along * h * length_denominator), reduce(a.w * b.w * length_numerator)};
-}
-
 std::vector<GiNaC::ex> Geometry::vector(const mechanism::VectorExpression& v) const {
   using Kind = mechanism::VectorExpression::Kind;
   std::vector<std::vector<GiNaC::ex>> a;
@@ -471,98 +396,6 @@ std::vector<GiNaC::ex> Geometry::vector(const mechanism::VectorExpression& v) co
   }
   for (GiNaC::ex& component : result) component = component.expand();
   return result;
-}
-
-void Geometry::divide_by_length(const mechanism::VectorExpression& axis) {
-  std::vector<Poly> u;
-  for (const GiNaC::ex& component : vector(axis)) u.push_back(poly(component));
-  for (const Substitution& pair : substitutions()) {
-    int degree = 0;
-    for (const Poly& component : u) degree = std::max(degree, degree_in(component, pair));
-    for (Poly& component : u) component = substituted(component, pair, degree);
-  }
-  Poly size(*ring_);
-  for (const Poly& component : u) size += component * component;
-  size = reduce(size);
-  const std::vector<int> free = tower_variables();
-  if (std::any_of(free.begin(), free.end(), [&](int variable) { return size.depends_on(variable); }))
-    denominators_.push_back(size);
-}
-
-// S = Q + (p +- s) u / U,  p = u . (C - Q),  U = u . u,  s^2 = l^2 U - (u x (C - Q))^2: the sign + is ahead.
-void Geometry::place_slider(PointIndex point, const SliderPoint& form) {
-  const TowerPoint& q = tower(form.base);
-  const TowerPoint& c = tower(form.from);
-  const Poly length = poly(expression(form.length).expand());
-  const std::vector<GiNaC::ex> along = vector(form.along);
-  // Only the direction of u matters: its numerators over a common denominator that is positive.
-  std::array<Poly, 2> u = {poly(along[0]), poly(along[1])};
-  for (const Substitution& pair : substitutions()) {
-    const int degree = std::max(degree_in(u[0], pair), degree_in(u[1], pair));
-    if (degree > 0) u = {substituted(u[0], pair, degree), substituted(u[1], pair, degree)};
-  }
-  // C - Q = (x, y) / w; p = pn / w, s is scaled by w > 0 likewise.
-  const Poly x = reduce(c.x * q.w - q.x * c.w), y = reduce(c.y * q.w - q.y * c.w), w = reduce(c.w * q.w);
-  const Poly size = reduce(u[0] * u[0] + u[1] * u[1]);
-  const Poly pn = reduce(u[0] * x + u[1] * y), across = reduce(u[0] * y - u[1] * x);
-  const int variable = first_root_ + static_cast<int>(roots_.size());
-  roots_.push_back({point, variable, RootRole::working_mode, reduce(length * length * size * w * w - across * across)});
-  if (!size.is_constant()) denominators_.push_back(size);
-  const Poly s = Poly::variable(*ring_, variable);
-  tower_[index(point)] = {reduce(q.x * c.w * size + (pn + s) * u[0]), reduce(q.y * c.w * size + (pn + s) * u[1]),
-                          reduce(w * size)};
-  construct(point);
-  // On a line of constant direction one symbol does for both coordinates, and what holds all along it is seen at once.
-  if (!u[0].is_constant() || !u[1].is_constant()) return;
-  const std::size_t free = u[0].is_zero() ? 1 : 0;
-  const GiNaC::ex slope = number(u[1 - free].constant() / u[free].constant());
-  const auto& base = natural(form.base);
-  natural_[index(point)][1 - free] = (base[1 - free] + slope * (natural_[index(point)][free] - base[free])).expand();
-}
-
-void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
-  const TowerPoint& a = tower(form.first);
-  const TowerPoint& b = tower(form.second);
-  const Poly u = reduce(b.x * a.w - a.x * b.w);
-  const Poly v = reduce(b.y * a.w - a.y * b.w);
-  const Poly w = reduce(a.w * b.w);
-  const Poly h = reduce(b.z * a.w - a.z * b.w);
-  const Poly d = reduce(u * u + v * v + h * h);
-  const Poly one(*ring_, 1);
-  // On a rigid link the distance is constant: then the point is linear in the two others.
-  Poly squared_length(*ring_), length(*ring_);
-  const std::vector<int> free_variables = tower_variables();
-  const bool constant = d.divides(reduce(w * w), squared_length) &&
-                        std::none_of(free_variables.begin(), free_variables.end(),
-                                     [&](int variable) { return squared_length.depends_on(variable); });
-  bool known = constant && squared_length.square_root(length);
-  if (constant && !known && squared_length.is_constant()) {
-    const Expression root = Expression::apply(Expression::Kind::sqrt, {Expression::number(squared_length.constant())});
-    length = Poly(*ring_, mechanism::value_of(root, *mechanism_));
-    known = true;
-  }
-  if (known && length.is_constant()) {
-    const GiNaC::ex scale = number(1 / length.constant());
-    const GiNaC::ex along = expression(form.along) * scale;
-    const GiNaC::ex left = expression(form.left) * scale;
-    const auto& p = natural(form.first);
-    const auto& q = natural(form.second);
-    natural_[index(point)] = {(p[0] + along * (q[0] - p[0]) - left * (q[1] - p[1])).expand(),
-                              (p[1] + along * (q[1] - p[1]) + left * (q[0] - p[0])).expand(),
-                              (p[2] + along * (q[2] - p[2])).expand()};
-    tower_[index(point)] = offset_over_tower(form, length, one);
-    return;
-  }
-  construct(point);
-  if (known) {
-    tower_[index(point)] = offset_over_tower(form, length, one);
-    return;
-  }
-  // A varying distance (a telescopic leg): s = |AB| w, always positive. 1 / |AB| = s w / d.
-  const int variable = first_root_ + static_cast<int>(roots_.size());
-  roots_.push_back({point, variable, RootRole::length, d});
-  denominators_.push_back(d);
-  tower_[index(point)] = offset_over_tower(form, d, reduce(Poly::variable(*ring_, variable) * w));
 }
 
 }  // namespace clearloci::symbolic

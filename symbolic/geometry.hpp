@@ -26,7 +26,7 @@ namespace clearloci::symbolic {
 
 /// x = X / W, y = Y / W, z = Z / W over the tower; Z = 0 in the plane.
 struct TowerPoint {
-  Poly x, y, w, z;
+  Poly x, y, w, z;  // in this order, so that two numbers and a denominator make a point of the plane
   TowerPoint(Poly x_, Poly y_, Poly w_) : x(std::move(x_)), y(std::move(y_)), w(std::move(w_)), z(w.ring()) {}
   TowerPoint(Poly x_, Poly y_, Poly z_, Poly w_)
       : x(std::move(x_)), y(std::move(y_)), w(std::move(w_)), z(std::move(z_)) {}
@@ -126,6 +126,15 @@ class Geometry {
   TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const Poly& length_numerator,
                                const Poly& length_denominator) const;
   void construct(mechanism::PointIndex point);
+  /// to - from and a + way over the least denominator, as far as its factors are known to be positive.
+  TowerPoint difference(const TowerPoint& to, const TowerPoint& from) const;
+  TowerPoint sum(const TowerPoint& a, const TowerPoint& way) const;
+  /// Divides by what is positive and common to all.
+  void lighten(TowerPoint& place) const;
+  Poly common_positive(Poly a, Poly b) const;
+  /// A squared length that is divided by; its factors join what is known to be positive.
+  void add_denominator(const Poly& squared_length);
+  void add_positive(const Poly& divisor);
   /// The direction of an axis is undefined where its length is zero: |u|^2 joins the denominators.
   void divide_by_length(const mechanism::VectorExpression& axis);
 
@@ -142,6 +151,7 @@ class Geometry {
   std::vector<TowerRoot> roots_;
   std::vector<Poly> denominators_;
   std::vector<Poly> positive_units_;
+  std::vector<Poly> positive_;  ///< known to be nowhere negative on the sheets, in the order of their appearance
   Charts charts_;
   std::vector<Substitution> angles_;
   int first_root_ = 0;  ///< ring variable

@@ -1,0 +1,258 @@
+// Where the points of a mechanism are over the tower (method.md section 1).
+#include <algorithm>
+
+#include "mechanism/evaluate.hpp"
+#include "symbolic/geometry.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Expression;
+using core::Rational;
+using core::RootRole;
+using mechanism::DyadPoint;
+using mechanism::ExplicitPoint;
+using mechanism::MeanPoint;
+using mechanism::OffsetPoint;
+using mechanism::PointIndex;
+using mechanism::SliderPoint;
+
+GiNaC::numeric number(const Rational& value) { return GiNaC::numeric(core::to_string(value).c_str()); }
+
+}  // namespace
+
+void Geometry::place(PointIndex point) {
+  const mechanism::PointForm& form = mechanism_->points[index(point)].form;
+  if (const auto* by_coordinates = std::get_if<ExplicitPoint>(&form)) place_explicit(point, *by_coordinates);
+  if (const auto* mean = std::get_if<MeanPoint>(&form)) place_mean(point, *mean);
+  if (const auto* dyad = std::get_if<DyadPoint>(&form)) place_dyad(point, *dyad);
+  if (const auto* offset = std::get_if<OffsetPoint>(&form)) place_offset(point, *offset);
+  if (const auto* slider = std::get_if<SliderPoint>(&form)) place_slider(point, *slider);
+}
+
+void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
+  auto& own = natural_[index(point)];
+  for (std::size_t i = 0; i < form.coordinates.size(); ++i) own[i] = expression(form.coordinates[i]).expand();
+  TowerPoint place(poly(own[0]), poly(own[1]), poly(own[2]), Poly(*ring_, 1));
+  for (const Substitution& angle : angles_) {
+    const int degree = std::max({degree_in(place.x, angle), degree_in(place.y, angle), degree_in(place.z, angle)});
+    place = {substituted(place.x, angle, degree), substituted(place.y, angle, degree),
+             substituted(place.z, angle, degree), place.w * angle.place.w.pow(static_cast<unsigned>(degree))};
+  }
+  tower_[index(point)] = place;
+}
+
+void Geometry::add_denominator(const Poly& squared_length) {
+  denominators_.push_back(squared_length);
+  for (const TowerRoot& root : roots_)
+    if (squared_length.depends_on(root.variable)) return add_positive(squared_length);
+  // Over the coordinates alone no factor of what is nowhere negative changes its sign.
+  Rational constant;
+  for (const PolyFactor& factor : squared_length.factors(constant)) add_positive(factor.poly);
+}
+
+void Geometry::add_positive(const Poly& divisor) {
+  if (divisor.is_constant()) return;
+  // Which of the two signs is the positive one is told by any place where it is not zero.
+  const core::Polynomial plain = divisor.plain();
+  std::vector<Rational> at(static_cast<std::size_t>(ring_->size()), Rational(1));
+  Rational value = core::evaluate(plain, at);
+  for (int step = 1; value == 0; ++step) {
+    for (std::size_t v = 0; v < at.size(); ++v) at[v] = Rational(step, static_cast<long>(v) + 2);
+    value = core::evaluate(plain, at);
+  }
+  const bool rooted = std::any_of(roots_.begin(), roots_.end(),
+                                  [&](const TowerRoot& root) { return divisor.depends_on(root.variable); });
+  const Poly positive = value > 0 || rooted ? divisor : -divisor;
+  if (std::find(positive_.begin(), positive_.end(), positive) == positive_.end()) positive_.push_back(positive);
+}
+
+Poly Geometry::common_positive(Poly a, Poly b) const {
+  Poly common(*ring_, 1), rest_a(*ring_), rest_b(*ring_);
+  for (const Poly& divisor : positive_) {
+    while (a.divides(divisor, rest_a) && b.divides(divisor, rest_b)) {
+      common *= divisor;
+      std::swap(a, rest_a);
+      std::swap(b, rest_b);
+    }
+  }
+  return common;
+}
+
+void Geometry::lighten(TowerPoint& place) const {
+  Poly x(*ring_), y(*ring_), z(*ring_), w(*ring_);
+  for (const Poly& divisor : positive_)
+    while (place.w.divides(divisor, w) && place.x.divides(divisor, x) && place.y.divides(divisor, y) &&
+           place.z.divides(divisor, z))
+      place = {x, y, z, w};
+}
+
+TowerPoint Geometry::difference(const TowerPoint& to, const TowerPoint& from) const {
+  const Poly common = common_positive(to.w, from.w);
+  const Poly a = from.w.exact_quotient(common), b = to.w.exact_quotient(common);
+  TowerPoint way{reduce(to.x * a - from.x * b), reduce(to.y * a - from.y * b), reduce(to.z * a - from.z * b),
+                 reduce(to.w * a)};
+  lighten(way);
+  return way;
+}
+
+void Geometry::place_mean(PointIndex point, const MeanPoint& form) {
+  const TowerPoint& a = tower(form.first);
+  const TowerPoint& b = tower(form.second);
+  for (std::size_t i = 0; i < 3; ++i) {
+    natural_[index(point)][i] = ((natural(form.first)[i] + natural(form.second)[i]) / 2).expand();
+  }
+  TowerPoint place = sum(a, b);
+  place.w = place.w.scaled(2);
+  tower_[index(point)] = place;
+}
+
+void Geometry::construct(PointIndex point) {
+  const auto own =
+      std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
+  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own->x))), GiNaC::ex(symbol(ring_->name(own->y))),
+                            own->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(own->z)))};
+}
+
+void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
+  construct(point);
+  const TowerPoint& a = tower(form.from);
+  const Poly from_length = poly(expression(form.from_length).expand());
+  const Poly to_length = poly(expression(form.to_length).expand());
+  // P - A = (u, v) / w; D = d / w^2; k = kn / w^2; Q = square / w^4 and s is scaled by w^2 > 0 likewise.
+  const auto [u, v, w, no_height] = difference(tower(form.to), a);
+  const Poly w2 = reduce(w * w);
+  const Poly d = reduce(u * u + v * v);
+  Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + d);
+  Poly square = reduce((from_length * from_length * d * w2).scaled(4) - kn * kn);
+  // What divides k and the root alike is taken out of the root.
+  Poly scale(*ring_, 1), less(*ring_), quotient(*ring_);
+  for (const Poly& divisor : positive_)
+    while (kn.divides(scale * divisor, less) && square.divides(divisor * divisor, quotient)) {
+      scale *= divisor;
+      std::swap(square, quotient);
+    }
+  const int variable = first_root_ + static_cast<int>(roots_.size());
+  roots_.push_back({point, variable, RootRole::working_mode, square});
+  add_denominator(d);
+  const Poly s = Poly::variable(*ring_, variable) * scale;
+  // A + (k (P - A) + s J (P - A)) / (2 D), over the denominator of both.
+  TowerPoint way{reduce(kn * u - s * v), reduce(kn * v + s * u), reduce(d * w).scaled(2)};
+  lighten(way);
+  tower_[index(point)] = sum(a, way);
+}
+
+TowerPoint Geometry::sum(const TowerPoint& a, const TowerPoint& way) const {
+  const Poly common = common_positive(a.w, way.w);
+  const Poly to_a = way.w.exact_quotient(common), to_way = a.w.exact_quotient(common);
+  TowerPoint place{reduce(a.x * to_a + way.x * to_way), reduce(a.y * to_a + way.y * to_way),
+                   reduce(a.z * to_a + way.z * to_way), reduce(a.w * to_a)};
+  lighten(place);
+  return place;
+}
+
+TowerPoint Geometry::offset_over_tower(const OffsetPoint& form, const Poly& length_numerator,
+                                       const Poly& length_denominator) const {
+  const TowerPoint& a = tower(form.first);
+  const Poly along = poly(expression(form.along).expand());
+  const Poly left = poly(expression(form.left).expand());
+  const auto [u, v, w, h] = difference(tower(form.second), a);
+  // A + (along u - left v) / (w length)
+  TowerPoint way{reduce((along * u - left * v) * length_denominator),
+                 reduce((along * v + left * u) * length_denominator), reduce(along * h * length_denominator),
+                 reduce(w * length_numerator)};
+  lighten(way);
+  return sum(a, way);
+}
+
+void Geometry::divide_by_length(const mechanism::VectorExpression& axis) {
+  std::vector<Poly> u;
+  for (const GiNaC::ex& component : vector(axis)) u.push_back(poly(component));
+  for (const Substitution& pair : substitutions()) {
+    int degree = 0;
+    for (const Poly& component : u) degree = std::max(degree, degree_in(component, pair));
+    for (Poly& component : u) component = substituted(component, pair, degree);
+  }
+  Poly size(*ring_);
+  for (const Poly& component : u) size += component * component;
+  size = reduce(size);
+  const std::vector<int> free = tower_variables();
+  if (std::any_of(free.begin(), free.end(), [&](int variable) { return size.depends_on(variable); }))
+    add_denominator(size);
+}
+
+// S = Q + (p +- s) u / U,  p = u . (C - Q),  U = u . u,  s^2 = l^2 U - (u x (C - Q))^2: the sign + is ahead.
+void Geometry::place_slider(PointIndex point, const SliderPoint& form) {
+  const TowerPoint& q = tower(form.base);
+  const TowerPoint& c = tower(form.from);
+  const Poly length = poly(expression(form.length).expand());
+  const std::vector<GiNaC::ex> along = vector(form.along);
+  // Only the direction of u matters: its numerators over a common denominator that is positive.
+  std::array<Poly, 2> u = {poly(along[0]), poly(along[1])};
+  for (const Substitution& pair : substitutions()) {
+    const int degree = std::max(degree_in(u[0], pair), degree_in(u[1], pair));
+    if (degree > 0) u = {substituted(u[0], pair, degree), substituted(u[1], pair, degree)};
+  }
+  // C - Q = (x, y) / w; p = pn / w, s is scaled by w > 0 likewise.
+  const auto [x, y, w, no_height] = difference(c, q);
+  const Poly size = reduce(u[0] * u[0] + u[1] * u[1]);
+  const Poly pn = reduce(u[0] * x + u[1] * y), across = reduce(u[0] * y - u[1] * x);
+  const int variable = first_root_ + static_cast<int>(roots_.size());
+  roots_.push_back({point, variable, RootRole::working_mode, reduce(length * length * size * w * w - across * across)});
+  if (!size.is_constant()) add_denominator(size);
+  const Poly s = Poly::variable(*ring_, variable);
+  TowerPoint way{reduce((pn + s) * u[0]), reduce((pn + s) * u[1]), reduce(w * size)};
+  lighten(way);
+  tower_[index(point)] = sum(q, way);
+  construct(point);
+  // On a line of constant direction one symbol does for both coordinates, and what holds all along it is seen at once.
+  if (!u[0].is_constant() || !u[1].is_constant()) return;
+  const std::size_t free = u[0].is_zero() ? 1 : 0;
+  const GiNaC::ex slope = number(u[1 - free].constant() / u[free].constant());
+  const auto& base = natural(form.base);
+  natural_[index(point)][1 - free] = (base[1 - free] + slope * (natural_[index(point)][free] - base[free])).expand();
+}
+
+void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
+  const TowerPoint& a = tower(form.first);
+  const TowerPoint& b = tower(form.second);
+  const auto [u, v, w, h] = difference(b, a);
+  const Poly d = reduce(u * u + v * v + h * h);
+  const Poly one(*ring_, 1);
+  // On a rigid link the distance is constant: then the point is linear in the two others.
+  Poly squared_length(*ring_), length(*ring_);
+  const std::vector<int> free_variables = tower_variables();
+  const bool constant = d.divides(reduce(w * w), squared_length) &&
+                        std::none_of(free_variables.begin(), free_variables.end(),
+                                     [&](int variable) { return squared_length.depends_on(variable); });
+  bool known = constant && squared_length.square_root(length);
+  if (constant && !known && squared_length.is_constant()) {
+    const Expression root = Expression::apply(Expression::Kind::sqrt, {Expression::number(squared_length.constant())});
+    length = Poly(*ring_, mechanism::value_of(root, *mechanism_));
+    known = true;
+  }
+  if (known && length.is_constant()) {
+    const GiNaC::ex scale = number(1 / length.constant());
+    const GiNaC::ex along = expression(form.along) * scale;
+    const GiNaC::ex left = expression(form.left) * scale;
+    const auto& p = natural(form.first);
+    const auto& q = natural(form.second);
+    natural_[index(point)] = {(p[0] + along * (q[0] - p[0]) - left * (q[1] - p[1])).expand(),
+                              (p[1] + along * (q[1] - p[1]) + left * (q[0] - p[0])).expand(),
+                              (p[2] + along * (q[2] - p[2])).expand()};
+    tower_[index(point)] = offset_over_tower(form, length, one);
+    return;
+  }
+  construct(point);
+  if (known) {
+    tower_[index(point)] = offset_over_tower(form, length, one);
+    return;
+  }
+  // A varying distance (a telescopic leg): s = |AB| w, always positive. 1 / |AB| = s w / d.
+  const int variable = first_root_ + static_cast<int>(roots_.size());
+  roots_.push_back({point, variable, RootRole::length, d});
+  add_denominator(d);
+  tower_[index(point)] = offset_over_tower(form, d, reduce(Poly::variable(*ring_, variable) * w));
+}
+
+}  // namespace clearloci::symbolic
