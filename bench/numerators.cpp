@@ -1,5 +1,5 @@
-// |A| and every Cramer numerator of the 5R with symbolic parameters: sparse exact elimination against GiNaC's own
-// determinant() of the full matrix, once for |A| and once a column.
+// |A| and every Cramer numerator: of the 5R with symbolic parameters, against GiNaC's own determinant() of the full
+// matrix, once for |A| and once a column; of the spatial platforms with their numbers.
 #include <benchmark/benchmark.h>
 #include <ginac/ginac.h>
 
@@ -15,16 +15,19 @@ using clearloci::symbolic::Poly;
 
 constexpr bool keep_parameters = true;
 
+clearloci::mechanism::Mechanism example(const char* name) {
+  return clearloci::mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR "/examples/") + name);
+}
+
 const clearloci::mechanism::Mechanism& five_bar() {
-  static const clearloci::mechanism::Mechanism mechanism =
-      clearloci::mechanism::read_mechanism(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
+  static const clearloci::mechanism::Mechanism mechanism = example("five_bar.yaml");
   return mechanism;
 }
 
-/// From the mechanism to its numerators, closure and matrix included.
-void numerators(benchmark::State& state) {
+/// From a mechanism to its numerators, closure and matrix included.
+void numerators_of(benchmark::State& state, const clearloci::mechanism::Mechanism& mechanism, bool keep) {
   for (auto _ : state) {
-    const Geometry geometry(five_bar(), keep_parameters);
+    const Geometry geometry(mechanism, keep);
     const NewtonEulerEquations equations = newton_euler_equations(geometry);
     std::vector<std::vector<Poly>> matrix;
     std::vector<Poly> loads;
@@ -37,7 +40,15 @@ void numerators(benchmark::State& state) {
   }
 }
 
-/// The same, factored.
+void numerators(benchmark::State& state) { numerators_of(state, five_bar(), keep_parameters); }
+
+/// 78 unknowns: six legs of two links, universal, prismatic and spherical joints.
+void numerators_gough_stewart(benchmark::State& state) { numerators_of(state, example("gough_stewart.yaml"), false); }
+
+/// 42 unknowns.
+void numerators_three_upu(benchmark::State& state) { numerators_of(state, example("three_upu.yaml"), false); }
+
+/// The same as `numerators`, factored.
 void numerators_factored(benchmark::State& state) {
   for (auto _ : state) {
     const Geometry geometry(five_bar(), keep_parameters);
@@ -61,6 +72,8 @@ void numerators_ginac_determinant(benchmark::State& state) {
 
 BENCHMARK(numerators)->Unit(benchmark::kMillisecond);
 BENCHMARK(numerators_factored)->Unit(benchmark::kMillisecond);
+BENCHMARK(numerators_gough_stewart)->Unit(benchmark::kMillisecond);
+BENCHMARK(numerators_three_upu)->Unit(benchmark::kMillisecond);
 BENCHMARK(numerators_ginac_determinant)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -188,6 +188,11 @@ Interval SheetCell::centred(int function) const {
 Interval SheetCell::tangent(int function, int c) const {
   const int n = dimension();
   if (n == 2) return c == 0 ? slopes_[function][1] : -slopes_[function][0];
+  if (n == 3) {  // of the cross product of two gradients
+    const std::vector<Interval>&a = slopes_[function], &b = bond_slopes_[0];
+    const int first = (c + 1) % 3, second = (c + 2) % 3;
+    return a[first] * b[second] - a[second] * b[first];
+  }
   std::vector<std::vector<Interval>> minor(n - 1);
   for (int row = 0; row + 1 < n; ++row) {
     const std::vector<Interval>& slopes = row == 0 ? slopes_[function] : bond_slopes_[row - 1];
