@@ -32,12 +32,15 @@ struct TowerPoint {
       : x(std::move(x_)), y(std::move(y_)), w(std::move(w_)), z(std::move(z_)) {}
 };
 
-/// s = +-sqrt(square); `variable` is its index in the ring.
+/// s = +-sqrt(square); `variable` is its index in the ring. `scale`, `scale_divisor`: both positive; s is the root of a
+/// dyad (straight_lines.hpp) times their quotient.
 struct TowerRoot {
   mechanism::PointIndex point = 0;
   int variable = 0;
   core::RootRole role = core::RootRole::working_mode;
   Poly square;
+  Poly scale = Poly(square.ring(), 1);
+  Poly scale_divisor = Poly(square.ring(), 1);
 };
 
 /// A point that has symbols of its own in natural coordinates (xB1, yB1).

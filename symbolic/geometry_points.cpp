@@ -133,7 +133,7 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
       std::swap(square, quotient);
     }
   const int variable = first_root_ + static_cast<int>(roots_.size());
-  roots_.push_back({point, variable, RootRole::working_mode, square});
+  roots_.push_back({point, variable, RootRole::working_mode, square, w2, scale});
   add_denominator(d);
   const Poly s = Poly::variable(*ring_, variable) * scale;
   // A + (k (P - A) + s J (P - A)) / (2 D), over the denominator of both.

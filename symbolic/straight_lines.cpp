@@ -22,7 +22,7 @@ StraightLine StraightLines::square(std::size_t root) {
   const Rational sum = known->from_length + known->to_length, difference = known->from_length - known->to_length;
   const int outer = builder_.subtract(builder_.constant(sum * sum), known->distance2);
   const int inner = builder_.subtract(known->distance2, builder_.constant(difference * difference));
-  const int scale = builder_.power(known->scale2, 2);
+  const int scale = builder_.power(known->scale, 2);
   return builder_.line(builder_.multiply(scale, builder_.multiply(outer, inner)));
 }
 
@@ -71,9 +71,11 @@ std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex poi
   const Place a = natural_place(own->from), p = natural_place(own->to);
   const int u = builder_.subtract(p.x, a.x), v = builder_.subtract(p.y, a.y);
   const int distance2 = builder_.add(builder_.multiply(u, u), builder_.multiply(v, v));
-  const int w =
-      builder_.multiply(value(geometry_->tower(own->from).w.plain()), value(geometry_->tower(own->to).w.plain()));
-  return Dyad{u, v, distance2, builder_.multiply(w, w), from_length.constant(), to_length.constant()};
+  const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
+                                 [&](const TowerRoot& r) { return r.point == point; });
+  if (root == geometry_->roots().end()) return std::nullopt;
+  const int scale = builder_.multiply(value(root->scale.plain()), builder_.inverse(value(root->scale_divisor.plain())));
+  return Dyad{u, v, distance2, scale, from_length.constant(), to_length.constant()};
 }
 
 StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& point) {
@@ -89,7 +91,7 @@ StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& po
   const Rational excess = known->from_length * known->from_length - known->to_length * known->to_length;
   const int lambda =
       builder_.add(builder_.constant(half), builder_.multiply(builder_.constant(excess * half), inverse));
-  const int s = builder_.multiply(known_.at(root->variable), builder_.inverse(known->scale2));
+  const int s = builder_.multiply(known_.at(root->variable), builder_.inverse(known->scale));
   const int mu = builder_.multiply(builder_.multiply(builder_.constant(half), s), inverse);
   const int x = builder_.subtract(builder_.multiply(lambda, known->u), builder_.multiply(mu, known->v));
   const int y = builder_.add(builder_.multiply(lambda, known->v), builder_.multiply(mu, known->u));

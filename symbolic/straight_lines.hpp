@@ -28,7 +28,7 @@ class StraightLines {
   };
   struct Dyad {
     int u, v, distance2;  ///< P - A, |P - A|^2
-    int scale2;           ///< (w_A w_P)^2 of the tower's points: s = scale2 * the true root
+    int scale;            ///< s of the tower = scale * the true root
     core::Rational from_length, to_length;
   };
 

@@ -1,0 +1,159 @@
+// The two forms of one element, polynomial and straight line, say the same on the sheets: squares of roots are equal,
+// and a factor's line vanishes where its polynomial does.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "mechanism/read.hpp"
+#include "symbolic/locus_problem.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+double evaluate(const core::StraightLine& line, const std::vector<double>& at) {
+  using Operation = core::StraightLine::Operation;
+  std::vector<double> values;
+  for (const core::StraightLine::Step& step : line.steps) {
+    const auto operand = [&](int index) { return values[static_cast<std::size_t>(index)]; };
+    switch (step.operation) {
+      case Operation::constant:
+        values.push_back(core::to_double(step.value));
+        break;
+      case Operation::variable:
+        values.push_back(at[static_cast<std::size_t>(step.first)]);
+        break;
+      case Operation::add:
+        values.push_back(operand(step.first) + operand(step.second));
+        break;
+      case Operation::subtract:
+        values.push_back(operand(step.first) - operand(step.second));
+        break;
+      case Operation::multiply:
+        values.push_back(operand(step.first) * operand(step.second));
+        break;
+      case Operation::inverse:
+        values.push_back(1 / operand(step.first));
+        break;
+    }
+  }
+  return values.back();
+}
+
+/// Coordinates and roots of a mode; nothing where it does not reach.
+std::optional<std::vector<double>> on_sheet(const core::RootTower& tower, const core::WorkingMode& mode,
+                                            const std::vector<double>& coordinates) {
+  std::vector<double> at = coordinates;
+  at.resize(static_cast<std::size_t>(tower.variables()), 0.0);
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    const double square = core::evaluate(tower.roots[j].square, std::span<const double>(at));
+    if (!(square >= 0)) return std::nullopt;
+    at[coordinates.size() + j] = mode[j] * std::sqrt(square);
+  }
+  return at;
+}
+
+constexpr const char* seven_bar = R"(format: 1
+name: Seven-bar
+space: planar
+workspace: {x: [-0.5, 1.0], y: [-1.0, 1.0]}
+points:
+  A1: [0, 0]
+  A2: [0.5, 0.1]
+  A3: [1.1, 0]
+  P:  [x, y]
+  B1: {dyad: [A1, P], lengths: [0.5, 0.6], side: left}
+  B2: {dyad: [A2, P], lengths: [0.5, 0.45], side: right}
+  D:  {on: [A2, B2], offset: [0.2, 0.05]}
+  C:  {dyad: [A3, D], lengths: [0.4, 0.6], side: left}
+links:
+  A1B1: {points: [A1, B1]}
+  B1P:  {points: [B1, P]}
+  PB2:  {points: [P, B2]}
+  A2B2: {points: [A2, B2, D]}
+  DC:   {points: [D, C]}
+  A3C:  {points: [A3, C]}
+joints:
+  A1: {revolute: [ground, A1B1], at: A1, actuated: true}
+  B1: {revolute: [A1B1, B1P], at: B1}
+  P:  {revolute: [B1P, PB2], at: P}
+  B2: {revolute: [A2B2, PB2], at: B2}
+  A2: {revolute: [ground, A2B2], at: A2}
+  D:  {revolute: [A2B2, DC], at: D}
+  C:  {revolute: [A3C, DC], at: C}
+  A3: {revolute: [ground, A3C], at: A3, actuated: true}
+end_effector: {link: PB2, at: P}
+loads:
+  - {link: PB2, at: P, force: [0, -100]}
+)";
+
+class StraightLineForms : public testing::TestWithParam<std::string> {
+ protected:
+  static mechanism::Mechanism mechanism() {
+    if (GetParam() == "seven_bar") return mechanism::parse_mechanism(seven_bar, "seven_bar.yaml");
+    return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + GetParam() + ".yaml");
+  }
+};
+
+TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
+  std::mt19937 random(23);
+  int squares = 0, zeros = 0;
+  for (const DerivedProblem& derived : locus_problems(mechanism(), {})) {
+    const core::LocusProblem& problem = derived.problem;
+    const core::RootTower& tower = problem.tower;
+    const core::WorkingMode& mode = problem.modes.front();
+    const auto pose = [&] {
+      std::vector<double> coordinates;
+      for (std::size_t c = 0; c < problem.lower.size(); ++c)
+        coordinates.push_back(std::uniform_real_distribution(core::to_double(problem.lower[c]),
+                                                             core::to_double(problem.upper[c]))(random));
+      return coordinates;
+    };
+    for (int sample = 0; sample < 400; ++sample) {
+      const std::vector<double> from = pose(), to = pose();
+      const auto start = on_sheet(tower, mode, from);
+      if (!start) continue;
+      for (const core::Root& root : tower.roots) {
+        if (root.line.empty()) continue;
+        const double square = core::evaluate(root.square, std::span<const double>(*start));
+        EXPECT_NEAR(evaluate(root.line, *start) / square, 1, 1e-6) << root.name;
+        ++squares;
+      }
+      for (const core::LocusFactor& factor : problem.factors) {
+        if (factor.line.empty()) continue;
+        std::vector<double> low = from, high = to;
+        const auto value = [&](const std::vector<double>& at) {
+          const auto full = on_sheet(tower, mode, at);
+          return full ? core::evaluate(factor.sheet, std::span<const double>(*full))
+                      : std::numeric_limits<double>::quiet_NaN();
+        };
+        const double at_low = value(low), at_high = value(high);
+        if (!(at_low * at_high < 0)) continue;
+        bool inside = true;
+        for (int step = 0; step < 60 && inside; ++step) {
+          std::vector<double> middle = low;
+          for (std::size_t c = 0; c < middle.size(); ++c) middle[c] = 0.5 * (low[c] + high[c]);
+          const double there = value(middle);
+          inside = !std::isnan(there);
+          (there * at_low > 0 ? low : high) = middle;
+        }
+        const auto zero = on_sheet(tower, mode, low), end = on_sheet(tower, mode, to);
+        if (!inside || !zero || !end) continue;
+        const double typical = std::max(std::abs(evaluate(factor.line, *start)), std::abs(evaluate(factor.line, *end)));
+        EXPECT_LE(std::abs(evaluate(factor.line, *zero)), 1e-6 * typical) << factor.expression.substr(0, 80);
+        ++zeros;
+      }
+    }
+  }
+  EXPECT_GT(squares, 100);
+  EXPECT_GT(zeros, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mechanisms, StraightLineForms,
+                         testing::Values("five_bar_weights", "five_bar_coupler", "three_rrr", "seven_bar",
+                                         "stephenson_six_bar"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace clearloci::symbolic
