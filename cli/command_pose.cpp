@@ -10,10 +10,10 @@
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
+#include "cli/spatial_pose.hpp"
 #include "core/errors.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/pose_error.hpp"
-#include "numeric/spatial.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 
@@ -223,53 +223,6 @@ PoseResult solve(const Arguments& arguments, const mechanism::Mechanism& mechani
   return pose;
 }
 
-Json vector_json(const Eigen::Vector3d& v) { return {number_json(v(0)), number_json(v(1)), number_json(v(2))}; }
-
-/// Posture and reactions of a spatial mechanism.
-Json spatial_json(const mechanism::Mechanism& mechanism, const std::vector<double>& at) {
-  const numeric::SpatialPosture pose = numeric::spatial_posture(mechanism, at);
-  Json posture = Json::object(), reactions = Json::object();
-  for (std::size_t i = 0; i < mechanism.points.size(); ++i)
-    if (!mechanism.points[i].auxiliary) posture[mechanism.points[i].name] = vector_json(pose.points[i]);
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
-    const mechanism::Joint& joint = mechanism.joints[j];
-    Json& reaction = reactions[joint.name] = Json::object();
-    for (int c = 0; c < 3; ++c) {
-      const std::string axis(1, "xyz"[c]);
-      reaction["f" + axis] = number_json(pose.reactions[j].force(c));
-      if (joint.type != mechanism::JointType::spherical)
-        reaction["m" + axis] = number_json(pose.reactions[j].couple(c));
-    }
-    if (joint.actuated)
-      reaction[core::to_string(mechanism::actuator_quantity(joint))] = number_json(pose.reactions[j].actuator);
-  }
-  return {{"format", 1},
-          {"mechanism", mechanism.name},
-          {"at", at},
-          {"posture", std::move(posture)},
-          {"reactions", std::move(reactions)},
-          {"determinant", pose.determinant},
-          {"condition", number_json(pose.condition)}};
-}
-
-void print_spatial(const Json& pose) {
-  fmt::print("{} at ({})\n\n{:<12}{:>18}{:>18}{:>18}\n", pose["mechanism"].get<std::string>(),
-             fmt::join(pose["at"].get<std::vector<double>>(), ", "), "point", "x [m]", "y [m]", "z [m]");
-  for (const auto& [name, at] : pose["posture"].items())
-    fmt::print("{:<12}{:>18}{:>18}{:>18}\n", name, number(at[0]), number(at[1]), number(at[2]));
-  fmt::print("\n{:<12}{:>16}{:>16}{:>16}{:>16}{:>16}{:>16}  actuator\n", "joint", "fx [N]", "fy [N]", "fz [N]",
-             "mx [N m]", "my [N m]", "mz [N m]");
-  for (const auto& [name, reaction] : pose["reactions"].items()) {
-    fmt::print("{:<12}", name);
-    for (const char* key : {"fx", "fy", "fz", "mx", "my", "mz"})
-      fmt::print("{:>16}", reaction.contains(key) ? number(reaction[key]) : "");
-    if (reaction.contains("F")) fmt::print("  F {} N", number(reaction["F"]));
-    if (reaction.contains("M")) fmt::print("  M {} N m", number(reaction["M"]));
-    fmt::print("\n");
-  }
-  fmt::print("\n|A| = {}, condition number {}\n", number(pose["determinant"]), number(pose["condition"]));
-}
-
 int report_pose(const Arguments& arguments, const Json& result, void (*print)(const Json&)) {
   const std::string text = report::json_text(result);
   if (!arguments.common.output.empty()) report::write_atomically(output_folder(arguments.common) / "pose.json", text);
@@ -282,11 +235,13 @@ int report_pose(const Arguments& arguments, const Json& result, void (*print)(co
 
 int run_spatial(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
   if (arguments.iterate)
-    throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not computed",
-                           "leave --iterate out");
-  std::vector<double> at;
-  for (const core::Rational& value : parse_pose(arguments.at, mechanism)) at.push_back(core::to_double(value));
-  return report_pose(arguments, spatial_json(mechanism, at), print_spatial);
+    throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not iterated",
+                           "leave --iterate out: the linear error is given");
+  if (!arguments.working_mode.empty())
+    throw core::InputError({.file = "--working-mode"}, "a spatial mechanism has no dyads to assemble either way",
+                           "leave --working-mode out");
+  const std::vector<numeric::Bounded> at = with_rounding(parse_pose(arguments.at, mechanism));
+  return report_pose(arguments, spatial_pose_json(mechanism, at), print_spatial_pose);
 }
 
 int run(const Arguments& arguments) {

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/errors.hpp"
@@ -47,20 +48,13 @@ class Solver {
       throw core::InputError({m_.file, 0, 0},
                              std::to_string(size) + " equations for " + std::to_string(columns_.size()) + " unknowns",
                              "change the joints or actuators");
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
-    for (Eigen::Index k = 0; k < size; ++k) {
-      const Column& column = columns_[static_cast<std::size_t>(k)];
-      const auto& joint = m_.joints[column.joint];
-      const Vector6 wrench = wrench_of(arm(joint.at), column.force, column.couple);
-      if (joint.to != mechanism::ground) A.block<6, 1>(6 * joint.to, k) += wrench;
-      if (joint.from != mechanism::ground) A.block<6, 1>(6 * joint.from, k) -= wrench;
-    }
+    const Eigen::MatrixXd A = matrix(size);
     const Eigen::VectorXd b = loads(size);
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A);
-    const Eigen::VectorXd w = lu.solve(b);
+    lu_.compute(A);
+    const Eigen::VectorXd w = lu_.solve(b);
     SpatialPosture result;
     result.points = points_;
-    result.determinant = lu.determinant();
+    result.determinant = lu_.determinant();
     const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(A).singularValues();
     result.condition = singular(0) / singular(size - 1);
     const double scale = A.cwiseAbs().rowwise().sum().maxCoeff() * w.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
@@ -79,7 +73,73 @@ class Solver {
     return result;
   }
 
+  SpatialAccuracy accuracy(const std::vector<LostContact>& lost) {
+    SpatialAccuracy result;
+    result.posture = solve();
+    result.joints = spatial_joints(m_);
+    for (std::size_t j = 0; j < result.joints.size(); ++j) {
+      SpatialJoint& joint = result.joints[j];
+      if (!m_.joints[j].axes.empty()) joint.axis = axis(m_.joints[j], 0);
+      const SpatialReaction& r = result.posture.reactions[j];
+      const bool slides = joint.type == JointType::prismatic;
+      const Vector3d share = r.actuator * joint.axis;
+      result.take_up.push_back(take_up(joint, {slides ? Vector3d(r.force + share) : r.force, r.couple + share},
+                                       lost.empty() ? LostContact{} : lost[j]));
+      if (result.take_up.back().force_vanishes || result.take_up.back().actuator_vanishes)
+        result.undefined.push_back(m_.joints[j].name);
+    }
+    add_influence(result);
+    add_displacements(result);
+    result.worst = worst_case(result.joints, result.influence);
+    return result;
+  }
+
  private:
+  Eigen::MatrixXd matrix(Eigen::Index size) const {
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const Column& column = columns_[static_cast<std::size_t>(k)];
+      const auto& joint = m_.joints[column.joint];
+      const Vector6 wrench = wrench_of(arm(joint.at), column.force, column.couple);
+      if (joint.to != mechanism::ground) A.block<6, 1>(6 * joint.to, k) += wrench;
+      if (joint.from != mechanism::ground) A.block<6, 1>(6 * joint.from, k) -= wrench;
+    }
+    return A;
+  }
+
+  void add_influence(SpatialAccuracy& result) const {
+    const auto size = static_cast<Eigen::Index>(columns_.size());
+    Eigen::MatrixXd unit_wrenches = Eigen::MatrixXd::Zero(size, 6);
+    unit_wrenches.middleRows<6>(6 * m_.end_effector_link).setIdentity();
+    const Eigen::MatrixXd H = lu_.solve(unit_wrenches).transpose();
+    result.influence.resize(m_.joints.size());
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const Column& column = columns_[static_cast<std::size_t>(k)];
+      result.influence[column.joint].force += H.col(k) * column.force.transpose();
+      result.influence[column.joint].couple += H.col(k) * column.couple.transpose();
+    }
+  }
+
+  void add_displacements(SpatialAccuracy& result) const {
+    const auto size = static_cast<Eigen::Index>(columns_.size());
+    if (!result.undefined.empty()) {
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      result.link_displacements.setConstant(size, nan);
+      result.error.dp.setConstant(nan);
+      result.error.dalpha.setConstant(nan);
+      return;
+    }
+    Eigen::VectorXd relative(size);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const Column& column = columns_[static_cast<std::size_t>(k)];
+      const SpatialTakeUp& own = result.take_up[column.joint];
+      relative(k) = column.force.dot(own.displacement) + column.couple.dot(own.rotation);
+    }
+    result.link_displacements = lu_.transpose().solve(relative);
+    const Vector6 own = result.link_displacements.segment<6>(6 * m_.end_effector_link);
+    result.error = {own.tail<3>(), own.head<3>()};
+  }
+
   double value(const core::Expression& expression) const {
     TapeBuilder tape;
     const Register result = tape.compile(expression, [&](const std::string& name) {
@@ -180,14 +240,22 @@ class Solver {
   std::map<std::string, double> values_;
   std::vector<Vector3d> points_;
   std::vector<Column> columns_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };
+
+Solver solver(const Mechanism& m, std::span<const double> pose) {
+  if (m.space != mechanism::Space::spatial)
+    throw core::InputError({m.file, 0, 0}, "the mechanism is planar", "use the planar solver");
+  return {m, pose};
+}
 
 }  // namespace
 
-SpatialPosture spatial_posture(const Mechanism& m, std::span<const double> pose) {
-  if (m.space != mechanism::Space::spatial)
-    throw core::InputError({m.file, 0, 0}, "the mechanism is planar", "use the planar solver");
-  return Solver(m, pose).solve();
+SpatialPosture spatial_posture(const Mechanism& m, std::span<const double> pose) { return solver(m, pose).solve(); }
+
+SpatialAccuracy spatial_accuracy(const Mechanism& m, std::span<const double> pose,
+                                 const std::vector<LostContact>& lost) {
+  return solver(m, pose).accuracy(lost);
 }
 
 }  // namespace clearloci::numeric

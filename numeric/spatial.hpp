@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "mechanism/mechanism.hpp"
+#include "numeric/spatial_take_up.hpp"
 
 namespace clearloci::numeric {
 
@@ -26,6 +26,24 @@ struct SpatialPosture {
   double condition = 0;                    ///< 2-norm condition number of A in SI units
   double residual = 0;                     ///< as Reactions::residual
 };
+
+/// Reactions, take-up and pose error of one posture. The relative displacements Δ_C of the joints in the columns' own
+/// directions give those of the links by A^T u = Δ_C, u = (dx, dy, dz, dα) of every link, of its point at the
+/// end-effector point.
+struct SpatialAccuracy {
+  SpatialPosture posture;
+  std::vector<SpatialJoint> joints;       ///< with their axes
+  std::vector<SpatialTakeUp> take_up;     ///< a joint each
+  std::vector<std::string> undefined;     ///< joints with a clearance and no contact: no pose error then
+  Eigen::VectorXd link_displacements;     ///< six a link; NaN where a take-up is undefined
+  SpatialPoseError error;                 ///< of the end effector; NaN where a take-up is undefined
+  std::vector<JointInfluence> influence;  ///< a joint each
+  SpatialWorstCase worst;
+};
+
+/// `lost`: from lost_contacts, or empty. Requirements as of spatial_posture.
+SpatialAccuracy spatial_accuracy(const mechanism::Mechanism& mechanism, std::span<const double> pose,
+                                 const std::vector<LostContact>& lost = {});
 
 /// `pose`: one value a free coordinate. Requires a spatial mechanism with as many unknowns as equations. Throws
 /// core::InputError for a planar one and where an axis has no direction at the pose.
