@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "numeric/evaluator.hpp"
+#include "numeric/spatial_errors.hpp"
 
 namespace clearloci::numeric {
 
@@ -121,31 +122,47 @@ class BatchAccuracy {
   std::array<std::vector<double>, 3> units_;
 };
 
+/// Which joints have a clearance that is not taken up at a pose, as far as rounding tells.
+std::vector<bool> unloaded(const NumericModel& model, std::span<const int> mode, std::span<const Bounded> pose) {
+  std::vector<bool> result;
+  if (model.mechanism.space == mechanism::Space::spatial) {
+    const std::vector<SpatialJoint> joints = spatial_joints(model.mechanism);
+    const std::vector<LostContact> lost = lost_contacts(model, pose);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      result.push_back((joints[j].presses() && lost[j].force) || (joints[j].plays() && lost[j].actuator));
+    return result;
+  }
+  const std::vector<JointColumns> columns = joint_columns(model);
+  const std::vector<JointClearance> clearances = joint_clearances(model.mechanism);
+  const std::vector<bool> zero = vanishing_unknowns(model, pose, mode);
+  const auto bears = [&](int column) { return column >= 0 && !zero[static_cast<std::size_t>(column)]; };
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const bool force = clearances[k].radial == 0 || bears(columns[k].fx) || bears(columns[k].fy);
+    const bool couple = clearances[k].angular == 0 || bears(columns[k].couple);
+    const bool guide = clearances[k].gap == 0 || bears(columns[k].normal) || bears(columns[k].tilt);
+    result.push_back(!force || !couple || !guide);
+  }
+  return result;
+}
+
 /// Joints with a clearance whose reaction is decided at none of some reachable cells.
 std::vector<std::string> joints_never_loaded(const NumericModel& model, std::span<const int> mode,
                                              const core::FieldMap& map) {
   constexpr int samples = 24;  // along each coordinate
-  const std::vector<JointColumns> columns = joint_columns(model);
-  const std::vector<JointClearance> clearances = joint_clearances(model.mechanism);
-  std::vector<bool> loaded(columns.size(), false);
+  std::vector<bool> loaded(model.mechanism.joints.size(), false);
   bool any = false;
   for (int j = 0; j < samples; ++j) {
     for (int i = 0; i < samples; ++i) {
       const std::array pose = {map.x(i * map.nx / samples), map.y(j * map.ny / samples)};
       if (!reachable(model, pose, mode)) continue;
       any = true;
-      const std::vector<bool> zero = vanishing_unknowns(model, std::vector<Bounded>(pose.begin(), pose.end()), mode);
-      const auto bears = [&](int column) { return column >= 0 && !zero[static_cast<std::size_t>(column)]; };
-      for (std::size_t k = 0; k < columns.size(); ++k) {
-        const bool force = clearances[k].radial == 0 || bears(columns[k].fx) || bears(columns[k].fy);
-        const bool couple = clearances[k].angular == 0 || bears(columns[k].couple);
-        const bool guide = clearances[k].gap == 0 || bears(columns[k].normal) || bears(columns[k].tilt);
-        if (force && couple && guide) loaded[k] = true;
-      }
+      const std::vector<bool> here = unloaded(model, mode, std::vector<Bounded>(pose.begin(), pose.end()));
+      for (std::size_t k = 0; k < loaded.size(); ++k)
+        if (!here[k]) loaded[k] = true;
     }
   }
   std::vector<std::string> names;
-  for (std::size_t k = 0; any && k < columns.size(); ++k)
+  for (std::size_t k = 0; any && k < loaded.size(); ++k)
     if (!loaded[k]) names.push_back(model.mechanism.joints[k].name);
   return names;
 }
@@ -155,9 +172,6 @@ void check_model(const NumericModel& model, const ErrorGrid& grid) {
     throw core::InputError({model.mechanism.file, 0, 0}, problem, mend);
   };
   if (grid.nx < 1 || grid.ny < 1) throw core::InputError({}, "the grid has no cells", "ask for 1x1 at least");
-  if (model.mechanism.space != mechanism::Space::planar)
-    refuse("the mechanism is spatial, and error maps are those of planar ones",
-           "solve single poses with clearloci pose");
   if (model.box.size() != 2)
     refuse("an error map needs two free coordinates, and the workspace has " + std::to_string(model.box.size()),
            "write the others as parameters, or use clearloci pose");
@@ -209,6 +223,76 @@ ErrorSamples error_samples(const NumericModel& model, std::span<const double> po
   return s;
 }
 
+namespace {
+
+/// Errors of a row of cells, field after field.
+struct RowErrors {
+  std::vector<std::vector<double>> fields;
+  std::vector<bool> reachable;
+};
+
+void add_fields(core::FieldMap& map, bool spatial, bool under_load, bool worst_case) {
+  struct Component {
+    const char *name, *label, *unit;
+  };
+  const std::vector<Component> components =
+      spatial ? std::vector<Component>{{"dx", "error in x", "m"},
+                                       {"dy", "error in y", "m"},
+                                       {"dz", "error in z", "m"},
+                                       {"dalpha_x", "rotation about x", "rad"},
+                                       {"dalpha_y", "rotation about y", "rad"},
+                                       {"dalpha_z", "rotation about z", "rad"}}
+              : std::vector<Component>{
+                    {"dx", "error in x", "m"}, {"dy", "error in y", "m"}, {"dalpha", "error in orientation", "rad"}};
+  const std::size_t cells = static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny);
+  const auto add = [&](const std::string& name, const std::string& label, const char* unit, bool is_signed) {
+    map.fields.push_back({name, label, unit, is_signed, std::vector<double>(cells, nan)});
+  };
+  if (under_load) {
+    for (const Component& c : components) add(c.name, c.label, c.unit, true);
+    add("dp", "distance from the nominal place", "m", false);
+  }
+  if (!worst_case) return;
+  for (const Component& c : components)
+    add(std::string("worst_") + c.name, std::string("largest ") + c.label + " under any load", c.unit, false);
+  add("worst_dp", "largest distance from the nominal place under any load", "m", false);
+}
+
+RowErrors planar_row(const NumericModel& model, std::span<const double> poses, std::span<const int> mode,
+                     bool under_load, const ErrorGrid& grid) {
+  const ErrorSamples s = error_samples(model, poses, mode, under_load, grid.worst_case, grid.worst_case_accuracy);
+  RowErrors row{{}, s.reachable};
+  if (under_load) {
+    std::vector<double> distance(s.dx.size());
+    for (std::size_t i = 0; i < distance.size(); ++i) distance[i] = std::sqrt(s.dx[i] * s.dx[i] + s.dy[i] * s.dy[i]);
+    row.fields = {s.dx, s.dy, s.dalpha, distance};
+  }
+  if (grid.worst_case)
+    for (const auto* values : {&s.worst_dx, &s.worst_dy, &s.worst_dalpha, &s.worst_dp}) row.fields.push_back(*values);
+  return row;
+}
+
+RowErrors spatial_row(const NumericModel& model, std::span<const double> poses, bool under_load,
+                      const ErrorGrid& grid) {
+  const SpatialErrors s = spatial_errors(model, poses, under_load, grid.worst_case, grid.worst_case_accuracy);
+  RowErrors row{{}, s.reachable};
+  const auto add = [&](const auto& values, const auto& of) {
+    std::vector<double>& field = row.fields.emplace_back();
+    for (const auto& value : values) field.push_back(of(value));
+  };
+  if (under_load) {
+    for (std::size_t c = 0; c < 6; ++c) add(s.error, [&](const auto& e) { return e[c]; });
+    add(s.error, [](const auto& e) { return std::hypot(e[0], e[1], e[2]); });
+  }
+  if (grid.worst_case) {
+    for (std::size_t c = 0; c < 6; ++c) add(s.worst, [&](const auto& e) { return e[c]; });
+    add(s.worst_distance, [](double distance) { return distance; });
+  }
+  return row;
+}
+
+}  // namespace
+
 ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid) {
   check_model(model, grid);
   ErrorMap result;
@@ -223,22 +307,8 @@ ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const E
   }
   result.never_loaded = joints_never_loaded(model, mode, map);
   const bool under_load = result.never_loaded.empty();
-  const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny);
-  const auto add = [&](const char* name, const char* label, const char* unit, bool is_signed) {
-    map.fields.push_back({name, label, unit, is_signed, std::vector<double>(cells, nan)});
-  };
-  if (under_load) {
-    add("dx", "error in x", "m", true);
-    add("dy", "error in y", "m", true);
-    add("dalpha", "error in orientation", "rad", true);
-    add("dp", "distance from the nominal place", "m", false);
-  }
-  if (grid.worst_case) {
-    add("worst_dx", "largest error in x under any load", "m", false);
-    add("worst_dy", "largest error in y under any load", "m", false);
-    add("worst_dalpha", "largest error in orientation under any load", "rad", false);
-    add("worst_dp", "largest distance from the nominal place under any load", "m", false);
-  }
+  const bool spatial = model.mechanism.space == mechanism::Space::spatial;
+  add_fields(map, spatial, under_load, grid.worst_case);
 
   std::vector<std::array<std::size_t, 2>> counts(static_cast<std::size_t>(grid.ny));  // reachable, undefined
   tbb::task_arena arena(grid.threads > 0 ? grid.threads : tbb::task_arena::automatic);
@@ -247,24 +317,15 @@ ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const E
       std::vector<double> poses;
       poses.reserve(2 * static_cast<std::size_t>(grid.nx));
       for (int i = 0; i < grid.nx; ++i) poses.insert(poses.end(), {map.x(i), map.y(j)});
-      const ErrorSamples s = error_samples(model, poses, mode, under_load, grid.worst_case, grid.worst_case_accuracy);
-      std::size_t next = 0;
-      const auto store = [&](const std::vector<double>& values) {
-        std::copy(values.begin(), values.end(),
-                  map.fields[next++].values.begin() + static_cast<std::ptrdiff_t>(map.index(0, j)));
-      };
-      if (under_load) {
-        std::vector<double> distance(s.dx.size());
-        for (std::size_t i = 0; i < distance.size(); ++i)
-          distance[i] = std::sqrt(s.dx[i] * s.dx[i] + s.dy[i] * s.dy[i]);
-        for (const auto* values : {&s.dx, &s.dy, &s.dalpha, &std::as_const(distance)}) store(*values);
-      }
-      if (grid.worst_case)
-        for (const auto* values : {&s.worst_dx, &s.worst_dy, &s.worst_dalpha, &s.worst_dp}) store(*values);
-      for (std::size_t i = 0; i < s.reachable.size(); ++i) {
-        if (!s.reachable[i]) continue;
+      const RowErrors row =
+          spatial ? spatial_row(model, poses, under_load, grid) : planar_row(model, poses, mode, under_load, grid);
+      for (std::size_t f = 0; f < row.fields.size(); ++f)
+        std::copy(row.fields[f].begin(), row.fields[f].end(),
+                  map.fields[f].values.begin() + static_cast<std::ptrdiff_t>(map.index(0, j)));
+      for (std::size_t i = 0; i < row.reachable.size(); ++i) {
+        if (!row.reachable[i]) continue;
         ++counts[static_cast<std::size_t>(j)][0];
-        if (under_load && std::isnan(s.dx[i])) ++counts[static_cast<std::size_t>(j)][1];
+        if (under_load && std::isnan(row.fields[0][i])) ++counts[static_cast<std::size_t>(j)][1];
       }
     });
   });

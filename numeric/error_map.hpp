@@ -18,7 +18,9 @@ struct ErrorGrid {
 };
 
 struct ErrorMap {
-  core::FieldMap map;         ///< dx, dy, dalpha, dp; worst_dx, worst_dy, worst_dalpha, worst_dp
+  /// dx, dy, dalpha, dp; worst_dx, worst_dy, worst_dalpha, worst_dp. In space dx, dy, dz, dalpha_x, dalpha_y, dalpha_z,
+  /// dp; worst_ of each.
+  core::FieldMap map;
   std::size_t reachable = 0;  ///< cells with a posture
   std::size_t undefined = 0;  ///< of those, cells on a locus to the last bit: no error there
   /// Joints whose reaction is zero in every pose, to rounding: their take-up is undefined everywhere, and the map has
@@ -26,11 +28,11 @@ struct ErrorMap {
   std::vector<std::string> never_loaded;
 };
 
-/// `mode`: a sign a dyad. Fields are NaN outside the workspace. Throws core::InputError where the mechanism has no
-/// clearance or not two free coordinates.
+/// `mode`: a sign a dyad; empty in space. Fields are NaN outside the workspace. Throws core::InputError where the
+/// mechanism has no clearance or not two free coordinates.
 ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid = {});
 
-/// Pose errors along a list of poses: one row of the map. NaN where unreachable or undefined.
+/// Pose errors of a planar mechanism along a list of poses: one row of the map. NaN where unreachable or undefined.
 struct ErrorSamples {
   std::vector<double> dx, dy, dalpha;
   std::vector<double> worst_dx, worst_dy, worst_dalpha, worst_dp;  ///< empty unless asked for

@@ -193,7 +193,7 @@ SpatialPoseError pose_error(const std::vector<JointInfluence>& influence, const 
 }
 
 SpatialWorstCase worst_case(const std::vector<SpatialJoint>& joints, const std::vector<JointInfluence>& influence,
-                            double accuracy) {
+                            double accuracy, bool rotation) {
   const std::vector<Reach> all = reaches(joints, influence);
   SpatialWorstCase worst;
   Eigen::Matrix<double, 6, 1> most = Eigen::Matrix<double, 6, 1>::Zero();
@@ -205,7 +205,7 @@ SpatialWorstCase worst_case(const std::vector<SpatialJoint>& joints, const std::
     return worst;
   }
   worst.distance = farthest(Support(all, 0), accuracy);
-  worst.rotation = farthest(Support(all, 3), accuracy);
+  if (rotation) worst.rotation = farthest(Support(all, 3), accuracy);
   return worst;
 }
 

@@ -72,15 +72,16 @@ SpatialPoseError pose_error(const std::vector<JointInfluence>& influence, const 
 /// The largest values over all take-ups: every pin and ball anywhere in its clearance, every actuator anywhere in its
 /// play.
 struct SpatialWorstCase {
-  Eigen::Vector3d dalpha, dp;  ///< of each component, in closed form
-  double rotation = 0;         ///< of |Δα|, rad, within `accuracy` below the true value
-  double distance = 0;         ///< of |Δp|, m, likewise
+  Eigen::Vector3d dalpha = Eigen::Vector3d::Zero(),
+                  dp = Eigen::Vector3d::Zero();  ///< of each component, in closed form
+  double distance = 0;                           ///< of |Δp|, m, within `accuracy` below the true value
+  double rotation = 0;                           ///< of |Δα|, rad, likewise
 };
 
 /// |Δp| is the largest value of the support function h(n) = Σ_J ρ_J |H_Jᵀ n| over unit vectors n, found by branch and
 /// bound over spherical triangles: h is sublinear, so inside one it is at most the linear function with its values at
-/// the corners. Infinite where the influence is. `accuracy`: relative.
+/// the corners. Infinite where the influence is. `accuracy`: relative. Without `rotation` that one stays 0.
 SpatialWorstCase worst_case(const std::vector<SpatialJoint>& joints, const std::vector<JointInfluence>& influence,
-                            double accuracy = 1e-6);
+                            double accuracy = 1e-6, bool rotation = true);
 
 }  // namespace clearloci::numeric

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism/evaluate.hpp"
 #include "mechanism/read.hpp"
+#include "numeric/error_map.hpp"
 #include "numeric/spatial.hpp"
 #include "tests/numeric/spatial_designs.hpp"
 
@@ -286,6 +286,49 @@ TEST(SpatialAccuracy, OnALocusTheTakeUpIsUndefined) {
   const std::vector<double> beside = {-0.29, 0.125, 0.6};
   EXPECT_TRUE(spatial_accuracy(m, beside, lost_contacts(compile(m), std::vector<Bounded>(beside.begin(), beside.end())))
                   .undefined.empty());
+}
+
+// The compiled elimination with one factorisation of its core, against one LU of the orthonormal form.
+TEST(SpatialErrorMap, AgreesWithSinglePoses) {
+  std::mt19937 random(seed + 4);
+  std::vector<Mechanism> all = {example("gough_stewart_slice")};
+  for (const Mechanism& m : designs(3, random))
+    if (m.coordinates.size() == 2) all.push_back(m);
+  for (const Mechanism& m : all) {
+    SCOPED_TRACE(m.name);
+    const ErrorMap errors = error_map(compile(m), {}, {.nx = 7, .ny = 5, .worst_case_accuracy = 1e-6});
+    const core::FieldMap& map = errors.map;
+    ASSERT_EQ(errors.reachable, 35u);
+    ASSERT_TRUE(errors.never_loaded.empty());
+    ASSERT_EQ(map.fields.size(), 14u);
+    for (int j = 0; j < map.ny; ++j) {
+      for (int i = 0; i < map.nx; ++i) {
+        const SpatialAccuracy one = spatial_accuracy(m, std::vector<double>{map.x(i), map.y(j)});
+        const double tolerance = 1e-13 * one.posture.condition;
+        const Vector6 error = as_vector(one.error);
+        Vector6 worst;
+        worst << one.worst.dp, one.worst.dalpha;
+        for (std::size_t c = 0; c < 6; ++c) {
+          const auto k = static_cast<Eigen::Index>(c);
+          EXPECT_NEAR(map.fields[c].values[map.index(i, j)], error(k), tolerance * error.norm()) << map.fields[c].name;
+          EXPECT_NEAR(map.fields[7 + c].values[map.index(i, j)], worst(k), tolerance * worst.norm());
+        }
+        EXPECT_NEAR(map.fields[6].values[map.index(i, j)], one.error.dp.norm(), tolerance * error.norm());
+        EXPECT_NEAR(map.fields[13].values[map.index(i, j)], one.worst.distance,
+                    (tolerance + 3e-6) * one.worst.distance);
+      }
+    }
+  }
+}
+
+TEST(SpatialErrorMap, WithoutALoadOnlyTheWorstCaseIsLeft) {
+  Mechanism m = example("gough_stewart_slice");
+  m.loads.clear();
+  const ErrorMap errors = error_map(compile(m), {}, {.nx = 4, .ny = 4});
+  EXPECT_EQ(errors.never_loaded.size(), 18u);
+  EXPECT_EQ(errors.map.fields.size(), 7u);
+  for (mechanism::Joint& joint : m.joints) joint.clearance.reset();
+  EXPECT_THROW(error_map(compile(m), {}), core::InputError);
 }
 
 }  // namespace
