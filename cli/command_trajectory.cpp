@@ -110,6 +110,10 @@ std::vector<std::string> write_files(const std::set<std::string>& formats, const
 int run(const Arguments& arguments) {
   const std::set<std::string> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
+  if (mechanism.space == mechanism::Space::spatial)
+    throw core::InputError({.file = mechanism.file},
+                           "the mechanism is spatial, and trajectories are those of the plane",
+                           "solve single poses of it with clearloci pose");
   const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);
   Progress progress(arguments.common.quiet);
   progress.show(0, "dynamics");

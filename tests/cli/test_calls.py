@@ -38,6 +38,22 @@ class WrongCalls(InOwnFolder):
         self.assertIn("stl does not hold loci over 2 free coordinates", self.complaint("loci", FIVE_BAR, "--export", "stl"))
         self.assertIn("--mesh-size", self.complaint("loci", examples / "three_upu.yaml", "--mesh-size", "0.4"))
 
+    def test_what_has_no_meaning_in_space(self):
+        examples = FIVE_BAR.parent
+        platform = examples / "gough_stewart_slice.yaml"
+        path = examples / "pick_and_place" / "path.yaml"
+        self.assertIn("gough_stewart_slice.yaml: the mechanism is spatial", self.complaint("trajectory", platform, path))
+        self.assertIn("--iterate", self.complaint("pose", platform, "--at", "0.1,0.1", "--iterate"))
+        self.assertIn("--working-mode", self.complaint("pose", platform, "--at", "0.1,0.1", "--working-mode", "left"))
+        (self.folder / "task.yaml").write_text(
+            "format: 1\nbox: {x: [0, 0.1], y: [0, 0.1]}\nloads_from: [[1, 0], [0, 1]]\n", encoding="utf-8"
+        )
+        self.assertIn("task.yaml:3:13: ", self.complaint("verify", platform, "task.yaml"))
+        text = platform.read_text(encoding="utf-8").replace("  y: [-0.4, 0.4]\n", "").replace("z: 0.6", "y: 0.05\n  z: 0.6")
+        (self.folder / "line.yaml").write_text(text, encoding="utf-8")
+        for command, words in (("zones", "free coordinates"), ("validate", "free coordinates"), ("error", "planar")):
+            self.assertIn(words, self.complaint(command, "line.yaml"))
+
     def test_wrong_tasks(self):
         self.assertIn("TASK", self.complaint("verify", FIVE_BAR))
         self.assertIn("no such file", self.complaint("verify", FIVE_BAR, "none.yaml"))

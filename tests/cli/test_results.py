@@ -358,6 +358,61 @@ class Trajectory(InOwnFolder):
         self.assertAlmostEqual(samples["beta_P"][k], pose["take_up"]["P"]["beta"], delta=1e-6)
 
 
+class Platform(InOwnFolder):
+    """A slice of a spatial mechanism under every command that takes one."""
+
+    SLICE = FIVE_BAR.parent / "gough_stewart_slice.yaml"
+    COMPONENTS = {"dx", "dy", "dz", "dalpha_x", "dalpha_y", "dalpha_z"}
+
+    def json(self, *words, status=0):
+        return json.loads(self.run_program(*words, "--json", status=status).stdout)
+
+    def test_pose(self):
+        pose = self.json("pose", self.SLICE, "--at", "-0.3,-0.2")
+        self.assertEqual(len(pose["take_up"]), 18)
+        self.assertEqual(set(pose["take_up"]["S1"]), {"axial"})
+        self.assertEqual(set(pose["pose_error"]), self.COMPONENTS)
+        self.assertEqual(set(pose["worst_case"]), self.COMPONENTS | {"dp", "dalpha"})
+        for name in ("U1", "B1"):
+            take_up, force = pose["take_up"][name], pose["reactions"][name]
+            way = [take_up["d" + axis] for axis in "xyz"]
+            self.assertAlmostEqual(math.hypot(*way), 10e-6, delta=1e-15)
+            size = math.hypot(*(force["f" + axis] for axis in "xyz"))
+            for axis, part in zip("xyz", way):
+                self.assertAlmostEqual(part, -10e-6 * force["f" + axis] / size, delta=1e-15)
+        self.assertEqual(pose["take_up"]["S1"]["axial"], -math.copysign(5e-6, pose["reactions"]["S1"]["F"]))
+        for key in self.COMPONENTS:
+            self.assertLessEqual(abs(pose["pose_error"][key]), pose["worst_case"][key] * (1 + 1e-9))
+        text = self.run_program("pose", self.SLICE, "--at", "-0.3,-0.2").stdout
+        self.assertIn("dalpha_z [rad]", text)
+        self.assertNotIn("-0 ", text)
+
+    def test_validate(self):
+        verdict = self.json("validate", self.SLICE, "--grid", "50x50")
+        self.assertTrue(verdict["validated"])
+        self.assertEqual(verdict["undecided"], 0)
+        self.assertGreater(verdict["held"], 200000)
+        self.assertIn({"joint": "S1", "quantity": "F"}, [tally["reaction"] for tally in verdict["reactions"]])
+
+    def test_zones_and_verify(self):
+        zones = self.json("zones", self.SLICE, "--joint", "S1", "--joint", "S4")["zones"]
+        self.assertAlmostEqual(sum(zone["area"] for zone in zones), 0.64, delta=1e-6)
+        task = FIVE_BAR.parent / "tasks" / "platform.yaml"
+        self.assertTrue(self.json("verify", self.SLICE, task)["verified"])
+        (self.folder / "task.yaml").write_text("format: 1\nbox: {x: [0, 0.3], y: [0, 0.1]}\n", encoding="utf-8")
+        self.assertFalse(self.json("verify", self.SLICE, "task.yaml", status=1)["verified"])
+
+    def test_error(self):
+        words = ("--grid", "12x10", "--export", "csv,vtk,png", "-o", "made")
+        errors = self.json("error", self.SLICE, *words)["modes"][0]
+        wanted = self.COMPONENTS | {"dp"}
+        self.assertEqual(set(errors["fields"]), wanted | {"worst_" + name for name in wanted})
+        self.assertEqual(errors["reachable"], 120)
+        names = {path.name for path in (self.folder / "made").iterdir()}
+        pictures = {f"error-{name.replace('_', '-')}.png" for name in errors["fields"]}
+        self.assertEqual(names, pictures | {"error.json", "error.csv", "error.vti"})
+
+
 class Validate(InOwnFolder):
     def test_the_shipped_example_holds(self):
         verdict = json.loads(self.run_program("validate", FIVE_BAR, "--grid", "60x60", "--json").stdout)
