@@ -121,6 +121,9 @@ struct LocusSurface {
   /// Proven: wherever else in the workspace the factor may vanish is within `resolution` of the triangles.
   bool certified = false;
   Point3 resolution{};  ///< along each coordinate
+  /// Smallest cells of the search in which the surface may touch itself or its parts are too close to be told apart:
+  /// where there are such, the triangles may join there what is apart.
+  int undecided = 0;
 };
 
 struct IsolatedPoint {

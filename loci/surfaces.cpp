@@ -27,7 +27,9 @@ using surface::Mesh;
 using surface::Point;
 
 /// Cells smaller than the mesh asks for, by so many halvings, where the surface may pass through more than once.
-constexpr int extra_levels = 3;
+constexpr int extra_levels = 4;
+/// And smaller yet where the mesh does not account for a zero that may be there.
+constexpr int closer_levels = 2;
 /// A factor vanishes at a point where its zero is this near, in unit coordinates, to first order.
 constexpr double vanishes_within = 1e-8;
 /// Points of a component at which other factors are looked at.
@@ -108,7 +110,9 @@ bool is_wanted(const LocusProblem& problem, const std::vector<Whole>& wholes, co
 struct Meshed {
   Mesh mesh;
   std::optional<int> boundary;  ///< it lies on Q_j = 0
-  surface::Unexplained unexplained;
+  int undecided = 0;            ///< cells in which it may touch itself
+  int unexplained = 0;          ///< cells away from it in which a zero could not be excluded
+  Point at{};                   ///< one of them
 };
 
 class ModeSurfaces {
@@ -149,19 +153,33 @@ class ModeSurfaces {
       map.surfaces.push_back(finished(f, labels[i], surface::part_of(meshed.mesh, own), meshed));
       map.surfaces.back().components = static_cast<int>(components[i].size());
     }
-    if (meshed.unexplained.cells > 0) note(f, meshed, map);
+    if (meshed.unexplained > 0) note(f, meshed, map);
   }
 
  private:
   Meshed mesh_of(Field& field) const {
-    const surface::Cells cells(
-        field, {.level = level_, .finest = std::min(level_ + extra_levels, surface::deepest), .stop = stop_});
+    const int finest = std::min(level_ + extra_levels, surface::deepest);
+    surface::Cells cells(field, {.level = level_, .finest = finest, .stop = stop_});
+    Meshed result = marched(field, cells);
+    std::vector<int> open = surface::unexplained(field, cells, level_, result.mesh, stop_);
+    if (!open.empty()) {
+      cells.look_closer(open, finest + closer_levels);
+      result = marched(field, cells);
+      open = surface::unexplained(field, cells, level_, result.mesh, stop_);
+    }
+    for (const surface::OctreeCell& cell : cells.cells())
+      if (cell.active() && cell.undecided) ++result.undecided;
+    result.unexplained = static_cast<int>(open.size());
+    if (!open.empty()) result.at = surface::unit_of(cells.cells()[static_cast<std::size_t>(open.front())].middle());
+    return result;
+  }
+
+  Meshed marched(Field& field, const surface::Cells& cells) const {
     Meshed result;
     result.mesh = surface::march(field, cells);
     if (stop_ && stop_()) throw core::LimitReached("the time limit was reached");
     result.boundary = surface::boundary_of(field, result.mesh);
     result.mesh = surface::within_workspace(field, std::move(result.mesh), result.boundary);
-    result.unexplained = surface::unexplained(field, cells, level_, result.mesh, stop_);
     return result;
   }
 
@@ -236,7 +254,8 @@ class ModeSurfaces {
                                   static_cast<int>(part.triangles.size());
     result.area = surface::area(field.frame(), part);
     result.deviation = surface::deviation(field, part);
-    result.certified = meshed.unexplained.cells == 0;
+    result.certified = meshed.unexplained == 0;
+    result.undecided = meshed.undecided;
     for (std::size_t i = 0; i < 3; ++i) result.resolution[i] = surface::resolution(level_) * field.frame().width(i);
     return result;
   }
@@ -247,10 +266,10 @@ class ModeSurfaces {
     constexpr std::size_t readable = 60;
     if (what.size() > readable) what = core::to_string(gravest_kind(factor.vanishing));
     if (factor.role == FactorRole::direct_singularity) what = "direct singularity";
-    const Point at = fields_[f]->frame().place(meshed.unexplained.at);
+    const Point at = fields_[f]->frame().place(meshed.at);
     std::ostringstream text;
     text.precision(3);
-    text << what << ": further parts of the surface could not be excluded in " << meshed.unexplained.cells
+    text << what << ": further parts of the surface could not be excluded in " << meshed.unexplained
          << " cells away from it, one of them at (" << at[0] << ", " << at[1] << ", " << at[2]
          << "); a smaller --mesh-size looks closer.";
     map.notes.push_back(text.str());

@@ -105,6 +105,7 @@ Json surface_object(const core::LocusMap& map, const core::LocusSurface& surface
   body["working_mode"] = mode_object(map.tower, surface.mode);
   body["certified"] = surface.certified;
   body["resolution"] = surface.resolution;
+  body["undecided_cells"] = surface.undecided;
   body["components"] = surface.components;
   body["euler_characteristic"] = surface.euler_characteristic;
   body["area"] = surface.area;

@@ -1,11 +1,19 @@
 #include "loci/surface/cells.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/errors.hpp"
+#include "loci/surface/mesh.hpp"
 
 namespace clearloci::loci::surface {
 namespace {
 
-constexpr int asked_every = 64;  // cells between two looks at the clock
+/// Further halvings where the surface ends on the workspace boundary, which it meets at a tangent, where it bends, and
+/// where it may be though nothing speaks for it.
+constexpr int rim_levels = 2, bent_levels = 2, unseen_levels = 1;
+constexpr double least_cosine = 0.93;  // of the angle between normals in a cell
+constexpr int asked_every = 64;        // cells between two looks at the clock
 
 }  // namespace
 
@@ -13,13 +21,24 @@ Cells::Cells(Field& field, const CellLimits& limits) : field_(&field), limits_(l
   core::ensure(limits.level <= limits.finest && limits.finest <= deepest, "cells lie on the lattice");
   cells_.emplace_back();
   examine(cells_.back());
-  std::vector<int> front = {0};
+  cut({0}, [this](OctreeCell& cell) { return worth_splitting(cell); });
+}
+
+void Cells::look_closer(const std::vector<int>& cells, int finest) {
+  const int most = examined_ + limits_.most / 3;
+  cut(cells, [this, finest, most](const OctreeCell& cell) {
+    if (!cell.active() || cell.level >= std::min(finest, deepest) || examined_ > most) return false;
+    // Once seen, the surface needs no smaller cells than elsewhere.
+    return cell.level < limits_.level + bent_levels || look_at(cell) == Look::unseen;
+  });
+}
+
+void Cells::cut(std::vector<int> front, const std::function<bool(OctreeCell&)>& wanted) {
   while (!front.empty()) {
     std::vector<int> next;
     for (const int index : front) {
       // Balancing may have cut it meanwhile: its children were put to the end.
-      if (!cells_[static_cast<std::size_t>(index)].leaf() || !worth_splitting(cells_[static_cast<std::size_t>(index)]))
-        continue;
+      if (!cells_[static_cast<std::size_t>(index)].leaf() || !wanted(cells_[static_cast<std::size_t>(index)])) continue;
       const std::size_t before = cells_.size();
       balance(index);
       split(index);
@@ -35,21 +54,35 @@ void Cells::examine(OctreeCell& cell) {
   cell.proof = field_->examine(cell.box());
 }
 
-bool Cells::worth_splitting(const OctreeCell& cell) const {
-  if (!cell.active() || cell.level >= limits_.finest) return false;
+bool Cells::worth_splitting(OctreeCell& cell) {
+  if (!cell.active()) return false;
   if (cell.level < limits_.level) return true;
-  if (cell.proof.one_sheet || examined_ > limits_.most) return false;
-  // On the rim gradients are unbounded and prove nothing; the function's signs at corners speak for a single sheet.
-  if (!cell.proof.rim) return true;
-  const auto sign_at = [&](const Place& place) { return field_->value(unit_of(place)) < 0; };
-  const bool first = sign_at(cell.middle());
-  for (int corner = 0; corner < 8; ++corner) {
+  const Look look = look_at(cell);
+  cell.undecided = !cell.proof.one_sheet && look == Look::several;
+  if (cell.level >= limits_.finest || examined_ > limits_.most) return false;
+  if (cell.proof.rim) return look != Look::unseen && cell.level < limits_.level + rim_levels;
+  if (look == Look::several) return !cell.proof.one_sheet;
+  if (look == Look::unseen) return !cell.proof.one_sheet && cell.level < limits_.level + unseen_levels;
+  return look == Look::bent && cell.level < limits_.level + bent_levels;
+}
+
+/// At the corners and in the middle. On the rim, where gradients are unbounded, they tell nothing.
+Cells::Look Cells::look_at(const OctreeCell& cell) {
+  Point normal{}, other{};
+  const bool sign = field_->gradient(unit_of(cell.middle()), normal) < 0;
+  const double length = std::sqrt(dot(normal, normal));
+  bool changes = false;
+  double least = 1;
+  for (int which = 0; which < 8; ++which) {
     Place place = cell.corner;
     for (std::size_t i = 0; i < 3; ++i)
-      if ((corner >> i & 1) != 0) place[i] += cell.size();
-    if (sign_at(place) != first) return false;
+      if ((which >> i & 1) != 0) place[i] += cell.size();
+    changes = (field_->gradient(unit_of(place), other) < 0) != sign || changes;
+    least = std::min(least, dot(normal, other) / (length * std::sqrt(dot(other, other))));
   }
-  return true;
+  if (least < 0 && !cell.proof.rim) return Look::several;
+  if (!changes) return Look::unseen;
+  return least < least_cosine ? Look::bent : Look::flat;
 }
 
 void Cells::split(int index) {

@@ -27,6 +27,7 @@ struct OctreeCell {
   int level = 0;
   int children = -1;  ///< the first of eight; -1: a leaf
   Proof proof;
+  bool undecided = false;  ///< the surface may touch itself there, or come close to it
 
   std::int32_t size() const { return lattice >> level; }
   Place middle() const { return {corner[0] + size() / 2, corner[1] + size() / 2, corner[2] + size() / 2}; }
@@ -44,13 +45,16 @@ struct OctreeCell {
 struct CellLimits {
   int level = 4;                    ///< of cells that the surface passes through
   int finest = 7;                   ///< where it may do so more than once
-  int most = 60000;                 ///< cells examined before cells stay larger than `finest`
+  int most = 150000;                ///< cells examined before cells stay larger than `finest`
   std::function<bool()> stop = {};  ///< asked now and then; true: throws core::LimitReached
 };
 
 class Cells {
  public:
   Cells(Field& field, const CellLimits& limits);
+
+  /// Cuts cells further, down to the given level, wherever the surface may pass.
+  void look_closer(const std::vector<int>& cells, int finest);
 
   const std::vector<OctreeCell>& cells() const { return cells_; }
   /// The smallest cell of at most the given level that holds a place of the lattice's interior; -1: outside the cube.
@@ -59,10 +63,15 @@ class Cells {
   bool finer_at(const Place& inner, int level) const;
 
  private:
+  /// What the function's signs and gradients at some points of a cell speak for.
+  enum class Look { flat, bent, unseen, several };
+
+  void cut(std::vector<int> front, const std::function<bool(OctreeCell&)>& wanted);
   void examine(OctreeCell& cell);
   void split(int cell);
   void balance(int cell);
-  bool worth_splitting(const OctreeCell& cell) const;
+  bool worth_splitting(OctreeCell& cell);
+  Look look_at(const OctreeCell& cell);
 
   Field* field_;
   CellLimits limits_;

@@ -247,54 +247,71 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
     variables[i] = variable_over(*chart.problem, i, place[i]);
     chart.over.set(static_cast<int>(i), variables[i]);
   }
+  rising_.assign(mode_.size(), false);
+  roots_.resize(mode_.size());
   for (int j = 0; j < roots(); ++j) {
+    const auto own = static_cast<std::size_t>(j);
     chart.over.run_square(j);
-    if (chart.over.square(j).upper() < 0) return {.outside = true, .zero_free = true};
-    const Interval root = sheet::square_root(chart.over.square(j));
-    chart.over.set(3 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
+    const Interval& square = chart.over.square(j);
+    if (square.upper() < 0) return {.outside = true, .zero_free = true};
+    rising_[own] = square.lower() <= 0;
+    roots_[own] = mode_[own] > 0 ? sheet::square_root(square) : -sheet::square_root(square);
+    chart.over.set(3 + j, roots_[own]);
   }
   chart.over.run_values();
   sign = chart.sign * chart.over.value(0).sign();
   proof.zero_free = sign != 0;
   if (proof.zero_free) return proof;
 
+  differentiate(chart, proof);
+  Interval product = 0, away = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Interval scaled = enclosed_[i] * Interval(frame_.width(i));
+    if (frame_.angle[i]) scaled = scaled * (Interval(1.0) + sheet::squared(variables[i])) * Interval(0.5);
+    product = product + scaled * scaled;
+    const double middle = variables[i].middle();
+    away = away + enclosed_[i] * (variables[i] - Interval(middle));
+    chart.over.set(static_cast<int>(i), Interval(middle));
+  }
+  proof.one_sheet = !proof.rim && product.lower() > 0;
+  for (int j = 0; j < roots(); ++j) {
+    const auto own = static_cast<std::size_t>(j);
+    chart.over.run_square(j);
+    const Interval& square = chart.over.square(j);
+    if (rising_[own]) {
+      const double middle = roots_[own].middle();
+      away = away + enclosed_[3 + own] * (roots_[own] - Interval(middle));
+      chart.over.set(3 + j, Interval(middle));
+    } else {
+      const Interval root = square.upper() < 0 ? Interval(0.0) : sheet::square_root(square);
+      chart.over.set(3 + j, mode_[own] > 0 ? root : -root);
+    }
+  }
+  chart.over.run_values();
+  sign = chart.sign * (chart.over.value(0) + away).sign();
+  proof.zero_free = sign != 0;
+  return proof;
+}
+
+/// Slopes over the cell, of the three coordinates and of the roots that may be 0 in it: these count as coordinates of
+/// their own, for as functions of the others they rise without bound. Mean-value form over all of them:
+///     f(X, S) within f(m, s_m) + sum f_x (X - m) + sum f_s (S - s_m)
+void Field::differentiate(Chart& chart, Proof& proof) {
   chart.over.run_gradients();
   enclosed_.resize(static_cast<std::size_t>(chart.program.variables()));
   for (std::size_t v = 0; v < enclosed_.size(); ++v) enclosed_[v] = chart.over.partial(0, static_cast<int>(v));
   for (int j = roots() - 1; j >= 0; --j) {
-    const Interval& own = enclosed_[static_cast<std::size_t>(j) + 3];
+    const Interval own = enclosed_[static_cast<std::size_t>(j) + 3];
     if (own.lower() == 0 && own.upper() == 0) continue;
-    if (chart.over.square(j).lower() <= 0) {
+    if (rising_[static_cast<std::size_t>(j)]) {
       proof.rim = true;
-      return proof;
+      continue;
     }
     const Interval factor = own * sheet::inverse(Interval(2.0) * chart.over.root(j));
     for (int v = 0; v < 3 + j; ++v)
       enclosed_[static_cast<std::size_t>(v)] =
           enclosed_[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);
   }
-  Interval product = 0;
-  Box from_middle;
-  for (std::size_t i = 0; i < 3; ++i) {
-    Interval scaled = enclosed_[i] * Interval(frame_.width(i));
-    if (frame_.angle[i]) scaled = scaled * (Interval(1.0) + sheet::squared(variables[i])) * Interval(0.5);
-    product = product + scaled * scaled;
-    const double middle = variables[i].middle();
-    from_middle[i] = enclosed_[i] * (variables[i] - Interval(middle));
-    chart.over.set(static_cast<int>(i), Interval(middle));
-  }
-  proof.one_sheet = product.lower() > 0;
-  for (int j = 0; j < roots(); ++j) {
-    chart.over.run_square(j);
-    const Interval& square = chart.over.square(j);
-    const Interval root = square.upper() < 0 ? Interval(0.0) : sheet::square_root(square);
-    chart.over.set(3 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
-  }
-  chart.over.run_values();
-  const Interval centred = chart.over.value(0) + from_middle[0] + from_middle[1] + from_middle[2];
-  sign = chart.sign * centred.sign();
-  proof.zero_free = sign != 0;
-  return proof;
 }
 
 }  // namespace clearloci::loci::surface

@@ -89,20 +89,18 @@ class Field {
     Point lower{}, upper{};  ///< of the coordinates: m, rad
     int sign;
   };
-  struct Slopes {
-    std::vector<double> variables;
-    Point scale{};
-  };
-
   Chart& enter(const Point& unit, int held = -1);
   Point reduced(Chart& chart, int held);
   /// `sign`: proven of the function where the cell is free of zeros.
   Proof examine(Chart& chart, const Box& place, int& sign);
+  void differentiate(Chart& chart, Proof& proof);
 
   Frame frame_;
   core::WorkingMode mode_;
   std::vector<std::unique_ptr<Chart>> charts_;
   std::vector<double> gradient_;           ///< of variables, being reduced to the coordinates
+  std::vector<sheet::Interval> roots_;     ///< over the cell being examined
+  std::vector<bool> rising_;               ///< which of them may be 0 in it
   std::vector<sheet::Interval> enclosed_;  ///< likewise
   Point scale_{};                          ///< of the last point entered: d variable / d unit coordinate
 };

@@ -58,9 +58,10 @@ class Marcher {
     const Point from = unit_of(cut_.corners[static_cast<std::size_t>(a)]);
     const Point way = unit_of(cut_.corners[static_cast<std::size_t>(b)]) - from;
     double low = 0, high = 1, at_low = corner(a).value, at_high = corner(b).value, part = 0;
-    constexpr double enough = 1e-14;
+    constexpr double enough = 1e-12;  // of the edge
     constexpr int most = 60;
     for (int step = 0; step < most && high - low > enough; ++step) {
+      const double before = part;
       // A few steps by the secant; where these creep, halves.
       part = step % 8 == 7 ? 0.5 * (low + high) : low + (high - low) * (at_low / (at_low - at_high));
       if (!(part > low && part < high)) part = 0.5 * (low + high);
@@ -75,7 +76,7 @@ class Marcher {
         at_high = value;
         at_low *= 0.5;
       }
-      if (step > 3 && std::abs(value) < 1e-15 * std::max(std::abs(corner(a).value), std::abs(corner(b).value))) break;
+      if (step > 0 && std::abs(part - before) < enough) break;
     }
     return {a, b, from + part * way, part};
   }

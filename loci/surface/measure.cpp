@@ -67,8 +67,8 @@ double deviation(Field& field, const Mesh& mesh) {
   return most;
 }
 
-Unexplained unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh,
-                        const std::function<bool()>& stop) {
+std::vector<int> unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh,
+                             const std::function<bool()>& stop) {
   const int side = 1 << level;
   const auto bin = [&](double unit) { return std::clamp(static_cast<int>(unit * side), 0, side - 1); };
   std::vector<bool> near(static_cast<std::size_t>(side) * side * side, false);
@@ -82,15 +82,15 @@ Unexplained unexplained(Field& field, const Cells& cells, int level, const Mesh&
       for (int j = std::max(0, y - 1); j <= std::min(side - 1, y + 1); ++j)
         for (int k = std::max(0, z - 1); k <= std::min(side - 1, z + 1); ++k) near[flag(i, j, k)] = true;
   }
-  Unexplained result;
+  std::vector<int> result;
   int budget = most_examined;
-  for (const OctreeCell& cell : cells.cells()) {
+  for (std::size_t c = 0; c < cells.cells().size(); ++c) {
+    const OctreeCell& cell = cells.cells()[c];
     if (!cell.active()) continue;
     const Point middle = unit_of(cell.middle());
     if (cell.level >= level && near[flag(bin(middle[0]), bin(middle[1]), bin(middle[2]))]) continue;
     if (stop && stop()) throw core::LimitReached("the time limit was reached");
-    if (is_free(field, cell.box(), cuts_of_a_cell, budget)) continue;
-    if (result.cells++ == 0) result.at = middle;
+    if (!is_free(field, cell.box(), cuts_of_a_cell, budget)) result.push_back(static_cast<int>(c));
   }
   return result;
 }

@@ -15,12 +15,8 @@ double deviation(Field& field, const Mesh& mesh);
 
 /// The cells in which a zero could not be excluded, though cut up further, and no triangle is within two cells of the
 /// mesh's own size.
-struct Unexplained {
-  int cells = 0;
-  Point at{};  ///< unit coordinates of one
-};
-Unexplained unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh,
-                        const std::function<bool()>& stop);
+std::vector<int> unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh,
+                             const std::function<bool()>& stop);
 
 /// The distance, in unit coordinates, that `unexplained` allows.
 inline double resolution(int level) { return 2.0 / (1 << level); }
