@@ -1,11 +1,16 @@
 #include "loci/surfaces.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <sstream>
+#include <thread>
 #include <tuple>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "loci/edge_labels.hpp"
@@ -30,6 +35,8 @@ using surface::Point;
 constexpr int extra_levels = 4;
 /// And smaller yet where the mesh does not account for a zero that may be there.
 constexpr int closer_levels = 2;
+/// Halvings of a cell in the proof that no zero is in it: before looking closer, and after.
+constexpr int quick_cuts = 2, thorough_cuts = 5;
 /// A factor vanishes at a point where its zero is this near, in unit coordinates, to first order.
 constexpr double vanishes_within = 1e-8;
 /// Points of a component at which other factors are looked at.
@@ -121,14 +128,20 @@ class ModeSurfaces {
                std::function<bool()> stop)
       : problem_(*charts.front()), mode_(mode), level_(level), stop_(std::move(stop)), wholes_(joined(charts, mode)) {
     for (const Whole& whole : wholes_) fields_.push_back(std::make_unique<Field>(whole.parts, mode));
+    meshed_.resize(wholes_.size());
   }
 
   std::size_t size() const { return wholes_.size(); }
 
-  /// The surfaces of one factor.
+  /// Meshes one factor; others may be meshed at the same time.
+  void mesh(std::size_t f) {
+    if (!wholes_[f].root && is_wanted(problem_, wholes_, wholes_[f])) meshed_[f] = mesh_of(*fields_[f]);
+  }
+
+  /// The surfaces of one factor, once all are meshed.
   void add(std::size_t f, LocusMap& map) {
-    if (wholes_[f].root || !is_wanted(problem_, wholes_, wholes_[f])) return;
-    const Meshed meshed = mesh_of(*fields_[f]);
+    if (!meshed_[f]) return;
+    const Meshed& meshed = *meshed_[f];
     const std::vector<int> component = surface::components_of(meshed.mesh);
     const int count = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
     std::vector<EdgeLabel> labels;
@@ -161,11 +174,11 @@ class ModeSurfaces {
     const int finest = std::min(level_ + extra_levels, surface::deepest);
     surface::Cells cells(field, {.level = level_, .finest = finest, .stop = stop_});
     Meshed result = marched(field, cells);
-    std::vector<int> open = surface::unexplained(field, cells, level_, result.mesh, stop_);
+    std::vector<int> open = surface::unexplained(field, cells, level_, result.mesh, quick_cuts, stop_);
     if (!open.empty()) {
       cells.look_closer(open, finest + closer_levels);
       result = marched(field, cells);
-      open = surface::unexplained(field, cells, level_, result.mesh, stop_);
+      open = surface::unexplained(field, cells, level_, result.mesh, thorough_cuts, stop_);
     }
     for (const surface::OctreeCell& cell : cells.cells())
       if (cell.active() && cell.undecided) ++result.undecided;
@@ -281,6 +294,7 @@ class ModeSurfaces {
   std::function<bool()> stop_;
   std::vector<Whole> wholes_;
   std::vector<std::unique_ptr<Field>> fields_;
+  std::vector<std::optional<Meshed>> meshed_;  ///< nothing: not wanted, or not done in time
 };
 
 /// Forces that are several components vanish on curves or at points of the three coordinates, which are not traced.
@@ -316,6 +330,39 @@ void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
   for (LocusSurface& one : map.surfaces) one.id = "s" + std::to_string(++number);
 }
 
+/// All factors of all modes, on as many threads as the machine has. False: the time was over before.
+bool mesh_all(const std::vector<std::unique_ptr<ModeSurfaces>>& modes, const TraceOptions& options,
+              const std::function<bool()>& stop) {
+  std::vector<std::pair<ModeSurfaces*, std::size_t>> tasks;
+  for (const auto& mode : modes)
+    for (std::size_t f = 0; f < mode->size(); ++f) tasks.emplace_back(mode.get(), f);
+  std::atomic<std::size_t> next = 0, done = 0;
+  std::atomic<bool> late = false;
+  std::mutex guard;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t t = next++; t < tasks.size(); t = next++) try {
+        if (late || stop()) throw core::LimitReached("the time limit was reached");
+        tasks[t].first->mesh(tasks[t].second);
+        const std::scoped_lock lock(guard);
+        if (options.progress)
+          options.progress(static_cast<double>(++done) / static_cast<double>(tasks.size()), "surfaces");
+      } catch (const core::LimitReached&) {
+        late = true;
+      } catch (...) {
+        const std::scoped_lock lock(guard);
+        failure = std::current_exception();
+        next = tasks.size();
+      }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+  return !late;
+}
+
 }  // namespace
 
 LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const SurfaceOptions& options) {
@@ -330,23 +377,13 @@ LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const Su
   const std::function<bool()> stop = [&] {
     return options.trace.deadline && std::chrono::steady_clock::now() > *options.trace.deadline;
   };
-  try {
-    for (std::size_t m = 0; m < problem.modes.size(); ++m) {
-      ModeSurfaces surfaces(charts, problem.modes[m], level, stop);
-      for (std::size_t f = 0; f < surfaces.size(); ++f) {
-        if (stop()) throw core::LimitReached("the time limit was reached");
-        if (options.trace.progress)
-          options.trace.progress(
-              (static_cast<double>(m) + static_cast<double>(f) / static_cast<double>(surfaces.size())) /
-                  static_cast<double>(problem.modes.size()),
-              "surfaces");
-        surfaces.add(f, map);
-      }
-    }
-    note_forces(problem, map);
-  } catch (const core::LimitReached&) {
-    map.complete = false;
-  }
+  std::vector<std::unique_ptr<ModeSurfaces>> modes;
+  for (const core::WorkingMode& mode : problem.modes)
+    modes.push_back(std::make_unique<ModeSurfaces>(charts, mode, level, stop));
+  map.complete = mesh_all(modes, options.trace, stop);
+  for (const auto& mode : modes)
+    for (std::size_t f = 0; f < mode->size(); ++f) mode->add(f, map);
+  if (map.complete) note_forces(problem, map);
   map.tower = problem.tower;
   map.lower = problem.lower;
   map.upper = problem.upper;

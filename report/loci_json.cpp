@@ -190,7 +190,7 @@ Json loci_object(const core::LocusMap& map) {
     for (const bool angle : map.angles) root["units"].push_back(angle ? "rad" : "m");
   }
   root["box"] = box_array(map);
-  root["tolerance"] = map.tolerance;
+  if (map.tower.coordinates.size() != 3) root["tolerance"] = map.tolerance;  // of arcs
   root["complete"] = map.complete;
   root["curves"] = Json::array();
   for (const auto& curve : map.curves) root["curves"].push_back(curve_object(map, curve));

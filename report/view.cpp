@@ -169,7 +169,7 @@ class Canvas {
   }
 
   void draw_line(const Corner& a, const Corner& b, const ShadedSurface& shaded) {
-    const double half_width = 0.42 * per_point_, bias = 0.004;
+    const double half_width = 0.42 * per_point_, bias = 0.01;
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const double reach = half_width + 1;
     const int from_y = static_cast<int>(std::floor(std::min(a.y, b.y) - reach));

@@ -17,7 +17,7 @@ constexpr int most_repairs = 8;
 
 class Marcher {
  public:
-  Marcher(Field& field, Tetrahedra cut) : field_(field), cut_(std::move(cut)) {
+  Marcher(Field& field, const Cells& cells) : field_(field), cells_(cells), cut_(tetrahedra_of(cells)) {
     for (const Place& place : cut_.corners) {
       corners_.push_back({unit_of(place), 0, 0, false});
       Corner& corner = corners_.back();
@@ -59,14 +59,18 @@ class Marcher {
     const Point way = unit_of(cut_.corners[static_cast<std::size_t>(b)]) - from;
     double low = 0, high = 1, at_low = corner(a).value, at_high = corner(b).value, part = 0;
     constexpr double enough = 1e-12;  // of the edge
-    constexpr int most = 60;
+    constexpr int most = 100;
+    bool halve = false;
     for (int step = 0; step < most && high - low > enough; ++step) {
       const double before = part;
-      // A few steps by the secant; where these creep, halves.
-      part = step % 8 == 7 ? 0.5 * (low + high) : low + (high - low) * (at_low / (at_low - at_high));
+      part = halve ? 0.5 * (low + high) : low + (high - low) * (at_low / (at_low - at_high));
+      // Two estimates alike are no proof: next to the workspace boundary the slope is unbounded. The sign behind is.
+      const bool settled = std::abs(part - before) < enough;
+      if (settled) part += part < 0.5 * (low + high) ? enough : -enough;
       if (!(part > low && part < high)) part = 0.5 * (low + high);
       const double value = field_.value(from + part * way);
-      if (value == 0) break;
+      if (value == 0) return {a, b, from + part * way, part};
+      halve = settled || step % 8 == 7;
       if ((value < 0) == (at_low < 0)) {
         low = part;
         at_low = value;
@@ -76,8 +80,8 @@ class Marcher {
         at_high = value;
         at_low *= 0.5;
       }
-      if (step > 0 && std::abs(part - before) < enough) break;
     }
+    part = 0.5 * (low + high);
     return {a, b, from + part * way, part};
   }
 
@@ -103,6 +107,19 @@ class Marcher {
     return true;
   }
 
+  /// Cells outside the workspace are not cut, though the surface goes on in them: a corner of theirs that moved would
+  /// take a piece of the surface away.
+  bool touches_outside(const Place& place) const {
+    for (int which = 0; which < 8; ++which) {
+      Place inner = place;
+      for (std::size_t i = 0; i < 3; ++i)
+        if ((which >> i & 1) != 0) --inner[i];
+      const int cell = cells_.at(inner, deepest);
+      if (cell >= 0 && cells_.cells()[static_cast<std::size_t>(cell)].proof.outside) return true;
+    }
+    return false;
+  }
+
   void move_corners() {
     std::vector<int> nearest(corners_.size(), -1);
     std::vector<double> least(corners_.size(), near_corner);
@@ -118,7 +135,7 @@ class Marcher {
       offer(crossing.b, crossing.a, 1 - crossing.part);
     }
     for (std::size_t i = 0; i < corners_.size(); ++i) {
-      if (nearest[i] < 0) continue;
+      if (nearest[i] < 0 || touches_outside(cut_.corners[i])) continue;
       corners_[i].at = crossings_[static_cast<std::size_t>(nearest[i])].at;
       corners_[i].sign = 0;
     }
@@ -239,6 +256,7 @@ class Marcher {
   }
 
   Field& field_;
+  const Cells& cells_;
   Tetrahedra cut_;
   std::vector<Corner> corners_;
   std::vector<Crossing> crossings_;
@@ -253,6 +271,6 @@ class Marcher {
 
 }  // namespace
 
-Mesh march(Field& field, const Cells& cells) { return Marcher(field, tetrahedra_of(cells)).run(); }
+Mesh march(Field& field, const Cells& cells) { return Marcher(field, cells).run(); }
 
 }  // namespace clearloci::loci::surface

@@ -8,8 +8,7 @@
 namespace clearloci::loci::surface {
 namespace {
 
-constexpr int cuts_of_a_cell = 5;
-constexpr int most_examined = 200000;
+constexpr int most_examined = 100000;
 
 Point place_of(const Frame& frame, const Mesh& mesh, int point) {
   return frame.place(mesh.points[static_cast<std::size_t>(point)]);
@@ -67,7 +66,7 @@ double deviation(Field& field, const Mesh& mesh) {
   return most;
 }
 
-std::vector<int> unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh,
+std::vector<int> unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh, int cuts,
                              const std::function<bool()>& stop) {
   const int side = 1 << level;
   const auto bin = [&](double unit) { return std::clamp(static_cast<int>(unit * side), 0, side - 1); };
@@ -90,7 +89,7 @@ std::vector<int> unexplained(Field& field, const Cells& cells, int level, const 
     const Point middle = unit_of(cell.middle());
     if (cell.level >= level && near[flag(bin(middle[0]), bin(middle[1]), bin(middle[2]))]) continue;
     if (stop && stop()) throw core::LimitReached("the time limit was reached");
-    if (!is_free(field, cell.box(), cuts_of_a_cell, budget)) result.push_back(static_cast<int>(c));
+    if (!is_free(field, cell.box(), cuts, budget)) result.push_back(static_cast<int>(c));
   }
   return result;
 }

@@ -63,11 +63,17 @@ class Clipper {
     return known->second;
   }
 
-  /// Newton's method of least moves for f = 0, Q_j = 0, with s_j at 0 in f: both are smooth there.
   Point solve(const Point& a, const Point& b) {
+    for (const double part : {0.5, 0.85, 0.15})
+      if (const std::optional<Point> found = newton(a, b, a + part * (b - a))) return *found;
+    return halved(a, b);
+  }
+
+  /// Newton's method of least moves for f = 0, Q_j = 0, with s_j at 0 in f: both are smooth there. Nothing where it
+  /// does not end near the edge.
+  std::optional<Point> newton(const Point& a, const Point& b, Point point) {
     const Point way = b - a;
     const double most = 4 * dot(way, way);
-    Point point = 0.5 * (a + b);
     std::array<bool, 3> held{};
     for (std::size_t i = 0; i < 3; ++i) held[i] = a[i] == b[i] && (a[i] == 0 || a[i] == 1);
     constexpr int steps = 30;
@@ -80,10 +86,10 @@ class Clipper {
         if (held[i]) f_slopes[i] = q_slopes[i] = 0;
       const double ff = dot(f_slopes, f_slopes), fq = dot(f_slopes, q_slopes), qq = dot(q_slopes, q_slopes);
       const double determinant = ff * qq - fq * fq;
-      if (!(determinant > 1e-14 * ff * qq)) break;
+      if (!(determinant > 1e-14 * ff * qq)) return std::nullopt;
       const Point move = (fq * q - qq * f) / determinant * f_slopes + (fq * f - ff * q) / determinant * q_slopes;
       point = point + move;
-      if (!(dot(point - a, point - a) < most)) break;
+      if (!(dot(point - a, point - a) < most)) return std::nullopt;
       for (std::size_t i = 0; i < 3; ++i) {
         if (point[i] >= 0 && point[i] <= 1) continue;
         point[i] = std::clamp(point[i], 0.0, 1.0);
@@ -91,7 +97,7 @@ class Clipper {
       }
       if (dot(move, move) < enough * enough) return point;
     }
-    return halved(a, b);
+    return std::nullopt;
   }
 
   /// The place on the edge itself where Q_j = 0.
