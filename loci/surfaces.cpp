@@ -35,8 +35,8 @@ using surface::Point;
 constexpr int extra_levels = 4;
 /// And smaller yet where the mesh does not account for a zero that may be there.
 constexpr int closer_levels = 2;
-/// Halvings of a cell in the proof that no zero is in it: before looking closer, and after.
-constexpr int quick_cuts = 2, thorough_cuts = 5;
+/// Halvings of a cell in the proof that no zero is in it.
+constexpr int cuts_of_a_cell = 5;
 /// A factor vanishes at a point where its zero is this near, in unit coordinates, to first order.
 constexpr double vanishes_within = 1e-8;
 /// Points of a component at which other factors are looked at.
@@ -174,11 +174,11 @@ class ModeSurfaces {
     const int finest = std::min(level_ + extra_levels, surface::deepest);
     surface::Cells cells(field, {.level = level_, .finest = finest, .stop = stop_});
     Meshed result = marched(field, cells);
-    std::vector<int> open = surface::unexplained(field, cells, level_, result.mesh, quick_cuts, stop_);
+    std::vector<int> open = surface::unexplained(field, cells, level_, result.mesh, cuts_of_a_cell, stop_);
     if (!open.empty()) {
       cells.look_closer(open, finest + closer_levels);
       result = marched(field, cells);
-      open = surface::unexplained(field, cells, level_, result.mesh, thorough_cuts, stop_);
+      open = surface::unexplained(field, cells, level_, result.mesh, cuts_of_a_cell, stop_);
     }
     for (const surface::OctreeCell& cell : cells.cells())
       if (cell.active() && cell.undecided) ++result.undecided;

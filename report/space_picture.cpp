@@ -140,6 +140,12 @@ Scale scale_of(const core::LocusMap& map, std::size_t i, double points) {
   return {ticks(low, high, apart), 1, name + " (m)"};
 }
 
+/// Of the upright axis.
+Scale heights_of(const core::LocusMap& map, const View& view) {
+  const double upright = view.zoom * view.scale[2] * (core::to_double(map.upper[2]) - core::to_double(map.lower[2]));
+  return scale_of(map, 2, upright * std::cos(elevation));
+}
+
 /// A unit vector across an edge of the box, away from its middle; on the page.
 Point2 outwards(const View& view, const Point2& a, const Point2& b) {
   const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
@@ -197,10 +203,18 @@ void draw_surfaces(const Context& context, const core::LocusMap& map, const Plac
                    const std::vector<SurfaceGroup>& groups) {
   const View& view = placed.view;
   std::vector<ShadedSurface> shaded;
+  // A part of the boundary on which a reaction vanishes is drawn once, as that.
+  const auto drawn = [&](const core::LocusSurface& surface) {
+    return surface.kind == core::LocusKind::workspace_boundary &&
+           std::any_of(shaded.begin(), shaded.end(), [&](const ShadedSurface& other) {
+             return other.surface->triangles.size() == surface.triangles.size() &&
+                    other.surface->vertices == surface.vertices;
+           });
+  };
   for (const SurfaceGroup& group : groups)
-    for (const core::LocusSurface* surface : group.surfaces) shaded.push_back({surface, group.colour, group.opacity});
-  const double upright = view.zoom * view.scale[2] * (core::to_double(map.upper[2]) - core::to_double(map.lower[2]));
-  const Scale heights = scale_of(map, 2, upright * std::cos(elevation));
+    for (const core::LocusSurface* surface : group.surfaces)
+      if (!drawn(*surface)) shaded.push_back({surface, group.colour, group.opacity});
+  const Scale heights = heights_of(map, view);
   const double step = heights.ticks.size() > 1 ? (heights.ticks[1].at - heights.ticks[0].at) * heights.factor : 0;
   const int width = static_cast<int>(view_side * pixels_per_point);
   const int height = static_cast<int>(placed.height * pixels_per_point);
@@ -289,6 +303,9 @@ std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<Surfac
     if (!group.why.empty()) entry.reason = {group.why};
     entries.push_back(std::move(entry));
   }
+  if (!groups.empty())
+    entries.push_back(
+        {nullptr, {"thin lines: equal " + printable(map.tower.coordinates[2]) + ", at the ticks of its axis"}, {}});
   if (groups.empty()) entries.push_back({nullptr, {"no surfaces in the box"}, {}});
   if (!map.complete) entries.push_back({nullptr, {"incomplete: stopped at the time limit"}, {}});
   return entries;

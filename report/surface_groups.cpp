@@ -30,9 +30,16 @@ void choose_colours(std::vector<SurfaceGroup>& groups) {
       group.opacity = 0.22;
     } else {
       group.colour = palette_colour(number++);
-      group.opacity = 0.62;
+      group.opacity = group.on_boundary ? 0.34 : 0.62;  // what it encloses is to be seen
     }
   }
+}
+
+bool is_on_boundary(const core::LocusMap& map, const core::LocusSurface& surface) {
+  return std::any_of(map.surfaces.begin(), map.surfaces.end(), [&](const core::LocusSurface& other) {
+    return other.kind == core::LocusKind::workspace_boundary && other.mode == surface.mode &&
+           other.triangles.size() == surface.triangles.size() && other.vertices == surface.vertices;
+  });
 }
 
 }  // namespace
@@ -55,8 +62,10 @@ std::vector<SurfaceGroup> group_surfaces(const core::LocusMap& map) {
         fresh.what = printable(vanishing_words(surface.kind, surface.vanishing));
         fresh.why = reason_words(surface);
       }
+      fresh.on_boundary = reaction;
       group = groups.insert(groups.end(), std::move(fresh));
     }
+    group->on_boundary = group->on_boundary && is_on_boundary(map, surface);
     group->surfaces.push_back(&surface);
   }
   std::stable_sort(groups.begin(), groups.end(),

@@ -19,6 +19,7 @@ struct SurfaceGroup {
   std::string why;   ///< and the reason in words; may be empty
   Colour colour;
   double opacity = 1;
+  bool on_boundary = false;  ///< a reaction's, but all of it is part of the workspace boundary
   std::vector<const core::LocusSurface*> surfaces;
 };
 

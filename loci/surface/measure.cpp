@@ -8,7 +8,7 @@
 namespace clearloci::loci::surface {
 namespace {
 
-constexpr int most_examined = 100000;
+constexpr int most_examined = 200000;
 
 Point place_of(const Frame& frame, const Mesh& mesh, int point) {
   return frame.place(mesh.points[static_cast<std::size_t>(point)]);
