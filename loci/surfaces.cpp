@@ -133,6 +133,12 @@ class ModeSurfaces {
 
   std::size_t size() const { return wholes_.size(); }
 
+  /// Grows with the time that a factor takes.
+  std::size_t cost(std::size_t f) const {
+    const sheet::SheetFunction& function = wholes_[f].parts.front().function;
+    return function.line.empty() ? function.polynomial.terms.size() : function.line.steps.size();
+  }
+
   /// Meshes one factor; others may be meshed at the same time.
   void mesh(std::size_t f) {
     if (!wholes_[f].root && is_wanted(problem_, wholes_, wholes_[f])) meshed_[f] = mesh_of(*fields_[f]);
@@ -275,15 +281,21 @@ class ModeSurfaces {
 
   void note(std::size_t f, const Meshed& meshed, LocusMap& map) {
     const LocusFactor& factor = *wholes_[f].factor;
-    std::string what = factor.cause.empty() ? factor.expression : factor.cause;
-    constexpr std::size_t readable = 60;
-    if (what.size() > readable) what = core::to_string(gravest_kind(factor.vanishing));
-    if (factor.role == FactorRole::direct_singularity) what = "direct singularity";
+    std::string what = core::to_string(factor.role == FactorRole::workspace_boundary ? LocusKind::workspace_boundary
+                                                                                     : LocusKind::direct_singularity);
+    if (factor.role == FactorRole::reaction || factor.role == FactorRole::margin) {
+      what.clear();
+      for (const core::Vanishing& v : reaction_label(problem_, {&factor}).vanishing)
+        what += (what.empty() ? "" : ", ") + core::to_string(v.quantity) + "_" + v.joint;
+      if (what.empty()) what = factor.cause;
+    }
+    for (const auto& [point, side] : core::describe_mode(problem_.tower, mode_)) what += ", " + point + " " + side;
     const Point at = fields_[f]->frame().place(meshed.at);
     std::ostringstream text;
     text.precision(3);
     text << what << ": further parts of the surface could not be excluded in " << meshed.unexplained
-         << " cells away from it, one of them at (" << at[0] << ", " << at[1] << ", " << at[2]
+         << (meshed.unexplained == 1 ? " cell" : " cells") << " away from it, "
+         << (meshed.unexplained == 1 ? "at (" : "one of them at (") << at[0] << ", " << at[1] << ", " << at[2]
          << "); a smaller --mesh-size looks closer.";
     map.notes.push_back(text.str());
   }
@@ -336,6 +348,10 @@ bool mesh_all(const std::vector<std::unique_ptr<ModeSurfaces>>& modes, const Tra
   std::vector<std::pair<ModeSurfaces*, std::size_t>> tasks;
   for (const auto& mode : modes)
     for (std::size_t f = 0; f < mode->size(); ++f) tasks.emplace_back(mode.get(), f);
+  // The dearest first, so that no thread is left with it alone at the end.
+  std::stable_sort(tasks.begin(), tasks.end(), [](const auto& one, const auto& other) {
+    return one.first->cost(one.second) > other.first->cost(other.second);
+  });
   std::atomic<std::size_t> next = 0, done = 0;
   std::atomic<bool> late = false;
   std::mutex guard;
