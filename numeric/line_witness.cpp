@@ -67,18 +67,34 @@ Parity LineWitness::sign_changes(const WitnessColumns& columns, double a, double
 
 bool LineWitness::cancels(const WitnessColumns& columns, double a, double b) {
   if (columns.second >= 0) return false;
-  const auto sign = [this](double position) {
-    const Bounded& d = at(position).determinant;
-    return std::abs(d.value) <= d.error ? 0 : d.value > 0 ? 1 : -1;
-  };
-  const int first = sign(a);
-  if (first * sign(b) >= 0) return false;
+  constexpr int pieces = 16;  // factors of |A| may vanish side by side
+  bool odd = false;
+  double from = a;
+  int before = determinant_sign(a);
+  for (int k = 1; k <= pieces; ++k) {
+    const double to = k == pieces ? b : a + (b - a) * k / pieces;
+    const int here = determinant_sign(to);
+    if (here == 0) continue;  // the next piece begins before it
+    if (before * here < 0 && cancels_between(columns, from, to)) odd = !odd;
+    before = here;
+    from = to;
+  }
+  return odd;
+}
+
+int LineWitness::determinant_sign(double position) {
+  const Bounded& d = at(position).determinant;
+  return std::abs(d.value) <= d.error ? 0 : d.value > 0 ? 1 : -1;
+}
+
+bool LineWitness::cancels_between(const WitnessColumns& columns, double a, double b) {
+  const int first = determinant_sign(a);
   const double least = a, most = b;
   constexpr int halvings = 60;  // more than a double has digits
   for (int k = 0; k < halvings; ++k) {
     const double middle = (a + b) / 2;
     if (middle == a || middle == b || !reachable(middle)) break;
-    const int here = sign(middle);
+    const int here = determinant_sign(middle);
     if (here == 0) {
       a = b = middle;
       break;
@@ -89,7 +105,8 @@ bool LineWitness::cancels(const WitnessColumns& columns, double a, double b) {
   const double place = (a + b) / 2;
   for (double radius = std::max(b - a, smallest_ / 1024); radius <= 1024 * smallest_; radius *= 2) {
     const double before = std::max(least, place - radius), after = std::min(most, place + radius);
-    if (sign(before) == 0 || sign(after) == 0 || !decided(columns, before) || !decided(columns, after)) continue;
+    if (determinant_sign(before) * determinant_sign(after) >= 0) continue;
+    if (!decided(columns, before) || !decided(columns, after)) continue;
     return (force(columns, before)[0] > 0) != (force(columns, after)[0] > 0);
   }
   return !decided(columns, place);

@@ -55,12 +55,15 @@ class LineWitness {
   /// Unknown where a force's direction cannot be followed in between.
   Parity sign_changes(const WitnessColumns& columns, double a, double b);
 
-  /// Whether |A| changes sign between a and b and the numerator does at the same place: there the reaction, their
-  /// quotient, stays finite and is no zero. For a single component.
+  /// Whether there is an odd number of places between a and b at which |A| and the numerator change sign together:
+  /// there the reaction, their quotient, stays finite and is no zero. For a single component.
   bool cancels(const WitnessColumns& columns, double a, double b);
 
  private:
   ForceNumerators force(const WitnessColumns& columns, double position);
+  int determinant_sign(double position);  ///< 0: undecided
+  /// At the one place between a and b at which |A| changes sign.
+  bool cancels_between(const WitnessColumns& columns, double a, double b);
   Parity flips(const WitnessColumns& columns, double a, double b);
 
   const NumericModel& model_;

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace clearloci::loci::sheet {
 
 namespace {
 
-constexpr int most_trials = 14;
+constexpr int most_trials = 14, most_halvings = 12;
 // A step is long enough when its chord uses this share of the tolerance; aiming a little below it avoids rejections.
 constexpr double enough = 0.55, aim = 0.85;
 constexpr double most_growth = 3;
@@ -104,13 +105,41 @@ class Run {
   /// The curve's point at distance `h` ahead of `at` along its tangent, if it is proven to lie on `leg`.
   bool point_ahead(const LiftedPoint& at, const LiftedPoint& tangent, double h, std::size_t leg, std::size_t first,
                    LiftedPoint& point) {
-    // Start from the straight line between the leg's known ends: better than the tangent after a turn.
+    // Start from the straight line between the leg's known ends: better than the tangent after a turn. A leg that
+    // turns back, so that its end lies behind, is first left along the tangent.
     const LiftedPoint& start = leg == first ? at : ends_[leg - 1];
     const double from = ahead(start, at, tangent), to = ahead(ends_[leg], at, tangent);
     const double share = to > from ? std::clamp((h - from) / (to - from), 0.0, 1.0) : 0.5;
+    const bool back = leg == first && to <= from;
     point = start;
-    for (std::size_t i = 0; i < point.size(); ++i) point[i] += share * (ends_[leg][i] - start[i]);
+    for (std::size_t i = 0; i < point.size(); ++i)
+      point[i] += back ? h * tangent[i] : share * (ends_[leg][i] - start[i]);
     return follower_.correct(point, tangent, dot(tangent, at) + h) && on_leg(point, leg);
+  }
+
+  /// The point of a leg at a share of the way, told by its variable, from `start` to `end` on it. The leg is a graph
+  /// over that variable: there is one such point.
+  bool point_between(const LiftedPoint& start, const LiftedPoint& end, double share, std::size_t leg,
+                     LiftedPoint& point) {
+    const int v = (*legs_)[leg].stretch->along;
+    point = start;
+    for (std::size_t i = 0; i < point.size(); ++i) point[i] += share * (end[i] - start[i]);
+    LiftedPoint row(point.size(), 0.0);
+    row[static_cast<std::size_t>(v)] = 1;
+    const double value = point[static_cast<std::size_t>(v)];
+    return follower_.correct(point, row, value) && on_leg(point, leg);
+  }
+
+  /// Largest distance from the chord a, b of the points between two of one leg; infinite where they are not found.
+  double deviation_between(const LiftedPoint& start, const LiftedPoint& end, std::size_t leg, const core::Point2& a,
+                           const core::Point2& b) {
+    double largest = 0;
+    LiftedPoint point;
+    for (const double share : samples) {
+      if (!point_between(start, end, share, leg, point)) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, distance_to_chord(plane(point), a, b));
+    }
+    return largest;
   }
 
   /// One trial step: up to `h` ahead. Returns the target; `forced`: it could not go farther for other reasons than h.
@@ -122,8 +151,9 @@ class Run {
     for (; leg < legs_->size(); ++leg) {
       if ((*legs_)[leg].stretch->leaf < 0) break;
       const double end = ahead(ends_[leg], at, tangent);
-      if (end <= reached) break;  // the curve turns back: a vertex before this leg, or inside it
-      if (end > h) {
+      const bool back = end <= reached;  // the curve turns back: a vertex before this leg, or inside it
+      if (back && leg != first) break;
+      if (back || end > h) {
         if (point_ahead(at, tangent, h, leg, first, target.point)) {
           forced = false;
           target.leg = leg;
@@ -144,8 +174,22 @@ class Run {
   double deviation(const LiftedPoint& at, std::size_t first, const LiftedPoint& tangent, const Target& target) {
     const core::Point2 a = plane(at), b = plane(target.point);
     double largest = 0;
-    for (std::size_t leg = first; leg < target.leg && leg < ends_.size(); ++leg)
-      largest = std::max(largest, distance_to_chord(plane(ends_[leg]), a, b));
+    // In a leg that makes up much of the step its own variable tells the points in between, whichever way it bends.
+    constexpr double much = 0.25;
+    bool sampled = false;
+    for (std::size_t leg = first; leg < ends_.size() && leg <= target.leg; ++leg) {
+      const LiftedPoint& start = leg == first ? at : ends_[leg - 1];
+      const bool partly = leg == target.leg;
+      if (partly && start == target.point) break;
+      const LiftedPoint& end = partly ? target.point : ends_[leg];
+      if (!partly) largest = std::max(largest, distance_to_chord(plane(end), a, b));
+      const core::Point2 from = plane(start), to = plane(end);
+      const double part = std::hypot(to[0] - from[0], to[1] - from[1]);
+      if ((*legs_)[leg].stretch->leaf < 0 || part < much * std::hypot(b[0] - a[0], b[1] - a[1])) continue;
+      sampled = true;
+      largest = std::max(largest, deviation_between(start, end, leg, a, b));
+    }
+    if (sampled) return largest;
     const double h = ahead(target.point, at, tangent);
     if (h <= 0) return largest;
     LiftedPoint point;
@@ -162,12 +206,7 @@ class Run {
     const LiftedPoint tangent = oriented_tangent(at, leg);
     Target best;
     bool have_best = false;
-    if (tangent.empty()) {
-      best.point = ends_[leg];
-      best.leg = leg + 1;
-      best.step = step;
-      return best;
-    }
+    if (tangent.empty()) return along(at, leg, step);
     double h = step;
     for (int trial = 0; trial < most_trials; ++trial) {
       bool forced = false;
@@ -187,13 +226,35 @@ class Run {
         h = length * std::clamp(ratio, 0.1, 0.9);
       }
     }
-    if (!have_best) {
-      // The curve bends within rounding of its own cells; their ends are on it.
-      best.point = ends_[leg];
-      best.leg = leg + 1;
-      best.step = step;
+    // A step that hardly moves is none: the hyperplanes across the tangent do not meet the curve ahead.
+    const int v = (*legs_)[leg].stretch->along;
+    constexpr double least_share = 1e-4;
+    const bool moves = have_best && (best.leg > leg ||
+                                     std::abs(best.point[v] - at[v]) > least_share * std::abs(ends_[leg][v] - at[v]));
+    return moves ? best : along(at, leg, step);
+  }
+
+  /// A step told by the leg's own variable, halved until the chord is near enough.
+  Target along(const LiftedPoint& at, std::size_t leg, double step) {
+    Target end;
+    end.point = ends_[leg];
+    end.leg = leg + 1;
+    end.step = step;
+    const core::Point2 from = plane(at), to = plane(end.point);
+    const bool short_one = std::hypot(to[0] - from[0], to[1] - from[1]) <= tolerance_;
+    if (short_one || (*legs_)[leg].stretch->leaf < 0) return end;
+    end.deviation = deviation_between(at, end.point, leg, plane(at), plane(end.point));
+    if (end.deviation <= tolerance_) return end;
+    Target part = end;
+    part.leg = leg;
+    for (int halvings = 1; halvings <= most_halvings; ++halvings) {
+      if (!point_between(at, ends_[leg], std::ldexp(1.0, -halvings), leg, part.point)) continue;
+      part.deviation = deviation_between(at, part.point, leg, plane(at), plane(part.point));
+      if (part.deviation <= tolerance_) return part;
     }
-    return best;
+    // The curve bends within rounding of its own cells; their ends are on it.
+    end.deviation = 0;
+    return end;
   }
 
   core::WorkingMode mode_;
