@@ -64,15 +64,15 @@ std::string number(const Json& value) {
 
 void print_accuracy(const Json& pose) {
   if (pose["take_up"].empty()) return;
-  const auto entry = [](const Json& joint, const char* key) {
+  const auto entry = [](const Json& joint, const char* key, const char* unit = "") {
     if (!joint.contains(key)) return std::string();
-    return joint[key].is_null() ? std::string("undefined") : number(joint[key]);
+    return joint[key].is_null() ? std::string("undefined") : number(joint[key]) + unit;
   };
   fmt::print("\n{:<12}{:>18}{:>18}{:>18}  actuator\n", "take-up", "dx [m]", "dy [m]", "dz [m]");
   for (const auto& [name, joint] : pose["take_up"].items()) {
     fmt::print("{:<12}{:>18}{:>18}{:>18}", name, entry(joint, "dx"), entry(joint, "dy"), entry(joint, "dz"));
-    if (joint.contains("axial")) fmt::print("  axial {} m", entry(joint, "axial"));
-    if (joint.contains("dtheta")) fmt::print("  dtheta {} rad", entry(joint, "dtheta"));
+    if (joint.contains("axial")) fmt::print("  axial {}", entry(joint, "axial", " m"));
+    if (joint.contains("dtheta")) fmt::print("  dtheta {}", entry(joint, "dtheta", " rad"));
     fmt::print("\n");
   }
   fmt::print("\n{:<18}{:>16}{:>16}{:>16}{:>16}{:>16}{:>16}\n", "pose error", "dx [m]", "dy [m]", "dz [m]",
