@@ -29,12 +29,21 @@ struct Root {
   StraightLine line = {};  ///< the same element as it is computed; may be empty
 };
 
+/// The way from one end of a dyad to the other, over the tower: numerators over a positive denominator, and the way as
+/// it is computed. Where both vanish the construction is undefined.
+struct DyadBase {
+  Polynomial x, y;
+  StraightLine x_line, y_line;
+};
+
 struct RootTower {
   std::vector<std::string> coordinates;  ///< names of the free coordinates, e.g. {"x", "y"}
   std::vector<Root> roots;
   /// Squared distances that the construction divides by (the D of method.md section 1, cleared of denominators),
   /// in (coordinates..., s1...sm): >= 0 everywhere; where one vanishes the construction is undefined.
   std::vector<Polynomial> denominators;
+  /// Of the dyads between points that are not fixed: their squared distances are among the denominators.
+  std::vector<DyadBase> bases = {};
 
   int variables() const { return static_cast<int>(coordinates.size() + roots.size()); }
 };

@@ -19,13 +19,20 @@ StraightLineBuilder::StraightLineBuilder() {
 
 int StraightLineBuilder::constant(const Rational& value) {
   const auto [place, fresh] = constants_.try_emplace(value, static_cast<int>(steps_.size()));
-  if (fresh) steps_.push_back({Operation::constant, 0, 0, value});
+  if (fresh) steps_.push_back({Operation::constant, 0, 0, value, 0});
   return place->second;
+}
+
+int StraightLineBuilder::constant(const Rational& value, const Rational& radius) {
+  if (radius == 0) return constant(value);
+  // Two of one enclosure need not be one number, and none is folded.
+  steps_.push_back({Operation::constant, 0, 0, value, radius});
+  return static_cast<int>(steps_.size()) - 1;
 }
 
 int StraightLineBuilder::make(Operation operation, int a, int b) {
   const auto [place, fresh] = known_.try_emplace({operation, a, b}, static_cast<int>(steps_.size()));
-  if (fresh) steps_.push_back({operation, a, b, {}});
+  if (fresh) steps_.push_back({operation, a, b, {}, {}});
   return place->second;
 }
 

@@ -15,7 +15,8 @@ struct StraightLine {
   struct Step {
     Operation operation = Operation::constant;
     int first = 0, second = 0;  ///< earlier steps; `first` of a variable: its index
-    Rational value;             ///< of a constant
+    Rational value = {};        ///< of a constant
+    Rational radius = {};       ///< of a constant that is known to be within this of its value only
   };
   std::vector<Step> steps;  ///< the last is the result; none: the form is not known
 
@@ -31,6 +32,7 @@ class StraightLineBuilder {
   StraightLineBuilder();
 
   int constant(const Rational& value);
+  int constant(const Rational& value, const Rational& radius);
   int variable(int index);
   int add(int a, int b);
   int subtract(int a, int b);
@@ -48,7 +50,10 @@ class StraightLineBuilder {
   using Operation = StraightLine::Operation;
   int horner(const std::vector<const Term*>& terms, std::size_t count, const std::vector<int>& variables);
   int make(Operation operation, int a, int b);
-  bool is_constant(int step) const { return steps_[static_cast<std::size_t>(step)].operation == Operation::constant; }
+  bool is_constant(int step) const {
+    const StraightLine::Step& own = steps_[static_cast<std::size_t>(step)];
+    return own.operation == Operation::constant && own.radius == 0;
+  }
   const Rational& value(int step) const { return steps_[static_cast<std::size_t>(step)].value; }
 
   std::vector<StraightLine::Step> steps_;

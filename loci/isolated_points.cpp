@@ -6,6 +6,7 @@
 #include <span>
 
 #include "loci/edge_labels.hpp"
+#include "loci/sheet/apex.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
 #include "loci/sheet/multi_interval.hpp"
 
@@ -142,6 +143,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                              const std::function<bool()>& stop) {
   if (std::find(problem.quantities.begin(), problem.quantities.end(), Quantity::f) == problem.quantities.end()) return;
   const std::size_t first = map.isolated_points.size();
+  const std::vector<sheet::Star> cones = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                core::to_double(problem.upper[1] - problem.lower[1]));
   for (const std::string& joint : problem.joints) {
@@ -157,7 +159,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       for (const core::LocusFactor* fy : y) {
         const sheet::ZeroSet found =
             sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
-                                  problem.upper, {.stop = stop});
+                                  problem.upper, {.special = cones, .stop = stop});
         const auto add = [&](const core::Point2& at, bool certified) {
           if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
           add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},

@@ -10,6 +10,7 @@
 
 #include "loci/edge_labels.hpp"
 #include "loci/plane_curve.hpp"
+#include "loci/sheet/apex.hpp"
 #include "loci/sheet/patch.hpp"
 #include "loci/sheet/sheet_program.hpp"
 #include "loci/sheet/subtower.hpp"
@@ -206,9 +207,11 @@ class Gathering {
   }
 
   /// Where a dyad's construction is undefined every numerator vanishes, which says nothing of the reaction.
-  bool at_base(const Point2& at) const {
+  bool at_base(const Point2& at, const core::WorkingMode& mode) const {
     const double near = on_curve * core::to_double(problem_.upper[0] - problem_.lower[0]);
-    const std::vector<Point2> all = sheet::bases(problem_.tower);
+    std::vector<Point2> all = sheet::bases(problem_.tower);
+    for (const sheet::Star& cone : sheet::enclosed_cones(problem_.tower, mode, problem_.lower, problem_.upper))
+      all.push_back({core::to_double(cone.x), core::to_double(cone.y)});
     return std::any_of(all.begin(), all.end(),
                        [&](const Point2& base) { return std::hypot(base[0] - at[0], base[1] - at[1]) <= near; });
   }
@@ -227,7 +230,7 @@ class Gathering {
     if (own.role == FactorRole::reaction && label.vanishing.empty()) return;
     if (own.role == FactorRole::workspace_boundary) return;
     for (const Point2& at : share.traced.isolated_points) {
-      if (at_base(at)) continue;
+      if (at_base(at, mode(share))) continue;
       map_.isolated_points.push_back({label.kind, label.vanishing, {at[0], at[1]}, mode(share), false});
     }
   }
@@ -287,9 +290,12 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   if (options.deadline)
     sheet_options.stop = [deadline = *options.deadline] { return std::chrono::steady_clock::now() > deadline; };
 
-  std::vector<std::vector<sheet::Star>> touches(problem.modes.size(), sheet::touches(problem.tower));
-  for (std::size_t m = 0; m < problem.modes.size(); ++m)
-    for (sheet::Star& touch : touches[m]) touch.singular = is_singular(problem, problem.modes[m], touch);
+  std::vector<std::vector<sheet::Star>> special(problem.modes.size(), sheet::touches(problem.tower));
+  for (std::size_t m = 0; m < problem.modes.size(); ++m) {
+    for (sheet::Star& touch : special[m]) touch.singular = is_singular(problem, problem.modes[m], touch);
+    for (sheet::Star& cone : sheet::enclosed_cones(problem.tower, problem.modes[m], problem.lower, problem.upper))
+      special[m].push_back(std::move(cone));
+  }
 
   std::vector<SheetShare> shares;
   for (std::size_t m = 0; m < problem.modes.size(); ++m)
@@ -315,7 +321,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
       try {
         const auto mode = static_cast<std::size_t>(share.mode);
         sheet::SheetTraceOptions own = sheet_options;
-        own.special = touches[mode];
+        own.special = special[mode];
         share.traced = trace_share(problem, problem.factors[static_cast<std::size_t>(share.factor)],
                                    problem.modes[mode], cutters, std::move(own));
         const std::lock_guard lock(mutex);

@@ -81,6 +81,12 @@ class Geometry {
   const std::vector<TowerRoot>& roots() const { return roots_; }
   /// The numerators of the squared distances divided by, reduced.
   const std::vector<Poly>& denominators() const { return denominators_; }
+  /// Numerators of the ways from one end of a dyad to the other, over positive denominators.
+  struct Way {
+    mechanism::PointIndex point = 0;
+    Poly x, y;
+  };
+  const std::vector<Way>& dyad_ways() const { return dyad_ways_; }
   /// Polynomials that places divide by and that vanish nowhere: 1 + t^2 of every angle.
   const std::vector<Poly>& positive_units() const { return positive_units_; }
 
@@ -153,6 +159,7 @@ class Geometry {
   std::vector<ConstructedPoint> constructed_;
   std::vector<TowerRoot> roots_;
   std::vector<Poly> denominators_;
+  std::vector<Way> dyad_ways_;
   std::vector<Poly> positive_units_;
   std::vector<Poly> positive_;  ///< known to be nowhere negative on the sheets, in the order of their appearance
   Charts charts_;

@@ -133,9 +133,12 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
       std::swap(square, quotient);
     }
   const int variable = first_root_ + static_cast<int>(roots_.size());
-  roots_.push_back({point, variable, RootRole::working_mode, square, w2, scale});
+  const Poly shared = common_positive(w2, scale);
+  roots_.push_back(
+      {point, variable, RootRole::working_mode, square, w2.exact_quotient(shared), scale.exact_quotient(shared)});
   add_denominator(d);
   const Poly s = Poly::variable(*ring_, variable) * scale;
+  dyad_ways_.push_back({point, u, v});
   // A + (k (P - A) + s J (P - A)) / (2 D), over the denominator of both.
   TowerPoint way{reduce(kn * u - s * v), reduce(kn * v + s * u), reduce(d * w).scaled(2)};
   lighten(way);

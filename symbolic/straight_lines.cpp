@@ -26,6 +26,12 @@ StraightLine StraightLines::square(std::size_t root) {
   return builder_.line(builder_.multiply(scale, builder_.multiply(outer, inner)));
 }
 
+std::optional<std::array<StraightLine, 2>> StraightLines::way(mechanism::PointIndex point) {
+  const std::optional<Dyad> known = dyad(point);
+  if (!known) return std::nullopt;
+  return std::array{builder_.line(known->u), builder_.line(known->v)};
+}
+
 int StraightLines::value(const Polynomial& p) {
   std::vector<int> variables(static_cast<std::size_t>(p.variables), 0);
   for (int v = 0; v < p.variables; ++v)

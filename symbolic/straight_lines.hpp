@@ -22,6 +22,9 @@ class StraightLines {
   /// The square of a root of the tower; empty where no better form than its polynomial is known.
   core::StraightLine square(std::size_t root);
 
+  /// x and y of the way from one end of a dyad to the other; nothing where no better form is known.
+  std::optional<std::array<core::StraightLine, 2>> way(mechanism::PointIndex point);
+
  private:
   struct Place {
     int x, y;

@@ -39,7 +39,10 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   };
   const Interval box_x = range(0), box_y = range(1);
   const double size = std::max(box_x.width(), box_y.width());
-  const Partition parts = partition(tower, {box_x.lower(), box_x.upper(), box_y.lower(), box_y.upper()});
+  std::vector<Star> special = touches(tower);
+  special.insert(special.end(), options.special.begin(), options.special.end());
+  const Partition parts =
+      partition(tower, {box_x.lower(), box_x.upper(), box_y.lower(), box_y.upper()}, bases(tower), special);
 
   ZeroSet result;
   Charting charting(tower, {first, second}, parts.stars);

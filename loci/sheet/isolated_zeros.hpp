@@ -20,8 +20,10 @@ struct SheetZero {
 };
 
 struct ZeroOptions {
-  double smallest = 1e-9;           ///< width, relative to the box, below which a cell is left undecided
-  int most_cells = 4096;            ///< live cells of one size: more of them mean that N1 and N2 share a curve
+  double smallest = 1e-9;  ///< width, relative to the box, below which a cell is left undecided
+  int most_cells = 4096;   ///< live cells of one size: more of them mean that N1 and N2 share a curve
+  /// Stars besides the cones at rational points and the touches of the tower.
+  std::vector<Star> special = {};
   std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "loci/sheet/apex.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -40,8 +41,11 @@ Chart::Chart(Side own_side, int own_star, const Star& at, const std::array<Ratio
   exact_half_ = (x ? y1 - y0 : x1 - x0) / 2;
   exact_slope_ = at.slope;
   deep_is_along_ = x != at.along_y;
-  interval_ = {enclosed(a),           enclosed(b),           enclosed(exact_depth_), enclosed(exact_middle_),
-               enclosed(exact_half_), enclosed(exact_slope_)};
+  if (at.apex) radius_ = at.apex->radius;
+  // What is counted from the apex is known as well as the apex is.
+  const auto near = [&](const Rational& value) { return enclosed_as(value, radius_, static_cast<Interval*>(nullptr)); };
+  interval_ = {
+      near(a), near(b), near(exact_depth_), near(exact_middle_), enclosed(exact_half_), enclosed(exact_slope_)};
   double_ = {core::to_double(a),
              core::to_double(b),
              core::to_double(exact_depth_),
@@ -132,10 +136,10 @@ core::StraightLine Chart::in_chart(const core::StraightLine& polar) const {
   core::StraightLine line;
   line.steps = {{Operation::variable, 1, 0, {}},
                 {Operation::constant, 0, 0, exact_half_},
-                {Operation::constant, 0, 0, exact_middle_},
+                {Operation::constant, 0, 0, exact_middle_, radius_},
                 {Operation::multiply, 0, 1, {}},
                 {Operation::add, 2, 3, {}},
-                {Operation::constant, 0, 0, exact_depth_}};
+                {Operation::constant, 0, 0, exact_depth_, radius_}};
   int wide = 4, deep = 5;
   if (sheared_) {  // the one off the tangent is counted from it
     line.steps.push_back({Operation::constant, 0, 0, exact_slope_});
@@ -174,6 +178,14 @@ const Charting::AtStar& Charting::at_star(int index) {
   AtStar own;
   own.star = index;
   const Star& star = stars_[index];
+  if (star.apex) {
+    for (std::size_t j = 0; j < tower_.roots.size(); ++j)
+      own.squares.push_back(polar_line(star, tower_, SheetFunction{tower_.roots[j].square, tower_.roots[j].line},
+                                       2 * star.power_of_root(static_cast<int>(j))));
+    for (const SheetFunction& f : functions_) own.functions.push_back(polar_line(star, tower_, f));
+    known_.push_back(own);
+    return known_.back();
+  }
   for (std::size_t j = 0; j < tower_.roots.size(); ++j)
     own.squares.push_back(
         polar_line(star, around(star, tower_.roots[j].square), 2 * star.power_of_root(static_cast<int>(j))));

@@ -66,11 +66,14 @@ class SheetProgram::Builder {
 
   int constant(const core::Rational& value) {
     const auto [it, added] = constant_nodes_.try_emplace(value, static_cast<int>(nodes_.size()));
-    if (added) {
-      nodes_.push_back({Kind::constant, static_cast<int>(constants_.size()), 0});
-      constants_.push_back(value);
-    }
+    if (added) enclosed_constant(value, 0);
     return it->second;
+  }
+
+  int enclosed_constant(const core::Rational& value, const core::Rational& radius) {
+    nodes_.push_back({Kind::constant, static_cast<int>(constants_.size()), 0});
+    constants_.push_back({value, radius});
+    return static_cast<int>(nodes_.size()) - 1;
   }
 
   int add(int a, int b) {
@@ -111,7 +114,7 @@ class SheetProgram::Builder {
       const auto operand = [&](int index) { return nodes[index]; };
       switch (step.operation) {
         case Step::constant:
-          nodes.push_back(constant(step.value));
+          nodes.push_back(step.radius == 0 ? constant(step.value) : enclosed_constant(step.value, step.radius));
           break;
         case Step::variable:
           nodes.push_back(step.first);
@@ -247,7 +250,7 @@ class SheetProgram::Builder {
   int zero_ = 0, one_ = 0;
   int instructions_ = 0;
   std::vector<Node> nodes_;
-  std::vector<core::Rational> constants_;
+  std::vector<Constant> constants_;
   std::map<core::Rational, int> constant_nodes_;
   std::unordered_map<std::uint64_t, int> shared_;
   std::vector<std::vector<int>> derivatives_;  // by variable and node
@@ -305,8 +308,8 @@ void SheetProgram::compile() {
   to_registers(squares_);
   to_registers(values_);
   zero_ = registers[builder.zero()];
-  for (const core::Rational& constant : constants_)
-    enclosed_constants_.push_back(constant_as(constant, static_cast<Interval*>(nullptr)));
+  for (const Constant& constant : constants_)
+    enclosed_constants_.push_back(enclosed_as(constant.value, constant.radius, static_cast<Interval*>(nullptr)));
 }
 
 }  // namespace clearloci::loci::sheet

@@ -22,6 +22,19 @@ double constant_as(const core::Rational& value, double*);
 Interval constant_as(const core::Rational& value, Interval*);
 MultiInterval constant_as(const core::Rational& value, MultiInterval*);
 
+/// A number known to lie within `radius` of a value; numbers that are no intervals take the value.
+template <class T>
+T enclosed_as(const core::Rational& value, const core::Rational& radius, T* type) {
+  if (radius == 0) return constant_as(value, type);
+  const core::Rational lower = value - radius, upper = value + radius;
+  if constexpr (std::is_same_v<T, Interval>)
+    return hull(constant_as(lower, type), constant_as(upper, type));
+  else if constexpr (std::is_same_v<T, MultiInterval>)
+    return MultiInterval(lower, upper);
+  else
+    return constant_as(value, type);
+}
+
 inline double squared(double a) { return a * a; }
 inline double inverse(double a) { return 1 / a; }
 
@@ -96,7 +109,10 @@ class SheetProgram {
   core::RootTower tower_;
   std::vector<core::Polynomial> functions_;
   std::vector<core::StraightLine> lines_;
-  std::vector<core::Rational> constants_;  // registers variables()...
+  struct Constant {
+    core::Rational value, radius;
+  };
+  std::vector<Constant> constants_;  // registers variables()...
   std::vector<Interval> enclosed_constants_;
   std::vector<Instruction> instructions_;  // registers after the constants
   std::vector<int> stage_end_;             // roots() + 2 entries
@@ -113,7 +129,7 @@ SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&p
     if constexpr (std::is_same_v<T, Interval>)
       own = program.enclosed_constants_[i];
     else
-      own = constant_as(program.constants_[i], static_cast<T*>(nullptr));
+      own = enclosed_as(program.constants_[i].value, program.constants_[i].radius, static_cast<T*>(nullptr));
   }
 }
 

@@ -244,8 +244,27 @@ std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& fun
   return result;
 }
 
+namespace {
+
+/// Cones whose way can no longer be told are none of the part's.
+std::vector<Star> with_their_ways(std::vector<Star> stars) {
+  stars.erase(std::remove_if(stars.begin(), stars.end(),
+                             [](const Star& star) {
+                               return star.apex && (star.apex->way[0].empty() || star.apex->way[1].empty());
+                             }),
+              stars.end());
+  return stars;
+}
+
+}  // namespace
+
 std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
   for (Star& star : stars) {
+    if (star.apex) {
+      Apex own{star.apex->radius, {}, {narrowed(star.apex->way[0], part), narrowed(star.apex->way[1], part)}};
+      for (const int root : part.kept) own.roots.push_back(star.apex->roots[static_cast<std::size_t>(root)]);
+      star.apex = std::move(own);
+    }
     std::vector<int> roots;
     for (const int root : star.roots) {
       const auto place = std::find(part.kept.begin(), part.kept.end(), root);
@@ -253,16 +272,21 @@ std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
     }
     star.roots = std::move(roots);
   }
-  return stars;
+  return with_their_ways(std::move(stars));
 }
 
 std::vector<Star> on_rim(std::vector<Star> stars, int root) {
   for (Star& star : stars) {
+    if (star.apex) {
+      for (core::StraightLine& line : star.apex->way)
+        line = core::depends_on(line, 2 + root) ? core::StraightLine{} : without_variable(line, 2 + root);
+      star.apex->roots.erase(star.apex->roots.begin() + root);
+    }
     star.roots.erase(std::remove(star.roots.begin(), star.roots.end(), root), star.roots.end());
     for (int& other : star.roots)
       if (other > root) --other;
   }
-  return stars;
+  return with_their_ways(std::move(stars));
 }
 
 Polynomial around(const Star& star, const Polynomial& p) {

@@ -19,6 +19,17 @@
 
 namespace clearloci::loci::sheet {
 
+/// What is known of a cone whose apex has irrational coordinates: an enclosure.
+struct Apex {
+  core::Rational radius;  ///< of x and y around those of the star
+  struct Value {
+    core::Rational middle, radius;
+    bool known = false;
+  };
+  std::vector<Value> roots;        ///< of the tower's roots there; 0 where they vanish
+  core::StraightLine way[2] = {};  ///< x and y of the way that vanishes there (core::DyadBase)
+};
+
 struct Star {
   enum class Shape { cone, touch, corner, bend };
 
@@ -33,6 +44,7 @@ struct Star {
   core::Rational slope;
   /// Of a touch or a corner: a branch of a direct singularity reaches it on the working mode's sheet.
   bool singular = false;
+  std::optional<Apex> apex = {};  ///< of a cone at no rational point
 
   /// One coordinate is counted off a tangent.
   bool is_sheared() const { return shape == Shape::touch || shape == Shape::bend; }

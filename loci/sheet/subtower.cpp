@@ -39,6 +39,15 @@ Subtower subtower(const core::RootTower& whole, const core::WorkingMode& mode,
     if (std::none_of(part.dropped.begin(), part.dropped.end(),
                      [&](int j) { return core::depends_on(denominator, 2 + j); }))
       part.tower.denominators.push_back(narrowed(denominator, part));
+  for (const core::DyadBase& base : whole.bases) {
+    const bool kept = std::none_of(part.dropped.begin(), part.dropped.end(), [&](int j) {
+      return core::depends_on(base.x, 2 + j) || core::depends_on(base.y, 2 + j) ||
+             core::depends_on(base.x_line, 2 + j) || core::depends_on(base.y_line, 2 + j);
+    });
+    if (kept)
+      part.tower.bases.push_back(
+          {narrowed(base.x, part), narrowed(base.y, part), narrowed(base.x_line, part), narrowed(base.y_line, part)});
+  }
   return part;
 }
 
@@ -92,21 +101,16 @@ core::Polynomial without_variable(const core::Polynomial& p, int variable) {
   return result;
 }
 
-namespace {
-
-/// A root that is 0.
 core::StraightLine without_variable(core::StraightLine line, int variable) {
   for (core::StraightLine::Step& step : line.steps) {
     if (step.operation != core::StraightLine::Operation::variable || step.first < variable) continue;
     if (step.first == variable)
-      step = {core::StraightLine::Operation::constant, 0, 0, 0};
+      step = {};  // the constant 0
     else
       --step.first;
   }
   return line;
 }
-
-}  // namespace
 
 SheetFunction without_variable(const SheetFunction& function, int variable) {
   return {without_variable(function.polynomial, variable), without_variable(function.line, variable)};
@@ -119,6 +123,7 @@ core::RootTower on_rim(const core::RootTower& tower, int root) {
     other.square = without_variable(other.square, 2 + root);
     other.line = without_variable(other.line, 2 + root);
   }
+  result.bases.clear();  // special points of a rim are those of the tower
   result.denominators.clear();
   for (const core::Polynomial& denominator : tower.denominators)
     result.denominators.push_back(without_variable(denominator, 2 + root));

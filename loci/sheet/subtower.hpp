@@ -28,6 +28,7 @@ SheetFunction narrowed(const SheetFunction& function, const Subtower& part);
 /// The tower, polynomials and functions on Q_root = 0, where s_root = 0: variable 2 + root removed.
 core::RootTower on_rim(const core::RootTower& tower, int root);
 core::Polynomial without_variable(const core::Polynomial& p, int variable);
+core::StraightLine without_variable(core::StraightLine line, int variable);
 SheetFunction without_variable(const SheetFunction& function, int variable);
 
 }  // namespace clearloci::loci::sheet

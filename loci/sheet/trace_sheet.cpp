@@ -33,6 +33,14 @@ struct Cut {
   bool keep;
 };
 
+/// A root's square, as what its zeros are traced by. The straight line shows how it vanishes at an apex.
+SheetFunction square_of(const core::RootTower& tower, int root, const std::vector<Star>& special) {
+  const core::Root& own = tower.roots[static_cast<std::size_t>(root)];
+  const bool at_apex = std::any_of(special.begin(), special.end(),
+                                   [&](const Star& star) { return star.apex && star.power_of_root(root) > 0; });
+  return {without_denominators(own.square, tower), at_apex ? own.line : core::StraightLine{}};
+}
+
 /// Whether a function on a part of a tower has zeros in some direction from a star of the partition.
 bool found_at_star(const Subtower& part, const SheetFunction& sheet, const Partition& parts, int star,
                    const std::function<bool()>& stop) {
@@ -81,7 +89,7 @@ class Tracer {
     std::vector<Cut> cuts;
     for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
     for (const int j : own_.dropped)
-      cuts.push_back({{without_denominators(tower_.roots[j].square, tower_)}, core::ArcEnd::boundary, true});
+      cuts.push_back({square_of(tower_, j, options_.special), core::ArcEnd::boundary, true});
     add_box_cuts(parts, cuts);
     if (!graph_.stretches.empty())
       for (const Cut& cut : cuts) apply(cut, parts);
@@ -383,7 +391,9 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
     const int v = 2 + static_cast<int>(j);
     const core::Polynomial& square = tower.roots[j].square;
-    const bool rim = !core::depends_on(sheet, v) && exact_quotient(square, sheet);
+    const std::optional<core::Polynomial> rest_of_square =
+        core::depends_on(sheet, v) ? std::nullopt : exact_quotient(square, sheet);
+    const bool rim = rest_of_square.has_value();
     if (!rim && !divisible_by_variable(sheet, v)) continue;
     core::WorkingMode rest = mode;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(j));
@@ -393,10 +403,11 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
       if (!there.polynomial.is_constant()) on_boundary.push_back({there, cutter.label});
     }
     const core::RootTower below = on_rim(tower, static_cast<int>(j));
-    const core::Polynomial boundary = rim ? sheet : without_denominators(square, tower);
+    SheetFunction boundary = square_of(tower, static_cast<int>(j), options.special);
+    if (rim) boundary = {sheet, rest_of_square->is_constant() ? boundary.line : core::StraightLine{}};
     SheetTraceOptions there = options;
     there.special = on_rim(options.special, static_cast<int>(j));
-    SheetTrace all = trace_sheet(below, rest, lower, upper, {without_variable(boundary, v)}, on_boundary, there);
+    SheetTrace all = trace_sheet(below, rest, lower, upper, without_variable(boundary, v), on_boundary, there);
     if (!rim) {
       core::Polynomial quotient = sheet;
       for (core::Term& term : quotient.terms) --term.exponents[v];

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "cli/pipeline.hpp"
 #include "tests/laws/design_texts.hpp"
@@ -125,6 +127,28 @@ TEST(AdaptiveEngine, CertifiesACurveThroughTheCornerOfTwoBoundaries) {
   design.force = {"50", "0"};
   expect_certified(
       trace_loci(mechanism::parse_mechanism(design.text(), "corner.yaml"), all_modes(loci::Engine::adaptive)));
+}
+
+// Leg 1 stands on the coupler and has equal lengths: where its ends meet, at no rational point, the sheet is a cone.
+TEST(AdaptiveEngine, CertifiesConesOfDyadsOnDyads) {
+  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar_coupler.yaml");
+  const std::string shipped((std::istreambuf_iterator<char>(file)), {});
+  const auto with = [](std::string text, const std::string& old, const std::string& value) {
+    const std::size_t at = text.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    return at == std::string::npos ? text : text.replace(at, old.size(), value);
+  };
+  for (const std::string offset : {"[0.4, 0.1]", "[1/4, -0.15]"}) {
+    const std::string text = with(with(shipped, "offset: [0.4, 0.1]", "offset: " + offset), "A1: [0, 0]",
+                                  offset == "[0.4, 0.1]" ? "A1: [0, 0]" : "A1: [0.05, 0.1]");
+    SCOPED_TRACE(text);
+    const mechanism::Mechanism mechanism = mechanism::parse_mechanism(text, "coupler.yaml");
+    const core::LocusMap map = trace_loci(mechanism, all_modes(loci::Engine::adaptive));
+    expect_certified(map);
+    // At the apex itself every couple is zero because the construction is undefined, which is no locus.
+    for (const core::IsolatedPoint& point : map.isolated_points) EXPECT_EQ(point.kind, core::LocusKind::contact_loss);
+    EXPECT_EQ(validate_loci(mechanism, {}, {.nx = 80, .ny = 80}).report.disputed, 0u);
+  }
 }
 
 // The crank of one leg carries a dyad more: roots nest, and at A2 the upper one vanishes with a higher power of the

@@ -1,0 +1,278 @@
+#include "loci/sheet/apex.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "core/errors.hpp"
+#include "loci/sheet/isolated_zeros.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+using core::Rational;
+using core::StraightLine;
+using core::StraightLineBuilder;
+using Operation = StraightLine::Operation;
+
+/// g = u^power regular. Where the power is 0, g(apex) and (g - g(apex)) / u may be known too.
+struct Expansion {
+  int power = 0;
+  int regular = 0;  ///< step
+  bool zero = false;
+  std::optional<Interval> at_apex = {};
+  std::optional<int> slope = {};
+};
+
+/// Numbers the steps of several lines so that equal ones have equal numbers.
+class Numbering {
+ public:
+  std::vector<int> of(const StraightLine& line) {
+    std::vector<int> numbers;
+    for (const StraightLine::Step& step : line.steps) {
+      const bool constant = step.operation == Operation::constant, variable = step.operation == Operation::variable;
+      const int first = constant ? 0 : variable ? step.first : numbers[static_cast<std::size_t>(step.first)];
+      const int second = constant || variable || step.operation == Operation::inverse
+                             ? 0
+                             : numbers[static_cast<std::size_t>(step.second)];
+      const auto [place, fresh] =
+          known_.try_emplace({step.operation, first, second, step.value}, static_cast<int>(known_.size()));
+      numbers.push_back(place->second);
+    }
+    return numbers;
+  }
+
+ private:
+  std::map<std::tuple<Operation, int, int, Rational>, int> known_;
+};
+
+/// Writes lines over the tower around an apex.
+class AroundApex {
+ public:
+  AroundApex(const Star& star, const core::RootTower& tower) : star_(star), tower_(tower) {
+    u_ = builder_.variable(0);
+    for (std::size_t i = 0; i < 2; ++i) way_[i] = numbering_.of(star.apex->way[i]).back();
+  }
+
+  std::optional<Expansion> of(const StraightLine& line) {
+    const std::vector<int> numbers = numbering_.of(line);
+    std::vector<Expansion> steps;
+    for (std::size_t i = 0; i < line.steps.size(); ++i) {
+      std::optional<Expansion> own = step(line.steps[i], steps);
+      if (!own) return std::nullopt;
+      if (numbers[i] == way_[0] || numbers[i] == way_[1]) {
+        if (!own->slope) return std::nullopt;
+        own = Expansion{1, *own->slope, false, std::nullopt, std::nullopt};
+      }
+      steps.push_back(*own);
+    }
+    return steps.back();
+  }
+
+  StraightLine line(const Expansion& expansion) const { return builder_.line(expansion.regular); }
+  StraightLine divided(const Expansion& expansion, int power) {
+    return builder_.line(builder_.multiply(expansion.regular, builder_.power(u_, expansion.power - power)));
+  }
+
+ private:
+  std::optional<Expansion> step(const StraightLine::Step& step, const std::vector<Expansion>& steps) {
+    const auto operand = [&](int index) -> const Expansion& { return steps[static_cast<std::size_t>(index)]; };
+    switch (step.operation) {
+      case Operation::constant:
+        return Expansion{0, builder_.constant(step.value, step.radius), step.value == 0 && step.radius == 0,
+                         enclosed_as(step.value, step.radius, static_cast<Interval*>(nullptr)), builder_.constant(0)};
+      case Operation::variable:
+        return variable(step.first);
+      case Operation::add:
+        return sum(operand(step.first), operand(step.second), false);
+      case Operation::subtract:
+        return sum(operand(step.first), operand(step.second), true);
+      case Operation::multiply:
+        return product(operand(step.first), operand(step.second));
+      default:
+        return inverse_of(operand(step.first));
+    }
+  }
+
+  Expansion variable(int index) {
+    if (index < 2) {
+      const Rational& value = index == 0 ? star_.x : star_.y;
+      const int slope = builder_.variable(1 + index);
+      const int regular = builder_.add(builder_.constant(value, star_.apex->radius), builder_.multiply(u_, slope));
+      return {0, regular, false, enclosed_as(value, star_.apex->radius, static_cast<Interval*>(nullptr)), slope};
+    }
+    const int root = index - 2;
+    const auto [place, fresh] = roots_.try_emplace(root);
+    if (fresh) place->second = root_expansion(root);
+    return roots_.at(root);
+  }
+
+  Expansion root_expansion(int root) {
+    const int own = builder_.variable(3 + root);
+    if (const int power = star_.power_of_root(root); power > 0) return {power, own, false, std::nullopt, std::nullopt};
+    const Apex::Value& value = star_.apex->roots[static_cast<std::size_t>(root)];
+    Expansion result{0, own, false, std::nullopt, std::nullopt};
+    if (!value.known) return result;
+    result.at_apex = enclosed_as(value.middle, value.radius, static_cast<Interval*>(nullptr));
+    // (s - s0) / u = ((Q - Q0) / u) / (s + s0)
+    const std::optional<Expansion> square = of(form_of(tower_.roots[static_cast<std::size_t>(root)]));
+    if (square && square->power == 0 && square->slope) {
+      const int both = builder_.add(own, builder_.constant(value.middle, value.radius));
+      result.slope = builder_.multiply(*square->slope, builder_.inverse(both));
+    }
+    return result;
+  }
+
+ public:
+  static StraightLine form_of(const core::Root& root) { return root.line.empty() ? form_of(root.square) : root.line; }
+  static StraightLine form_of(const core::Polynomial& p) {
+    StraightLineBuilder builder;
+    std::vector<int> variables;
+    for (int v = 0; v < p.variables; ++v) variables.push_back(builder.variable(v));
+    return builder.line(builder.polynomial(p, variables));
+  }
+
+ private:
+  int raised(const Expansion& e, int power) {
+    return builder_.multiply(e.regular, builder_.power(u_, e.power - power));
+  }
+
+  Expansion sum(const Expansion& a, const Expansion& b, bool subtract) {
+    if (b.zero) return a;
+    if (a.zero && !subtract) return b;
+    const int power = a.zero ? b.power : std::min(a.power, b.power);
+    const int left = a.zero ? builder_.constant(0) : raised(a, power), right = raised(b, power);
+    Expansion result{power, subtract ? builder_.subtract(left, right) : builder_.add(left, right), false, {}, {}};
+    if (power != 0) return result;
+    const auto value = [](const Expansion& e) { return e.power > 0 ? std::optional(Interval(0.0)) : e.at_apex; };
+    if (value(a) && value(b)) result.at_apex = subtract ? *value(a) - *value(b) : *value(a) + *value(b);
+    const std::optional<int> first = slope_of(a), second = slope_of(b);
+    if (first && second) result.slope = subtract ? builder_.subtract(*first, *second) : builder_.add(*first, *second);
+    return result;
+  }
+
+  std::optional<int> slope_of(const Expansion& e) {
+    if (e.power > 0) return builder_.multiply(e.regular, builder_.power(u_, e.power - 1));
+    return e.slope;
+  }
+
+  Expansion product(const Expansion& a, const Expansion& b) {
+    if (a.zero) return a;
+    if (b.zero) return b;
+    Expansion result{a.power + b.power, builder_.multiply(a.regular, b.regular), false, {}, {}};
+    if (a.power != 0 || b.power != 0 || !a.at_apex || !b.at_apex) return result;
+    result.at_apex = *a.at_apex * *b.at_apex;
+    if (a.slope && b.slope)
+      result.slope =
+          builder_.add(builder_.multiply(*a.slope, b.regular), builder_.multiply(enclosed(*a.at_apex), *b.slope));
+    return result;
+  }
+
+  std::optional<Expansion> inverse_of(const Expansion& a) {
+    if (a.zero) return std::nullopt;
+    const int regular = builder_.inverse(a.regular);
+    Expansion result{-a.power, regular, false, {}, {}};
+    if (a.power != 0 || !a.at_apex || a.at_apex->contains_zero()) return result;
+    result.at_apex = inverse(*a.at_apex);
+    if (a.slope)
+      result.slope = builder_.subtract(
+          builder_.constant(0), builder_.multiply(*a.slope, builder_.multiply(regular, enclosed(*result.at_apex))));
+    return result;
+  }
+
+  int enclosed(const Interval& value) {
+    const Rational lower(value.lower()), upper(value.upper());
+    return builder_.constant((lower + upper) / 2, (upper - lower) / 2);
+  }
+
+  const Star& star_;
+  const core::RootTower& tower_;
+  StraightLineBuilder builder_;
+  Numbering numbering_;
+  int u_ = 0;
+  int way_[2] = {-1, -1};
+  std::map<int, Expansion> roots_;
+};
+
+/// Which roots vanish at the apex, and with which power: those whose squares do.
+void find_roots(Star& star, const core::RootTower& tower) {
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    AroundApex around_apex(star, tower);
+    const std::optional<Expansion> square = around_apex.of(AroundApex::form_of(tower.roots[j]));
+    if (square && square->power > 0)
+      star.roots.insert(star.roots.end(), static_cast<std::size_t>(square->power / 2), static_cast<int>(j));
+  }
+}
+
+/// The apex where both functions of a base vanish, as an enclosure.
+std::optional<Star> star_at(const SheetZero& zero, const core::DyadBase& base, const core::RootTower& tower,
+                            const Subtower& part) {
+  constexpr double slack = 4;
+  Star star;
+  star.x = Rational(zero.x);
+  star.y = Rational(zero.y);
+  Apex apex;
+  const double radius = slack * std::max(zero.radius, 0x1p-50 * std::max(std::abs(zero.x), std::abs(zero.y)));
+  apex.radius = Rational(radius);
+  apex.roots.resize(tower.roots.size());
+  const SheetProgram program(part.tower, std::vector<SheetFunction>{});
+  auto registers = program.registers<Interval>();
+  registers.set(0, {zero.x - radius, zero.x + radius});
+  registers.set(1, {zero.y - radius, zero.y + radius});
+  for (int j = 0; j < program.roots(); ++j) {
+    registers.run_square(j);
+    if (registers.square(j).lower() <= 0) return std::nullopt;
+    const Interval root = square_root(registers.square(j));
+    registers.set(2 + j, part.mode[static_cast<std::size_t>(j)] > 0 ? root : -root);
+    const Interval value = registers.root(j);
+    const Rational lower(value.lower()), upper(value.upper());
+    apex.roots[static_cast<std::size_t>(part.kept[static_cast<std::size_t>(j)])] = {(lower + upper) / 2,
+                                                                                    (upper - lower) / 2, true};
+  }
+  apex.way[0] = base.x_line;
+  apex.way[1] = base.y_line;
+  star.apex = std::move(apex);
+  find_roots(star, tower);
+  if (star.roots.empty()) return std::nullopt;
+  return star;
+}
+
+}  // namespace
+
+std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::WorkingMode& mode,
+                                 const std::vector<Rational>& lower, const std::vector<Rational>& upper) {
+  const Rational around(1, 50);  // a star next to the box reaches into it
+  std::vector<Rational> from = lower, to = upper;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Rational margin = around * (upper[c] - lower[c]);
+    from[c] -= margin;
+    to[c] += margin;
+  }
+  std::vector<Star> stars;
+  for (const core::DyadBase& base : tower.bases) {
+    const Subtower part = subtower(tower, mode, {base.x, base.y});
+    if (part.kept.empty()) continue;  // at a rational point, or nowhere
+    const ZeroSet found = isolated_zeros(part.tower, part.mode, {narrowed(base.x, part), narrowed(base.x_line, part)},
+                                         {narrowed(base.y, part), narrowed(base.y_line, part)}, from, to);
+    for (const SheetZero& zero : found.zeros) {
+      if (!zero.inside_workspace) continue;
+      if (std::optional<Star> star = star_at(zero, base, tower, part)) stars.push_back(std::move(*star));
+    }
+  }
+  return stars;
+}
+
+StraightLine polar_line(const Star& star, const core::RootTower& tower, const SheetFunction& function,
+                        std::optional<int> power) {
+  AroundApex around_apex(star, tower);
+  std::optional<Expansion> expansion;
+  if (!function.line.empty()) expansion = around_apex.of(function.line);
+  if (!expansion) expansion = around_apex.of(AroundApex::form_of(function.polynomial));
+  core::ensure(expansion.has_value(), "a polynomial has an expansion");
+  return power && *power <= expansion->power ? around_apex.divided(*expansion, *power) : around_apex.line(*expansion);
+}
+
+}  // namespace clearloci::loci::sheet

@@ -1,0 +1,22 @@
+// Cones at points with irrational coordinates: where the ends of a dyad meet that stands on another dyad. The apex is
+// proven to exist and enclosed; what vanishes there does so because the way from end to end does, which is recognised
+// in the straight lines, so that powers of the distance are taken out exactly though no number there is.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "loci/sheet/star.hpp"
+
+namespace clearloci::loci::sheet {
+
+/// The cones of the tower's dyads on dyads on the mode's sheet, in the box and a little around it.
+std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::WorkingMode& mode,
+                                 const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper);
+
+/// A function on the tower as a straight line in (u, X', Y', roots...) (star.hpp), without its own power of u or
+/// without the given one; required: star.apex.
+core::StraightLine polar_line(const Star& star, const core::RootTower& tower, const SheetFunction& function,
+                              std::optional<int> power = std::nullopt);
+
+}  // namespace clearloci::loci::sheet
