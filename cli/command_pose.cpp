@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments.hpp"
+#include "cli/columns.hpp"
 #include "cli/commands.hpp"
+#include "cli/pose_result.hpp"
 #include "cli/program.hpp"
 #include "cli/spatial_pose.hpp"
 #include "core/errors.hpp"
@@ -36,9 +38,6 @@ struct PoseResult {
   numeric::Accuracy accuracy;
   std::optional<numeric::ActualPose> actual;  ///< if asked for
 };
-
-/// JSON has no infinity: a reaction at a direct singularity is null.
-Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json error_json(const numeric::PoseError& error) {
   return {{"dalpha", error.dalpha}, {"dx", error.dx}, {"dy", error.dy}};
@@ -78,10 +77,6 @@ Json actual_json(const numeric::NumericModel& model, const numeric::ActualPose& 
 }
 
 Json pose_json(const mechanism::Mechanism& mechanism, const numeric::NumericModel& model, const PoseResult& pose) {
-  Json mode = Json::object();
-  for (std::size_t j = 0; j < model.dyads.size(); ++j)
-    mode[mechanism.points[static_cast<std::size_t>(model.dyads[j])].name] =
-        mechanism::side_name(mechanism, model.dyads[j], pose.sides[j]);
   Json posture = Json::object();
   for (std::size_t i = 0; i < mechanism.points.size(); ++i)
     if (!mechanism.points[i].auxiliary) posture[mechanism.points[i].name] = pose.posture.points[i];
@@ -97,7 +92,7 @@ Json pose_json(const mechanism::Mechanism& mechanism, const numeric::NumericMode
   Json result = {{"format", 1},
                  {"mechanism", mechanism.name},
                  {"at", pose.at},
-                 {"working_mode", std::move(mode)},
+                 {"working_mode", mode_json(mechanism, pose.sides)},
                  {"posture", std::move(posture)},
                  {"reactions", std::move(reactions)},
                  {"determinant", pose.accuracy.reactions.determinant},
@@ -114,19 +109,15 @@ Json pose_json(const mechanism::Mechanism& mechanism, const numeric::NumericMode
   return result;
 }
 
-std::string number(const Json& value) {
-  return value.is_null() ? std::string("unbounded") : fmt::format("{:.9g}", value.get<double>() + 0.0);  // no -0
-}
-
 std::string error_row(const std::string& what, const Json& error) {
-  return fmt::format("{:<18}{:>16}{:>18}{:>18}\n", what, number(error["dx"]), number(error["dy"]),
-                     number(error["dalpha"]));
+  return fmt::format("{:<18}{:>16}{:>18}{:>18}\n", what, number_text(error["dx"]), number_text(error["dy"]),
+                     number_text(error["dalpha"]));
 }
 
 void print_accuracy(const Json& pose) {
   const auto entry = [](const Json& joint, const char* key) {
     if (!joint.contains(key)) return std::string();
-    return joint[key].is_null() ? std::string("undefined") : number(joint[key]);
+    return joint[key].is_null() ? std::string("undefined") : number_text(joint[key]);
   };
   if (pose["take_up"].empty()) return;
   fmt::print("\n{:<12}{:>18}{:>18}{:>18}{:>18}\n", "take-up", "dx [m]", "dy [m]", "beta [rad]", "dtheta [rad]");
@@ -156,25 +147,26 @@ void print_accuracy(const Json& pose) {
                iterated["residual"].get<double>());
   }
   fmt::print("{}", error_row("worst, any load", pose["worst_case"]));
-  fmt::print("{:<18}{:>16}  largest distance\n", "", number(pose["worst_case"]["dp"]));
+  fmt::print("{:<18}{:>16}  largest distance\n", "", number_text(pose["worst_case"]["dp"]));
 }
 
 /// "N 12.5 N, T 0 N m, F 3 N".
 void print_prismatic(const std::string& name, const Json& reaction) {
   std::vector<std::string> parts;
   for (const auto& [quantity, value] : reaction.items())
-    parts.push_back(fmt::format("{} {} {}", quantity, number(value), quantity == "T" ? "N m" : "N"));
+    parts.push_back(fmt::format("{} {} {}", quantity, number_text(value), quantity == "T" ? "N m" : "N"));
   fmt::print("{:<12}      {}\n", name, fmt::join(parts, ", "));
 }
 
 void print_table(const Json& pose) {
   fmt::print("{} at (", pose["mechanism"].get<std::string>());
-  for (std::size_t i = 0; i < pose["at"].size(); ++i) fmt::print("{}{}", i == 0 ? "" : ", ", number(pose["at"][i]));
+  for (std::size_t i = 0; i < pose["at"].size(); ++i)
+    fmt::print("{}{}", i == 0 ? "" : ", ", number_text(pose["at"][i]));
   fmt::print(")");
   for (const auto& [point, side] : pose["working_mode"].items()) fmt::print(", {} {}", point, side.get<std::string>());
   fmt::print("\n\n{:<12}{:>18}{:>18}\n", "point", "x [m]", "y [m]");
   for (const auto& [name, at] : pose["posture"].items())
-    fmt::print("{:<12}{:>18}{:>18}\n", name, number(at[0]), number(at[1]));
+    fmt::print("{:<12}{:>18}{:>18}\n", name, number_text(at[0]), number_text(at[1]));
   fmt::print("\n{:<12}{:>18}{:>18}{:>18}{:>18}\n", "joint", "fx [N]", "fy [N]", "|f| [N]", "M [N m]");
   for (const auto& [name, reaction] : pose["reactions"].items()) {
     if (!reaction.contains("fx")) {
@@ -183,11 +175,11 @@ void print_table(const Json& pose) {
     }
     const bool finite = !reaction["fx"].is_null() && !reaction["fy"].is_null();
     const std::string size =
-        finite ? number(std::hypot(reaction["fx"].get<double>(), reaction["fy"].get<double>())) : "unbounded";
-    fmt::print("{:<12}{:>18}{:>18}{:>18}{:>18}\n", name, number(reaction["fx"]), number(reaction["fy"]), size,
-               reaction.contains("M") ? number(reaction["M"]) : "");
+        finite ? number_text(std::hypot(reaction["fx"].get<double>(), reaction["fy"].get<double>())) : "unbounded";
+    fmt::print("{:<12}{:>18}{:>18}{:>18}{:>18}\n", name, number_text(reaction["fx"]), number_text(reaction["fy"]), size,
+               reaction.contains("M") ? number_text(reaction["M"]) : "");
   }
-  fmt::print("\n|A| = {}, condition number {}\n", number(pose["determinant"]), number(pose["condition"]));
+  fmt::print("\n|A| = {}, condition number {}\n", number_text(pose["determinant"]), number_text(pose["condition"]));
   print_accuracy(pose);
 }
 
@@ -201,19 +193,19 @@ std::vector<numeric::Bounded> with_rounding(const std::vector<core::Rational>& e
   return pose;
 }
 
+DyadSides sides_of(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+  return arguments.working_mode.empty() ? mechanism::working_mode(mechanism)
+                                        : parse_working_mode(arguments.working_mode, mechanism);
+}
+
 PoseResult solve(const Arguments& arguments, const mechanism::Mechanism& mechanism,
                  const numeric::NumericModel& model) {
   PoseResult pose;
   const std::vector<numeric::Bounded> at = with_rounding(parse_pose(arguments.at, mechanism));
   for (const numeric::Bounded& value : at) pose.at.push_back(value.value);
-  pose.sides = arguments.working_mode.empty() ? mechanism::working_mode(mechanism)
-                                              : parse_working_mode(arguments.working_mode, mechanism);
+  pose.sides = sides_of(arguments, mechanism);
   pose.posture = numeric::posture(model, pose.at, pose.sides);
-  if (pose.posture.unreachable) {
-    const std::string& name = mechanism.points[static_cast<std::size_t>(*pose.posture.unreachable)].name;
-    throw core::InputError({.file = "--at"}, fmt::format("the pose is out of reach: point {} cannot be placed", name),
-                           "choose a pose inside the workspace");
-  }
+  if (pose.posture.unreachable) throw out_of_reach(mechanism, *pose.posture.unreachable);
   pose.accuracy = numeric::pose_accuracy(model, pose.posture, numeric::vanishing_unknowns(model, at, pose.sides));
   if (!arguments.iterate) return pose;
   pose.actual = numeric::actual_pose(model, pose.posture, pose.accuracy);
@@ -237,11 +229,8 @@ int run_spatial(const Arguments& arguments, const mechanism::Mechanism& mechanis
   if (arguments.iterate)
     throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not iterated",
                            "leave --iterate out: the linear error is given");
-  if (!arguments.working_mode.empty())
-    throw core::InputError({.file = "--working-mode"}, "a spatial mechanism has no dyads to assemble either way",
-                           "leave --working-mode out");
   const std::vector<numeric::Bounded> at = with_rounding(parse_pose(arguments.at, mechanism));
-  return report_pose(arguments, spatial_pose_json(mechanism, at), print_spatial_pose);
+  return report_pose(arguments, spatial_pose_json(mechanism, at, sides_of(arguments, mechanism)), print_spatial_pose);
 }
 
 int run(const Arguments& arguments) {

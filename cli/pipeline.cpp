@@ -292,7 +292,9 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
     const bool wanted = named.empty() ? joint.clearance.has_value() || !any_clearance
                                       : std::find(named.begin(), named.end(), joint.name) != named.end();
     if (!wanted) continue;
-    for (const core::Quantity quantity : mechanism::reaction_components(mechanism, joint))
+    const bool every = mechanism.space == mechanism::Space::planar || !named.empty();
+    for (const core::Quantity quantity :
+         every ? mechanism::reaction_components(mechanism, joint) : mechanism::force_components(mechanism, joint))
       reactions.push_back({joint.name, quantity});
     if (joint.actuated) reactions.push_back({joint.name, mechanism::actuator_quantity(joint)});
   }
@@ -302,12 +304,15 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
 LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                              const numeric::GridSpec& grid) {
   require_coordinates(mechanism, 2, 2, "loci are held against a grid");
-  request.selection.quantities.assign(core::all_quantities.begin(), core::all_quantities.end());
+  const std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request.selection);
+  std::vector<core::Quantity>& quantities = request.selection.quantities = {core::Quantity::f};
+  for (const numeric::TracedReaction& reaction : reactions)
+    if (std::find(quantities.begin(), quantities.end(), reaction.quantity) == quantities.end())
+      quantities.push_back(reaction.quantity);
   core::LocusMap map = trace_loci(mechanism, request);
   if (!map.complete)
     throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
-  numeric::ValidationReport report =
-      numeric::validate(mechanism, map, grid, selected_reactions(mechanism, request.selection));
+  numeric::ValidationReport report = numeric::validate(mechanism, map, grid, reactions);
   return {std::move(map), std::move(report)};
 }
 

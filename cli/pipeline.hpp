@@ -77,7 +77,8 @@ core::WorkingMode mode_of(const DyadSides& sides, const core::RootTower& tower);
 core::LocusMap empty_map(const mechanism::Mechanism& mechanism);
 
 /// The scalar reactions (fx, fy, and M where actuated) of the joints that a selection means, in the file's order.
-/// `selection.joints` empty: every joint with a clearance, or all where none has one.
+/// `selection.joints` empty: every joint with a clearance, or all where none has one; in space then without the couples
+/// across a joint's axes, of which no clearance depends.
 std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,
                                                         const symbolic::Selection& selection);
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/columns.hpp"
+#include "cli/pose_result.hpp"
 #include "numeric/spatial.hpp"
 
 namespace clearloci::cli {
@@ -15,9 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array error_names = {"dx", "dy", "dz", "dalpha_x", "dalpha_y", "dalpha_z"};
-
-/// JSON has no infinity: a reaction at a direct singularity is null.
-Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json vector_json(const Eigen::Vector3d& v) { return {number_json(v(0)), number_json(v(1)), number_json(v(2))}; }
 
@@ -58,15 +57,11 @@ Json reaction_json(const mechanism::Joint& joint, const numeric::SpatialReaction
   return reaction;
 }
 
-std::string number(const Json& value) {
-  return value.is_null() ? std::string("unbounded") : fmt::format("{:.9g}", value.get<double>() + 0.0);  // no -0
-}
-
 void print_accuracy(const Json& pose) {
   if (pose["take_up"].empty()) return;
   const auto entry = [](const Json& joint, const char* key, const char* unit = "") {
     if (!joint.contains(key)) return std::string();
-    return joint[key].is_null() ? std::string("undefined") : number(joint[key]) + unit;
+    return joint[key].is_null() ? std::string("undefined") : number_text(joint[key]) + unit;
   };
   fmt::print("\n{:<12}{:>18}{:>18}{:>18}  actuator\n", "take-up", "dx [m]", "dy [m]", "dz [m]");
   for (const auto& [name, joint] : pose["take_up"].items()) {
@@ -79,7 +74,7 @@ void print_accuracy(const Json& pose) {
              "dalpha_x [rad]", "dalpha_y [rad]", "dalpha_z [rad]");
   const auto row = [](const char* what, const Json& error) {
     fmt::print("{:<18}", what);
-    for (const char* key : error_names) fmt::print("{:>16}", number(error[key]));
+    for (const char* key : error_names) fmt::print("{:>16}", number_text(error[key]));
     fmt::print("\n");
   };
   if (pose["pose_error"].is_null())
@@ -88,17 +83,20 @@ void print_accuracy(const Json& pose) {
   else
     row("linear", pose["pose_error"]);
   row("worst, any load", pose["worst_case"]);
-  fmt::print("{:<18}{:>16} m largest distance, {} rad largest rotation\n", "", number(pose["worst_case"]["dp"]),
-             number(pose["worst_case"]["dalpha"]));
+  fmt::print("{:<18}{:>16} m largest distance, {} rad largest rotation\n", "", number_text(pose["worst_case"]["dp"]),
+             number_text(pose["worst_case"]["dalpha"]));
 }
 
 }  // namespace
 
-Json spatial_pose_json(const mechanism::Mechanism& mechanism, const std::vector<numeric::Bounded>& at) {
+Json spatial_pose_json(const mechanism::Mechanism& mechanism, const std::vector<numeric::Bounded>& at,
+                       const DyadSides& sides) {
   std::vector<double> pose;
   for (const numeric::Bounded& value : at) pose.push_back(value.value);
+  if (const auto unreachable = numeric::spatial_posture(mechanism, pose, sides).unreachable)
+    throw out_of_reach(mechanism, *unreachable);
   const numeric::SpatialAccuracy accuracy =
-      numeric::spatial_accuracy(mechanism, pose, numeric::lost_contacts(numeric::compile(mechanism), at));
+      numeric::spatial_accuracy(mechanism, pose, numeric::lost_contacts(numeric::compile(mechanism), sides, at), sides);
   const numeric::SpatialPosture& posture = accuracy.posture;
   Json points = Json::object(), reactions = Json::object();
   for (std::size_t i = 0; i < mechanism.points.size(); ++i)
@@ -112,6 +110,7 @@ Json spatial_pose_json(const mechanism::Mechanism& mechanism, const std::vector<
       {"format", 1},
       {"mechanism", mechanism.name},
       {"at", pose},
+      {"working_mode", mode_json(mechanism, sides)},
       {"posture", std::move(points)},
       {"reactions", std::move(reactions)},
       {"determinant", posture.determinant},
@@ -123,21 +122,23 @@ Json spatial_pose_json(const mechanism::Mechanism& mechanism, const std::vector<
 }
 
 void print_spatial_pose(const Json& pose) {
-  fmt::print("{} at ({})\n\n{:<12}{:>18}{:>18}{:>18}\n", pose["mechanism"].get<std::string>(),
-             fmt::join(pose["at"].get<std::vector<double>>(), ", "), "point", "x [m]", "y [m]", "z [m]");
+  fmt::print("{} at ({})", pose["mechanism"].get<std::string>(),
+             fmt::join(pose["at"].get<std::vector<double>>(), ", "));
+  for (const auto& [point, side] : pose["working_mode"].items()) fmt::print(", {} {}", point, side.get<std::string>());
+  fmt::print("\n\n{:<12}{:>18}{:>18}{:>18}\n", "point", "x [m]", "y [m]", "z [m]");
   for (const auto& [name, at] : pose["posture"].items())
-    fmt::print("{:<12}{:>18}{:>18}{:>18}\n", name, number(at[0]), number(at[1]), number(at[2]));
+    fmt::print("{:<12}{:>18}{:>18}{:>18}\n", name, number_text(at[0]), number_text(at[1]), number_text(at[2]));
   fmt::print("\n{:<12}{:>16}{:>16}{:>16}{:>16}{:>16}{:>16}  actuator\n", "joint", "fx [N]", "fy [N]", "fz [N]",
              "mx [N m]", "my [N m]", "mz [N m]");
   for (const auto& [name, reaction] : pose["reactions"].items()) {
     fmt::print("{:<12}", name);
     for (const char* key : {"fx", "fy", "fz", "mx", "my", "mz"})
-      fmt::print("{:>16}", reaction.contains(key) ? number(reaction[key]) : "");
-    if (reaction.contains("F")) fmt::print("  F {} N", number(reaction["F"]));
-    if (reaction.contains("M")) fmt::print("  M {} N m", number(reaction["M"]));
+      fmt::print("{:>16}", reaction.contains(key) ? number_text(reaction[key]) : "");
+    if (reaction.contains("F")) fmt::print("  F {} N", number_text(reaction["F"]));
+    if (reaction.contains("M")) fmt::print("  M {} N m", number_text(reaction["M"]));
     fmt::print("\n");
   }
-  fmt::print("\n|A| = {}, condition number {}\n", number(pose["determinant"]), number(pose["condition"]));
+  fmt::print("\n|A| = {}, condition number {}\n", number_text(pose["determinant"]), number_text(pose["condition"]));
   print_accuracy(pose);
 }
 

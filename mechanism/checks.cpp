@@ -16,7 +16,12 @@ const Point& point_at(const Mechanism& mechanism, PointIndex index) {
 
 /// The points a form is built from.
 std::vector<PointIndex> bases(const PointForm& form) {
-  if (const auto* dyad = std::get_if<DyadPoint>(&form)) return {dyad->from, dyad->to};
+  if (const auto* dyad = std::get_if<DyadPoint>(&form)) {
+    std::vector<PointIndex> used = {dyad->from, dyad->to};
+    const std::set<PointIndex> of_axis = dyad->axis ? points_of(*dyad->axis) : std::set<PointIndex>();
+    used.insert(used.end(), of_axis.begin(), of_axis.end());
+    return used;
+  }
   if (const auto* offset = std::get_if<OffsetPoint>(&form)) return {offset->first, offset->second};
   if (const auto* mean = std::get_if<MeanPoint>(&form)) return {mean->first, mean->second};
   if (const auto* slider = std::get_if<SliderPoint>(&form)) {
@@ -29,6 +34,21 @@ std::vector<PointIndex> bases(const PointForm& form) {
 
 double distance(const std::array<double, 3>& p, const std::array<double, 3>& q) {
   return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+}
+
+/// From a point to the line through `base` along u.
+double distance_to_line(const std::array<double, 3>& point, const std::array<double, 3>& base,
+                        const std::array<double, 3>& u) {
+  const std::array<double, 3> way = {point[0] - base[0], point[1] - base[1], point[2] - base[2]};
+  const std::array<double, 3> across = {u[1] * way[2] - u[2] * way[1], u[2] * way[0] - u[0] * way[2],
+                                        u[0] * way[1] - u[1] * way[0]};
+  return distance(across, {}) / distance(u, {});
+}
+
+/// The axis about which a dyad of space turns; null of other points.
+const VectorExpression* axis_of(const Point& point) {
+  const auto* dyad = std::get_if<DyadPoint>(&point.form);
+  return dyad != nullptr && dyad->axis ? &*dyad->axis : nullptr;
 }
 
 bool is_explicit(const Point& point) { return std::holds_alternative<ExplicitPoint>(point.form); }
@@ -154,9 +174,38 @@ void check_coordinates_used(const Mechanism& mechanism, const core::SourcePositi
                        "use it in the coordinates of a point, or remove it");
 }
 
+namespace {
+
+/// In every pose of a sample in which it is defined, and there is one.
+bool is_zero(const Mechanism& mechanism, const VectorExpression& vector) {
+  constexpr std::size_t poses = 16;
+  bool sampled = false;
+  for (const std::vector<double>& pose : spread_poses(mechanism, poses)) {
+    const auto value = sample_vector(mechanism, vector, pose);
+    if (!value) continue;
+    if (distance(*value, {}) > 1e-12) return false;
+    sampled = true;
+  }
+  return sampled;
+}
+
+void check_direction(const Mechanism& mechanism, const Point& point) {
+  const VectorExpression* direction = axis_of(point);
+  const auto* slider = std::get_if<SliderPoint>(&point.form);
+  if (slider != nullptr) direction = &slider->along;
+  if (direction != nullptr && is_zero(mechanism, *direction))
+    throw InputError(point.where,
+                     std::string(slider != nullptr ? "the direction" : "the axis") + " of point " + point.name +
+                         " is zero in every pose",
+                     "write a vector with a direction");
+}
+
+}  // namespace
+
 void check_distinct_bases(const Mechanism& mechanism) {
   constexpr std::size_t poses = 16;
   for (const Point& point : mechanism.points) {
+    check_direction(mechanism, point);
     const std::vector<PointIndex> pair = bases(point.form);
     if (!std::holds_alternative<DyadPoint>(point.form) && !std::holds_alternative<OffsetPoint>(point.form)) continue;
     bool coincide = false;
@@ -168,13 +217,19 @@ void check_distinct_bases(const Mechanism& mechanism) {
       if (!p || !q) continue;
       // Relative to the coordinates: what rounding leaves of a distance that is zero.
       const double size = distance(*p, {}) + distance(*q, {});
-      const bool together = distance(*p, *q) <= 1e-12 * size;
-      (together ? coincide : apart) = true;
+      double way = distance(*p, *q);
+      if (const VectorExpression* axis = axis_of(point)) {
+        const auto u = sample_vector(mechanism, *axis, pose);
+        if (!u || !(distance(*u, {}) > 0)) continue;
+        way = distance_to_line(*q, *p, *u);
+      }
+      (way <= 1e-12 * size ? coincide : apart) = true;
     }
     if (!coincide || apart) continue;
+    const std::string pair_name = point_at(mechanism, pair[0]).name + " and " + point_at(mechanism, pair[1]).name;
     throw InputError(point.where,
-                     "point " + point.name + " has no direction to build on: " + point_at(mechanism, pair[0]).name +
-                         " and " + point_at(mechanism, pair[1]).name + " coincide in every pose",
+                     "point " + point.name + " has no direction to build on: " + pair_name +
+                         (axis_of(point) != nullptr ? " lie along its axis in every pose" : " coincide in every pose"),
                      "build it on two different places");
   }
 }

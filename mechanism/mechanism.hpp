@@ -56,11 +56,13 @@ struct VectorExpression {
   std::vector<VectorExpression> arguments;  ///< two of add and cross, one of negate and scale
 };
 
-/// The point at distance `from_length` from `from` and `to_length` from `to`, on the named side of from -> to.
+/// The point at distance `from_length` from `from` and `to_length` from `to`, on the named side of from -> to. In space
+/// it turns about the `axis` through `from`, on the circle across it; left is as seen against the axis.
 struct DyadPoint {
   PointIndex from, to;
   Expression from_length, to_length;
   Side side;
+  std::optional<VectorExpression> axis = {};  ///< none in the plane
 };
 /// In the frame of first -> second: `along` m along it and `left` m to its left.
 struct OffsetPoint {
@@ -71,7 +73,7 @@ struct MeanPoint {
   PointIndex first, second;
 };
 /// On the line through `base` along `along`, at distance `length` from `from`: of the two places the one farther along
-/// (`ahead`) or the other. Planar.
+/// (`ahead`) or the other.
 struct SliderPoint {
   PointIndex base, from;
   VectorExpression along;

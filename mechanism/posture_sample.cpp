@@ -46,6 +46,8 @@ Vector cross(const Vector& p, const Vector& q) {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
 double dot(const Vector& p, const Vector& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+Vector operator*(double a, const Vector& p) { return {a * p[0], a * p[1], a * p[2]}; }
+Vector operator+(const Vector& p, const Vector& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
 /// p + a q + b J q, J turning the plane a quarter to the left.
 Vector moved(const Vector& p, const Vector& q, double a, double b) {
   return {p[0] + a * q[0] - b * q[1], p[1] + a * q[1] + b * q[0], p[2] + a * q[2]};
@@ -90,19 +92,25 @@ class Placement {
     return place;
   }
 
-  /// method.md section 1: B = A + (k (P - A) +- s J (P - A)) / (2 D).
+  /// method.md section 1: B = A + (k (P - A) +- s J (P - A)) / (2 D); in space P is brought into the plane across the
+  /// axis first.
   std::optional<Vector> operator()(const DyadPoint& point) const {
     const auto bases = frame(point.from, point.to);
-    if (!bases) return std::nullopt;
-    const auto& [base, along] = *bases;
+    const std::optional<Vector> axis =
+        point.axis ? value_at(*point.axis, points_, values_) : std::optional<Vector>({0, 0, 1});
+    if (!bases || !axis || !(dot(*axis, *axis) > 0)) return std::nullopt;
+    const auto& [base, way] = *bases;
+    const Vector n = 1 / std::sqrt(dot(*axis, *axis)) * *axis;
+    const double h = dot(n, way);
+    const Vector along = difference(way, h * n);
     const double a = value_at(point.from_length, values_);
     const double b = value_at(point.to_length, values_);
     const double d = dot(along, along);
-    const double k = a * a - b * b + d;
+    const double k = a * a - b * b + h * h + d;
     const double q = 4 * a * a * d - k * k;
     if (!(q > 0)) return std::nullopt;
     const double s = point.side == Side::left ? std::sqrt(q) : -std::sqrt(q);
-    return moved(base, along, k / (2 * d), s / (2 * d));
+    return base + k / (2 * d) * along + s / (2 * d) * cross(n, along);
   }
 
   std::optional<Vector> operator()(const OffsetPoint& point) const {
@@ -127,8 +135,8 @@ class Placement {
     if (!bases || !along) return std::nullopt;
     const double u = dot(*along, *along);
     const double l = value_at(point.length, values_);
-    const double across = (*along)[0] * bases->second[1] - (*along)[1] * bases->second[0];
-    const double q = l * l * u - across * across;
+    const Vector across = cross(*along, bases->second);
+    const double q = l * l * u - dot(across, across);
     if (!(u > 0) || !(q > 0)) return std::nullopt;
     const double s = point.ahead ? std::sqrt(q) : -std::sqrt(q);
     return moved(bases->first, *along, (dot(*along, bases->second) + s) / u, 0);

@@ -209,14 +209,25 @@ std::optional<Interval> proven_unreachable(const Mechanism& mechanism, const Sli
   const auto* from = std::get_if<ExplicitPoint>(&form_of(mechanism, slider.from));
   if (!base || !from || slider.along.kind != VectorExpression::Kind::components) return std::nullopt;
   const Box whole = whole_box(mechanism);
-  const Interval ux = bound(slider.along.numbers[0], whole), uy = bound(slider.along.numbers[1], whole);
-  const Interval size = root(square(ux) + square(uy));
+  std::array<Interval, 3> u;
+  Interval squared_size{0, 0};
+  for (std::size_t i = 0; i < slider.along.numbers.size(); ++i) {
+    u[i] = bound(slider.along.numbers[i], whole);
+    squared_size = squared_size + square(u[i]);
+  }
+  const Interval size = root(squared_size);
   if (!(size.low > 0)) return std::nullopt;
   const Interval per_length = outward(1 / size.high, 1 / size.low);
   const auto to_line = [&](const Box& box) {
-    const Interval x = bound(from->coordinates[0], box) - bound(base->coordinates[0], box);
-    const Interval y = bound(from->coordinates[1], box) - bound(base->coordinates[1], box);
-    return root(square((ux * y - uy * x) * per_length));
+    std::array<Interval, 3> way;
+    for (std::size_t i = 0; i < from->coordinates.size(); ++i)
+      way[i] = bound(from->coordinates[i], box) - bound(base->coordinates[i], box);
+    Interval squared{0, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      squared = squared + square((u[j] * way[k] - u[k] * way[j]) * per_length);
+    }
+    return root(squared);
   };
   return proven_outside(mechanism, {0, bound(slider.length, whole).high}, to_line);
 }

@@ -148,17 +148,34 @@ std::pair<PointIndex, PointIndex> read_pair(const Mechanism& mechanism, const Va
 }
 
 DyadPoint read_dyad(const Mechanism& mechanism, const Value& value) {
-  const Mapping mapping(value, {"dyad", "lengths", "side"});
+  const bool spatial = mechanism.space == Space::spatial;
+  std::vector<std::string> keys = {"dyad", "lengths", "side"};
+  if (spatial) keys.emplace_back("axis");
+  const Mapping mapping(value, keys);
   const auto [from, to] = read_pair(mechanism, mapping.at("dyad"));
+  std::optional<VectorExpression> axis;
+  if (spatial) {
+    const std::optional<Value> written = mapping.find("axis");
+    if (!written)
+      throw InputError(value.where, value.what + " is a dyad in space without an axis",
+                       "write the axis about which it turns at " + text_of(elements(mapping.at("dyad"), 2)[0]) +
+                           ", such as axis: [0, 1, 0]");
+    Value direction = *written;
+    direction.what = "the axis of " + value.what;
+    axis = read_vector_expression(mechanism, direction);
+  }
   std::vector<Value> lengths = elements(mapping.at("lengths"), 2);
   for (Value& length : lengths) length.what = "a length of " + value.what;
   const Value side = mapping.at("side");
   const std::string side_text = text_of(side);
   if (side_text != "left" && side_text != "right")
     throw InputError(side.where, side.what + " is '" + side_text + "'", "write left or right");
-  return {from, to, read_number(mechanism, lengths[0], Sign::positive).expression,
+  return {from,
+          to,
+          read_number(mechanism, lengths[0], Sign::positive).expression,
           read_number(mechanism, lengths[1], Sign::positive).expression,
-          side_text == "left" ? Side::left : Side::right};
+          side_text == "left" ? Side::left : Side::right,
+          std::move(axis)};
 }
 
 SliderPoint read_slider(const Mechanism& mechanism, const Value& value) {
@@ -281,10 +298,6 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
   if (!value.is_map())
     throw InputError(value.where, value.what + " is neither coordinates nor a construction",
                      "write [x, y], {dyad: ...}, {slider: ...}, {on: ...} or {mean: ...}");
-  for (const char* planar : {"dyad", "slider"})
-    if (mechanism.space == Space::spatial && has_key(value, planar))
-      throw InputError(value.where, value.what + " is a " + planar + ", which is a construction of the plane",
-                       "write [x, y, z], {on: ...} or {mean: ...}");
   if (has_key(value, "dyad")) return read_dyad(mechanism, value);
   if (has_key(value, "on")) return read_offset(mechanism, value);
   if (has_key(value, "mean")) {

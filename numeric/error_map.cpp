@@ -127,7 +127,7 @@ std::vector<bool> unloaded(const NumericModel& model, std::span<const int> mode,
   std::vector<bool> result;
   if (model.mechanism.space == mechanism::Space::spatial) {
     const std::vector<SpatialJoint> joints = spatial_joints(model.mechanism);
-    const std::vector<LostContact> lost = lost_contacts(model, pose);
+    const std::vector<LostContact> lost = lost_contacts(model, mode, pose);
     for (std::size_t j = 0; j < joints.size(); ++j)
       result.push_back((joints[j].presses() && lost[j].force) || (joints[j].plays() && lost[j].actuator));
     return result;
@@ -272,9 +272,9 @@ RowErrors planar_row(const NumericModel& model, std::span<const double> poses, s
   return row;
 }
 
-RowErrors spatial_row(const NumericModel& model, std::span<const double> poses, bool under_load,
-                      const ErrorGrid& grid) {
-  const SpatialErrors s = spatial_errors(model, poses, under_load, grid.worst_case, grid.worst_case_accuracy);
+RowErrors spatial_row(const NumericModel& model, std::span<const int> mode, std::span<const double> poses,
+                      bool under_load, const ErrorGrid& grid) {
+  const SpatialErrors s = spatial_errors(model, mode, poses, under_load, grid.worst_case, grid.worst_case_accuracy);
   RowErrors row{{}, s.reachable};
   const auto add = [&](const auto& values, const auto& of) {
     std::vector<double>& field = row.fields.emplace_back();
@@ -317,8 +317,8 @@ ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const E
       std::vector<double> poses;
       poses.reserve(2 * static_cast<std::size_t>(grid.nx));
       for (int i = 0; i < grid.nx; ++i) poses.insert(poses.end(), {map.x(i), map.y(j)});
-      const RowErrors row =
-          spatial ? spatial_row(model, poses, under_load, grid) : planar_row(model, poses, mode, under_load, grid);
+      const RowErrors row = spatial ? spatial_row(model, mode, poses, under_load, grid)
+                                    : planar_row(model, poses, mode, under_load, grid);
       for (std::size_t f = 0; f < row.fields.size(); ++f)
         std::copy(row.fields[f].begin(), row.fields[f].end(),
                   map.fields[f].values.begin() + static_cast<std::ptrdiff_t>(map.index(0, j)));

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -34,14 +35,28 @@ struct Column {
 
 class Solver {
  public:
-  Solver(const Mechanism& m, std::span<const double> pose) : m_(m) {
+  Solver(const Mechanism& m, std::span<const double> pose, std::span<const int> mode) : m_(m) {
     core::ensure(pose.size() == m.coordinates.size(), "a pose has one value for each free coordinate");
     for (const auto& parameter : m.parameters) values_[parameter.name] = core::to_double(parameter.value);
     for (std::size_t i = 0; i < pose.size(); ++i) values_[m.coordinates[i].name] = pose[i];
-    for (const auto& point : m.points) points_.push_back(place(point.form));
+    const std::vector<mechanism::PointIndex> built = mechanism::dyad_points(m);
+    const std::vector<int> own = mechanism::working_mode(m);
+    core::ensure(mode.empty() || mode.size() == own.size(), "a working mode has one sign for each dyad");
+    for (std::size_t i = 0; i < m.points.size(); ++i) {
+      const auto found = std::find(built.begin(), built.end(), static_cast<mechanism::PointIndex>(i)) - built.begin();
+      const auto k = static_cast<std::size_t>(found);
+      points_.push_back(place(m.points[i].form, k == built.size() ? 0 : mode.empty() ? own[k] : mode[k]));
+      if (!points_.back().allFinite() && !unreachable_) unreachable_ = static_cast<mechanism::PointIndex>(i);
+    }
   }
 
   SpatialPosture solve() {
+    if (unreachable_) {
+      SpatialPosture nowhere;
+      nowhere.points = points_;
+      nowhere.unreachable = unreachable_;
+      return nowhere;
+    }
     for (std::size_t j = 0; j < m_.joints.size(); ++j) add_columns(j);
     const auto size = static_cast<Eigen::Index>(6 * m_.links.size());
     if (static_cast<Eigen::Index>(columns_.size()) != size)
@@ -74,6 +89,7 @@ class Solver {
   }
 
   SpatialAccuracy accuracy(const std::vector<LostContact>& lost) {
+    core::ensure(!unreachable_, "a reachable pose");
     SpatialAccuracy result;
     result.posture = solve();
     result.joints = spatial_joints(m_);
@@ -161,12 +177,30 @@ class Solver {
     return result;
   }
 
-  Vector3d place(const mechanism::PointForm& form) const {
+  /// `side`: of a dyad or slider.
+  Vector3d place(const mechanism::PointForm& form, int side) const {
+    if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) return elbow(*dyad, side);
+    if (const auto* slider = std::get_if<mechanism::SliderPoint>(&form)) {
+      // Where the line meets the sphere of radius l about C.
+      const Vector3d u = vector(slider->along).normalized(), way = at(slider->base) - at(slider->from);
+      const double p = u.dot(way), l = value(slider->length);
+      return at(slider->base) + (-p + side * std::sqrt(p * p - way.squaredNorm() + l * l)) * u;
+    }
     if (const auto* e = std::get_if<mechanism::ExplicitPoint>(&form)) return components(e->coordinates);
     if (const auto* mean = std::get_if<mechanism::MeanPoint>(&form)) return (at(mean->first) + at(mean->second)) / 2;
     const auto* offset = std::get_if<mechanism::OffsetPoint>(&form);
     core::ensure(offset != nullptr, "a construction of space");
     return at(offset->first) + value(offset->along) * (at(offset->second) - at(offset->first)).normalized();
+  }
+
+  /// The circle of radius a about A across the axis meets the sphere of radius b about P: in the angle t from the
+  /// direction e of P in the circle's plane, a^2 + |P - A|^2 - b^2 = 2 a |e-part of P - A| cos t.
+  Vector3d elbow(const mechanism::DyadPoint& dyad, int side) const {
+    const Vector3d n = vector(*dyad.axis).normalized(), way = at(dyad.to) - at(dyad.from);
+    const Vector3d in_plane = way - n.dot(way) * n, e = in_plane.normalized();
+    const double a = value(dyad.from_length), b = value(dyad.to_length);
+    const double t = side * std::acos((a * a + way.squaredNorm() - b * b) / (2 * a * in_plane.norm()));
+    return at(dyad.from) + a * (std::cos(t) * e + std::sin(t) * n.cross(e));
   }
 
   Vector3d vector(const mechanism::VectorExpression& v) const {
@@ -239,23 +273,26 @@ class Solver {
   const Mechanism& m_;
   std::map<std::string, double> values_;
   std::vector<Vector3d> points_;
+  std::optional<mechanism::PointIndex> unreachable_;
   std::vector<Column> columns_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };
 
-Solver solver(const Mechanism& m, std::span<const double> pose) {
+Solver solver(const Mechanism& m, std::span<const double> pose, std::span<const int> mode) {
   if (m.space != mechanism::Space::spatial)
     throw core::InputError({m.file, 0, 0}, "the mechanism is planar", "use the planar solver");
-  return {m, pose};
+  return {m, pose, mode};
 }
 
 }  // namespace
 
-SpatialPosture spatial_posture(const Mechanism& m, std::span<const double> pose) { return solver(m, pose).solve(); }
+SpatialPosture spatial_posture(const Mechanism& m, std::span<const double> pose, std::span<const int> mode) {
+  return solver(m, pose, mode).solve();
+}
 
-SpatialAccuracy spatial_accuracy(const Mechanism& m, std::span<const double> pose,
-                                 const std::vector<LostContact>& lost) {
-  return solver(m, pose).accuracy(lost);
+SpatialAccuracy spatial_accuracy(const Mechanism& m, std::span<const double> pose, const std::vector<LostContact>& lost,
+                                 std::span<const int> mode) {
+  return solver(m, pose, mode).accuracy(lost);
 }
 
 }  // namespace clearloci::numeric

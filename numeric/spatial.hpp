@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct SpatialReaction {
 };
 
 struct SpatialPosture {
-  std::vector<Eigen::Vector3d> points;     ///< of every point of the mechanism, m
+  std::vector<Eigen::Vector3d> points;  ///< of every point of the mechanism, m
+  std::optional<mechanism::PointIndex>
+      unreachable;                         ///< the first point that cannot be placed; then nothing else is known
   std::vector<SpatialReaction> reactions;  ///< of every joint; infinite or NaN where |A| = 0
   double determinant = 0;                  ///< |A|, of the orthonormal form
   double condition = 0;                    ///< 2-norm condition number of A in SI units
@@ -41,12 +44,14 @@ struct SpatialAccuracy {
   SpatialWorstCase worst;
 };
 
-/// `lost`: from lost_contacts, or empty. Requirements as of spatial_posture.
+/// `lost`: from lost_contacts, or empty. Requirements as of spatial_posture, and a reachable pose.
 SpatialAccuracy spatial_accuracy(const mechanism::Mechanism& mechanism, std::span<const double> pose,
-                                 const std::vector<LostContact>& lost = {});
+                                 const std::vector<LostContact>& lost = {}, std::span<const int> mode = {});
 
-/// `pose`: one value a free coordinate. Requires a spatial mechanism with as many unknowns as equations. Throws
+/// `pose`: one value a free coordinate. `mode`: a sign for each of mechanism::dyad_points, or none for the file's
+/// own. Requires a spatial mechanism with as many unknowns as equations. Throws
 /// core::InputError for a planar one and where an axis has no direction at the pose.
-SpatialPosture spatial_posture(const mechanism::Mechanism& mechanism, std::span<const double> pose);
+SpatialPosture spatial_posture(const mechanism::Mechanism& mechanism, std::span<const double> pose,
+                               std::span<const int> mode = {});
 
 }  // namespace clearloci::numeric

@@ -25,8 +25,8 @@ struct CartesianColumns {
 
 class Batch {
  public:
-  explicit Batch(const NumericModel& model)
-      : model_(model), joints_(spatial_joints(model.mechanism)), evaluator_(model, {}, tape_size(model)) {
+  Batch(const NumericModel& model, std::span<const int> mode)
+      : model_(model), joints_(spatial_joints(model.mechanism)), evaluator_(model, mode, tape_size(model)) {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       CartesianColumns columns;
       constexpr std::array forces = {Quantity::fx, Quantity::fy, Quantity::fz};
@@ -133,8 +133,8 @@ class Batch {
 
 }  // namespace
 
-SpatialErrors spatial_errors(const NumericModel& model, std::span<const double> poses, bool under_load, bool worst_case,
-                             double worst_case_accuracy) {
+SpatialErrors spatial_errors(const NumericModel& model, std::span<const int> mode, std::span<const double> poses,
+                             bool under_load, bool worst_case, double worst_case_accuracy) {
   const std::size_t coordinates = model.box.size();
   core::ensure(coordinates > 0 && poses.size() % coordinates == 0, "a pose has one value for each free coordinate");
   const std::size_t count = poses.size() / coordinates;
@@ -144,7 +144,7 @@ SpatialErrors spatial_errors(const NumericModel& model, std::span<const double> 
   errors.worst.assign(worst_case ? count : 0, none);
   errors.worst_distance.assign(worst_case ? count : 0, nan);
   errors.reachable.assign(count, false);
-  Batch batch(model);
+  Batch batch(model, mode);
   for (std::size_t first = 0; first < count; first += lanes) {
     const int used = static_cast<int>(std::min<std::size_t>(lanes, count - first));
     for (int l = 0; l < lanes; ++l) {

@@ -18,9 +18,9 @@ struct SpatialErrors {
   std::vector<bool> reachable;
 };
 
-/// `poses`: pose after pose, one value a free coordinate. `under_load`: `error` is wanted too. Errors are NaN at
-/// unreachable poses. `worst_case_accuracy`: relative, of the largest |Δp|.
-SpatialErrors spatial_errors(const NumericModel& model, std::span<const double> poses, bool under_load, bool worst_case,
-                             double worst_case_accuracy);
+/// `mode`: a sign for each of the model's dyads. `poses`: pose after pose, one value a free coordinate. `under_load`:
+/// `error` is wanted too. Errors are NaN at unreachable poses. `worst_case_accuracy`: relative, of the largest |Δp|.
+SpatialErrors spatial_errors(const NumericModel& model, std::span<const int> mode, std::span<const double> poses,
+                             bool under_load, bool worst_case, double worst_case_accuracy);
 
 }  // namespace clearloci::numeric

@@ -35,7 +35,8 @@ class SpatialModelBuilder {
     NumericModel model;
     model.mechanism = m_;
     for (const auto& c : m_.coordinates) model.box.push_back({core::to_double(c.lower), core::to_double(c.upper)});
-    for (const auto& point : m_.points) points_.push_back(place(point.form));
+    model.dyads = mechanism::dyad_points(m_);
+    for (std::size_t i = 0; i < m_.points.size(); ++i) points_.push_back(place(static_cast<int>(i)));
     for (const Triple& p : points_) model.placed.insert(model.placed.end(), p.begin(), p.end());
     for (const auto& joint : m_.joints) {
       raw_axes_.push_back(joint.axes.empty() ? Triple{} : vector(joint.axes.front()));
@@ -94,7 +95,14 @@ class SpatialModelBuilder {
     return {tape_.divide(a[0], length), tape_.divide(a[1], length), tape_.divide(a[2], length)};
   }
 
-  Triple place(const mechanism::PointForm& form) {
+  Register dot(const Triple& a, const Triple& b) {
+    return tape_.add(tape_.add(tape_.multiply(a[0], b[0]), tape_.multiply(a[1], b[1])), tape_.multiply(a[2], b[2]));
+  }
+
+  Triple place(int index) {
+    const mechanism::PointForm& form = m_.points[static_cast<std::size_t>(index)].form;
+    if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) return elbow(*dyad, named_.sign_of(index));
+    if (const auto* slider = std::get_if<mechanism::SliderPoint>(&form)) return slide(*slider, named_.sign_of(index));
     if (const auto* e = std::get_if<mechanism::ExplicitPoint>(&form)) return components(e->coordinates);
     if (const auto* mean = std::get_if<mechanism::MeanPoint>(&form))
       return times(tape_.constant(0.5), plus(point(mean->first), point(mean->second)));
@@ -102,6 +110,33 @@ class SpatialModelBuilder {
     core::ensure(offset != nullptr, "a construction of space");
     const Triple direction = unit(minus(point(offset->second), point(offset->first)));
     return plus(point(offset->first), times(compile(offset->along), direction));
+  }
+
+  /// In the plane across the axis P is seen p m off A, in the direction e, and b' m off the elbow, b'^2 = b^2 - h^2
+  /// where P stands h m above the plane. Then B is a c e + a s (n x e), c the cosine of the angle at A.
+  Triple elbow(const mechanism::DyadPoint& form, Register sign) {
+    auto& t = tape_;
+    const Triple way = minus(point(form.to), point(form.from));
+    const Triple n = unit(vector(*form.axis));
+    const Register h = dot(n, way);
+    const Triple in_plane = minus(way, times(h, n));
+    const Register p2 = dot(in_plane, in_plane), p = t.sqrt(p2);
+    const Triple e = {t.divide(in_plane[0], p), t.divide(in_plane[1], p), t.divide(in_plane[2], p)};
+    const Register a = compile(form.from_length), b = compile(form.to_length);
+    const Register seen2 = t.subtract(t.square(b), t.square(h));
+    const Register c = t.divide(t.subtract(t.add(t.square(a), p2), seen2), t.add(p, p));  // times a
+    const Register s = t.sqrt(t.multiply(t.subtract(a, c), t.add(a, c)));                 // likewise
+    return plus(point(form.from), plus(times(c, e), times(t.multiply(sign, s), cross(n, e))));
+  }
+
+  /// Q + (u . r +- sqrt(l^2 - |u x r|^2)) u,  r = C - Q, u of length one.
+  Triple slide(const mechanism::SliderPoint& form, Register sign) {
+    auto& t = tape_;
+    const Triple u = unit(vector(form.along));
+    const Triple r = minus(point(form.from), point(form.base));
+    const Triple across = cross(u, r);
+    const Register s = t.sqrt(t.subtract(t.square(compile(form.length)), dot(across, across)));
+    return plus(point(form.base), times(t.add(dot(u, r), t.multiply(sign, s)), u));
   }
 
   Triple vector(const mechanism::VectorExpression& v) {
@@ -242,10 +277,11 @@ class SpatialModelBuilder {
   /// The components 1 and 2 across an axis u are the Cartesian ones other than k, the first direction in which u is
   /// constant and not zero, else the first in which it is not zero everywhere: told from poses all over the box.
   void choose_directions_across(NumericModel& model) const {
-    constexpr int samples = 7;
+    const std::vector<int> mode = mechanism::working_mode(m_);
+    const int samples = mode.empty() ? 7 : 64;  // some of them out of reach
     std::vector<std::vector<Bounded>> seen(3 * raw_axes_.size());
     for (int s = 0; s < samples; ++s) {
-      Evaluator<Bounded, 1> evaluator(model, {}, model.posture_size);
+      Evaluator<Bounded, 1> evaluator(model, mode, model.posture_size);
       for (std::size_t c = 0; c < model.box.size(); ++c) {
         // Off every symmetry, and otherwise for every coordinate.
         const double part = std::fmod((s + 1) * std::sqrt(static_cast<double>(2 + 3 * c)), 1.0);
@@ -254,7 +290,8 @@ class SpatialModelBuilder {
       evaluator.run_tape();
       for (std::size_t j = 0; j < raw_axes_.size(); ++j)
         for (std::size_t c = 0; !m_.joints[j].axes.empty() && c < 3; ++c)
-          seen[3 * j + c].push_back(evaluator.value(raw_axes_[j][c], 0));
+          if (const Bounded value = evaluator.value(raw_axes_[j][c], 0); std::isfinite(value.value + value.error))
+            seen[3 * j + c].push_back(value);
     }
     const auto zero = [](const std::vector<Bounded>& values) {
       return std::all_of(values.begin(), values.end(), [](const Bounded& v) { return !(std::abs(v.value) > v.error); });

@@ -156,8 +156,9 @@ SpatialTakeUp take_up(const SpatialJoint& joint, const SpatialLoad& load, const 
   return result;
 }
 
-std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<const Bounded> pose) {
-  Evaluator<Bounded, 1> evaluator(model, {}, model.reaction_size);
+std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<const int> mode,
+                                       std::span<const Bounded> pose) {
+  Evaluator<Bounded, 1> evaluator(model, mode, model.reaction_size);
   for (std::size_t c = 0; c < pose.size(); ++c) evaluator.input(c, 0) = pose[c];
   evaluator.run_tape();
   std::vector<Bounded> numerators(model.unknowns.size() + 1);

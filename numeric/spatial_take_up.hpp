@@ -54,7 +54,8 @@ SpatialTakeUp take_up(const SpatialJoint& joint, const SpatialLoad& load, const 
 
 /// What of every joint's reactions is zero, or cannot be told from it for the rounding errors of the pose and of the
 /// arithmetic. All where |A| cannot be told from zero.
-std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<const Bounded> pose);
+std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<const int> mode,
+                                       std::span<const Bounded> pose);
 
 struct SpatialPoseError {
   Eigen::Vector3d dalpha = Eigen::Vector3d::Zero();  ///< small rotation, rad

@@ -7,11 +7,12 @@ namespace {
 
 using mechanism::Mechanism;
 using mechanism::PointIndex;
-using Vector = std::array<Poly, 2>;
+using Vector = std::array<Poly, 3>;
 
-Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
+Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+/// In the plane.
 Poly cross(const Vector& a, const Vector& b) { return a[0] * b[1] - a[1] * b[0]; }
-Poly dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
+Poly dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 }  // namespace
 
@@ -33,8 +34,11 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
   const Mechanism& m = geometry.mechanism();
   for (std::size_t i = 0; i < m.points.size(); ++i) {
     const auto& p = geometry.natural(static_cast<PointIndex>(i));
-    points_.push_back({geometry.poly(p[0]), geometry.poly(p[1])});
+    points_.push_back({geometry.poly(p[0]), geometry.poly(p[1]), geometry.poly(p[2])});
   }
+  for (std::size_t i = 0; i < m.points.size(); ++i)
+    if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&m.points[i].form); dyad != nullptr && dyad->axis)
+      add(stretched(static_cast<PointIndex>(i), *dyad), stretched_wording(static_cast<PointIndex>(i), *dyad));
   if (m.space == mechanism::Space::spatial) return;  // the conditions below are those of the plane
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < m.links.size(); ++i) {
@@ -53,7 +57,7 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
   std::vector<Direction> directions;
   const auto direction = [&](const std::vector<core::Expression>& force) {
     return Vector{geometry.poly(geometry.expression(force[0]).expand()),
-                  geometry.poly(geometry.expression(force[1]).expand())};
+                  geometry.poly(geometry.expression(force[1]).expand()), Poly(geometry.ring())};
   };
   const auto forces = std::count_if(m.loads.begin(), m.loads.end(), [](const auto& l) { return !l.force.empty(); });
   for (const mechanism::Load& load : m.loads) {
@@ -77,10 +81,33 @@ Poly Causes::aligned(PointIndex a, PointIndex b, PointIndex c) const {
   return cross(difference(p[at(b)], p[at(a)]), difference(p[at(c)], p[at(a)])).primitive();
 }
 
+Poly Causes::stretched(PointIndex elbow, const mechanism::DyadPoint& dyad) const {
+  if (!dyad.axis) return aligned(dyad.from, elbow, dyad.to);
+  const auto at = [&](PointIndex i) { return points_[static_cast<std::size_t>(i)]; };
+  const Vector n = vector(*dyad.axis), a = difference(at(elbow), at(dyad.from)),
+               b = difference(at(dyad.to), at(dyad.from));
+  Poly volume(geometry_->ring());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    volume += n[i] * (a[j] * b[k] - a[k] * b[j]);
+  }
+  return volume.primitive();
+}
+
+std::string Causes::stretched_wording(PointIndex elbow, const mechanism::DyadPoint& dyad) const {
+  if (!dyad.axis) return of(stretched(elbow, dyad));
+  const auto name = [&](PointIndex i) { return geometry_->mechanism().points[static_cast<std::size_t>(i)].name; };
+  return name(dyad.from) + ", " + name(elbow) + ", " + name(dyad.to) + " aligned as seen along the axis of " +
+         name(elbow);
+}
+
+Vector Causes::vector(const mechanism::VectorExpression& written) const {
+  const std::vector<GiNaC::ex> u = geometry_->vector(written);
+  return {geometry_->poly(u[0]), geometry_->poly(u[1]), u.size() > 2 ? geometry_->poly(u[2]) : Poly(geometry_->ring())};
+}
+
 Poly Causes::perpendicular(PointIndex a, PointIndex b, const mechanism::VectorExpression& along) const {
-  const std::vector<GiNaC::ex> u = geometry_->vector(along);
-  return dot(difference(points_[static_cast<std::size_t>(b)], points_[static_cast<std::size_t>(a)]),
-             {geometry_->poly(u[0]), geometry_->poly(u[1])})
+  return dot(difference(points_[static_cast<std::size_t>(b)], points_[static_cast<std::size_t>(a)]), vector(along))
       .primitive();
 }
 

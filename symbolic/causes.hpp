@@ -20,19 +20,24 @@ class Causes {
   /// The condition that the line of two points is perpendicular to a vector.
   Poly perpendicular(mechanism::PointIndex a, mechanism::PointIndex b, const mechanism::VectorExpression& along) const;
 
-  /// The condition that three points lie on a line.
+  /// The condition that three points of the plane lie on a line.
   Poly aligned(mechanism::PointIndex a, mechanism::PointIndex b, mechanism::PointIndex c) const;
+
+  /// The condition that both lengths of a dyad point the same way, in space as seen along its axis; and its wording.
+  Poly stretched(mechanism::PointIndex elbow, const mechanism::DyadPoint& dyad) const;
+  std::string stretched_wording(mechanism::PointIndex elbow, const mechanism::DyadPoint& dyad) const;
 
  private:
   struct Edge;
   struct Direction;
   void add(const Poly& condition, std::string wording);
+  std::array<Poly, 3> vector(const mechanism::VectorExpression& vector) const;
   void add_load_conditions(const std::vector<Edge>& edges, const std::vector<Direction>& directions);
   void add_alignments();
   void add_link_pairs(const std::vector<Edge>& edges);
 
   const Geometry* geometry_;
-  std::vector<std::array<Poly, 2>> points_;
+  std::vector<std::array<Poly, 3>> points_;  ///< z = 0 in the plane
   std::vector<std::pair<Poly, std::string>> conditions_;
 };
 

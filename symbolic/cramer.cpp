@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
+#include <optional>
 
 #include "core/errors.hpp"
 
 namespace clearloci::symbolic {
 namespace {
-
-using core::Rational;
-
-/// A core of this size is solved densely.
-constexpr std::size_t dense_core = 4;
 
 /// Column to entry, zeros left out; column n is the right-hand side.
 using SparseRow = std::map<int, Poly>;
@@ -71,34 +66,6 @@ bool find_pivot(const std::vector<SparseRow>& rows, const std::vector<bool>& act
   return least != std::numeric_limits<std::size_t>::max();
 }
 
-/// A quotient of products of polynomials, kept as lists of which no two have a factor in common.
-class Quotient {
- public:
-  void multiply(Poly factor) { cancel(std::move(factor), below_, above_); }
-  void divide(Poly factor) { cancel(std::move(factor), above_, below_); }
-
-  /// p times the quotient, which has to be a polynomial.
-  Poly apply(Poly p) const {
-    for (const Poly& factor : above_) p *= factor;
-    for (const Poly& factor : below_) p = p.exact_quotient(factor);
-    return p;
-  }
-
- private:
-  void cancel(Poly factor, std::vector<Poly>& against, std::vector<Poly>& into) {
-    for (Poly& other : against) {
-      if (factor.is_constant()) break;
-      const Poly shared = gcd(factor, other);
-      if (shared.is_constant()) continue;
-      factor = factor.exact_quotient(shared);
-      other = other.exact_quotient(shared);
-    }
-    into.push_back(std::move(factor));
-  }
-
-  std::vector<Poly> above_, below_;
-};
-
 /// The common factor of a row's entries.
 Poly content(const Ring& ring, const SparseRow& row) {
   Poly shared(ring);
@@ -110,8 +77,8 @@ Poly content(const Ring& ring, const SparseRow& row) {
 }
 
 /// row = (p row - e pivot_row) / content, p and e the two entries of the pivot's column without their common factor.
-/// Records in `scale` what that multiplies the determinant by.
-void eliminate_by_polynomial(SparseRow& row, const SparseRow& pivot_row, int column, Quotient& scale) {
+/// Records in `scale` what that divides the determinant by.
+void eliminate_by_polynomial(SparseRow& row, const SparseRow& pivot_row, int column, FactoredPoly& scale) {
   const Poly shared = gcd(row.at(column), pivot_row.at(column));
   const Poly e = row.at(column).exact_quotient(shared), p = pivot_row.at(column).exact_quotient(shared);
   for (auto& [other, entry] : row) entry *= p;
@@ -119,48 +86,57 @@ void eliminate_by_polynomial(SparseRow& row, const SparseRow& pivot_row, int col
   const Poly common = content(p.ring(), row);
   if (!common.is_constant())
     for (auto& [other, entry] : row) entry = entry.exact_quotient(common);
-  scale.multiply(common);
-  scale.divide(p);
+  multiply(scale, factored(common, {}));
+  multiply(scale, factored(p, {}), -1);
 }
 
-/// Fraction-free Gauss-Jordan (Bareiss) on k rows of k + 1 columns. Afterwards the last column holds the numerators
-/// in `order` of the rows; returns the determinant, zero where singular.
-Poly solve_core(const Ring& ring, std::vector<std::vector<Poly>>& core) {
-  const std::size_t k = core.size();
-  Poly previous(ring, 1);
-  int sign = 1;
-  for (std::size_t step = 0; step < k; ++step) {
-    std::size_t pivot = k;
-    for (std::size_t i = step; i < k; ++i) {
-      if (!core[i][step].is_zero() && (pivot == k || core[i][step].length() < core[pivot][step].length())) pivot = i;
-    }
-    if (pivot == k) return Poly(ring);
-    if (pivot != step) {
-      std::swap(core[pivot], core[step]);
-      sign = -sign;
-    }
-    const Poly head = core[step][step];
-    for (std::size_t i = 0; i < k; ++i) {
-      if (i == step) continue;
-      const Poly lead = core[i][step];
-      for (std::size_t j = 0; j <= k; ++j) {
-        if (j < step && j != i) continue;  // already zero
-        core[i][j] = (head * core[i][j] - lead * core[step][j]).exact_quotient(previous);
-      }
-    }
-    previous = head;
+/// In lowest terms; the denominator's constant is 1.
+struct Fraction {
+  Poly numerator;
+  FactoredPoly denominator;
+};
+
+/// w of a pivot's column, from its row and what is known of the row's other columns.
+Fraction solve(const SparseRow& row, const Pivot& pivot, int n, const std::vector<std::optional<Fraction>>& known) {
+  const Poly& head = row.at(pivot.column);
+  FactoredPoly below{1, {}};
+  for (const auto& [column, entry] : row) {
+    if (column == pivot.column || column == n) continue;
+    const FactoredPoly& own = known[static_cast<std::size_t>(column)]->denominator;
+    FactoredPoly more = own;
+    multiply(more, common_factors(below, own), -1);
+    multiply(below, more);
   }
-  // Row swaps changed the sign of determinant and numerators alike.
-  if (sign < 0) {
-    previous = -previous;
-    for (auto& row : core) row[k] = -row[k];
+  Poly sum(head.ring());
+  for (const auto& [column, entry] : row) {
+    if (column == pivot.column) continue;
+    if (column == n) {
+      sum += entry * expanded(below, head.ring());
+      continue;
+    }
+    const Fraction& w = *known[static_cast<std::size_t>(column)];
+    if (w.numerator.is_zero()) continue;
+    FactoredPoly rest = below;
+    multiply(rest, w.denominator, -1);
+    sum -= entry * w.numerator * expanded(rest, head.ring());
   }
-  return previous;
+  multiply(below, factored(head, {}));
+  Fraction result{sum.scaled(1 / below.constant), {1, {}}};
+  if (sum.is_zero()) return result;
+  for (PolyFactor factor : below.factors) {
+    Poly quotient(head.ring());
+    while (factor.multiplicity > 0 && result.numerator.divides(factor.poly, quotient)) {
+      std::swap(result.numerator, quotient);
+      --factor.multiplicity;
+    }
+    if (factor.multiplicity > 0) result.denominator.factors.push_back(factor);
+  }
+  return result;
 }
 
 }  // namespace
 
-CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::vector<Poly>>& matrix,
+CramerDeterminants cramer_determinants(const Ring&, const std::vector<std::vector<Poly>>& matrix,
                                        const std::vector<Poly>& right_hand_side) {
   const int n = static_cast<int>(matrix.size());
   std::vector<SparseRow> rows(matrix.size());
@@ -175,76 +151,40 @@ CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::
   std::vector<bool> active(rows.size(), true);
   std::vector<int> column_of_row(rows.size(), -1);
   std::vector<Pivot> pivots;
-  Rational scale = 1;
-  Quotient polynomial_scale;  // |A| = scale · polynomial_scale · |core|
-  const auto is_small = [&] { return rows.size() - pivots.size() <= dense_core; };
-  for (Pivot pivot{};
-       find_pivot(rows, active, n, true, pivot) || (!is_small() && find_pivot(rows, active, n, false, pivot));) {
+  FactoredPoly determinant{1, {}};
+  for (Pivot pivot{}; find_pivot(rows, active, n, true, pivot) || find_pivot(rows, active, n, false, pivot);) {
     const SparseRow& pivot_row = rows[pivot.row];
     const Poly& entry = pivot_row.at(pivot.column);
     const bool constant = entry.is_constant();
     active[pivot.row] = false;
     column_of_row[pivot.row] = pivot.column;
     pivots.push_back(pivot);
-    if (constant)
-      scale *= entry.constant();
-    else
-      polynomial_scale.multiply(entry);
+    multiply(determinant, factored(entry, {}));
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto found = active[i] ? rows[i].find(pivot.column) : rows[i].end();
       if (found == rows[i].end()) continue;
       if (constant)
         subtract(rows[i], found->second.scaled(1 / entry.constant()), pivot_row);
       else
-        eliminate_by_polynomial(rows[i], pivot_row, pivot.column, polynomial_scale);
+        eliminate_by_polynomial(rows[i], pivot_row, pivot.column, determinant);
     }
   }
+  if (pivots.size() < rows.size()) return {};
+  determinant.constant *= permutation_sign(column_of_row);
 
-  // What is left: the active rows over the columns without a pivot.
-  std::vector<bool> eliminated(rows.size(), false);
-  for (const Pivot& pivot : pivots) eliminated[static_cast<std::size_t>(pivot.column)] = true;
-  std::vector<int> core_columns;
-  for (int j = 0; j < n; ++j) {
-    if (!eliminated[static_cast<std::size_t>(j)]) core_columns.push_back(j);
-  }
-  std::vector<std::vector<Poly>> core;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!active[i]) continue;
-    column_of_row[i] = core_columns[core.size()];
-    std::vector<Poly>& dense = core.emplace_back();
-    const auto entry_of = [&](int column) {
-      const auto entry = rows[i].find(column);
-      return entry == rows[i].end() ? Poly(ring) : entry->second;
-    };
-    for (const int column : core_columns) dense.push_back(entry_of(column));
-    dense.push_back(entry_of(n));
-  }
-
-  scale *= permutation_sign(column_of_row);
-  const Poly core_determinant = solve_core(ring, core);
-  if (core_determinant.is_zero()) return {core_determinant, {}};
-  const Poly determinant = polynomial_scale.apply(core_determinant.scaled(scale));
+  std::vector<std::optional<Fraction>> solution(rows.size());
+  for (auto next = pivots.rbegin(); next != pivots.rend(); ++next)
+    solution[static_cast<std::size_t>(next->column)] = solve(rows[next->row], *next, n, solution);
   CramerDeterminants result{determinant, {}};
-
-  std::vector<Poly> numerators(rows.size(), Poly(ring));
-  for (std::size_t i = 0; i < core.size(); ++i) {
-    numerators[static_cast<std::size_t>(core_columns[i])] = polynomial_scale.apply(core[i].back().scaled(scale));
-  }
-  for (auto next = pivots.rbegin(); next != pivots.rend(); ++next) {
-    const Pivot& pivot = *next;
-    const SparseRow& row = rows[pivot.row];
-    Poly sum(ring);
-    for (const auto& [column, entry] : row) {
-      if (column == pivot.column) continue;
-      if (column == n)
-        sum += entry * determinant;
-      else
-        sum -= entry * numerators[static_cast<std::size_t>(column)];
+  for (const std::optional<Fraction>& w : solution) {
+    // N_k = w_k |A|, where what divides w_k divides |A|.
+    FactoredPoly numerator = factored(w->numerator, determinant.factors);
+    if (!numerator.is_zero()) {
+      multiply(numerator, determinant);
+      multiply(numerator, w->denominator, -1);
     }
-    // N_j = w_j |A| is a polynomial, whatever the pivot.
-    numerators[static_cast<std::size_t>(pivot.column)] = sum.exact_quotient(row.at(pivot.column));
+    result.numerators.push_back(std::move(numerator));
   }
-  result.numerators = std::move(numerators);
   return result;
 }
 

@@ -5,18 +5,19 @@
 
 #include <vector>
 
-#include "symbolic/ring.hpp"
+#include "symbolic/factored_poly.hpp"
 
 namespace clearloci::symbolic {
 
 struct CramerDeterminants {
-  Poly determinant;              ///< |A|
-  std::vector<Poly> numerators;  ///< |A_k|, one a column; empty where |A| = 0
+  FactoredPoly determinant;              ///< |A|
+  std::vector<FactoredPoly> numerators;  ///< |A_k|, one a column; empty where |A| = 0
 };
 
-/// Constant pivots are eliminated first, which raises no degree; then, while much is left, short polynomial ones, each
-/// row divided by its content so that degrees stay small (the legs of a platform fold up one by one); the small core
-/// that is left is solved fraction-free. One elimination serves every column.
+/// Constant pivots are eliminated first, which raises no degree; then short polynomial ones, each row divided by its
+/// content so that degrees stay small (the legs of a platform fold up one by one). |A| is the product of the pivots
+/// over what the rows were multiplied by, and the w_k are found backwards in lowest terms: nothing is ever multiplied
+/// out that is a product. One elimination serves every column.
 CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::vector<Poly>>& matrix,
                                        const std::vector<Poly>& right_hand_side);
 

@@ -5,21 +5,6 @@
 
 namespace clearloci::symbolic {
 
-FactoredPoly factored(const Poly& p, const std::vector<PolyFactor>& likely) {
-  FactoredPoly result;
-  Poly rest = p;
-  if (!p.is_zero()) {
-    for (const PolyFactor& factor : likely) {
-      PolyFactor found{factor.poly, 0};
-      for (Poly quotient(p.ring()); rest.divides(factor.poly, quotient); ++found.multiplicity) rest = quotient;
-      if (found.multiplicity > 0) result.factors.push_back(std::move(found));
-    }
-  }
-  for (PolyFactor& factor : rest.factors(result.constant)) result.factors.push_back(std::move(factor));
-  sort_factors(result.factors);
-  return result;
-}
-
 FactoredDeterminants factored_determinants(const Geometry& geometry) {
   NewtonEulerEquations equations = newton_euler_equations(geometry);
   std::vector<std::vector<Poly>> matrix;
@@ -35,16 +20,13 @@ FactoredDeterminants factored_determinants(const Geometry& geometry) {
                            "a part moves freely while another is over-constrained; check joints and actuators");
   }
   for (const ColumnDivisor& shared : equations.divisors) {
-    cramer.determinant = cramer.determinant.exact_quotient(shared.divisor);
+    const FactoredPoly divisor = factored(shared.divisor, cramer.determinant.factors);
+    multiply(cramer.determinant, divisor, -1);
     for (unsigned k = 0; k < cramer.numerators.size(); ++k)
-      if (k != shared.first && k != shared.first + 1)
-        cramer.numerators[k] = cramer.numerators[k].exact_quotient(shared.divisor);
+      if (k != shared.first && k != shared.first + 1 && !cramer.numerators[k].is_zero())
+        multiply(cramer.numerators[k], divisor, -1);
   }
-  FactoredDeterminants result{
-      std::move(equations), cramer.determinant, std::move(cramer.numerators), factored(cramer.determinant, {}), {}};
-  for (const Poly& numerator : result.numerators)
-    result.numerator_factors.push_back(factored(numerator, result.determinant_factors.factors));
-  return result;
+  return {std::move(equations), std::move(cramer.determinant), std::move(cramer.numerators)};
 }
 
 }  // namespace clearloci::symbolic

@@ -33,13 +33,31 @@ Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
   known_denominators_.insert(known_denominators_.end(), units.begin(), units.end());
 }
 
-Poly Elimination::over_tower(const Poly& natural) const {
+const Poly& Elimination::over_tower(const Poly& natural) const {
+  for (const auto& [asked, known] : over_tower_)
+    if (asked == natural) return known;
   Poly result = natural;
   for (const Substitution& pair : geometry_->substitutions()) {
-    if (!result.depends_on(pair.x) && !result.depends_on(pair.y)) continue;
-    result = geometry_->substituted(result, pair, Geometry::degree_in(result, pair));
+    const int degree = Geometry::degree_in(result, pair);
+    if (degree > 0) result = geometry_->substituted(result, pair, degree);
   }
-  return result;
+  return over_tower_.emplace_back(natural, std::move(result)).second;
+}
+
+bool Elimination::vanishes_everywhere(const Poly& natural) const {
+  const auto at_one_pose = [this](Poly p) {
+    for (int i = 0; i < geometry_->coordinates(); ++i) p = p.at(i, Rational(37 + 11 * i, 101 + 2 * i));
+    return p;
+  };
+  Poly result = at_one_pose(natural);
+  for (Substitution pair : geometry_->substitutions()) {
+    const int degree = Geometry::degree_in(result, pair);
+    if (degree == 0) continue;
+    pair.place = {at_one_pose(pair.place.x), at_one_pose(pair.place.y), at_one_pose(pair.place.z),
+                  at_one_pose(pair.place.w)};
+    result = at_one_pose(geometry_->substituted(result, pair, degree));
+  }
+  return result.is_zero() && over_tower(natural).is_zero();
 }
 
 std::optional<Rational> Elimination::constant_over_tower(const Poly& natural) const {

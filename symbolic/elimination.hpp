@@ -3,7 +3,9 @@
 // Private to symbolic/.
 #pragma once
 
+#include <list>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "symbolic/geometry.hpp"
@@ -24,7 +26,10 @@ class Elimination {
 
   /// Constructed points replaced by their tower form, cleared of denominators, reduced. Zero where the natural
   /// polynomial vanishes in every pose.
-  Poly over_tower(const Poly& natural) const;
+  const Poly& over_tower(const Poly& natural) const;
+
+  /// Whether a natural polynomial is zero in every pose. One pose tells most that are not.
+  bool vanishes_everywhere(const Poly& natural) const;
 
   /// The value of a natural polynomial that is the same number in every pose, such as |B1 - P|^2; empty for others.
   std::optional<core::Rational> constant_over_tower(const Poly& natural) const;
@@ -58,8 +63,9 @@ class Elimination {
   Poly strip_denominators(Poly p) const;
 
   const Geometry* geometry_;
-  std::vector<Poly> known_denominators_;   ///< over the tower
-  std::vector<Poly> denominator_factors_;  ///< irreducible, in the free coordinates
+  mutable std::list<std::pair<Poly, Poly>> over_tower_;  ///< what has been asked for: many numerators share factors
+  std::vector<Poly> known_denominators_;                 ///< over the tower
+  std::vector<Poly> denominator_factors_;                ///< irreducible, in the free coordinates
 };
 
 }  // namespace clearloci::symbolic

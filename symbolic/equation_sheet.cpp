@@ -45,9 +45,9 @@ class SheetWriter {
       sheet.loads.push_back(text(equations.loads(i, 0)));
     }
     for (const ConstructedPoint& c : geometry_.constructed()) write_closure(c, sheet.closure);
-    sheet.determinant = determinant("A", determinants_.determinant_factors);
+    sheet.determinant = determinant("A", determinants_.determinant);
     for (std::size_t k = 0; k < equations.unknown_names.size(); ++k) {
-      sheet.numerators.push_back(determinant(equations.unknown_names[k], determinants_.numerator_factors[k]));
+      sheet.numerators.push_back(determinant(equations.unknown_names[k], determinants_.numerators[k]));
     }
     return sheet;
   }
@@ -146,59 +146,116 @@ class SheetWriter {
     }
   }
 
+  using Vector = std::array<FormulaText, 3>;  // z = 0 in the plane
+
   void write_dyad(const ConstructedPoint& c, const std::string& name, const mechanism::DyadPoint& dyad,
                   Lines& lines) const {
     const FormulaWriter w(language_);
     const FormulaText D = symbol_text("D" + name, language_), k = symbol_text("k" + name, language_),
                       s = symbol_text("s" + name, language_);
-    const FormulaText u = difference(dyad.from, dyad.to, 0), v = difference(dyad.from, dyad.to, 1);
+    const Vector way = difference(dyad.from, dyad.to);
     const Poly a = length(dyad.from_length), b = length(dyad.to_length);
-    lines.emplace_back(D.text, w.sum(w.squared(u), w.squared(v)).text);
-    lines.emplace_back(k.text, w.sum(as_text(a * a - b * b), D).text);
-    const FormulaText root = w.root(w.difference(w.product(as_text((a * a).scaled(4)), D), w.squared(k)));
-    lines.emplace_back(s.text, (dyad.side == mechanism::Side::left ? root : w.negated(root)).text);
-    write_place(c, dyad.from, w.quotient(w.difference(w.product(k, u), w.product(s, v)), w.twice(D)),
-                w.quotient(w.sum(w.product(k, v), w.product(s, u)), w.twice(D)), lines);
+    const FormulaText way2 = squared(way), reach = as_text((a * a).scaled(4)), excess = as_text(a * a - b * b);
+    const auto add_root = [&](const FormulaText& square) {
+      const FormulaText root = w.root(square);
+      lines.emplace_back(s.text, (dyad.side == mechanism::Side::left ? root : w.negated(root)).text);
+    };
+    const auto over_twice_D = [&](const FormulaText& along, const FormulaText& left) {
+      return w.quotient(w.sum(w.product(k, along), w.product(s, left)), w.twice(D));
+    };
+    if (!dyad.axis) {
+      lines.emplace_back(D.text, way2.text);
+      lines.emplace_back(k.text, w.sum(excess, D).text);
+      add_root(w.difference(w.product(reach, D), w.squared(k)));
+      const FormulaText x = w.quotient(w.difference(w.product(k, way[0]), w.product(s, way[1])), w.twice(D));
+      write_place(c, dyad.from, {x, over_twice_D(way[1], way[0]), {}}, lines);
+      return;
+    }
+    const FormulaText h = symbol_text("h" + name, language_);
+    const Vector n = direction(*dyad.axis);
+    const FormulaText n2 = as_text(squared(*dyad.axis));
+    lines.emplace_back(h.text, dot(n, way).text);
+    lines.emplace_back(D.text, w.difference(w.product(n2, way2), w.squared(h)).text);
+    lines.emplace_back(k.text, w.sum(excess, way2).text);
+    add_root(w.difference(w.product(reach, D), w.product(n2, w.squared(k))));
+    const Vector left = cross(n, way);
+    Vector step;
+    for (std::size_t i = 0; i < 3; ++i)
+      step[i] = over_twice_D(w.difference(w.product(n2, way[i]), w.product(h, n[i])), left[i]);
+    write_place(c, dyad.from, step, lines);
   }
 
   /// S = Q + (p + s) u / U,  p = u . (C - Q),  U = u . u,  s^2 = l^2 U - (u x (C - Q))^2.
   void write_slider(const ConstructedPoint& c, const std::string& name, const mechanism::SliderPoint& slider,
                     Lines& lines) const {
     const FormulaWriter w(language_);
-    const FormulaText p = symbol_text("p" + name, language_), q = symbol_text("q" + name, language_),
-                      s = symbol_text("s" + name, language_);
-    const std::vector<GiNaC::ex> along = geometry_.vector(slider.along);
-    const Poly x = geometry_.poly(along[0]), y = geometry_.poly(along[1]);
-    const FormulaText u = as_text(x), v = as_text(y), size = as_text(x * x + y * y);
-    const FormulaText dx = difference(slider.base, slider.from, 0), dy = difference(slider.base, slider.from, 1);
-    lines.emplace_back(p.text, w.sum(w.product(u, dx), w.product(v, dy)).text);
-    lines.emplace_back(q.text, w.difference(w.product(u, dy), w.product(v, dx)).text);
+    const FormulaText p = symbol_text("p" + name, language_), s = symbol_text("s" + name, language_);
+    const Vector u = direction(slider.along), way = difference(slider.base, slider.from), across = cross(u, way);
+    lines.emplace_back(p.text, dot(u, way).text);
+    FormulaText q = across[2];
+    if (mechanism_.space == mechanism::Space::planar) {
+      q = symbol_text("q" + name, language_);
+      lines.emplace_back(q.text, across[2].text);
+    }
+    const FormulaText across2 = mechanism_.space == mechanism::Space::planar ? w.squared(q) : squared(across);
+    const FormulaText size = as_text(squared(slider.along));
     const Poly l = length(slider.length);
-    const FormulaText root = w.root(w.difference(w.product(as_text(l * l), size), w.squared(q)));
+    const FormulaText root = w.root(w.difference(w.product(as_text(l * l), size), across2));
     lines.emplace_back(s.text, (slider.ahead ? root : w.negated(root)).text);
     const FormulaText step = w.quotient(w.sum(p, s), size);
-    write_place(c, slider.base, w.product(step, u), w.product(step, v), lines);
+    write_place(c, slider.base, {w.product(step, u[0]), w.product(step, u[1]), w.product(step, u[2])}, lines);
   }
 
   void write_offset(const ConstructedPoint& c, const std::string& name, const mechanism::OffsetPoint& offset,
                     Lines& lines) const {
     const FormulaWriter w(language_);
     const FormulaText l = symbol_text("l" + name, language_);
-    const FormulaText u = difference(offset.first, offset.second, 0), v = difference(offset.first, offset.second, 1);
+    const Vector way = difference(offset.first, offset.second);
     const FormulaText along = as_text(length(offset.along)), left = as_text(length(offset.left));
-    lines.emplace_back(l.text, w.root(w.sum(w.squared(u), w.squared(v))).text);
-    write_place(c, offset.first, w.quotient(w.difference(w.product(along, u), w.product(left, v)), l),
-                w.quotient(w.sum(w.product(along, v), w.product(left, u)), l), lines);
+    lines.emplace_back(l.text, w.root(squared(way)).text);
+    write_place(c, offset.first,
+                {w.quotient(w.difference(w.product(along, way[0]), w.product(left, way[1])), l),
+                 w.quotient(w.sum(w.product(along, way[1]), w.product(left, way[0])), l),
+                 w.quotient(w.product(along, way[2]), l)},
+                lines);
   }
 
-  void write_place(const ConstructedPoint& c, mechanism::PointIndex from, const FormulaText& dx, const FormulaText& dy,
-                   Lines& lines) const {
+  void write_place(const ConstructedPoint& c, mechanism::PointIndex from, const Vector& step, Lines& lines) const {
     const FormulaWriter w(language_);
     const auto& names = geometry_.ring().names();
-    lines.emplace_back(variable_text(names[static_cast<std::size_t>(c.x)], language_),
-                       w.sum(as_text(coordinate(from, 0)), dx).text);
-    lines.emplace_back(variable_text(names[static_cast<std::size_t>(c.y)], language_),
-                       w.sum(as_text(coordinate(from, 1)), dy).text);
+    const std::array<int, 3> variables = {c.x, c.y, c.z};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (variables[i] < 0) continue;
+      lines.emplace_back(variable_text(names[static_cast<std::size_t>(variables[i])], language_),
+                         w.sum(as_text(coordinate(from, i)), step[i]).text);
+    }
+  }
+
+  FormulaText dot(const Vector& a, const Vector& b) const {
+    const FormulaWriter w(language_);
+    return w.sum(w.sum(w.product(a[0], b[0]), w.product(a[1], b[1])), w.product(a[2], b[2]));
+  }
+  FormulaText squared(const Vector& a) const {
+    const FormulaWriter w(language_);
+    return w.sum(w.sum(w.squared(a[0]), w.squared(a[1])), w.squared(a[2]));
+  }
+  Vector cross(const Vector& a, const Vector& b) const {
+    const FormulaWriter w(language_);
+    const auto minor = [&](std::size_t i, std::size_t k) {
+      return w.difference(w.product(a[i], b[k]), w.product(a[k], b[i]));
+    };
+    return {minor(1, 2), minor(2, 0), minor(0, 1)};
+  }
+  Vector direction(const mechanism::VectorExpression& vector) const {
+    Vector u = {as_text(Poly(geometry_.ring())), as_text(Poly(geometry_.ring())), as_text(Poly(geometry_.ring()))};
+    const std::vector<GiNaC::ex> natural = geometry_.vector(vector);
+    for (std::size_t i = 0; i < natural.size(); ++i) u[i] = as_text(geometry_.poly(natural[i]));
+    return u;
+  }
+  Poly squared(const mechanism::VectorExpression& vector) const {
+    Poly sum(geometry_.ring());
+    for (const GiNaC::ex& u : geometry_.vector(vector)) sum += geometry_.poly(u) * geometry_.poly(u);
+    return sum;
   }
 
   Poly coordinate(mechanism::PointIndex point, std::size_t axis) const {
@@ -206,8 +263,9 @@ class SheetWriter {
   }
   Poly length(const core::Expression& e) const { return geometry_.poly(geometry_.expression(e).expand()); }
   FormulaText as_text(const Poly& p) const { return formula_text(p.plain(), geometry_.ring().names(), language_); }
-  FormulaText difference(mechanism::PointIndex from, mechanism::PointIndex to, std::size_t axis) const {
-    return as_text(coordinate(to, axis) - coordinate(from, axis));
+  Vector difference(mechanism::PointIndex from, mechanism::PointIndex to) const {
+    const auto along = [&](std::size_t axis) { return as_text(coordinate(to, axis) - coordinate(from, axis)); };
+    return {along(0), along(1), along(2)};
   }
 
   const Mechanism& mechanism_;

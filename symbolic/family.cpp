@@ -24,18 +24,6 @@ struct Refactored {
   FactoredPoly after;
 };
 
-void multiply(FactoredPoly& product, const FactoredPoly& factor, int times) {
-  for (int i = 0; i < times; ++i) product.constant *= factor.constant;
-  for (const PolyFactor& part : factor.factors) {
-    const auto known = std::find_if(product.factors.begin(), product.factors.end(),
-                                    [&](const PolyFactor& f) { return f.poly == part.poly; });
-    if (known == product.factors.end())
-      product.factors.push_back({part.poly, part.multiplicity * times});
-    else
-      known->multiplicity += part.multiplicity * times;
-  }
-}
-
 }  // namespace
 
 Family::Family(const mechanism::Mechanism& member) : mechanism_(member), geometry_(mechanism_, true) {
@@ -100,18 +88,11 @@ std::optional<FactoredDeterminants> Family::at(const Geometry& geometry) const {
       if (result.constant == 0) break;
       multiply(result, factored_again(factor.poly), factor.multiplicity);
     }
-    if (result.constant == 0) result.factors.clear();
-    sort_factors(result.factors);
     return result;
   };
-  FactoredDeterminants result{
-      std::move(equations), substituted(determinants_->determinant, geometry, values), {}, {}, {}};
+  FactoredDeterminants result{std::move(equations), with_values(determinants_->determinant), {}};
   if (result.determinant.is_zero()) return std::nullopt;  // the usual way says what is wrong
-  result.determinant_factors = with_values(determinants_->determinant_factors);
-  for (const Poly& numerator : determinants_->numerators)
-    result.numerators.push_back(substituted(numerator, geometry, values));
-  for (const FactoredPoly& factors : determinants_->numerator_factors)
-    result.numerator_factors.push_back(with_values(factors));
+  for (const FactoredPoly& numerator : determinants_->numerators) result.numerators.push_back(with_values(numerator));
   return result;
 }
 

@@ -271,14 +271,9 @@ std::vector<Substitution> Geometry::substitutions() const {
 }
 
 int Geometry::degree_in(const Poly& natural, const Substitution& pair) {
-  int degree = 0;
-  for (const core::Term& term : natural.plain().terms) {
-    int own = 0;
-    for (const int variable : {pair.x, pair.y, pair.z})
-      if (variable >= 0) own += term.exponents[static_cast<std::size_t>(variable)];
-    degree = std::max(degree, own);
-  }
-  return degree;
+  std::vector<int> variables = {pair.x, pair.y};
+  if (pair.z >= 0) variables.push_back(pair.z);
+  return natural.degree(variables);
 }
 
 Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int degree) const {

@@ -4,6 +4,11 @@
 //   D = |P - A|^2,  k = a^2 - b^2 + D,  Q = 4 a^2 D - k^2,  s^2 = Q
 //   B = A + (k (P - A) +- s J (P - A)) / (2 D),   J = [[0, -1], [1, 0]]
 //
+// In space, where B turns about an axis n through A, with N = n . n and h = n . (P - A):
+//
+//   D = N |P - A|^2 - h^2,  k = a^2 - b^2 + |P - A|^2,  s^2 = 4 a^2 D - N k^2
+//   B = A + (k (N (P - A) - h n) +- s n x (P - A)) / (2 D)
+//
 // Points are kept homogeneous, (X : Y : W) with X, Y, W polynomials in the coordinates and the roots and W >= 0 (a
 // product of squared distances), so that no division is ever needed and no sign is lost.
 #pragma once
@@ -135,6 +140,11 @@ class Geometry {
   TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const Poly& length_numerator,
                                const Poly& length_denominator) const;
   void construct(mechanism::PointIndex point);
+  /// Three numerators of a vector over a positive denominator: its direction. z = 0 in the plane.
+  std::array<Poly, 3> direction(const mechanism::VectorExpression& vector) const;
+  /// On a line or in a plane of constant direction fewer symbols do than there are coordinates.
+  void keep_on_line(mechanism::PointIndex point, mechanism::PointIndex base, const std::array<Poly, 3>& along);
+  void keep_in_plane(mechanism::PointIndex point, mechanism::PointIndex base, const std::array<Poly, 3>& normal);
   /// to - from and a + way over the least denominator, as far as its factors are known to be positive.
   TowerPoint difference(const TowerPoint& to, const TowerPoint& from) const;
   TowerPoint sum(const TowerPoint& a, const TowerPoint& way) const;

@@ -17,6 +17,14 @@ using mechanism::OffsetPoint;
 using mechanism::PointIndex;
 using mechanism::SliderPoint;
 
+using Vector = std::array<Poly, 3>;
+
+Poly dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 GiNaC::numeric number(const Rational& value) { return GiNaC::numeric(core::to_string(value).c_str()); }
 
 }  // namespace
@@ -119,12 +127,15 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   const TowerPoint& a = tower(form.from);
   const Poly from_length = poly(expression(form.from_length).expand());
   const Poly to_length = poly(expression(form.to_length).expand());
-  // P - A = (u, v) / w; D = d / w^2; k = kn / w^2; Q = square / w^4 and s is scaled by w^2 > 0 likewise.
-  const auto [u, v, w, no_height] = difference(tower(form.to), a);
+  // P - A = way / w; D = d / w^2; k = kn / w^2; Q = square / w^4 and s is scaled by w^2 > 0 likewise.
+  const auto [x, y, w, z] = difference(tower(form.to), a);
+  const Vector way = {x, y, z};
+  const Vector n = form.axis ? direction(*form.axis) : Vector{Poly(*ring_), Poly(*ring_), Poly(*ring_, 1)};
+  const Poly n2 = reduce(dot(n, n)), h = reduce(dot(n, way)), way2 = reduce(dot(way, way));
   const Poly w2 = reduce(w * w);
-  const Poly d = reduce(u * u + v * v);
-  Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + d);
-  Poly square = reduce((from_length * from_length * d * w2).scaled(4) - kn * kn);
+  const Poly d = reduce(n2 * way2 - h * h);
+  Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + way2);
+  Poly square = reduce((from_length * from_length * d * w2).scaled(4) - n2 * kn * kn);
   // What divides k and the root alike is taken out of the root.
   Poly scale(*ring_, 1), less(*ring_), quotient(*ring_);
   for (const Poly& divisor : positive_)
@@ -138,11 +149,40 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
       {point, variable, RootRole::working_mode, square, w2.exact_quotient(shared), scale.exact_quotient(shared)});
   add_denominator(d);
   const Poly s = Poly::variable(*ring_, variable) * scale;
-  dyad_ways_.push_back({point, u, v});
-  // A + (k (P - A) + s J (P - A)) / (2 D), over the denominator of both.
-  TowerPoint way{reduce(kn * u - s * v), reduce(kn * v + s * u), reduce(d * w).scaled(2)};
-  lighten(way);
-  tower_[index(point)] = sum(a, way);
+  if (!form.axis) dyad_ways_.push_back({point, x, y});
+  const Vector left = cross(n, way);
+  const auto component = [&](std::size_t i) { return reduce(kn * (n2 * way[i] - h * n[i]) + s * left[i]); };
+  TowerPoint step{component(0), component(1), component(2), reduce(d * w).scaled(2)};
+  lighten(step);
+  tower_[index(point)] = sum(a, step);
+  if (form.axis) keep_in_plane(point, form.from, n);
+}
+
+void Geometry::keep_in_plane(PointIndex point, PointIndex base, const Vector& normal) {
+  if (std::any_of(normal.begin(), normal.end(), [](const Poly& n) { return !n.is_constant(); })) return;
+  // The last coordinate that the others tell.
+  std::size_t told = 3;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!normal[i].is_zero()) told = i;
+  if (told == 3) return;
+  auto& own = natural_[index(point)];
+  const auto& from = natural(base);
+  GiNaC::ex value = from[told];
+  for (std::size_t i = 0; i < 3; ++i)
+    if (i != told) value -= number(normal[i].constant() / normal[told].constant()) * (own[i] - from[i]);
+  own[told] = value.expand();
+}
+
+void Geometry::keep_on_line(PointIndex point, PointIndex base, const Vector& along) {
+  if (std::any_of(along.begin(), along.end(), [](const Poly& u) { return !u.is_constant(); })) return;
+  const auto free = static_cast<std::size_t>(
+      std::find_if(along.begin(), along.end(), [](const Poly& u) { return !u.is_zero(); }) - along.begin());
+  if (free == 3) return;
+  auto& own = natural_[index(point)];
+  const auto& from = natural(base);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (i != free)
+      own[i] = (from[i] + number(along[i].constant() / along[free].constant()) * (own[free] - from[free])).expand();
 }
 
 TowerPoint Geometry::sum(const TowerPoint& a, const TowerPoint& way) const {
@@ -168,17 +208,20 @@ TowerPoint Geometry::offset_over_tower(const OffsetPoint& form, const Poly& leng
   return sum(a, way);
 }
 
-void Geometry::divide_by_length(const mechanism::VectorExpression& axis) {
-  std::vector<Poly> u;
-  for (const GiNaC::ex& component : vector(axis)) u.push_back(poly(component));
+std::array<Poly, 3> Geometry::direction(const mechanism::VectorExpression& vector_) const {
+  const std::vector<GiNaC::ex> natural = vector(vector_);
+  Vector u = {poly(natural[0]), poly(natural[1]), natural.size() > 2 ? poly(natural[2]) : Poly(*ring_)};
   for (const Substitution& pair : substitutions()) {
-    int degree = 0;
-    for (const Poly& component : u) degree = std::max(degree, degree_in(component, pair));
+    const int degree = std::max({degree_in(u[0], pair), degree_in(u[1], pair), degree_in(u[2], pair)});
+    if (degree == 0) continue;
     for (Poly& component : u) component = substituted(component, pair, degree);
   }
-  Poly size(*ring_);
-  for (const Poly& component : u) size += component * component;
-  size = reduce(size);
+  return u;
+}
+
+void Geometry::divide_by_length(const mechanism::VectorExpression& axis) {
+  const Vector u = direction(axis);
+  const Poly size = reduce(dot(u, u));
   const std::vector<int> free = tower_variables();
   if (std::any_of(free.begin(), free.end(), [&](int variable) { return size.depends_on(variable); }))
     add_denominator(size);
@@ -187,33 +230,23 @@ void Geometry::divide_by_length(const mechanism::VectorExpression& axis) {
 // S = Q + (p +- s) u / U,  p = u . (C - Q),  U = u . u,  s^2 = l^2 U - (u x (C - Q))^2: the sign + is ahead.
 void Geometry::place_slider(PointIndex point, const SliderPoint& form) {
   const TowerPoint& q = tower(form.base);
-  const TowerPoint& c = tower(form.from);
   const Poly length = poly(expression(form.length).expand());
-  const std::vector<GiNaC::ex> along = vector(form.along);
-  // Only the direction of u matters: its numerators over a common denominator that is positive.
-  std::array<Poly, 2> u = {poly(along[0]), poly(along[1])};
-  for (const Substitution& pair : substitutions()) {
-    const int degree = std::max(degree_in(u[0], pair), degree_in(u[1], pair));
-    if (degree > 0) u = {substituted(u[0], pair, degree), substituted(u[1], pair, degree)};
-  }
-  // C - Q = (x, y) / w; p = pn / w, s is scaled by w > 0 likewise.
-  const auto [x, y, w, no_height] = difference(c, q);
-  const Poly size = reduce(u[0] * u[0] + u[1] * u[1]);
-  const Poly pn = reduce(u[0] * x + u[1] * y), across = reduce(u[0] * y - u[1] * x);
+  const Vector u = direction(form.along);
+  // C - Q = way / w; p = pn / w, s is scaled by w > 0 likewise.
+  const auto [x, y, w, z] = difference(tower(form.from), q);
+  const Vector way = {x, y, z};
+  const Poly size = reduce(dot(u, u)), pn = reduce(dot(u, way));
+  const Vector across = cross(u, way);
   const int variable = first_root_ + static_cast<int>(roots_.size());
-  roots_.push_back({point, variable, RootRole::working_mode, reduce(length * length * size * w * w - across * across)});
+  roots_.push_back(
+      {point, variable, RootRole::working_mode, reduce(length * length * size * w * w - dot(across, across))});
   if (!size.is_constant()) add_denominator(size);
   const Poly s = Poly::variable(*ring_, variable);
-  TowerPoint way{reduce((pn + s) * u[0]), reduce((pn + s) * u[1]), reduce(w * size)};
-  lighten(way);
-  tower_[index(point)] = sum(q, way);
+  TowerPoint step{reduce((pn + s) * u[0]), reduce((pn + s) * u[1]), reduce((pn + s) * u[2]), reduce(w * size)};
+  lighten(step);
+  tower_[index(point)] = sum(q, step);
   construct(point);
-  // On a line of constant direction one symbol does for both coordinates, and what holds all along it is seen at once.
-  if (!u[0].is_constant() || !u[1].is_constant()) return;
-  const std::size_t free = u[0].is_zero() ? 1 : 0;
-  const GiNaC::ex slope = number(u[1 - free].constant() / u[free].constant());
-  const auto& base = natural(form.base);
-  natural_[index(point)][1 - free] = (base[1 - free] + slope * (natural_[index(point)][free] - base[free])).expand();
+  keep_on_line(point, form.base, u);
 }
 
 void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {

@@ -104,8 +104,7 @@ struct Reaction {
   std::string joint;
   Quantity quantity;
   std::string name;
-  Poly numerator;
-  FactoredPoly factors;
+  FactoredPoly numerator;
 };
 
 FactoredDeterminants determinants_of(const Geometry& geometry, const Family* family) {
@@ -195,20 +194,14 @@ class Derivation {
   }
 
   /// How often a factor divides |A|: there the reaction w = N / |A| does not vanish.
-  int in_determinant(const Poly& natural) const {
-    for (const PolyFactor& factor : determinants_.determinant_factors.factors) {
-      if (factor.poly == natural) return factor.multiplicity;
-    }
-    return 0;
-  }
+  int in_determinant(const Poly& natural) const { return determinants_.determinant.multiplicity(natural); }
 
   /// The unknowns, and in space the actuators' own: u · f or u · m, what the joint bears along its axis.
   void list_reactions() {
     const NewtonEulerEquations& equations = determinants_.equations;
     for (std::size_t k = 0; k < equations.unknowns.size(); ++k)
       reactions_.push_back({joint_name(equations.unknowns[k].joint), equations.unknowns[k].quantity,
-                            equations.unknown_names[k], determinants_.numerators[k],
-                            determinants_.numerator_factors[k]});
+                            equations.unknown_names[k], determinants_.numerators[k]});
     if (mechanism_.space == mechanism::Space::planar) return;
     for (std::size_t j = 0; j < mechanism_.joints.size(); ++j) {
       const mechanism::Joint& joint = mechanism_.joints[j];
@@ -218,15 +211,54 @@ class Derivation {
                                               ? std::vector<Quantity>{Quantity::fx, Quantity::fy, Quantity::fz}
                                               : std::vector<Quantity>{Quantity::mx, Quantity::my, Quantity::mz};
       const std::vector<GiNaC::ex> axis = geometry_.vector(joint.axes.at(0));
-      Poly sum(geometry_.ring());
+      std::vector<Product> products;
       for (std::size_t k = 0; k < equations.unknowns.size(); ++k) {
         const auto part = std::find(along.begin(), along.end(), equations.unknowns[k].quantity);
         if (equations.unknowns[k].joint != static_cast<JointIndex>(j) || part == along.end()) continue;
-        sum += geometry_.poly(axis[static_cast<std::size_t>(part - along.begin())]) * determinants_.numerators[k];
+        products.push_back(
+            {geometry_.poly(axis[static_cast<std::size_t>(part - along.begin())]), determinants_.numerators[k]});
       }
-      const FactoredPoly factors = factored(sum, determinants_.determinant_factors.factors);
-      reactions_.push_back({joint.name, actuator, core::to_string(actuator) + joint.name, sum, factors});
+      reactions_.push_back({joint.name, actuator, core::to_string(actuator) + joint.name, sum_of(products)});
     }
+  }
+
+  struct Product {
+    Poly coefficient;
+    FactoredPoly numerator;
+  };
+
+  /// Only what the summands do not share is multiplied out.
+  FactoredPoly sum_of(const std::vector<Product>& products) const {
+    const FactoredPoly shared =
+        shared_factors(products, [](const Product& p) -> const FactoredPoly& { return p.numerator; });
+    Poly sum(geometry_.ring());
+    for (const auto& [coefficient, numerator] : products)
+      if (!numerator.is_zero()) sum += coefficient * without(numerator, shared);
+    FactoredPoly result = factored(sum, determinants_.determinant.factors);
+    multiply(result, shared);
+    return result;
+  }
+
+  /// The factors that all have in common that are not zero.
+  template <class Range, class Projection>
+  static FactoredPoly shared_factors(const Range& range, Projection projection) {
+    std::optional<FactoredPoly> shared;
+    for (const auto& element : range) {
+      const FactoredPoly& p = projection(element);
+      if (!p.is_zero()) shared = shared ? common_factors(*shared, p) : common_factors(p, p);
+    }
+    return shared.value_or(FactoredPoly{1, {}});
+  }
+
+  Poly without(FactoredPoly p, const FactoredPoly& factors) const {
+    multiply(p, factors, -1);
+    return expanded(p, geometry_.ring());
+  }
+
+  bool vanishes_everywhere(const FactoredPoly& p) const {
+    return p.is_zero() || std::any_of(p.factors.begin(), p.factors.end(), [&](const PolyFactor& factor) {
+             return elimination_.vanishes_everywhere(factor.poly);
+           });
   }
 
   /// Wanted by itself or as a part of f.
@@ -236,18 +268,14 @@ class Derivation {
   }
 
   void collect_factors() {
-    if (elimination_.over_tower(determinants_.determinant).is_zero()) {
+    if (vanishes_everywhere(determinants_.determinant)) {
       throw core::InputError({mechanism_.file}, "the equations are singular in every pose: |A| = 0 on the closure",
                              "check the lengths, the joints and which of them are actuated");
     }
     for (const Reaction& reaction : reactions_) {
       const std::string& joint = reaction.joint;
-      const FactoredPoly& numerator = reaction.factors;
-      bool always_zero = numerator.constant == 0;
-      for (const PolyFactor& factor : numerator.factors) {
-        if (elimination_.over_tower(factor.poly).is_zero()) always_zero = true;
-      }
-      if (always_zero) {
+      const FactoredPoly& numerator = reaction.numerator;
+      if (vanishes_everywhere(numerator)) {
         if (selected(joint) && is_asked_for(joint, reaction.quantity)) {
           result_.notes.push_back(reaction.name + " is zero in every pose: no load reaches it");
         }
@@ -356,7 +384,7 @@ class Derivation {
   /// Whether a factor over the tower is one of |A|: where both vanish the reaction stays finite and is no zero.
   bool divides_determinant(const Poly& sheet) {
     if (determinant_sheets_.empty()) {
-      for (const PolyFactor& factor : determinants_.determinant_factors.factors)
+      for (const PolyFactor& factor : determinants_.determinant.factors)
         for (const SheetFactor& part : elimination_.sheet_factors(elimination_.over_tower(factor.poly), false))
           determinant_sheets_.push_back(part.sheet);
     }
@@ -397,7 +425,7 @@ class Derivation {
   }
 
   void add_direct_singularities() {
-    for (const PolyFactor& part : determinants_.determinant_factors.factors) {
+    for (const PolyFactor& part : determinants_.determinant.factors) {
       LocusFactor factor;
       factor.expression = text(part.poly);
       factor.cause = causes_.of(part.poly);
@@ -411,9 +439,8 @@ class Derivation {
       LocusFactor factor;
       const auto& form = mechanism_.points[static_cast<std::size_t>(root.point)].form;
       if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) {
-        const Poly stretched = causes_.aligned(dyad->from, root.point, dyad->to);
-        factor.expression = text(stretched);
-        factor.cause = causes_.of(stretched);
+        factor.expression = text(causes_.stretched(root.point, *dyad));
+        factor.cause = causes_.stretched_wording(root.point, *dyad);
       } else {
         const auto& slider = std::get<mechanism::SliderPoint>(form);
         const Poly across = causes_.perpendicular(slider.from, root.point, slider.along);
@@ -434,22 +461,22 @@ class Derivation {
     }
   }
 
-  const Poly* numerator(const std::string& joint, Quantity quantity) const {
+  const FactoredPoly* numerator(const std::string& joint, Quantity quantity) const {
     for (const Reaction& reaction : reactions_)
       if (reaction.joint == joint && reaction.quantity == quantity) return &reaction.numerator;
     return nullptr;
   }
 
   /// Numerators of the Cartesian components of a joint's contact force; none of a prismatic joint.
-  std::vector<Poly> force_numerators(const mechanism::Joint& joint) const {
-    std::vector<Poly> parts;
+  std::vector<FactoredPoly> force_numerators(const mechanism::Joint& joint) const {
+    std::vector<FactoredPoly> parts;
     for (const Quantity quantity : mechanism::force_components(mechanism_, joint)) {
       if (selection_.min_force && quantity == Quantity::f1)
         throw core::InputError(joint.where,
                                "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
                                    " cannot be traced: its components lie across a moving axis",
                                "leave the least force out, or name the other joints with --joint");
-      if (const Poly* part = numerator(joint.name, quantity)) parts.push_back(*part);
+      if (const FactoredPoly* part = numerator(joint.name, quantity)) parts.push_back(*part);
     }
     return parts;
   }
@@ -464,7 +491,7 @@ class Derivation {
 
   /// |f_J|^2 = f_min^2 and M_J^2 = M_min^2, cleared of |A|^2 (method.md section 5).
   void add_margins() {
-    const Poly& determinant = determinants_.determinant;
+    const FactoredPoly& determinant = determinants_.determinant;
     // Joints of one chain bear the same force: their margins are one curve.
     struct Margin {
       Poly natural;
@@ -483,16 +510,21 @@ class Derivation {
     };
     for (const mechanism::Joint& joint : mechanism_.joints) {
       if (!selected(joint.name)) continue;
-      const std::vector<Poly> force = force_numerators(joint);
-      const bool loaded = std::any_of(force.begin(), force.end(), [](const Poly& part) { return !part.is_zero(); });
+      const std::vector<FactoredPoly> force = force_numerators(joint);
+      const bool loaded =
+          std::any_of(force.begin(), force.end(), [](const FactoredPoly& part) { return !part.is_zero(); });
       if (selection_.min_force && loaded) {
         const core::Rational& bound = *selection_.min_force;
-        Poly common = force.front();
-        for (const Poly& part : force) common = gcd(common, part);
+        const FactoredPoly common =
+            shared_factors(force, [](const FactoredPoly& p) -> const FactoredPoly& { return p; });
         Poly square(geometry_.ring());  // of what is left of the force
-        for (const Poly& part : force) square += part.exact_quotient(common) * part.exact_quotient(common);
-        const Poly shared = gcd(common, determinant);
-        const Poly size = common.exact_quotient(shared), d = determinant.exact_quotient(shared);
+        for (const FactoredPoly& part : force) {
+          if (part.is_zero()) continue;
+          const Poly rest = without(part, common);
+          square += rest * rest;
+        }
+        const FactoredPoly shared = common_factors(common, determinant);
+        const Poly size = without(common, shared), d = without(determinant, shared);
         // A two-force link of the plane bears (x, y) of constant length: then |f| = f_min is two linear conditions.
         const std::optional<core::Rational> length2 = elimination_.constant_over_tower(square);
         if (const auto length = length2 ? rational_root(*length2) : std::nullopt) {
@@ -502,11 +534,11 @@ class Derivation {
           add_margin(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound);
         }
       }
-      const Poly* couple = numerator(joint.name, Quantity::M);
+      const FactoredPoly* couple = numerator(joint.name, Quantity::M);
       if (selection_.min_couple && couple != nullptr) {
         const core::Rational& bound = *selection_.min_couple;
-        const Poly shared = gcd(*couple, determinant);
-        const Poly c = couple->exact_quotient(shared), d = determinant.exact_quotient(shared);
+        const FactoredPoly shared = common_factors(*couple, determinant);
+        const Poly c = without(*couple, shared), d = without(determinant, shared);
         const Poly axis2 = squared_axis(joint);
         const std::optional<core::Rational> length2 = elimination_.constant_over_tower(axis2);
         if (const auto length = length2 ? rational_root(*length2) : std::nullopt) {

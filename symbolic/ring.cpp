@@ -128,6 +128,18 @@ int Poly::degree(int variable) const {
 
 int Poly::total_degree() const { return static_cast<int>(fmpq_mpoly_total_degree_si(value_, ring_->context())); }
 
+int Poly::degree(const std::vector<int>& variables) const {
+  if (std::none_of(variables.begin(), variables.end(), [this](int variable) { return depends_on(variable); })) return 0;
+  ulong largest = 0;
+  for (slong term = 0; term < static_cast<slong>(length()); ++term) {
+    const std::vector<ulong> exponents = exponents_of(*this, term);
+    ulong sum = 0;
+    for (const int variable : variables) sum += exponents[static_cast<std::size_t>(variable)];
+    largest = std::max(largest, sum);
+  }
+  return static_cast<int>(largest);
+}
+
 bool Poly::divides(const Poly& divisor, Poly& quotient) const {
   return fmpq_mpoly_divides(quotient.value_, value_, divisor.value_, ring_->context()) != 0;
 }
@@ -150,6 +162,14 @@ std::vector<Poly> Poly::coefficients(int variable) const {
     fmpq_mpoly_push_term_fmpq_ui(result[power].value_, coefficient.get(), exponents.data(), ring_->context());
   }
   for (Poly& part : result) fmpq_mpoly_reduce(part.value_, ring_->context());
+  return result;
+}
+
+Poly Poly::at(int variable, const Rational& value) const {
+  Poly result(*ring_);
+  Fmpq number(value);
+  core::ensure(fmpq_mpoly_evaluate_one_fmpq(result.value_, value_, variable, number.get(), ring_->context()) != 0,
+               "a polynomial with a number put in");
   return result;
 }
 

@@ -67,12 +67,17 @@ class Poly {
   std::size_t length() const;
   int degree(int variable) const;
   int total_degree() const;
+  /// The largest sum of the exponents of some variables; 0 for the zero polynomial.
+  int degree(const std::vector<int>& variables) const;
   bool depends_on(int variable) const { return degree(variable) > 0; }
 
   /// The quotient if `divisor` divides exactly; false otherwise, leaving `quotient` unspecified.
   bool divides(const Poly& divisor, Poly& quotient) const;
   /// The exact quotient; ensures that there is one.
   Poly exact_quotient(const Poly& divisor) const;
+
+  /// With a number in the place of a variable.
+  Poly at(int variable, const core::Rational& value) const;
 
   /// Coefficients c_0, c_1, ... of the powers of one variable.
   std::vector<Poly> coefficients(int variable) const;

@@ -19,17 +19,24 @@ StraightLine StraightLines::of(const Poly& natural) { return builder_.line(value
 StraightLine StraightLines::square(std::size_t root) {
   const std::optional<Dyad> known = dyad(geometry_->roots()[root].point);
   if (!known || geometry_->roots()[root].role != core::RootRole::working_mode) return {};
-  const Rational sum = known->from_length + known->to_length, difference = known->from_length - known->to_length;
+  const int scale = builder_.power(known->scale, 2);
+  const Rational &a = known->from_length, &b = known->to_length;
+  if (known->axis) {
+    const int k = excess(*known);
+    const int reach = builder_.multiply(builder_.constant(4 * a * a), known->axis->d);
+    const int q = builder_.subtract(reach, builder_.multiply(known->axis->n2, builder_.power(k, 2)));
+    return builder_.line(builder_.multiply(scale, q));
+  }
+  const Rational sum = a + b, difference = a - b;
   const int outer = builder_.subtract(builder_.constant(sum * sum), known->distance2);
   const int inner = builder_.subtract(known->distance2, builder_.constant(difference * difference));
-  const int scale = builder_.power(known->scale, 2);
   return builder_.line(builder_.multiply(scale, builder_.multiply(outer, inner)));
 }
 
 std::optional<std::array<StraightLine, 2>> StraightLines::way(mechanism::PointIndex point) {
   const std::optional<Dyad> known = dyad(point);
-  if (!known) return std::nullopt;
-  return std::array{builder_.line(known->u), builder_.line(known->v)};
+  if (!known || known->axis) return std::nullopt;
+  return std::array{builder_.line(known->way[0]), builder_.line(known->way[1])};
 }
 
 int StraightLines::value(const Polynomial& p) {
@@ -39,32 +46,53 @@ int StraightLines::value(const Polynomial& p) {
   return builder_.polynomial(p, variables);
 }
 
+void StraightLines::know(const std::array<int, 3>& ring_variables, const Place& place) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (ring_variables[i] >= 0) known_[ring_variables[i]] = place[i];
+}
+
 int StraightLines::variable(int ring_variable) {
   if (const auto found = known_.find(ring_variable); found != known_.end()) return found->second;
   for (const ConstructedPoint& point : geometry_->constructed()) {
-    if (point.x != ring_variable && point.y != ring_variable) continue;
-    const Place place = constructed_place(point);
-    known_[point.x] = place.x;
-    known_[point.y] = place.y;
+    if (point.x != ring_variable && point.y != ring_variable && point.z != ring_variable) continue;
+    know({point.x, point.y, point.z}, constructed_place(point));
     return known_.at(ring_variable);
   }
   for (const Substitution& pair : geometry_->substitutions()) {
     if (pair.x != ring_variable && pair.y != ring_variable) continue;
-    const Place place = over_tower(pair.place);
-    known_[pair.x] = place.x;
-    known_[pair.y] = place.y;
+    know({pair.x, pair.y, -1}, over_tower(pair.place));
   }
   return known_.at(ring_variable);
 }
 
 StraightLines::Place StraightLines::natural_place(mechanism::PointIndex point) {
   const auto& natural = geometry_->natural(point);
-  return {value(geometry_->poly(natural[0]).plain()), value(geometry_->poly(natural[1]).plain())};
+  const int x = value(geometry_->poly(natural[0]).plain()), y = value(geometry_->poly(natural[1]).plain());
+  return {x, y, value(geometry_->poly(natural[2]).plain())};
 }
 
 StraightLines::Place StraightLines::over_tower(const TowerPoint& place) {
   const int w = builder_.inverse(value(place.w.plain()));
-  return {builder_.multiply(value(place.x.plain()), w), builder_.multiply(value(place.y.plain()), w)};
+  const int x = builder_.multiply(value(place.x.plain()), w), y = builder_.multiply(value(place.y.plain()), w);
+  return {x, y, builder_.multiply(value(place.z.plain()), w)};
+}
+
+StraightLines::Place StraightLines::vector(const mechanism::VectorExpression& vector) {
+  Place place{};
+  const std::vector<GiNaC::ex> natural = geometry_->vector(vector);
+  for (std::size_t i = 0; i < natural.size(); ++i) place[i] = value(geometry_->poly(natural[i]).plain());
+  return place;
+}
+
+int StraightLines::dot(const Place& a, const Place& b) {
+  const int in_plane = builder_.add(builder_.multiply(a[0], b[0]), builder_.multiply(a[1], b[1]));
+  return builder_.add(in_plane, builder_.multiply(a[2], b[2]));
+}
+
+/// k = a^2 - b^2 + |P - A|^2.
+int StraightLines::excess(const Dyad& dyad) {
+  const Rational difference = dyad.from_length * dyad.from_length - dyad.to_length * dyad.to_length;
+  return builder_.add(builder_.constant(difference), dyad.distance2);
 }
 
 std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex point) {
@@ -74,14 +102,36 @@ std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex poi
   const Poly from_length = geometry_->poly(geometry_->expression(own->from_length).expand());
   const Poly to_length = geometry_->poly(geometry_->expression(own->to_length).expand());
   if (!from_length.is_constant() || !to_length.is_constant()) return std::nullopt;
-  const Place a = natural_place(own->from), p = natural_place(own->to);
-  const int u = builder_.subtract(p.x, a.x), v = builder_.subtract(p.y, a.y);
-  const int distance2 = builder_.add(builder_.multiply(u, u), builder_.multiply(v, v));
   const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                  [&](const TowerRoot& r) { return r.point == point; });
   if (root == geometry_->roots().end()) return std::nullopt;
+  const Place a = natural_place(own->from), p = natural_place(own->to);
+  Place way{};
+  for (std::size_t i = 0; i < 3; ++i) way[i] = builder_.subtract(p[i], a[i]);
   const int scale = builder_.multiply(value(root->scale.plain()), builder_.inverse(value(root->scale_divisor.plain())));
-  return Dyad{u, v, distance2, scale, from_length.constant(), to_length.constant()};
+  Dyad dyad{way, dot(way, way), scale, from_length.constant(), to_length.constant()};
+  if (!own->axis) return dyad;
+  const Place n = vector(*own->axis);
+  const int n2 = dot(n, n), h = dot(n, way);
+  const int d = builder_.subtract(builder_.multiply(n2, dyad.distance2), builder_.power(h, 2));
+  dyad.axis = {n, n2, h, d};
+  return dyad;
+}
+
+/// B - A in space.
+StraightLines::Place StraightLines::elbow(const Dyad& dyad, int s) {
+  const auto& [n, n2, h, d] = *dyad.axis;
+  const Place& w = dyad.way;
+  const int half_inverse = builder_.multiply(builder_.constant(Rational(1, 2)), builder_.inverse(d));
+  const int along = builder_.multiply(excess(dyad), half_inverse), across = builder_.multiply(s, half_inverse);
+  Place step{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const int in_plane = builder_.subtract(builder_.multiply(n2, w[i]), builder_.multiply(h, n[i]));
+    const int left = builder_.subtract(builder_.multiply(n[j], w[k]), builder_.multiply(n[k], w[j]));
+    step[i] = builder_.add(builder_.multiply(along, in_plane), builder_.multiply(across, left));
+  }
+  return step;
 }
 
 StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& point) {
@@ -92,16 +142,21 @@ StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& po
   const auto& form =
       std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
   const Place a = natural_place(form.from);
+  const int s = builder_.multiply(known_.at(root->variable), builder_.inverse(known->scale));
+  if (known->axis) {
+    const Place step = elbow(*known, s);
+    return {builder_.add(a[0], step[0]), builder_.add(a[1], step[1]), builder_.add(a[2], step[2])};
+  }
   const Rational half(1, 2);
   const int inverse = builder_.inverse(known->distance2);
   const Rational excess = known->from_length * known->from_length - known->to_length * known->to_length;
   const int lambda =
       builder_.add(builder_.constant(half), builder_.multiply(builder_.constant(excess * half), inverse));
-  const int s = builder_.multiply(known_.at(root->variable), builder_.inverse(known->scale));
   const int mu = builder_.multiply(builder_.multiply(builder_.constant(half), s), inverse);
-  const int x = builder_.subtract(builder_.multiply(lambda, known->u), builder_.multiply(mu, known->v));
-  const int y = builder_.add(builder_.multiply(lambda, known->v), builder_.multiply(mu, known->u));
-  return {builder_.add(a.x, x), builder_.add(a.y, y)};
+  const auto& [u, v, flat] = known->way;
+  const int x = builder_.subtract(builder_.multiply(lambda, u), builder_.multiply(mu, v));
+  const int y = builder_.add(builder_.multiply(lambda, v), builder_.multiply(mu, u));
+  return {builder_.add(a[0], x), builder_.add(a[1], y), a[2]};
 }
 
 }  // namespace clearloci::symbolic

@@ -3,6 +3,8 @@
 //   dyad B on A, P with |AB| = a, |BP| = b:   (u, v) = P - A,  D = u^2 + v^2,
 //       Q = ((a + b)^2 - D) (D - (a - b)^2) = s^2,   lambda = 1/2 + (a^2 - b^2) / (2 D),   mu = s / (2 D),
 //       B = A + lambda (u, v) + mu (-v, u)
+//   in space, turning about n: w = P - A, N = n . n, h = n . w, D = N w . w - h^2, k = a^2 - b^2 + w . w,
+//       s^2 = 4 a^2 D - N k^2,   B = A + k / (2 D) (N w - h n) + s / (2 D) (n x w)
 #pragma once
 
 #include <map>
@@ -26,13 +28,18 @@ class StraightLines {
   std::optional<std::array<core::StraightLine, 2>> way(mechanism::PointIndex point);
 
  private:
-  struct Place {
-    int x, y;
-  };
+  using Place = std::array<int, 3>;  ///< z = 0 in the plane
   struct Dyad {
-    int u, v, distance2;  ///< P - A, |P - A|^2
-    int scale;            ///< s of the tower = scale * the true root
+    Place way;      ///< P - A
+    int distance2;  ///< |P - A|^2
+    int scale;      ///< s of the tower = scale * the true root
     core::Rational from_length, to_length;
+    /// In space: n, N, h and D.
+    struct Axis {
+      Place n;
+      int n2, h, d;
+    };
+    std::optional<Axis> axis = {};
   };
 
   int value(const core::Polynomial& p);
@@ -40,7 +47,12 @@ class StraightLines {
   Place natural_place(mechanism::PointIndex point);
   std::optional<Dyad> dyad(mechanism::PointIndex point);
   Place constructed_place(const ConstructedPoint& point);
+  Place elbow(const Dyad& dyad, int s);
   Place over_tower(const TowerPoint& place);
+  Place vector(const mechanism::VectorExpression& vector);
+  void know(const std::array<int, 3>& ring_variables, const Place& place);
+  int dot(const Place& a, const Place& b);
+  int excess(const Dyad& dyad);
 
   const Geometry* geometry_;
   core::StraightLineBuilder builder_;

@@ -81,10 +81,25 @@ TEST(SpatialErrors, PointsAndVectorsHaveThreeComponents) {
                    "the first axis of joint U1 is fixed in the ground, but turns");
 }
 
-TEST(SpatialErrors, ConstructionsOfThePlaneStayThere) {
-  expect_complaint(
-      with(platform(), "  P:  [x, y, z]", "  P:  [x, y, z]\n  D: {dyad: [A1, P], lengths: [1, 1], side: left}"),
-      "a dyad, which is a construction of the plane");
+TEST(SpatialErrors, ADyadTurnsAboutAnAxis) {
+  const auto with_point = [](const std::string& form) {
+    return with(platform(), "  P:  [x, y, z]", "  P:  [x, y, z]\n  D: " + form);
+  };
+  EXPECT_EQ(complaint(with_point("{dyad: [A1, P], lengths: [1, 1], axis: [0, 1, 0], side: left}")), "accepted");
+  expect_complaint(with_point("{dyad: [A1, P], lengths: [1, 1], side: left}"), "a dyad in space without an axis");
+  expect_complaint(with_point("{dyad: [A1, P], lengths: [1, 1], axis: [0, 1], side: left}"), "it has 2 components");
+  expect_complaint(with_point("{dyad: [A1, P], lengths: [1, 1], axis: [0, 0, 0], side: left}"),
+                   "the axis of point D is zero");
+  expect_complaint(with_point("{dyad: [A1, P], lengths: [1, 1], axis: P - A1, side: left}"), "lie along its axis");
+  expect_complaint(with_point("{dyad: [A1, P], lengths: [1, 1], axis: P - Q, side: left}"), "'Q' is no vector");
+  expect_complaint(with_point("{slider: [A1, [0, 0, 0]], from: P, length: 1, side: ahead}"),
+                   "the direction of point D is zero");
+  expect_complaint(with_point("{slider: [A1, [1, 0, 0]], from: P, length: 1/10, side: ahead}"), "unreachable");
+}
+
+TEST(SpatialErrors, ADyadOfThePlaneHasNoAxis) {
+  expect_complaint(with(five_bar_text, "lengths: [L, L], side: right", "lengths: [L, L], axis: [0, 1], side: right"),
+                   "unknown key 'axis'");
 }
 
 }  // namespace

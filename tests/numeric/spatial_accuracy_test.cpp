@@ -279,13 +279,14 @@ TEST(SpatialAccuracy, OnALocusTheTakeUpIsUndefined) {
   const Mechanism m = example("three_upu");
   const std::vector<Bounded> on = {{-0.3, 1e-17}, 0.125, {0.6, 1e-16}};
   const std::vector<double> pose = {-0.3, 0.125, 0.6};
-  const std::vector<LostContact> lost = lost_contacts(compile(m), on);
+  const std::vector<LostContact> lost = lost_contacts(compile(m), {}, on);
   const SpatialAccuracy accuracy = spatial_accuracy(m, pose, lost);
   EXPECT_EQ(accuracy.undefined, (std::vector<std::string>{"U1", "S1", "V1"}));
   EXPECT_TRUE(std::isnan(accuracy.error.dp(0)));
   const std::vector<double> beside = {-0.29, 0.125, 0.6};
-  EXPECT_TRUE(spatial_accuracy(m, beside, lost_contacts(compile(m), std::vector<Bounded>(beside.begin(), beside.end())))
-                  .undefined.empty());
+  EXPECT_TRUE(
+      spatial_accuracy(m, beside, lost_contacts(compile(m), {}, std::vector<Bounded>(beside.begin(), beside.end())))
+          .undefined.empty());
 }
 
 // The compiled elimination with one factorisation of its core, against one LU of the orthonormal form.

@@ -139,4 +139,43 @@ std::string random_three_leg(std::mt19937& random) {
   return text + "links:\n" + platform_points(3) + "}\n" + links + "joints:\n" + joints + load(n);
 }
 
+std::string random_delta(std::mt19937& random, bool sliders, bool with_weights) {
+  Numbers n(random);
+  std::string text = head(sliders ? "random 3-PUU" : "random 3-RUU", n.near(-0.6, 0.05)), links, joints;
+  const std::array<double, 3> angles = {0.1, 2.2, 4.3};
+  for (int i = 0; i < 3; ++i) {
+    const std::string k = std::to_string(i + 1);
+    const double a = angles[static_cast<std::size_t>(i)];
+    text += "  A" + k + ": " +
+            triple(n.near(0.25 * std::cos(a), 0.04), n.near(0.25 * std::sin(a), 0.04), n.near(0, 0.03)) + "\n";
+    text += "  C" + k + ": " +
+            triple("x + " + n.near(0.06 * std::cos(a), 0.02), "y + " + n.near(0.06 * std::sin(a), 0.02),
+                   "z + " + n.near(0, 0.02)) +
+            "\n";
+    // The direction about which both universal joints turn, roughly along the base's rim.
+    const std::string u = triple(n.near(-std::sin(a), 0.15), n.near(std::cos(a), 0.15), n.near(0, 0.1));
+    const std::string along = triple(n.near(0.4 * std::cos(a), 0.1), n.near(0.4 * std::sin(a), 0.1), "1");
+    const std::string v = "'cross(" + u + ", C" + k + " - B" + k + ")'";
+    text += "  B" + k + ": " +
+            (sliders ? "{slider: [A" + k + ", " + along + "], from: C" + k + ", length: " + n.near(0.7, 0.05) +
+                           ", side: ahead}"
+                     : "{dyad: [A" + k + ", C" + k + "], lengths: [" + n.near(0.27, 0.03) + ", " + n.near(0.65, 0.05) +
+                           "], axis: " + u + ", side: " + (n.in(0, 3) == 0 ? "left" : "right") + "}") +
+            "\n";
+    links += "  crank" + k + ": {points: [" + (sliders ? "" : "A" + k + ", ") + "B" + k + "]}\n  forearm" + k +
+             ": {points: [B" + k + ", C" + k + "]" + (with_weights ? ", mass: 1/2" : "") + "}\n";
+    joints += "  A" + k + (sliders ? ": {prismatic" : ": {revolute") + ": [ground, crank" + k +
+              "], at: " + (sliders ? "B" + k + ", axis: " + along : "A" + k + ", axis: " + u) +
+              ", actuated: true, clearance: " + (sliders ? "{axial: 5e-6}" : "{radial: 10e-6, angular: 1e-4}") +
+              "}\n  B" + k + ": {universal: [crank" + k + ", forearm" + k + "], at: B" + k + ", axes: [" + u + ", " +
+              v + "], clearance: {radial: 10e-6}}\n  C" + k + ": {universal: [forearm" + k + ", platform], at: C" + k +
+              ", axes: [" + v + ", " + u + "], clearance: {radial: 10e-6}}\n";
+  }
+  text += "links:\n  platform: {points: [P, C1, C2, C3]" +
+          std::string(with_weights ? ", mass: 1, com: P, inertia: 0" : "") + "}\n" + links + "joints:\n" + joints +
+          load(n);
+  if (with_weights) text += "gravity: [0, 0, -9.81]\n";
+  return text;
+}
+
 }  // namespace clearloci::test

@@ -18,4 +18,8 @@ std::string random_three_upu(std::mt19937& random);
 /// joint in its legs: axes that move, forces and couples across them.
 std::string random_three_leg(std::mt19937& random);
 
+/// 3-RUU and 3-PUU: elbows built as dyads, carriages as sliders, unequal legs whose planes stand anywhere.
+/// `with_weights`: forearms and the platform have masses.
+std::string random_delta(std::mt19937& random, bool sliders, bool with_weights);
+
 }  // namespace clearloci::test

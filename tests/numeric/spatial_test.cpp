@@ -30,15 +30,28 @@ std::vector<double> random_pose(const Mechanism& m, std::mt19937& random) {
   return pose;
 }
 
+/// Elbows and carriages to any side.
+std::vector<int> any_mode(const Mechanism& m, std::mt19937& random) {
+  std::vector<int> mode = mechanism::working_mode(m);
+  for (int& side : mode)
+    if (random() % 2 == 0) side = -side;
+  return mode;
+}
+
 void expect_same_reactions(const Mechanism& m, std::mt19937& random) {
   SCOPED_TRACE(m.name);
   const NumericModel model = compile(m);
-  for (int sample = 0; sample < 8; ++sample) {
+  const std::vector<int> mode = any_mode(m, random);
+  int held = 0;
+  for (int sample = 0; sample < (mode.empty() ? 8 : 40); ++sample) {
     const std::vector<double> pose = random_pose(m, random);
-    const SpatialPosture plain = spatial_posture(m, pose);
+    const SpatialPosture plain = spatial_posture(m, pose, mode);
+    EXPECT_EQ(plain.unreachable.has_value(), !reachable(model, pose, mode));
+    if (plain.unreachable) continue;
+    ++held;
     ASSERT_LT(plain.residual, 1e-12);
     if (plain.condition > 1e9) continue;
-    const BoundedNumerators compiled = bounded_numerators(model, pose, {});
+    const BoundedNumerators compiled = bounded_numerators(model, pose, mode);
     ASSERT_TRUE(compiled.reachable);
     const double det = compiled.determinant.value;
     EXPECT_NEAR(det, plain.determinant, 1e-9 * std::abs(plain.determinant));
@@ -54,7 +67,7 @@ void expect_same_reactions(const Mechanism& m, std::mt19937& random) {
       const auto& axis = model.space_axes[j];
       Eigen::Vector3d force = r.force, couple = r.couple;
       if (m.joints[j].actuated) {
-        Evaluator<double, 1> evaluator(model, {}, model.posture_size);
+        Evaluator<double, 1> evaluator(model, mode, model.posture_size);
         for (std::size_t c = 0; c < pose.size(); ++c) evaluator.input(c, 0) = pose[c];
         evaluator.run_tape();
         Eigen::Vector3d u;
@@ -74,11 +87,12 @@ void expect_same_reactions(const Mechanism& m, std::mt19937& random) {
       }
     }
   }
+  EXPECT_GT(held, 0);
 }
 
 TEST(SpatialModel, AgreesWithOneLuOfTheOrthonormalForm) {
   std::mt19937 random(seed);
-  for (const char* name : {"gough_stewart", "gough_stewart_slice", "three_upu"})
+  for (const char* name : {"gough_stewart", "gough_stewart_slice", "three_upu", "three_ruu"})
     expect_same_reactions(example(name), random);
   for (int design = 0; design < 6; ++design) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", design " + std::to_string(design));
@@ -86,6 +100,7 @@ TEST(SpatialModel, AgreesWithOneLuOfTheOrthonormalForm) {
     expect_same_reactions(parsed(test::random_gough_stewart(random, design % 2 == 1)), random);
     expect_same_reactions(parsed(test::random_three_upu(random)), random);
     expect_same_reactions(parsed(test::random_three_leg(random)), random);
+    expect_same_reactions(parsed(test::random_delta(random, design % 2 == 1, design > 3)), random);
   }
 }
 

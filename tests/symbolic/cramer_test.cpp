@@ -53,8 +53,9 @@ class Worlds {
   }
 
   /// The difference between the two worlds, which must be zero.
-  bool same(const Poly& p, const GiNaC::ex& e) const {
+  bool same(const FactoredPoly& product, const GiNaC::ex& e) const {
     GiNaC::ex sum = 0;
+    const Poly p = expanded(product, ring_);
     for (const core::Term& term : p.plain().terms) {
       sum += GiNaC::numeric(core::to_string(term.coefficient).c_str()) * GiNaC::pow(x_, term.exponents[0]) *
              GiNaC::pow(y_, term.exponents[1]);
@@ -83,12 +84,12 @@ RC_GTEST_PROP(Cramer, AgreesWithTheDeterminantOfEveryReplacedMatrix, ()) {
   for (std::size_t k = 0; k < n; ++k) RC_ASSERT(worlds.same(ours.numerators[k], worlds.theirs(k)));
 }
 
-TEST(Cramer, AMatrixWithoutConstantEntriesIsAllCore) {
+TEST(Cramer, AMatrixNeedsNoConstantEntries) {
   const Ring ring({"x", "y"});
   const Poly x = Poly::variable(ring, 0), y = Poly::variable(ring, 1);
   const CramerDeterminants d = cramer_determinants(ring, {{x, y}, {y, x}}, {x, y});
-  EXPECT_TRUE(d.determinant == x * x - y * y);
-  EXPECT_TRUE(d.numerators[0] == x * x - y * y);
+  EXPECT_TRUE(expanded(d.determinant, ring) == x * x - y * y);
+  EXPECT_TRUE(expanded(d.numerators[0], ring) == x * x - y * y);
   EXPECT_TRUE(d.numerators[1].is_zero());
 }
 

@@ -39,11 +39,23 @@ double evaluated(const Poly& p, const std::vector<double>& at) {
   return core::evaluate(p.plain(), std::span<const double>(at));
 }
 
-/// Coordinates first; constructed points, of which these mechanisms have none, would follow.
-std::vector<double> ring_values(const Geometry& geometry, const std::vector<double>& pose) {
-  EXPECT_TRUE(geometry.constructed().empty());
+double evaluated(const FactoredPoly& product, const std::vector<double>& at) {
+  double value = core::to_double(product.constant);
+  for (const PolyFactor& factor : product.factors) value *= std::pow(evaluated(factor.poly, at), factor.multiplicity);
+  return value;
+}
+
+/// The coordinates and the places of constructed points, as the numeric route finds them.
+std::vector<double> ring_values(const Geometry& geometry, const std::vector<double>& pose,
+                                const numeric::SpatialPosture& witness) {
   std::vector<double> values(static_cast<std::size_t>(geometry.ring().size()), 0.0);
   std::copy(pose.begin(), pose.end(), values.begin());
+  for (const ConstructedPoint& point : geometry.constructed()) {
+    const Eigen::Vector3d& place = witness.points[static_cast<std::size_t>(point.point)];
+    values[static_cast<std::size_t>(point.x)] = place.x();
+    values[static_cast<std::size_t>(point.y)] = place.y();
+    values[static_cast<std::size_t>(point.z)] = place.z();
+  }
   return values;
 }
 
@@ -52,14 +64,17 @@ void hold(const Mechanism& m) {
   const Geometry geometry(m, false);
   const FactoredDeterminants exact = factored_determinants(geometry);
   std::mt19937 random(4);
-  for (int sample = 0; sample < 5; ++sample) {
+  int held = 0;
+  for (int sample = 0; sample < 50 && held < 5; ++sample) {
     std::vector<double> pose;
     for (const auto& c : m.coordinates)
       pose.push_back(
           std::uniform_real_distribution<double>(core::to_double(c.lower), core::to_double(c.upper))(random));
     const numeric::SpatialPosture witness = numeric::spatial_posture(m, pose);
+    if (witness.unreachable) continue;
+    ++held;
     EXPECT_LT(witness.residual, 1e-12);
-    const std::vector<double> at = ring_values(geometry, pose);
+    const std::vector<double> at = ring_values(geometry, pose, witness);
     const double determinant = evaluated(exact.determinant, at);
     double largest = 0;
     for (const auto& r : witness.reactions) largest = std::max({largest, r.force.norm(), std::abs(r.actuator)});
@@ -102,11 +117,87 @@ void hold(const Mechanism& m) {
       }
     }
   }
+  EXPECT_EQ(held, 5);
 }
 
 TEST(Spatial, GoughStewartAgreesWithTheNumericRoute) { hold(parsed(example_text("gough_stewart"))); }
 
 TEST(Spatial, ThreeUpuAgreesWithTheNumericRoute) { hold(parsed(example_text("three_upu"))); }
+
+TEST(Spatial, ThreeRuuAgreesWithTheNumericRoute) { hold(parsed(example_text("three_ruu"))); }
+
+/// The same with carriages on rails in the place of cranks.
+TEST(Spatial, ThreePuuAgreesWithTheNumericRoute) {
+  std::string text = example_text("three_ruu");
+  for (const std::string k : {"1", "2", "3"}) {
+    const std::string axis = k == "1" ? "[0, 1, 0]" : k == "2" ? "[-s, -1/2, 0]" : "[s, -1/2, 0]";
+    text =
+        replaced(text, "{dyad: [A" + k + ", C" + k + "], lengths: [crank, forearm], axis: " + axis + ", side: right}",
+                 "{slider: [A" + k + ", [1/10, 0, 1]], from: C" + k + ", length: forearm, side: ahead}");
+    text = replaced(text, "points: [A" + k + ", B" + k + "]", "points: [B" + k + "]");
+    text = replaced(text, "{revolute: [ground, crank" + k + "], at: A" + k + ", axis: " + axis,
+                    "{prismatic: [ground, crank" + k + "], at: B" + k + ", axis: [1/10, 0, 1]");
+    text = replaced(text, "radial: 10e-6, angular: 0.1e-3", "axial: 5e-6");
+  }
+  hold(parsed(text));
+}
+
+/// A forearm between universal joints whose outer axes stay parallel bears a force along it alone: A_i carries none
+/// where the load lies in the plane of the other two forearms. The platform is free where all three lie in a plane, or
+/// where the couples across them do; a forearm turns about itself where it lies along the outer axes.
+TEST(Spatial, ThreeRuuLegsAreUnloadedWhereTheOtherTwoSpanTheLoad) {
+  const Mechanism m = parsed(example_text("three_ruu"));
+  const Geometry geometry(m, false);
+  const FactoredDeterminants exact = factored_determinants(geometry);
+  const Eigen::Vector3d load(30, 10, -100);
+  std::mt19937 random(5);
+  std::vector<double> singular, unloaded;  // ratios that are to be the same in every pose
+  for (int sample = 0; sample < 20; ++sample) {
+    std::vector<double> pose;
+    for (const auto& c : m.coordinates)
+      pose.push_back(
+          std::uniform_real_distribution<double>(core::to_double(c.lower), core::to_double(c.upper))(random));
+    const double s = std::sqrt(3) / 2, R = 0.2, r = 0.05, crank = 0.25, forearm = 0.6;
+    const std::array<std::array<double, 2>, 3> turn = {{{1, 0}, {-0.5, s}, {-0.5, -s}}};
+    Eigen::Matrix3d arms, couples;
+    numeric::SpatialPosture places;
+    places.points.assign(m.points.size(), Eigen::Vector3d::Zero());
+    bool reached = true;
+    for (int leg = 0; leg < 3; ++leg) {
+      // In the leg's own plane, w outward and z up: the crank's angle from a half-angle formula.
+      const auto [cosine, sine] = turn[static_cast<std::size_t>(leg)];
+      const Eigen::Vector3d outward(cosine, sine, 0), along(-sine, cosine, 0);
+      const Eigen::Vector3d c(pose[0] + r * cosine, pose[1] + r * sine, pose[2]);
+      const double w = c.dot(outward) - R, v = c.dot(along), z = c.z();
+      const double e = (w * w + v * v + z * z + crank * crank - forearm * forearm) / (2 * crank);
+      const double root = w * w + z * z - e * e;
+      reached = reached && root > 0;
+      if (!reached) break;
+      const double angle = 2 * std::atan2(z + std::sqrt(root), e + w);  // w cos + z sin = e
+      const Eigen::Vector3d elbow =
+          (R + crank * std::cos(angle)) * outward + crank * std::sin(angle) * Eigen::Vector3d::UnitZ();
+      arms.col(leg) = c - elbow;
+      couples.col(leg) = along.cross(along.cross(arms.col(leg)));
+      for (std::size_t i = 0; i < m.points.size(); ++i)
+        if (m.points[i].name == "B" + std::to_string(leg + 1)) places.points[i] = elbow;
+    }
+    if (!reached) continue;
+    const std::vector<double> at = ring_values(geometry, pose, places);
+    double folded = 1;  // a forearm along the axes of its universal joints
+    for (int leg = 0; leg < 3; ++leg) folded *= couples.col(leg).dot(arms.col(leg));
+    singular.push_back(evaluated(exact.determinant, at) / (arms.determinant() * couples.determinant() * folded));
+    for (std::size_t k = 0; k < exact.numerators.size(); ++k) {
+      if (exact.equations.unknown_names[k] != "fA1x") continue;
+      const double fraction = evaluated(exact.numerators[k], at) / evaluated(exact.determinant, at);
+      Eigen::Matrix3d others = arms;
+      others.col(0) = -load;
+      unloaded.push_back(fraction / (-others.determinant() / arms.determinant() * arms(0, 0)));
+    }
+  }
+  ASSERT_GT(singular.size(), 5u);
+  for (const double ratio : singular) EXPECT_NEAR(ratio / singular.front(), 1, 1e-6);
+  for (const double ratio : unloaded) EXPECT_NEAR(std::abs(ratio), 1, 1e-6);
+}
 
 /// A spherical joint as a revolute one about the leg and a universal one: an axis that no component of is constant.
 Mechanism with_a_revolute_in_a_leg() {
@@ -124,7 +215,7 @@ TEST(Spatial, AVaryingAxisLeavesNoFactorBehind) {
   // The direct singularities are those of the platform with the spherical joint, and where the universal joint folds.
   const auto cubic = [](const Mechanism& mechanism) {
     const Geometry geometry(mechanism, false);
-    for (const PolyFactor& factor : factored_determinants(geometry).determinant_factors.factors)
+    for (const PolyFactor& factor : factored_determinants(geometry).determinant.factors)
       if (factor.poly.total_degree() == 3) return core::to_string(factor.poly.plain(), geometry.ring().names());
     return std::string();
   };
@@ -158,7 +249,7 @@ TEST(Spatial, GoughStewartIsSingularWhereItsLinesAre) {
   const Poly jacobian = geometry.poly(lines.determinant().expand()).primitive();
   EXPECT_EQ(jacobian.total_degree(), 3);
   const FactoredDeterminants exact = factored_determinants(geometry);
-  EXPECT_TRUE(std::any_of(exact.determinant_factors.factors.begin(), exact.determinant_factors.factors.end(),
+  EXPECT_TRUE(std::any_of(exact.determinant.factors.begin(), exact.determinant.factors.end(),
                           [&](const PolyFactor& factor) { return factor.poly == jacobian; }));
 }
 

@@ -74,12 +74,12 @@ class Witness {
     const Geometry geometry(m_, false, charts);
     const FactoredDeterminants determinants = factored_determinants(geometry);
     const std::vector<double> natural = natural_values(geometry, pose, posture);
-    const double determinant = evaluated(determinants.determinant_factors, natural);
+    const double determinant = evaluated(determinants.determinant, natural);
     const numeric::Reactions reactions = numeric::solve_reactions(model_, posture);
     if (reactions.condition > 1e6) return 0;
     const double largest = reactions.values.cwiseAbs().maxCoeff();
     for (std::size_t k = 0; k < determinants.numerators.size(); ++k) {
-      const double exact = evaluated(determinants.numerator_factors[k], natural) / determinant;
+      const double exact = evaluated(determinants.numerators[k], natural) / determinant;
       const double scale = unit_size(geometry, natural, determinants.equations.unknowns[k]);
       EXPECT_NEAR(exact * scale, reactions.values[static_cast<Eigen::Index>(k)], 1e-7 * (1 + largest))
           << determinants.equations.unknown_names[k];
@@ -116,8 +116,8 @@ class Witness {
         EXPECT_EQ(direct > 0, over > 0);
       }
     };
-    compare(determinants.determinant_factors);
-    for (const FactoredPoly& numerator : determinants.numerator_factors) compare(numerator);
+    compare(determinants.determinant);
+    for (const FactoredPoly& numerator : determinants.numerators) compare(numerator);
   }
 
   const mechanism::Mechanism& m_;
