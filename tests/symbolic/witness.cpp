@@ -110,7 +110,7 @@ class Witness {
     const auto compare = [&](const FactoredPoly& product) {
       for (const PolyFactor& factor : product.factors) {
         const double direct = core::evaluate(factor.poly.plain(), std::span<const double>(natural));
-        const Poly sheet = elimination.over_tower(factor.poly);
+        const Poly& sheet = elimination.over_tower(factor.poly);
         const double over = core::evaluate(sheet.plain(), std::span<const double>(values));
         if (std::abs(direct) < noise(factor.poly, natural) || std::abs(over) < noise(sheet, values)) continue;
         EXPECT_EQ(direct > 0, over > 0);
