@@ -197,6 +197,12 @@ void sort_factors(std::vector<PolyFactor>& factors) {
   });
 }
 
+int Poly::linear_variable() const {
+  for (int variable = ring_->size() - 1; variable >= 0; --variable)
+    if (degree(variable) == 1) return variable;
+  return -1;
+}
+
 std::vector<PolyFactor> Poly::factors(Rational& constant) const {
   std::vector<PolyFactor> result;
   constant = 0;
@@ -205,16 +211,28 @@ std::vector<PolyFactor> Poly::factors(Rational& constant) const {
     constant = this->constant();
     return result;
   }
-  fmpq_mpoly_factor_t factorisation;
-  fmpq_mpoly_factor_init(factorisation, ring_->context());
-  core::ensure(fmpq_mpoly_factor(factorisation, value_, ring_->context()) != 0, "a factorisation over Q");
-  for (slong i = 0; i < fmpq_mpoly_factor_length(factorisation, ring_->context()); ++i) {
-    Poly base(*ring_);
-    fmpq_mpoly_factor_get_base(base.value_, factorisation, i, ring_->context());
-    const slong exponent = fmpq_mpoly_factor_get_exp_si(factorisation, i, ring_->context());
-    result.push_back({base.primitive(), static_cast<int>(exponent)});
+  Poly rest = *this;
+  while (!rest.is_constant()) {
+    // Linear in some variable, as most of ours are: irreducible but for what its two coefficients share.
+    const int variable = rest.linear_variable();
+    if (variable < 0) break;
+    const std::vector<Poly> parts = rest.coefficients(variable);
+    const Poly shared = gcd(parts[0], parts[1]);
+    result.push_back({rest.exact_quotient(shared).primitive(), 1});
+    rest = shared;
   }
-  fmpq_mpoly_factor_clear(factorisation, ring_->context());
+  if (!rest.is_constant()) {
+    fmpq_mpoly_factor_t factorisation;
+    fmpq_mpoly_factor_init(factorisation, ring_->context());
+    core::ensure(fmpq_mpoly_factor(factorisation, rest.value_, ring_->context()) != 0, "a factorisation over Q");
+    for (slong i = 0; i < fmpq_mpoly_factor_length(factorisation, ring_->context()); ++i) {
+      Poly base(*ring_);
+      fmpq_mpoly_factor_get_base(base.value_, factorisation, i, ring_->context());
+      const slong exponent = fmpq_mpoly_factor_get_exp_si(factorisation, i, ring_->context());
+      result.push_back({base.primitive(), static_cast<int>(exponent)});
+    }
+    fmpq_mpoly_factor_clear(factorisation, ring_->context());
+  }
   sort_factors(result);
   // The constant is what the primitive factors leave of the leading coefficient.
   Fmpq leading;

@@ -104,6 +104,9 @@ class Poly {
   const fmpq_mpoly_struct* raw() const { return value_; }
 
  private:
+  /// One in which the polynomial is linear; -1 where there is none.
+  int linear_variable() const;
+
   const Ring* ring_;
   mutable fmpq_mpoly_t value_;
 };
