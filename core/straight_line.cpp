@@ -6,6 +6,16 @@
 
 namespace clearloci::core {
 
+const Rational& StraightLine::Step::zero() {
+  static const Rational zero = 0;
+  return zero;
+}
+
+StraightLine::Step constant_step(const Rational& value, const Rational& radius) {
+  using Constant = StraightLine::Constant;
+  return {StraightLine::Operation::constant, 0, 0, std::make_shared<const Constant>(Constant{value, radius})};
+}
+
 bool depends_on(const StraightLine& line, int variable) {
   return std::any_of(line.steps.begin(), line.steps.end(), [&](const StraightLine::Step& step) {
     return step.operation == StraightLine::Operation::variable && step.first == variable;
@@ -19,20 +29,20 @@ StraightLineBuilder::StraightLineBuilder() {
 
 int StraightLineBuilder::constant(const Rational& value) {
   const auto [place, fresh] = constants_.try_emplace(value, static_cast<int>(steps_.size()));
-  if (fresh) steps_.push_back({Operation::constant, 0, 0, value, 0});
+  if (fresh) steps_.push_back(constant_step(value));
   return place->second;
 }
 
 int StraightLineBuilder::constant(const Rational& value, const Rational& radius) {
   if (radius == 0) return constant(value);
   // Two of one enclosure need not be one number, and none is folded.
-  steps_.push_back({Operation::constant, 0, 0, value, radius});
+  steps_.push_back(constant_step(value, radius));
   return static_cast<int>(steps_.size()) - 1;
 }
 
 int StraightLineBuilder::make(Operation operation, int a, int b) {
   const auto [place, fresh] = known_.try_emplace({operation, a, b}, static_cast<int>(steps_.size()));
-  if (fresh) steps_.push_back({operation, a, b, {}, {}});
+  if (fresh) steps_.push_back({operation, a, b});
   return place->second;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -12,16 +13,28 @@ namespace clearloci::core {
 
 struct StraightLine {
   enum class Operation { constant, variable, add, subtract, multiply, inverse };
+  struct Constant {
+    Rational value, radius;  ///< the number is known to be within the radius of the value
+  };
+  /// Steps are copied by the thousand, so that constants are shared.
   struct Step {
     Operation operation = Operation::constant;
-    int first = 0, second = 0;  ///< earlier steps; `first` of a variable: its index
-    Rational value = {};        ///< of a constant
-    Rational radius = {};       ///< of a constant that is known to be within this of its value only
+    int first = 0, second = 0;                    ///< earlier steps; `first` of a variable: its index
+    std::shared_ptr<const Constant> number = {};  ///< of a constant; none: zero
+
+    const Rational& value() const { return number ? number->value : zero(); }
+    const Rational& radius() const { return number ? number->radius : zero(); }
+
+   private:
+    static const Rational& zero();
   };
   std::vector<Step> steps;  ///< the last is the result; none: the form is not known
 
   bool empty() const { return steps.empty(); }
 };
+
+/// A step that is a number.
+StraightLine::Step constant_step(const Rational& value, const Rational& radius = 0);
 
 /// Whether a variable occurs.
 bool depends_on(const StraightLine& line, int variable);
@@ -52,9 +65,9 @@ class StraightLineBuilder {
   int make(Operation operation, int a, int b);
   bool is_constant(int step) const {
     const StraightLine::Step& own = steps_[static_cast<std::size_t>(step)];
-    return own.operation == Operation::constant && own.radius == 0;
+    return own.operation == Operation::constant && own.radius() == 0;
   }
-  const Rational& value(int step) const { return steps_[static_cast<std::size_t>(step)].value; }
+  const Rational& value(int step) const { return steps_[static_cast<std::size_t>(step)].value(); }
 
   std::vector<StraightLine::Step> steps_;
   std::map<Rational, int> constants_;

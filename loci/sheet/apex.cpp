@@ -39,7 +39,7 @@ class Numbering {
                              ? 0
                              : numbers[static_cast<std::size_t>(step.second)];
       const auto [place, fresh] =
-          known_.try_emplace({step.operation, first, second, step.value}, static_cast<int>(known_.size()));
+          known_.try_emplace({step.operation, first, second, step.value()}, static_cast<int>(known_.size()));
       numbers.push_back(place->second);
     }
     return numbers;
@@ -82,8 +82,9 @@ class AroundApex {
     const auto operand = [&](int index) -> const Expansion& { return steps[static_cast<std::size_t>(index)]; };
     switch (step.operation) {
       case Operation::constant:
-        return Expansion{0, builder_.constant(step.value, step.radius), step.value == 0 && step.radius == 0,
-                         enclosed_as(step.value, step.radius, static_cast<Interval*>(nullptr)), builder_.constant(0)};
+        return Expansion{0, builder_.constant(step.value(), step.radius()), step.value() == 0 && step.radius() == 0,
+                         enclosed_as(step.value(), step.radius(), static_cast<Interval*>(nullptr)),
+                         builder_.constant(0)};
       case Operation::variable:
         return variable(step.first);
       case Operation::add:

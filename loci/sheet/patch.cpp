@@ -134,17 +134,14 @@ core::Polynomial without_denominators(core::Polynomial function, const core::Roo
 core::StraightLine Chart::in_chart(const core::StraightLine& polar) const {
   using Operation = core::StraightLine::Operation;
   core::StraightLine line;
-  line.steps = {{Operation::variable, 1, 0, {}},
-                {Operation::constant, 0, 0, exact_half_},
-                {Operation::constant, 0, 0, exact_middle_, radius_},
-                {Operation::multiply, 0, 1, {}},
-                {Operation::add, 2, 3, {}},
-                {Operation::constant, 0, 0, exact_depth_, radius_}};
+  line.steps = {
+      {Operation::variable, 1, 0}, core::constant_step(exact_half_), core::constant_step(exact_middle_, radius_),
+      {Operation::multiply, 0, 1}, {Operation::add, 2, 3},           core::constant_step(exact_depth_, radius_)};
   int wide = 4, deep = 5;
   if (sheared_) {  // the one off the tangent is counted from it
-    line.steps.push_back({Operation::constant, 0, 0, exact_slope_});
-    line.steps.push_back({Operation::multiply, 6, deep_is_along_ ? deep : wide, {}});
-    line.steps.push_back({Operation::subtract, deep_is_along_ ? wide : deep, 7, {}});
+    line.steps.push_back(core::constant_step(exact_slope_));
+    line.steps.push_back({Operation::multiply, 6, deep_is_along_ ? deep : wide});
+    line.steps.push_back({Operation::subtract, deep_is_along_ ? wide : deep, 7});
     (deep_is_along_ ? wide : deep) = 8;
   }
   const int offset = static_cast<int>(line.steps.size());

@@ -114,7 +114,7 @@ class SheetProgram::Builder {
       const auto operand = [&](int index) { return nodes[index]; };
       switch (step.operation) {
         case Step::constant:
-          nodes.push_back(step.radius == 0 ? constant(step.value) : enclosed_constant(step.value, step.radius));
+          nodes.push_back(step.radius() == 0 ? constant(step.value()) : enclosed_constant(step.value(), step.radius()));
           break;
         case Step::variable:
           nodes.push_back(step.first);
@@ -173,7 +173,7 @@ class SheetProgram::Builder {
   int instructions() const { return instructions_; }
 
   /// The register of every node.
-  std::vector<int> finish(SheetProgram& program) const {
+  std::vector<int> finish(SheetProgram& program) {
     std::vector<int> registers;
     int next = variables_ + static_cast<int>(constants_.size());
     for (const Node& node : nodes_) {
@@ -204,7 +204,7 @@ class SheetProgram::Builder {
       program.instructions_.back().second = registers[node.second];
       registers.push_back(next++);
     }
-    program.constants_ = constants_;
+    program.constants_ = std::move(constants_);
     return registers;
   }
 
@@ -308,8 +308,10 @@ void SheetProgram::compile() {
   to_registers(squares_);
   to_registers(values_);
   zero_ = registers[builder.zero()];
-  for (const Constant& constant : constants_)
+  for (const Constant& constant : constants_) {
+    nearest_constants_.push_back(core::to_double(constant.value));
     enclosed_constants_.push_back(enclosed_as(constant.value, constant.radius, static_cast<Interval*>(nullptr)));
+  }
 }
 
 }  // namespace clearloci::loci::sheet

@@ -113,6 +113,7 @@ class SheetProgram {
     core::Rational value, radius;
   };
   std::vector<Constant> constants_;  // registers variables()...
+  std::vector<double> nearest_constants_;
   std::vector<Interval> enclosed_constants_;
   std::vector<Instruction> instructions_;  // registers after the constants
   std::vector<int> stage_end_;             // roots() + 2 entries
@@ -128,6 +129,8 @@ SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&p
     T& own = values_[program.variables() + i];
     if constexpr (std::is_same_v<T, Interval>)
       own = program.enclosed_constants_[i];
+    else if constexpr (std::is_same_v<T, double>)
+      own = program.nearest_constants_[i];
     else
       own = enclosed_as(program.constants_[i].value, program.constants_[i].radius, static_cast<T*>(nullptr));
   }

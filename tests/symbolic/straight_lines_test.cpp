@@ -19,7 +19,7 @@ double evaluate(const core::StraightLine& line, const std::vector<double>& at) {
     const auto operand = [&](int index) { return values[static_cast<std::size_t>(index)]; };
     switch (step.operation) {
       case Operation::constant:
-        values.push_back(core::to_double(step.value));
+        values.push_back(core::to_double(step.value()));
         break;
       case Operation::variable:
         values.push_back(at[static_cast<std::size_t>(step.first)]);
