@@ -13,6 +13,12 @@ struct SketchLink {
   std::vector<Point2> points;
 };
 
+/// A telescopic leg, from a point of the cylinder to one of the rod; or a piece of a rail on the ground.
+struct SketchSlide {
+  Point2 from{}, to{};
+  bool rail = false;
+};
+
 struct SketchJoint {
   std::string name;
   Point2 at{};
@@ -28,6 +34,7 @@ struct SketchLoad {
 
 struct Sketch {
   std::vector<SketchLink> links;
+  std::vector<SketchSlide> slides;
   std::vector<SketchJoint> joints;
   std::vector<SketchLoad> loads;
   Point2 gravity{};  ///< m/s^2, zero where absent

@@ -71,6 +71,41 @@ int crossings(const NumericModel& model, const Posture& posture) {
   return count;
 }
 
+/// What a prismatic joint slides in: the leg between a point of either link along the axis, if there are two such; else
+/// a rail, where one of the links is the ground.
+std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture& posture, std::size_t joint_index) {
+  const auto& m = model.mechanism;
+  const mechanism::Joint& joint = m.joints[joint_index];
+  if (joint.type != mechanism::JointType::prismatic) return std::nullopt;
+  const Point2& u = posture.axes[joint_index];
+  const Point2& at = point_of(posture, joint.at);
+  if (joint.from == mechanism::ground || joint.to == mechanism::ground) {
+    const double half = 0.6 * typical_length(model, posture);
+    return core::SketchSlide{
+        {at[0] - half * u[0], at[1] - half * u[1]}, {at[0] + half * u[0], at[1] + half * u[1]}, true};
+  }
+  std::optional<core::SketchSlide> longest;
+  double length = 0;
+  for (const int i : m.links[static_cast<std::size_t>(joint.from)].points) {
+    for (const int k : m.links[static_cast<std::size_t>(joint.to)].points) {
+      const Point2 &p = point_of(posture, i), &q = point_of(posture, k);
+      const double across = (q[0] - p[0]) * u[1] - (q[1] - p[1]) * u[0], apart = distance(p, q);
+      if (std::abs(across) > 1e-9 * apart || apart <= length) continue;
+      length = apart;
+      longest = {p, q, false};
+    }
+  }
+  return longest;
+}
+
+/// 1 in the middle of the box, 0 on its rim.
+double centrality(std::span<const double> pose, std::span<const std::array<double, 2>> box) {
+  double least = 1;
+  for (std::size_t c = 0; c < pose.size(); ++c)
+    least = std::min(least, 2 * std::min(pose[c] - box[c][0], box[c][1] - pose[c]) / (box[c][1] - box[c][0]));
+  return least;
+}
+
 /// Poses of a grid over the box, off its symmetries, about a thousand in all; pose after pose.
 std::vector<double> pose_grid(std::span<const std::array<double, 2>> box) {
   const std::size_t n = box.size();
@@ -99,8 +134,12 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     for (const int index : link.points) drawn.points.push_back(point_of(p, index));
     result.links.push_back(std::move(drawn));
   }
+  for (std::size_t j = 0; j < m.joints.size(); ++j)
+    if (const auto drawn = slide(model, p, j)) result.slides.push_back(*drawn);
   for (const auto& joint : m.joints) {
-    const bool on_ground = joint.from == mechanism::ground || joint.to == mechanism::ground;
+    // A slider on the ground has its rail.
+    const bool on_ground = joint.type != mechanism::JointType::prismatic &&
+                           (joint.from == mechanism::ground || joint.to == mechanism::ground);
     result.joints.push_back({joint.name, point_of(p, joint.at), on_ground, joint.actuated});
   }
   for (const auto& load : p.loads) {
@@ -127,7 +166,9 @@ std::optional<std::vector<double>> sample_pose(const NumericModel& model, std::s
     const std::span<const double> pose(poses.data() + k * box.size(), box.size());
     const Posture p = posture(model, pose, mode);
     const double conditioning = largest > 0 ? std::sqrt(std::abs(field.determinants[k]) / largest) : 1;
-    const double score = openness(model, p) * conditioning * spacing(model, p) / (1 + crossings(model, p));
+    // Where nothing folds, such as telescopic legs, a pose amid the box says more than one in its corner.
+    const double open = model.dyads.empty() ? centrality(pose, box) : openness(model, p);
+    const double score = open * conditioning * spacing(model, p) / (1 + crossings(model, p));
     if (score > best_score) {
       best_score = score;
       best.emplace(pose.begin(), pose.end());

@@ -24,7 +24,7 @@ constexpr Font load_font{8.5, true, false};
 constexpr double full_turn = 2 * std::numbers::pi;
 
 /// A rounded bar: the stroke of `path` in the outline's colour, then a narrower one in the fill's.
-void draw_bar(const Context& context, const std::vector<Point2>& path) {
+void draw_bar(const Context& context, const std::vector<Point2>& path, double width_of_bar) {
   context->set_line_cap(Cairo::Context::LineCap::ROUND);
   context->set_line_join(Cairo::Context::LineJoin::ROUND);
   context->unset_dash();
@@ -34,8 +34,26 @@ void draw_bar(const Context& context, const std::vector<Point2>& path) {
     set_colour(context, colour, opacity);
     context->stroke();
   };
-  stroke(bar_width, outline, 0.55);
-  stroke(bar_width - 1.4, link_fill, 0.85);
+  stroke(width_of_bar, outline, 0.55);
+  stroke(width_of_bar - 1.4, link_fill, 0.85);
+}
+
+/// A rail is a line under the slider, a telescopic leg a bar that grows thinner half way.
+void draw_slide(const Context& context, const Layout& layout, const core::SketchSlide& slide) {
+  const Point2 from = layout.page(slide.from), to = layout.page(slide.to);
+  if (slide.rail) {
+    context->unset_dash();
+    context->set_line_cap(Cairo::Context::LineCap::ROUND);
+    context->move_to(from[0], from[1]);
+    context->line_to(to[0], to[1]);
+    context->set_line_width(3);
+    set_colour(context, outline, 0.45);
+    context->stroke();
+    return;
+  }
+  const Point2 middle = {(from[0] + to[0]) / 2, (from[1] + to[1]) / 2};
+  draw_bar(context, {middle, to}, 0.55 * bar_width);
+  draw_bar(context, {from, middle}, bar_width);
 }
 
 void draw_pin(const Context& context, const Point2& at, bool actuated) {
@@ -217,12 +235,13 @@ void draw_links(const Context& context, const Layout& layout, const core::Sketch
   for (const auto& joint : sketch.joints) {
     if (joint.on_ground) draw_ground(context, layout.page(joint.at));
   }
+  for (const auto& slide : sketch.slides) draw_slide(context, layout, slide);
   for (const auto& link : sketch.links) {
     std::vector<Point2> path;
     for (const auto& point : link.points) path.push_back(layout.page(point));
     // A link of three points or more is a plate: its outline closes.
     if (path.size() > 2) path.push_back(path.front());
-    draw_bar(context, path);
+    draw_bar(context, path, bar_width);
   }
 }
 
@@ -248,7 +267,7 @@ void draw_loads(const Context& context, const Layout& layout, const core::Sketch
 
 void draw_mechanism_sample(const Context& context, double x, double y, double width) {
   const Point2 left = {x + 7, y}, right = {x + width - 6, y};
-  draw_bar(context, {left, right});
+  draw_bar(context, {left, right}, bar_width);
   draw_pin(context, left, true);
   draw_pin(context, right, false);
 }

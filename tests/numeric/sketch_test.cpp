@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mechanism/read.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/numeric/designs.hpp"
 
@@ -23,6 +24,35 @@ TEST(Sketch, ShowsLinksJointsAndLoadsButNoWeights) {
   EXPECT_EQ(s.loads[0].force, (core::Point2{0, -100}));
   EXPECT_EQ(s.loads[0].couple, 2);
   EXPECT_EQ(s.gravity, (core::Point2{0, -9.81}));
+}
+
+TEST(Sketch, ShowsTelescopicLegsAndRails) {
+  const auto example = [](const std::string& name) {
+    return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  };
+  const NumericModel telescopic = compile(example("three_rpr"));
+  const auto legs = sketch(telescopic, std::array{0.1, 0.05}, {});
+  ASSERT_EQ(legs.slides.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_FALSE(legs.slides[i].rail);
+    EXPECT_EQ(legs.slides[i].from, legs.joints[3 * i].at);  // A1, S1, B1, A2, ...
+    EXPECT_NE(legs.slides[i].from, legs.slides[i].to);
+  }
+  const NumericModel sliding = compile(example("prrrp"));
+  const auto rails = sketch(sliding, std::array{0.3, 0.0}, mechanism::working_mode(sliding.mechanism));
+  ASSERT_EQ(rails.slides.size(), 2u);
+  EXPECT_TRUE(rails.slides[0].rail && rails.slides[1].rail);
+}
+
+TEST(SamplePose, IsAmidTheBoxWhereNothingFolds) {
+  const NumericModel model =
+      compile(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/rprpr.yaml"));
+  const auto pose = sample_pose(model, {}, model.box);
+  ASSERT_TRUE(pose.has_value());
+  for (std::size_t c = 0; c < 2; ++c) {
+    const double part = ((*pose)[c] - model.box[c][0]) / (model.box[c][1] - model.box[c][0]);
+    EXPECT_TRUE(part > 0.15 && part < 0.85) << part;
+  }
 }
 
 TEST(SamplePose, IsReachableWellConditionedAndOpen) {
