@@ -167,6 +167,27 @@ Polynomial primitive_part(const Polynomial& p) {
   return result;
 }
 
+Polynomial scaled_for_doubles(const Polynomial& p) {
+  if (p.is_zero()) return p;
+  Rational largest = 0;
+  for (const Term& term : p.terms) largest = std::max(largest, Rational(abs(term.coefficient)));
+  const auto bits = [](const Integer& value) { return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2)); };
+  const auto times_power_of_two = [](const Rational& value, long exponent) {
+    Rational result;
+    if (exponent >= 0)
+      mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+    else
+      mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+    return result;
+  };
+  // |largest| lies between 2^(difference - 1) and 2^(difference + 1).
+  long exponent = bits(largest.get_den()) - bits(largest.get_num());
+  if (times_power_of_two(largest, exponent) < 1) ++exponent;
+  Polynomial result = p;
+  for (Term& term : result.terms) term.coefficient = times_power_of_two(term.coefficient, exponent);
+  return result;
+}
+
 std::string to_string(const Polynomial& p, std::span<const std::string> names) {
   ensure(static_cast<int>(names.size()) >= p.variables, "one name a variable");
   if (p.is_zero()) return "0";

@@ -56,6 +56,10 @@ Polynomial with_variables(const Polynomial& p, int variables);
 /// factor become equal.
 Polynomial primitive_part(const Polynomial& p);
 
+/// The multiple by a power of two, positive, whose largest coefficient is in [1, 2): within the range of doubles, which
+/// integer coefficients of a long elimination leave behind.
+Polynomial scaled_for_doubles(const Polynomial& p);
+
 /// Infix with `^`: "x^2 + y^2 - x + y + 1/4".
 std::string to_string(const Polynomial& p, std::span<const std::string> names);
 

@@ -403,7 +403,7 @@ class Derivation {
     for (const SheetFactor& part : parts) {
       if (without_determinant && divides_determinant(part.sheet)) continue;
       LocusFactor factor = common;
-      factor.sheet = part.sheet.plain(variables);
+      factor.sheet = core::scaled_for_doubles(part.sheet.plain(variables));
       for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
       for (const Poly& curve : part.implicit) factor.implicit.push_back(curve.plain(free));
       factor.implicit_too_heavy = part.too_heavy;
@@ -455,7 +455,7 @@ class Derivation {
     for (const Poly& denominator : elimination_.denominator_factors()) {
       LocusFactor factor;
       factor.role = FactorRole::construction;
-      factor.sheet = denominator.plain(variables);
+      factor.sheet = core::scaled_for_doubles(denominator.plain(variables));
       factor.implicit = {denominator.plain(free)};
       result_.problem.factors.push_back(std::move(factor));
     }

@@ -14,7 +14,9 @@ StraightLines::StraightLines(const Geometry& geometry) : geometry_(&geometry) {
   for (std::size_t i = 0; i < own.size(); ++i) known_[own[i]] = builder_.variable(static_cast<int>(i));
 }
 
-StraightLine StraightLines::of(const Poly& natural) { return builder_.line(value(natural.plain())); }
+StraightLine StraightLines::of(const Poly& natural) {
+  return builder_.line(value(core::scaled_for_doubles(natural.plain())));
+}
 
 StraightLine StraightLines::square(std::size_t root) {
   const std::optional<Dyad> known = dyad(geometry_->roots()[root].point);

@@ -96,6 +96,20 @@ RC_GTEST_PROP(PrimitivePart, IsTheSameForEveryMultiple, ()) {
   }
 }
 
+RC_GTEST_PROP(ScaledForDoubles, IsAPositiveMultipleWithALargestCoefficientBetween1And2, ()) {
+  const Polynomial p = any_polynomial();
+  RC_PRE(!p.is_zero());
+  Integer huge = 1;
+  huge <<= static_cast<unsigned>(*rc::gen::inRange(0, 5000));
+  const Rational factor = *rc::gen::arbitrary<bool>() ? Rational(huge) : Rational(1, huge);
+  const Polynomial scaled = scaled_for_doubles(p * constant_polynomial(p.variables, factor));
+  RC_ASSERT(primitive_part(scaled) == primitive_part(p));
+  RC_ASSERT((sgn(scaled.terms.front().coefficient) == sgn(p.terms.front().coefficient)));
+  Rational largest = 0;
+  for (const Term& term : scaled.terms) largest = std::max(largest, Rational(abs(term.coefficient)));
+  RC_ASSERT((largest >= 1 && largest < 2));
+}
+
 TEST(Polynomial, Degrees) {
   EXPECT_EQ(total_degree(constant(0)), -1);
   EXPECT_EQ(total_degree(constant(5)), 0);
