@@ -234,6 +234,28 @@ void check_distinct_bases(const Mechanism& mechanism) {
   }
 }
 
+namespace {
+
+/// A cross whose arms are one line turns about it alone, and has no couple to bear across both.
+void check_cross(const Mechanism& mechanism, const Joint& joint, const std::vector<std::vector<double>>& poses) {
+  constexpr double least_sine = 1e-9;  // what rounding leaves of two parallel directions is far below
+  bool sampled = false;
+  for (const std::vector<double>& pose : poses) {
+    const auto a = sample_vector(mechanism, joint.axes[0], pose), b = sample_vector(mechanism, joint.axes[1], pose);
+    if (!a || !b) continue;
+    const auto& [ax, ay, az] = *a;
+    const auto& [bx, by, bz] = *b;
+    const std::array<double, 3> across = {ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx};
+    if (distance(across, {}) > least_sine * distance(*a, {}) * distance(*b, {})) return;
+    sampled = true;
+  }
+  if (sampled)
+    throw InputError(joint.where, "the axes of the universal joint " + joint.name + " are parallel in every pose",
+                     "write two different directions, the second for example cross(first, B - A)");
+}
+
+}  // namespace
+
 void check_axes(const Mechanism& mechanism) {
   constexpr std::size_t poses = 16;
   for (const Joint& joint : mechanism.joints) {
@@ -268,6 +290,7 @@ void check_axes(const Mechanism& mechanism) {
                          name + " of joint " + joint.name + " is fixed in the ground, but turns over the workspace",
                          "write a direction that stands still");
     }
+    if (joint.type == JointType::universal) check_cross(mechanism, joint, spread_poses(mechanism, poses));
   }
 }
 

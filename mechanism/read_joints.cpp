@@ -34,6 +34,13 @@ JointType read_type(const Mechanism& mechanism, const Entry& entry) {
                          "use revolute and prismatic joints in the plane, or write space: spatial");
     }
   }
+  if (!found && mechanism.space == Space::spatial && entry.value.is_map())
+    for (const Entry& part : entries(entry.value)) {
+      static const std::vector<std::string> others = {"at", "axis", "axes", "actuated", "clearance"};
+      if (std::find(others.begin(), others.end(), part.key) == others.end())
+        throw InputError(part.where, "joint " + entry.key + ": '" + part.key + "' is no type of joint",
+                         "write revolute, prismatic, universal, spherical or cylindrical: [from, to]");
+    }
   // Without any of the keys the revolute one is asked for, which says what is missing or misspelt.
   return found.value_or(JointType::revolute);
 }

@@ -102,5 +102,17 @@ TEST(SpatialErrors, ADyadOfThePlaneHasNoAxis) {
                    "unknown key 'axis'");
 }
 
+TEST(SpatialErrors, AxesOfACrossAreNotParallel) {
+  expect_complaint(with(platform(), "axes: [[0, 1, 0], 'cross([0, 1, 0], B1 - A1)']", "axes: [[0, 1, 0], [0, -2, 0]]"),
+                   "the axes of the universal joint U1 are parallel in every pose");
+  expect_complaint(with(platform(), "axes: ['cross([0, 1, 0], B1 - A1)', [0, 1, 0]]",
+                        "axes: ['cross([0, 1, 0], B1 - A1)', 'cross(B1 - A1, [0, 2, 0])']"),
+                   "the axes of the universal joint V1 are parallel in every pose");
+}
+
+TEST(SpatialErrors, NamesTheTypesOfJoints) {
+  expect_complaint(with(platform(), "U1: {universal: ", "U1: {cardan: "), "joint U1: 'cardan' is no type of joint");
+}
+
 }  // namespace
 }  // namespace clearloci::mechanism
