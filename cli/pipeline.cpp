@@ -11,6 +11,7 @@
 
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
+#include "loci/chart_maps.hpp"
 #include "loci/surfaces.hpp"
 #include "numeric/sketch.hpp"
 
@@ -121,11 +122,17 @@ core::LocusMap trace_charts(const mechanism::Mechanism& mechanism, const LociReq
     return map;
   }
   std::vector<core::LocusMap> maps;
+  std::vector<const core::LocusProblem*> problems;
   for (const symbolic::DerivedProblem& derived : charts) {
     if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
     maps.push_back(loci::trace(derived.problem, options));
+    problems.push_back(&derived.problem);
   }
-  return mechanism.coordinates.size() == 1 ? join_charts(mechanism, charts, maps) : std::move(maps.front());
+  if (mechanism.coordinates.size() == 1) return join_charts(mechanism, charts, maps);
+  if (problems.front()->charts.empty()) return std::move(maps.front());
+  core::LocusMap map = loci::join_charts(problems, std::move(maps), request.tolerance);
+  name_coordinates(mechanism, map);
+  return map;
 }
 
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
@@ -142,17 +149,14 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
   try {
     if (request.progress) request.progress(0, "equations");
     check_deadline();
-    std::vector<symbolic::DerivedProblem> charts;
-    if (mechanism.coordinates.size() != 2)
-      charts = family != nullptr ? family->problems(mechanism, request.selection)
-                                 : symbolic::locus_problems(mechanism, request.selection);
-    else
-      charts.push_back(family != nullptr ? symbolic::locus_problem(mechanism, request.selection, *family)
-                                         : symbolic::locus_problem(mechanism, request.selection));
+    std::vector<symbolic::DerivedProblem> charts = family != nullptr
+                                                       ? family->problems(mechanism, request.selection)
+                                                       : symbolic::locus_problems(mechanism, request.selection);
     for (symbolic::DerivedProblem& derived : charts) {
       symbolic += derived.symbolic_seconds;
       elimination += derived.elimination_seconds;
-      derived.problem.tolerance = request.tolerance;
+      derived.problem.tolerance =
+          derived.problem.charts.empty() ? request.tolerance : loci::chart_tolerance(request.tolerance);
       derived.problem.modes = modes_to_trace(mechanism, request, derived.problem.tower);
     }
 

@@ -44,6 +44,12 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
 }  // namespace
 
 core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    if (coordinate.angle)
+      throw core::InputError(
+          {mechanism.file},
+          "zones lie in the plane of two lengths, and the free coordinate '" + coordinate.name + "' is an angle",
+          "make it a parameter and vary it with --set; 'loci' and 'validate' take angles");
   constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
   LociRequest finer = request;
   for (int attempt = 1;; ++attempt) {

@@ -90,9 +90,10 @@ struct LocusCurve {
   std::string id;  ///< "c1"
   LocusKind kind = LocusKind::contact_loss;
   std::vector<Vanishing> vanishing;
-  std::string factor;   ///< LocusFactor::expression
-  std::string cause;    ///< LocusFactor::cause
-  Polynomial implicit;  ///< in (x, y), primitive over Z
+  std::string factor;                       ///< LocusFactor::expression
+  std::string cause;                        ///< LocusFactor::cause
+  Polynomial implicit;                      ///< in (x, y), primitive over Z; zero as a surface's
+  std::vector<std::string> variables = {};  ///< of `implicit`, of an angle "tan(phi/2)"; empty: the map's coordinates
   ClosedForm closed_form;
   WorkingMode mode;
   bool certified = false;

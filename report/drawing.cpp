@@ -82,10 +82,10 @@ void draw_field(const Context& context, const FieldLayer& layer, const Layout& l
   };
   for (int row = 0; row < height; ++row) {
     unsigned char* const pixels = image->get_data() + static_cast<std::ptrdiff_t>(row) * image->get_stride();
-    const double y = layout.high[1] - (row + 0.5) / pixels_per_point / layout.scale;
+    const double y = layout.high[1] - (row + 0.5) / pixels_per_point / layout.scale[1];
     const int j = cell(y, map.lower[1], map.upper[1], map.ny);
     for (int column = 0; column < width; ++column) {
-      const double x = layout.low[0] + (column + 0.5) / pixels_per_point / layout.scale;
+      const double x = layout.low[0] + (column + 0.5) / pixels_per_point / layout.scale[0];
       const int i = cell(x, map.lower[0], map.upper[0], map.nx);
       const double value = i < 0 || j < 0 ? NAN : layer.field->values[map.index(i, j)];
       std::uint32_t pixel = 0;

@@ -13,6 +13,12 @@ Json feature(Json geometry, Json properties) {
   return {{"type", "Feature"}, {"geometry", std::move(geometry)}, {"properties", std::move(properties)}};
 }
 
+/// "m", or one a coordinate.
+Json units_object(const core::LocusMap& map) {
+  const std::vector<std::string> units = units_of(map);
+  return units.size() == 1 ? Json(units.front()) : Json(units);
+}
+
 Json arc_feature(const core::LocusMap& map, const core::LocusCurve& curve, std::size_t index) {
   const core::Arc& arc = curve.arcs[index];
   Json properties = {{"curve", curve.id},
@@ -26,7 +32,7 @@ Json arc_feature(const core::LocusMap& map, const core::LocusCurve& curve, std::
                      {"closed", arc.closed},
                      {"ends", Json::array()},
                      {"length", arc.length},
-                     {"units", "m"}};
+                     {"units", units_object(map)}};
   if (!arc.closed) properties["ends"] = {core::to_string(arc.ends[0]), core::to_string(arc.ends[1])};
   return feature({{"type", "LineString"}, {"coordinates", arc.points}}, std::move(properties));
 }
@@ -41,14 +47,14 @@ Json point_feature(const core::LocusMap& map, std::size_t index) {
                      {"vanishing", vanishing_array(point.vanishing)},
                      {"mode", mode_object(map.tower, point.mode)},
                      {"certified", point.certified},
-                     {"units", "m"}};
+                     {"units", units_object(map)}};
   return feature({{"type", "Point"}, {"coordinates", position}}, std::move(properties));
 }
 
 }  // namespace
 
 std::string geojson(const core::LocusMap& map) {
-  Json root = {{"type", "FeatureCollection"},          {"name", printable(map.mechanism)}, {"units", "m"},
+  Json root = {{"type", "FeatureCollection"},          {"name", printable(map.mechanism)}, {"units", units_object(map)},
                {"coordinates", map.tower.coordinates}, {"complete", map.complete},         {"features", Json::array()}};
   for (const auto& curve : map.curves) {
     for (std::size_t i = 0; i < curve.arcs.size(); ++i) {

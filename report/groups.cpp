@@ -55,6 +55,7 @@ std::string reason_words(const core::LocusCurve& curve) {
   if (!curve.cause.empty()) return printable(curve.cause);
   constexpr int readable = 44;
   if (!curve.factor.empty() && columns(curve.factor) <= readable) return printable(curve.factor) + " = 0";
+  if (curve.implicit.is_zero()) return "";
   return "curve of degree " + std::to_string(core::total_degree(curve.implicit));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "report/axis.hpp"
 #include "report/wording.hpp"
@@ -19,6 +20,8 @@ constexpr double legend_gap = 18;  // between plot and legend
 constexpr double entry_gap = 5.5;  // between two entries
 constexpr Font title_font{13, true, false};
 constexpr Font subtitle_font{9.5, false, false};
+
+bool is_angle(const core::LocusMap& map, int coordinate) { return !map.angles.empty() && map.angles[coordinate]; }
 
 /// The searched box and, where it does not get lost in it, the mechanism, with a margin around both.
 void choose_view(const Subject& subject, Layout& layout) {
@@ -45,32 +48,55 @@ void choose_view(const Subject& subject, Layout& layout) {
       layout.high = high;
     }
   }
-  const double margin = 0.03 * std::max(layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]);
-  const double side = std::max(layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]) + 2 * margin;
-  for (int i = 0; i < 2; ++i) {
-    const double missing = side * shortest_side / longest_side - (layout.high[i] - layout.low[i] + 2 * margin);
-    layout.low[i] -= margin + std::max(0.0, missing / 2);
-    layout.high[i] += margin + std::max(0.0, missing / 2);
+  const core::Point2 extent = {layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]};
+  if (planar && (is_angle(map, 0) || is_angle(map, 1))) {
+    // No length compares with an angle: the box is drawn as a square.
+    for (int i = 0; i < 2; ++i) {
+      layout.low[i] -= 0.03 * extent[i];
+      layout.high[i] += 0.03 * extent[i];
+      layout.scale[i] = longest_side / (layout.high[i] - layout.low[i]);
+    }
+  } else {
+    const double margin = 0.03 * std::max(extent[0], extent[1]);
+    const double side = std::max(extent[0], extent[1]) + 2 * margin;
+    for (int i = 0; i < 2; ++i) {
+      const double missing = side * shortest_side / longest_side - (extent[i] + 2 * margin);
+      layout.low[i] -= margin + std::max(0.0, missing / 2);
+      layout.high[i] += margin + std::max(0.0, missing / 2);
+      layout.scale[i] = longest_side / side;
+    }
   }
-  layout.scale = longest_side / side;
-  layout.plot.width = (layout.high[0] - layout.low[0]) * layout.scale;
-  layout.plot.height = (layout.high[1] - layout.low[1]) * layout.scale;
+  layout.plot.width = (layout.high[0] - layout.low[0]) * layout.scale[0];
+  layout.plot.height = (layout.high[1] - layout.low[1]) * layout.scale[1];
+}
+
+/// Ticks of one axis at least `apart` points from each other, `at` in the unit of the coordinate; of angles in degrees.
+std::vector<Tick> ticks_of(const core::LocusMap& map, const Layout& layout, int i, double apart) {
+  constexpr double degree = std::numbers::pi / 180;
+  if (!is_angle(map, i)) return ticks(layout.low[i], layout.high[i], apart / layout.scale[i]);
+  std::vector<Tick> result =
+      angle_ticks(layout.low[i] / degree, layout.high[i] / degree, apart / layout.scale[i] / degree);
+  for (Tick& tick : result) tick.at *= degree;
+  return result;
 }
 
 void choose_axes(const Subject& subject, Layout& layout) {
-  const auto& names = subject.map->tower.coordinates;
-  layout.x_label = printable(names[0]) + " (m)";
-  layout.x_ticks = ticks(layout.low[0], layout.high[0], 52 / layout.scale);
-  if (names.size() < 2) return;
-  layout.y_label = printable(names[1]) + " (m)";
-  layout.y_ticks = ticks(layout.low[1], layout.high[1], 42 / layout.scale);
+  const core::LocusMap& map = *subject.map;
+  const auto label = [&](int i) {
+    return printable(map.tower.coordinates[i]) + (is_angle(map, i) ? " (deg)" : " (m)");
+  };
+  layout.x_label = label(0);
+  layout.x_ticks = ticks_of(map, layout, 0, 52);
+  if (map.tower.coordinates.size() < 2) return;
+  layout.y_label = label(1);
+  layout.y_ticks = ticks_of(map, layout, 1, 42);
 }
 
 /// True where the plot had to grow for the mechanism, so that the searched box needs an explanation.
 bool shows_more_than_searched(const Layout& layout) {
-  const double margin = 0.1 * std::max(layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]);
   bool more = false;
   for (int i = 0; i < 2; ++i) {
+    const double margin = 0.1 * std::max(layout.plot.width, layout.plot.height) / layout.scale[i];
     more = more || layout.search_low[i] - layout.low[i] > margin || layout.high[i] - layout.search_high[i] > margin;
   }
   return more;

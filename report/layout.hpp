@@ -50,13 +50,13 @@ struct TitleLine {
   double x = 0, y = 0;  ///< left end of the baseline
 };
 
-/// One picture: the loci of one working mode. Axes have one scale, y points up.
+/// One picture: the loci of one working mode. Axes of lengths have one scale, y points up.
 struct Layout {
   double width = 0, height = 0;
   Box plot;
-  core::Point2 low{}, high{};                ///< what the plot shows, m
-  core::Point2 search_low{}, search_high{};  ///< the box that was searched, m
-  double scale = 1;                          ///< pt/m
+  core::Point2 low{}, high{};                ///< what the plot shows, m or rad
+  core::Point2 search_low{}, search_high{};  ///< the box that was searched, likewise
+  core::Point2 scale = {1, 1};               ///< pt/m, pt/rad
   std::vector<Tick> x_ticks, y_ticks;
   std::string x_label, y_label;
   double y_label_x = 0;  ///< baseline of the upright y label
@@ -64,7 +64,7 @@ struct Layout {
   std::vector<LegendEntry> legend;
 
   core::Point2 page(const core::Point2& point) const {
-    return {plot.x + (point[0] - low[0]) * scale, plot.bottom() - (point[1] - low[1]) * scale};
+    return {plot.x + (point[0] - low[0]) * scale[0], plot.bottom() - (point[1] - low[1]) * scale[1]};
   }
 };
 

@@ -81,8 +81,11 @@ Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
   body["vanishing"] = vanishing_array(curve.vanishing);
   body["factor"] = printable(curve.factor);
   body["cause"] = printable(curve.cause);
-  body["implicit"] = {{"polynomial", core::to_string(curve.implicit, map.tower.coordinates)},
-                      {"degree", core::total_degree(curve.implicit)}};
+  body["implicit"] = nullptr;
+  if (!curve.implicit.is_zero())
+    body["implicit"] = {{"polynomial", core::to_string(curve.implicit, curve.variables.empty() ? map.tower.coordinates
+                                                                                               : curve.variables)},
+                        {"degree", core::total_degree(curve.implicit)}};
   body["closed_form"] = closed_form_object(curve.closed_form);
   body["working_mode"] = mode_object(map.tower, curve.mode);
   body["certified"] = curve.certified;

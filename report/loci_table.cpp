@@ -108,16 +108,24 @@ double total_length(const core::LocusCurve& curve) {
   return length;
 }
 
+bool has_angles(const core::LocusMap& map) {
+  return std::any_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; });
+}
+
 std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
-  std::vector<Column> heading = {{"curve", 8},         {"kind", 18},       {"what vanishes, where", 0},
-                                 {"degree", 6, true},  {"closed form", 0}, {"arcs", 4, true},
-                                 {"length/m", 8, true}};
+  std::vector<Column> heading = {{"curve", 8},
+                                 {"kind", 18},
+                                 {"what vanishes, where", 0},
+                                 {"degree", 6, true},
+                                 {"closed form", 0},
+                                 {"arcs", 4, true},
+                                 {has_angles(map) ? "length" : "length/m", 8, true}};
   std::vector<Row> rows;
   int closed_form = 0, identifier = columns(heading[0].heading);
   for (const auto& curve : map.curves) {
     if (curve.mode != mode) continue;
     rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind), where(curve),
-                    std::to_string(core::total_degree(curve.implicit)),
+                    curve.implicit.is_zero() ? "-" : std::to_string(core::total_degree(curve.implicit)),
                     closed_form_words(curve.closed_form, map.tower.coordinates), std::to_string(curve.arcs.size()),
                     fmt::format("{:.4f}", total_length(curve))});
     closed_form = std::max(closed_form, columns(rows.back()[4]));
@@ -134,7 +142,9 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode)
 
 std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
   std::vector<Column> heading = {{"point", 8}, {"kind", 18}, {"vanishing", 40}};
-  for (const auto& name : map.tower.coordinates) heading.push_back({printable(name) + "/m", 14, true});
+  for (std::size_t i = 0; i < map.tower.coordinates.size(); ++i)
+    heading.push_back(
+        {printable(map.tower.coordinates[i]) + (has_angles(map) && map.angles[i] ? "/rad" : "/m"), 14, true});
   std::vector<Row> rows;
   for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
     const auto& point = map.isolated_points[i];
@@ -158,14 +168,13 @@ std::string where(const core::LocusSurface& surface) {
 }
 
 std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
-  const bool lengths = std::none_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; });
   const std::vector<Column> heading = {{"surface", 8},
                                        {"kind", 18},
                                        {"what vanishes, where", 52},
                                        {"degree", 6, true},
                                        {"pieces", 6, true},
                                        {"triangles", 9, true},
-                                       {lengths ? "area/m^2" : "area", 9, true}};
+                                       {has_angles(map) ? "area" : "area/m^2", 9, true}};
   std::vector<Row> rows;
   for (const auto& surface : map.surfaces) {
     if (surface.mode != mode) continue;

@@ -52,7 +52,7 @@ void draw_task(const Context& context, const TaskMark& task, const Layout& layou
   set_colour(context, colour_of(task), 0.15);
   if (task.margin > 0) {
     trace();
-    context->set_line_width(2 * task.margin * layout.scale);
+    context->set_line_width(2 * task.margin * layout.scale[0]);
     context->stroke();
   }
   if (task.filled) {

@@ -124,14 +124,6 @@ std::vector<std::string> kind_names() {
   return names;
 }
 
-/// One of all lengths; one a coordinate where angles are among them.
-std::vector<std::string> units_of(const core::LocusMap& map) {
-  if (std::none_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; })) return {"m"};
-  std::vector<std::string> units;
-  for (const bool angle : map.angles) units.emplace_back(angle ? "rad" : "m");
-  return units;
-}
-
 }  // namespace
 
 std::string vtp(const core::LocusMap& map) {

@@ -202,4 +202,11 @@ int columns(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
+std::vector<std::string> units_of(const core::LocusMap& map) {
+  if (std::none_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; })) return {"m"};
+  std::vector<std::string> units;
+  for (const bool angle : map.angles) units.emplace_back(angle ? "rad" : "m");
+  return units;
+}
+
 }  // namespace clearloci::report

@@ -50,4 +50,7 @@ std::string printable(std::string_view text);
 /// Code points of `text`, the number of columns it takes in a terminal (wide scripts aside).
 int columns(std::string_view text);
 
+/// Of the coordinates: one of all lengths; one a coordinate where angles are among them.
+std::vector<std::string> units_of(const core::LocusMap& map);
+
 }  // namespace clearloci::report

@@ -55,7 +55,7 @@ void draw_zones(const Context& context, const Subject& subject, const Layout& la
 void draw_zone_numbers(const Context& context, const Subject& subject, const Layout& layout) {
   for_each_zone(subject, [&](const core::Zone& zone, std::size_t) {
     const core::Point2 at = layout.page(zone.inscribed.centre);
-    const double radius = zone.inscribed.radius * layout.scale;
+    const double radius = zone.inscribed.radius * layout.scale[0];
     set_colour(context, circle_colour, 0.8);
     context->set_line_width(0.7);
     context->set_dash(std::vector<double>{3, 2}, 0);
