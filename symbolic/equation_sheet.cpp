@@ -1,6 +1,7 @@
 #include "symbolic/equation_sheet.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <iomanip>
 #include <sstream>
 
@@ -68,20 +69,28 @@ class SheetWriter {
   Determinant determinant(const std::string& name, const FactoredPoly& p) {
     Determinant result{name, product_formula(p, geometry_.ring().names(), language_), {}};
     for (const PolyFactor& factor : p.factors) {
-      DeterminantFactor entry{text(factor.poly), factor.multiplicity, causes_.of(factor.poly), implicit(factor.poly)};
+      const Implicit& own = implicit(factor.poly);
+      DeterminantFactor entry{text(factor.poly), factor.multiplicity, causes_.of(factor.poly), own.list, own.too_heavy};
       result.factors.push_back(std::move(entry));
     }
     return result;
   }
 
+  struct Implicit {
+    Poly natural;
+    std::vector<ImplicitPolynomial> list;
+    bool too_heavy = false;
+  };
+
   /// Several numerators share factors: each is eliminated once.
-  const std::vector<ImplicitPolynomial>& implicit(const Poly& natural) {
-    const auto known =
-        std::find_if(implicit_.begin(), implicit_.end(), [&](const auto& entry) { return entry.first == natural; });
-    if (known != implicit_.end()) return known->second;
+  const Implicit& implicit(const Poly& natural) {
+    const auto known = std::find_if(implicit_.begin(), implicit_.end(),
+                                    [&](const Implicit& entry) { return entry.natural == natural; });
+    if (known != implicit_.end()) return *known;
     std::vector<ImplicitPolynomial> list;
     const Poly sheet = elimination_.over_tower(natural);
-    if (!sheet.is_zero()) {
+    const bool too_heavy = !sheet.is_zero() && elimination_.is_too_heavy(sheet);
+    if (!sheet.is_zero() && !too_heavy) {
       for (const Poly& curve : elimination_.implicit_factors(sheet)) {
         int degree = 0;
         for (const core::Term& term : curve.plain().terms) {
@@ -92,7 +101,7 @@ class SheetWriter {
         list.push_back({text(curve), degree, closed_form(curve, degree)});
       }
     }
-    return implicit_.emplace_back(natural, std::move(list)).second;
+    return implicit_.emplace_back(Implicit{natural, std::move(list), too_heavy});
   }
 
   /// Coefficient of x^i y^j, a polynomial in the parameters.
@@ -274,7 +283,7 @@ class SheetWriter {
   FactoredDeterminants determinants_;
   Elimination elimination_;
   Causes causes_;
-  std::vector<std::pair<Poly, std::vector<ImplicitPolynomial>>> implicit_;
+  std::deque<Implicit> implicit_;  ///< references to its elements stay valid
 };
 
 }  // namespace

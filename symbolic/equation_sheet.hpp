@@ -23,6 +23,7 @@ struct DeterminantFactor {
   int multiplicity = 1;
   std::string cause;  ///< may be empty
   std::vector<ImplicitPolynomial> implicit;
+  bool too_heavy = false;  ///< `implicit` is empty: the roots' conjugates come to more than anyone can use
 };
 
 /// |A| or one numerator |A_J^k|. `name`: the unknown ("fA1x"), or "A" for the determinant itself.

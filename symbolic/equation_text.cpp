@@ -26,6 +26,7 @@ void write_factors(std::ostream& out, const Determinant& d, const std::string& i
       if (!implicit.closed_form.empty()) out << "   [" << implicit.closed_form << "]";
       out << "\n";
     }
+    if (factor.too_heavy) out << indent << "  implicit polynomial: of too high a degree to be of use\n";
   }
 }
 
