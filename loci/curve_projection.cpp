@@ -123,6 +123,8 @@ const core::LocusFactor* factor_of(const core::LocusProblem& problem, const core
                             : curve.kind == LocusKind::workspace_boundary ? FactorRole::workspace_boundary
                                                                           : FactorRole::reaction;
     if (role == FactorRole::workspace_boundary || factor.role != role) continue;
+    // The two senses of a least force have one polynomial.
+    if (role == FactorRole::margin && factor.expression != curve.factor) continue;
     if (std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end())
       return &factor;
   }

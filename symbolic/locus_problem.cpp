@@ -160,6 +160,7 @@ class Derivation {
     if (selection_.min_force || selection_.min_couple) add_margins();
     add_direct_singularities();
     add_boundaries();
+    append_roots();
     result_.elimination_seconds = seconds_since(elimination_start);
     return std::move(result_);
   }
@@ -489,6 +490,81 @@ class Derivation {
     return geometry_.poly(square.expand());
   }
 
+  /// A force along a moving line is size w / |A| for a vector w, and of size f_min where size |w| = +-f_min |A|.
+  /// Squared, the two senses cross wherever size and |A| vanish together, at points that are no better known than the
+  /// curves; over |w| as another root of the tower they are two curves, smooth there.
+  struct TwoSenses {
+    Poly size, square, bound;  ///< |w|^2; f_min |A|
+  };
+
+  /// False: the squared margin is not a single curve, or |w| is constant.
+  bool add_senses(const TwoSenses& senses, const Poly& squared, LocusFactor common) {
+    const std::vector<SheetFactor> parts = elimination_.sheet_factors(squared, true);
+    if (parts.size() != 1 || parts.front().multiplicity != 1) return false;
+    const Poly t = Poly::variable(geometry_.ring(), geometry_.auxiliary());
+    const auto parts_of = [&](const Poly& natural) {
+      return elimination_.over_tower(natural).coefficients(geometry_.auxiliary());
+    };
+    // Coefficients of t^0 and t^1 over the tower have one denominator.
+    const std::vector<Poly> sides = parts_of(senses.size * t + senses.bound), length = parts_of(senses.square + t);
+    if (sides.size() != 2 || length.size() != 2 || length[0].is_constant()) return false;
+    // |w| = root / length[1], root^2 = length[0] length[1].
+    Poly left = sides[1], right = sides[0] * length[1];
+    const Poly shared = gcd(left, right);
+    left = left.exact_quotient(shared);
+    right = right.exact_quotient(shared);
+
+    const std::vector<int> variables = geometry_.tower_variables();
+    // A root of about the size of the coordinates: numerical steps along the curve weigh it against them.
+    const core::Polynomial unscaled = (length[0] * length[1]).plain(variables);
+    core::Polynomial square = core::scaled_for_doubles(unscaled);
+    core::Rational gained = square.terms.front().coefficient / unscaled.terms.front().coefficient;
+    if (!rational_root(gained)) {
+      square = square + square;
+      gained *= 2;
+    }
+    left = left.scaled(1 / *rational_root(gained));
+    const auto known = std::find_if(more_roots_.begin(), more_roots_.end(),
+                                    [&](const core::Root& root) { return root.square == square; });
+    const auto index = static_cast<int>(variables.size() + static_cast<std::size_t>(known - more_roots_.begin()));
+    if (known == more_roots_.end())
+      more_roots_.push_back({"s" + std::to_string(result_.problem.tower.roots.size() + more_roots_.size() + 1), "",
+                             core::RootRole::length, square});
+    common.role = FactorRole::margin;
+    for (const Poly& curve : parts.front().implicit)
+      common.implicit.push_back(
+          curve.plain(std::vector<int>(variables.begin(), variables.begin() + geometry_.coordinates())));
+    common.implicit_too_heavy = parts.front().too_heavy;
+    for (const int sense : {1, -1}) {
+      LocusFactor factor = common;
+      const core::Polynomial root = core::variable_polynomial(index + 1, index);
+      const auto widened = [&](const Poly& p) { return core::with_variables(p.plain(variables), index + 1); };
+      factor.sheet = core::scaled_for_doubles(sense > 0 ? widened(left) * root - widened(right)
+                                                        : widened(left) * root + widened(right));
+      factor.expression = "(" + text(senses.size) + ")*sqrt(" + text(senses.square) + (sense > 0 ? ") - (" : ") + (") +
+                          text(senses.bound) + ")";
+      result_.problem.factors.push_back(std::move(factor));
+    }
+    return true;
+  }
+
+  /// The roots that margins brought, into the tower and everything that is written over it.
+  void append_roots() {
+    if (more_roots_.empty()) return;
+    core::LocusProblem& problem = result_.problem;
+    core::RootTower& tower = problem.tower;
+    tower.roots.insert(tower.roots.end(), more_roots_.begin(), more_roots_.end());
+    const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, tower.variables()); };
+    for (core::Root& root : tower.roots) widen(root.square);
+    for (core::Polynomial& denominator : tower.denominators) widen(denominator);
+    for (core::DyadBase& base : tower.bases) {
+      widen(base.x);
+      widen(base.y);
+    }
+    for (LocusFactor& factor : problem.factors) widen(factor.sheet);
+    for (core::WorkingMode& mode : problem.modes) mode.resize(tower.roots.size(), 1);
+  }
+
   /// |f_J|^2 = f_min^2 and M_J^2 = M_min^2, cleared of |A|^2 (method.md section 5).
   void add_margins() {
     const FactoredPoly& determinant = determinants_.determinant;
@@ -498,14 +574,15 @@ class Derivation {
       Quantity quantity;
       core::Rational bound;
       std::vector<std::string> joints;
+      std::optional<TwoSenses> senses;
     };
     std::vector<Margin> margins;
     const auto add_margin = [&](const std::string& joint, Quantity quantity, const Poly& polynomial,
-                                const core::Rational& bound) {
+                                const core::Rational& bound, std::optional<TwoSenses> senses = std::nullopt) {
       const Poly natural = polynomial.primitive();
       auto known = std::find_if(margins.begin(), margins.end(),
                                 [&](const Margin& m) { return m.quantity == quantity && m.natural == natural; });
-      if (known == margins.end()) known = margins.insert(known, {natural, quantity, bound, {}});
+      if (known == margins.end()) known = margins.insert(known, {natural, quantity, bound, {}, std::move(senses)});
       if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
     };
     for (const mechanism::Joint& joint : mechanism_.joints) {
@@ -531,7 +608,8 @@ class Derivation {
           add_margin(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound);
           add_margin(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound);
         } else {
-          add_margin(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound);
+          add_margin(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound,
+                     size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
         }
       }
       const FactoredPoly* couple = numerator(joint.name, Quantity::M);
@@ -564,7 +642,7 @@ class Derivation {
       const Poly sheet = elimination_.over_tower(margin.natural);
       if (sheet.is_zero())
         result_.notes.push_back(factor.cause + " in every pose");
-      else
+      else if (!margin.senses || !add_senses(*margin.senses, sheet, factor))
         add(FactorRole::margin, &margin.natural, sheet, true, factor);
     }
   }
@@ -581,6 +659,7 @@ class Derivation {
   std::vector<Poly> determinant_sheets_;
   std::map<std::pair<std::size_t, std::size_t>, bool> never_both_, may_share_;  ///< by factors
   std::map<std::size_t, Poly> on_line_;
+  std::vector<core::Root> more_roots_;  ///< written in the coordinates and the roots of the geometry
   DerivedProblem result_;
 };
 
