@@ -4,6 +4,7 @@
 #include <set>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/posture_sample.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -98,6 +99,7 @@ Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts char
   name_variables();
   place_angles();
   const std::size_t count = mechanism.points.size();
+  take_samples();
   natural_.resize(count);
   tower_.resize(count, TowerPoint{Poly(*ring_), Poly(*ring_), Poly(*ring_)});
   for (PointIndex point = 0; point < static_cast<PointIndex>(count); ++point) place(point);
@@ -244,6 +246,19 @@ void Geometry::name_variables() {
   }
   for (const auto& [name, variables] : circles) {
     for (const int variable : variables) variable_of_symbol_[ring_->name(variable)] = variable;
+  }
+}
+
+void Geometry::take_samples() {
+  constexpr std::size_t poses = 16;
+  if (keep_parameters_) return;
+  for (const std::vector<double>& pose : mechanism::spread_poses(*mechanism_, poses)) {
+    std::vector<double>& at = samples_.emplace_back(static_cast<std::size_t>(ring_->size()), 0.0);
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+      const double lower = core::to_double(mechanism_->coordinates[i].lower);
+      const double upper = core::to_double(mechanism_->coordinates[i].upper);
+      at[i] = charts_[i] ? 2 * (pose[i] - lower) / (upper - lower) - 1 : pose[i];  // the t of a chart runs over [-1, 1]
+    }
   }
 }
 

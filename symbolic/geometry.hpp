@@ -38,7 +38,7 @@ struct TowerPoint {
 };
 
 /// s = +-sqrt(square); `variable` is its index in the ring. `scale`, `scale_divisor`: both positive; s is the root of a
-/// dyad (straight_lines.hpp) times their quotient.
+/// dyad (straight_lines.hpp), or what a slider or a length is found with, times their quotient.
 struct TowerRoot {
   mechanism::PointIndex point = 0;
   int variable = 0;
@@ -127,6 +127,7 @@ class Geometry {
   GiNaC::symbol symbol(const std::string& name) const;
   void name_variables();
   void place_angles();
+  void take_samples();
   /// cos and sin of a sum of whole multiples of angles and constants.
   std::array<GiNaC::ex, 2> circle(const core::Expression& angle) const;
   bool is_free(const core::Expression& expression) const;
@@ -140,6 +141,11 @@ class Geometry {
   TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const Poly& length_numerator,
                                const Poly& length_denominator) const;
   void construct(mechanism::PointIndex point);
+  /// A root whose `scale / scale_divisor` is far from 1 over the box is given another unit, so that
+  /// floating point finds all variables of a tower of one size. Returns the root times its `scale_divisor`, that is,
+  /// the true root times its `scale`.
+  Poly add_root(TowerRoot root);
+  int next_root() const;
   /// Three numerators of a vector over a positive denominator: its direction. z = 0 in the plane.
   std::array<Poly, 3> direction(const mechanism::VectorExpression& vector) const;
   /// On a line or in a plane of constant direction fewer symbols do than there are coordinates.
@@ -174,7 +180,8 @@ class Geometry {
   std::vector<Poly> positive_;  ///< known to be nowhere negative on the sheets, in the order of their appearance
   Charts charts_;
   std::vector<Substitution> angles_;
-  int first_root_ = 0;  ///< ring variable
+  int first_root_ = 0;                        ///< ring variable
+  std::vector<std::vector<double>> samples_;  ///< poses over the box with the roots so far, by ring variable
 };
 
 }  // namespace clearloci::symbolic

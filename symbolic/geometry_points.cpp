@@ -1,5 +1,7 @@
 // Where the points of a mechanism are over the tower (method.md section 1).
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 #include "mechanism/evaluate.hpp"
 #include "symbolic/geometry.hpp"
@@ -122,6 +124,42 @@ void Geometry::construct(PointIndex point) {
                             own->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(own->z)))};
 }
 
+int Geometry::next_root() const { return first_root_ + static_cast<int>(roots_.size()); }
+
+Poly Geometry::add_root(TowerRoot root) {
+  const auto value = [](const Poly& p, const std::vector<double>& at) {
+    return core::evaluate(p.plain(), std::span<const double>(at));
+  };
+  constexpr int far = 8;  // powers of two
+  std::vector<double> sizes;
+  for (const std::vector<double>& at : samples_)
+    if (const double size = value(root.scale, at) / value(root.scale_divisor, at); std::isfinite(size) && size > 0)
+      sizes.push_back(size);
+  if (!keep_parameters_ && !sizes.empty()) {
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+    const int exponent = std::ilogb(sizes[sizes.size() / 2]);
+    if (std::abs(exponent) > far) {
+      Rational unit = 1;
+      if (exponent > 0)
+        unit >>= static_cast<unsigned>(exponent);
+      else
+        unit <<= static_cast<unsigned>(-exponent);
+      root.square = root.square.scaled(unit * unit);
+      root.scale_divisor = root.scale_divisor.scaled(1 / unit);
+    }
+  }
+  const std::vector<int> mode = mechanism::working_mode(*mechanism_);
+  const auto place = static_cast<std::size_t>(
+      std::count_if(roots_.begin(), roots_.end(), [](const TowerRoot& r) { return r.role == RootRole::working_mode; }));
+  const int sign = root.role == RootRole::working_mode ? mode[place] : 1;
+  for (std::vector<double>& at : samples_)
+    at[static_cast<std::size_t>(root.variable)] = sign * std::sqrt(value(root.square, at));
+  std::erase_if(samples_, [&](const auto& at) { return std::isnan(at[static_cast<std::size_t>(root.variable)]); });
+  const Poly times_divisor = Poly::variable(*ring_, root.variable) * root.scale_divisor;
+  roots_.push_back(std::move(root));
+  return times_divisor;
+}
+
 void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   construct(point);
   const TowerPoint& a = tower(form.from);
@@ -143,12 +181,11 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
       scale *= divisor;
       std::swap(square, quotient);
     }
-  const int variable = first_root_ + static_cast<int>(roots_.size());
   const Poly shared = common_positive(w2, scale);
-  roots_.push_back(
-      {point, variable, RootRole::working_mode, square, w2.exact_quotient(shared), scale.exact_quotient(shared)});
+  const Poly s = add_root({point, next_root(), RootRole::working_mode, square, w2.exact_quotient(shared),
+                           scale.exact_quotient(shared)}) *
+                 shared;
   add_denominator(d);
-  const Poly s = Poly::variable(*ring_, variable) * scale;
   if (!form.axis) dyad_ways_.push_back({point, x, y});
   const Vector left = cross(n, way);
   const auto component = [&](std::size_t i) { return reduce(kn * (n2 * way[i] - h * n[i]) + s * left[i]); };
@@ -237,11 +274,9 @@ void Geometry::place_slider(PointIndex point, const SliderPoint& form) {
   const Vector way = {x, y, z};
   const Poly size = reduce(dot(u, u)), pn = reduce(dot(u, way));
   const Vector across = cross(u, way);
-  const int variable = first_root_ + static_cast<int>(roots_.size());
-  roots_.push_back(
-      {point, variable, RootRole::working_mode, reduce(length * length * size * w * w - dot(across, across))});
+  const Poly s = add_root(
+      {point, next_root(), RootRole::working_mode, reduce(length * length * size * w * w - dot(across, across)), w});
   if (!size.is_constant()) add_denominator(size);
-  const Poly s = Poly::variable(*ring_, variable);
   TowerPoint step{reduce((pn + s) * u[0]), reduce((pn + s) * u[1]), reduce((pn + s) * u[2]), reduce(w * size)};
   lighten(step);
   tower_[index(point)] = sum(q, step);
@@ -285,10 +320,9 @@ void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
     return;
   }
   // A varying distance (a telescopic leg): s = |AB| w, always positive. 1 / |AB| = s w / d.
-  const int variable = first_root_ + static_cast<int>(roots_.size());
-  roots_.push_back({point, variable, RootRole::length, d});
+  const Poly s = add_root({point, next_root(), RootRole::length, d, w});
   add_denominator(d);
-  tower_[index(point)] = offset_over_tower(form, d, reduce(Poly::variable(*ring_, variable) * w));
+  tower_[index(point)] = offset_over_tower(form, d, reduce(s * w));
 }
 
 }  // namespace clearloci::symbolic
