@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "loci/modular_gcd.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -25,19 +26,6 @@ Univariate derivative(const Univariate& p) {
   for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<unsigned long>(i));
   make_primitive(d);
   return d;
-}
-
-/// Remainder of a by b up to a constant factor.
-Univariate pseudo_remainder(Univariate a, const Univariate& b) {
-  while (a.size() >= b.size()) {
-    const Integer lead = a.back();
-    const std::size_t shift = a.size() - b.size();
-    for (Integer& c : a) c *= b.back();
-    for (std::size_t i = 0; i < b.size(); ++i) a[shift + i] -= lead * b[i];
-    while (!a.empty() && a.back() == 0) a.pop_back();
-  }
-  make_primitive(a);
-  return a;
 }
 
 int variations(const Univariate& p) {
@@ -97,13 +85,10 @@ Univariate univariate(const core::Polynomial& p) {
 }
 
 Univariate greatest_common_divisor(Univariate a, Univariate b) {
-  while (!b.empty()) {
-    Univariate rest = pseudo_remainder(std::move(a), b);
-    a = std::move(b);
-    b = std::move(rest);
-  }
   make_primitive(a);
-  return a;
+  make_primitive(b);
+  if (a.empty() || b.empty()) return a.empty() ? b : a;
+  return modular_gcd(a, b);
 }
 
 Univariate exact_quotient(Univariate a, const Univariate& b) {

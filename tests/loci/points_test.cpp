@@ -77,6 +77,35 @@ TEST(RealRoots, CoprimeBaseHasEveryRootOnce) {
     for (std::size_t k = i + 1; k < base.size(); ++k) EXPECT_EQ(greatest_common_divisor(base[i], base[k]).size(), 1U);
 }
 
+// Truth by construction: (products of different linear factors) times a divisor of long coefficients.
+TEST(GreatestCommonDivisor, KnownByConstruction) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> digits(-1000000000, 1000000000), degree(0, 12), count(0, 10);
+    Univariate divisor = {Integer(1)};
+    for (int k = degree(random); k > 0; --k) divisor.emplace_back(Integer(digits(random)) * digits(random));
+    if (divisor.size() > 1 && divisor.back() <= 0) divisor.back() = 1 - divisor.back();
+    Univariate a = divisor, b = divisor;
+    for (int k = count(random); k >= 0; --k) a = times(a, {Integer(2 * k + 1), Integer(3)});
+    for (int k = count(random); k >= 0; --k) b = times(b, {Integer(2 * k + 2), Integer(-3)});
+    EXPECT_EQ(greatest_common_divisor(a, b), divisor);
+    EXPECT_EQ(greatest_common_divisor(a, divisor), divisor);
+  }
+}
+
+// The first primes above 2^30 mislead: modulo one the polynomials share a root, the other divides a leading
+// coefficient.
+TEST(GreatestCommonDivisor, PrimesThatMislead) {
+  const Integer first("1073741827"), second("1073741831");
+  const Univariate line = {Integer(0), Integer(1)};
+  EXPECT_EQ(greatest_common_divisor(line, {-first, Integer(1)}), Univariate{Integer(1)});
+  EXPECT_EQ(greatest_common_divisor({first * second, Integer(1)}, {Integer(0), Integer(1)}), Univariate{Integer(1)});
+  const Univariate shared = {Integer(5), first};
+  EXPECT_EQ(greatest_common_divisor(times(shared, line), times(shared, {-second, Integer(1)})), shared);
+  EXPECT_EQ(greatest_common_divisor({}, {Integer(-4), Integer(-2)}), (Univariate{Integer(2), Integer(1)}));
+}
+
 Polynomial polynomial(std::vector<core::Term> terms) { return {2, std::move(terms)}; }
 
 /// One coordinate x and s = +-sqrt(1 - x^2).
