@@ -152,15 +152,20 @@ Poly Poly::exact_quotient(const Poly& divisor) const {
 
 std::vector<Poly> Poly::coefficients(int variable) const {
   std::vector<Poly> result(static_cast<std::size_t>(std::max(degree(variable), 0)) + 1, Poly(*ring_));
-  Fmpq coefficient;
+  // Whole coefficients under the common content: a fraction for every term would be reduced again and again.
+  const fmpz_mpoly_ctx_struct* const whole = ring_->context()->zctx;
+  for (Poly& part : result) fmpq_set(part.value_->content, value_->content);
+  fmpz_t coefficient;
+  fmpz_init(coefficient);
   for (slong term = 0; term < static_cast<slong>(length()); ++term) {
     std::vector<ulong> exponents = exponents_of(*this, term);
     const ulong power = exponents[static_cast<std::size_t>(variable)];
     exponents[static_cast<std::size_t>(variable)] = 0;
-    fmpq_mpoly_get_term_coeff_fmpq(coefficient.get(), value_, term, ring_->context());
+    fmpz_mpoly_get_term_coeff_fmpz(coefficient, value_->zpoly, term, whole);
     // Terms of one power keep their order when the power is taken out, so pushing keeps each list sorted.
-    fmpq_mpoly_push_term_fmpq_ui(result[power].value_, coefficient.get(), exponents.data(), ring_->context());
+    fmpz_mpoly_push_term_fmpz_ui(result[power].value_->zpoly, coefficient, exponents.data(), whole);
   }
+  fmpz_clear(coefficient);
   for (Poly& part : result) fmpq_mpoly_reduce(part.value_, ring_->context());
   return result;
 }
