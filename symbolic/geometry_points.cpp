@@ -155,7 +155,7 @@ Poly Geometry::add_root(TowerRoot root) {
   for (std::vector<double>& at : samples_)
     at[static_cast<std::size_t>(root.variable)] = sign * std::sqrt(value(root.square, at));
   std::erase_if(samples_, [&](const auto& at) { return std::isnan(at[static_cast<std::size_t>(root.variable)]); });
-  const Poly times_divisor = Poly::variable(*ring_, root.variable) * root.scale_divisor;
+  Poly times_divisor = Poly::variable(*ring_, root.variable) * root.scale_divisor;
   roots_.push_back(std::move(root));
   return times_divisor;
 }
