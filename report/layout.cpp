@@ -35,12 +35,17 @@ void choose_view(const Subject& subject, Layout& layout) {
   layout.high = layout.search_high;
   if (subject.sketch != nullptr && planar) {
     core::Point2 low = layout.low, high = layout.high;
-    for (const auto& joint : subject.sketch->joints) {
-      for (int i = 0; i < 2; ++i) {
-        low[i] = std::min(low[i], joint.at[i]);
-        high[i] = std::max(high[i], joint.at[i]);
+    const auto cover = [&](double room) {
+      for (const auto& joint : subject.sketch->joints) {
+        for (int i = 0; i < 2; ++i) {
+          low[i] = std::min(low[i], joint.at[i] - room);
+          high[i] = std::max(high[i], joint.at[i] + room);
+        }
       }
-    }
+    };
+    constexpr double room_for_names = 0.04;  // and for the brackets of fixed joints; beside the margin
+    cover(0);
+    cover(room_for_names * std::max(high[0] - low[0], high[1] - low[1]));
     const double searched = std::max(layout.high[0] - layout.low[0], layout.high[1] - layout.low[1]);
     constexpr double tolerable_growth = 3;
     if (std::max(high[0] - low[0], high[1] - low[1]) <= tolerable_growth * searched) {

@@ -109,6 +109,12 @@ Point2 name_direction(const core::Sketch& sketch, const core::SketchJoint& joint
       if (here) occupy(point[0] - joint.at[0], point[1] - joint.at[1]);
     }
   }
+  for (const auto& slide : sketch.slides) {
+    const bool rail_here = slide.rail && std::abs(slide.from[0] + slide.to[0] - 2 * joint.at[0]) < 1e-9 &&
+                           std::abs(slide.from[1] + slide.to[1] - 2 * joint.at[1]) < 1e-9;
+    if (!rail_here && slide.from != joint.at && slide.to != joint.at) continue;
+    for (const auto& end : {slide.from, slide.to}) occupy(end[0] - joint.at[0], end[1] - joint.at[1]);
+  }
   for (const auto& load : sketch.loads) {
     // The arrow stands before or behind the point.
     if (load.at == joint.at) occupy(load.force[0], load.force[1]);
@@ -130,14 +136,22 @@ Point2 name_direction(const core::Sketch& sketch, const core::SketchJoint& joint
   return {std::cos(best), std::sin(best)};
 }
 
+/// Joints at one place share a label, written for the first of them.
 void write_joint_name(const Context& context, const Layout& layout, const core::Sketch& sketch,
                       const core::SketchJoint& joint) {
+  std::string name;
+  for (const auto& other : sketch.joints) {
+    if (other.at != joint.at) continue;
+    if (name.empty() && &other != &joint) return;
+    name += (name.empty() ? "" : ", ") + printable(other.name);
+  }
   const Point2 at = layout.page(joint.at), direction = name_direction(sketch, joint);
-  const std::string name = printable(joint.name);
   const double distance = joint.actuated ? 11 : 9, width = text_width(name, name_font);
   const double x = at[0] + direction[0] * (distance + width / 2 * std::abs(direction[0]));
   const double y = at[1] - direction[1] * (distance + 2) + 0.36 * name_font.size;
-  write_over_lines(context, name, x, y, name_font, outline, Align::centre);
+  const double room = width / 2 + 3;
+  write_over_lines(context, name, std::clamp(x, layout.plot.x + room, layout.plot.right() - room), y, name_font,
+                   outline, Align::centre);
 }
 
 void draw_couple(const Context& context, const Layout& layout, const core::SketchLoad& load) {
