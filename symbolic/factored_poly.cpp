@@ -1,6 +1,7 @@
 #include "symbolic/factored_poly.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/errors.hpp"
 
@@ -57,6 +58,18 @@ FactoredPoly common_factors(const FactoredPoly& a, const FactoredPoly& b) {
     if (const int times = std::min(factor.multiplicity, b.multiplicity(factor.poly)); times > 0)
       common.factors.push_back({factor.poly, times});
   return common;
+}
+
+FactoredPoly shared_factors(const std::vector<FactoredPoly>& products) {
+  std::optional<FactoredPoly> shared;
+  for (const FactoredPoly& p : products)
+    if (!p.is_zero()) shared = common_factors(shared ? *shared : p, p);
+  return shared.value_or(FactoredPoly{1, {}});
+}
+
+Poly without(FactoredPoly product, const FactoredPoly& factors, const Ring& ring) {
+  multiply(product, factors, -1);
+  return expanded(product, ring);
 }
 
 Poly expanded(const FactoredPoly& product, const Ring& ring) {

@@ -27,6 +27,12 @@ void multiply(FactoredPoly& product, const FactoredPoly& factor, int times = 1);
 /// Constant 1, every factor as often as in both.
 FactoredPoly common_factors(const FactoredPoly& a, const FactoredPoly& b);
 
+/// The same of all that are not zero.
+FactoredPoly shared_factors(const std::vector<FactoredPoly>& products);
+
+/// product / factors, multiplied out.
+Poly without(FactoredPoly product, const FactoredPoly& factors, const Ring& ring);
+
 /// Multiplied out; ensures that no multiplicity is negative.
 Poly expanded(const FactoredPoly& product, const Ring& ring);
 

@@ -10,6 +10,8 @@
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/family.hpp"
+#include "symbolic/margins.hpp"
+#include "symbolic/reactions.hpp"
 #include "symbolic/straight_lines.hpp"
 
 namespace clearloci::symbolic {
@@ -39,13 +41,6 @@ std::vector<std::string> selected_joints(const Mechanism& m, const Selection& se
   }
   if (!selection.joints.empty()) return selection.joints;
   return with_clearance.empty() ? known : with_clearance;
-}
-
-std::optional<core::Rational> rational_root(const core::Rational& square) {
-  if (square < 0 || !mpz_perfect_square_p(square.get_num_mpz_t()) || !mpz_perfect_square_p(square.get_den_mpz_t())) {
-    return std::nullopt;
-  }
-  return core::Rational(sqrt(square.get_num()), sqrt(square.get_den()));
 }
 
 /// Where contact losses are wanted, so are the zeros of the normal force and the couple of a prismatic joint, at which
@@ -99,14 +94,6 @@ std::vector<std::vector<ChartRange>> all_pieces(const Mechanism& m) {
   return all;
 }
 
-/// A reaction and its Cramer numerator.
-struct Reaction {
-  std::string joint;
-  Quantity quantity;
-  std::string name;
-  FactoredPoly numerator;
-};
-
 FactoredDeterminants determinants_of(const Geometry& geometry, const Family* family) {
   if (family != nullptr)
     if (std::optional<FactoredDeterminants> known = family->at(geometry)) return std::move(*known);
@@ -124,6 +111,7 @@ class Derivation {
         determinants_(determinants_of(geometry_, family)),
         elimination_(geometry_),
         causes_(geometry_),
+        reactions_(reactions(geometry_, determinants_)),
         lines_(geometry_) {
     result_.problem.tower = geometry_.plain_tower();
     for (std::size_t j = 0; j < result_.problem.tower.roots.size(); ++j)
@@ -140,7 +128,6 @@ class Derivation {
       result_.problem.joint_order.push_back(joint.name);
       result_.problem.force_components.push_back(mechanism::force_components(m, joint));
     }
-    list_reactions();
     auto piece = pieces.begin();
     for (const auto& coordinate : m.coordinates) {
       result_.problem.lower.push_back(coordinate.angle ? piece->lower : coordinate.lower);
@@ -196,65 +183,6 @@ class Derivation {
 
   /// How often a factor divides |A|: there the reaction w = N / |A| does not vanish.
   int in_determinant(const Poly& natural) const { return determinants_.determinant.multiplicity(natural); }
-
-  /// The unknowns, and in space the actuators' own: u · f or u · m, what the joint bears along its axis.
-  void list_reactions() {
-    const NewtonEulerEquations& equations = determinants_.equations;
-    for (std::size_t k = 0; k < equations.unknowns.size(); ++k)
-      reactions_.push_back({joint_name(equations.unknowns[k].joint), equations.unknowns[k].quantity,
-                            equations.unknown_names[k], determinants_.numerators[k]});
-    if (mechanism_.space == mechanism::Space::planar) return;
-    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j) {
-      const mechanism::Joint& joint = mechanism_.joints[j];
-      if (!joint.actuated) continue;
-      const Quantity actuator = mechanism::actuator_quantity(joint);
-      const std::vector<Quantity> along = actuator == Quantity::F
-                                              ? std::vector<Quantity>{Quantity::fx, Quantity::fy, Quantity::fz}
-                                              : std::vector<Quantity>{Quantity::mx, Quantity::my, Quantity::mz};
-      const std::vector<GiNaC::ex> axis = geometry_.vector(joint.axes.at(0));
-      std::vector<Product> products;
-      for (std::size_t k = 0; k < equations.unknowns.size(); ++k) {
-        const auto part = std::find(along.begin(), along.end(), equations.unknowns[k].quantity);
-        if (equations.unknowns[k].joint != static_cast<JointIndex>(j) || part == along.end()) continue;
-        products.push_back(
-            {geometry_.poly(axis[static_cast<std::size_t>(part - along.begin())]), determinants_.numerators[k]});
-      }
-      reactions_.push_back({joint.name, actuator, core::to_string(actuator) + joint.name, sum_of(products)});
-    }
-  }
-
-  struct Product {
-    Poly coefficient;
-    FactoredPoly numerator;
-  };
-
-  /// Only what the summands do not share is multiplied out.
-  FactoredPoly sum_of(const std::vector<Product>& products) const {
-    const FactoredPoly shared =
-        shared_factors(products, [](const Product& p) -> const FactoredPoly& { return p.numerator; });
-    Poly sum(geometry_.ring());
-    for (const auto& [coefficient, numerator] : products)
-      if (!numerator.is_zero()) sum += coefficient * without(numerator, shared);
-    FactoredPoly result = factored(sum, determinants_.determinant.factors);
-    multiply(result, shared);
-    return result;
-  }
-
-  /// The factors that all have in common that are not zero.
-  template <class Range, class Projection>
-  static FactoredPoly shared_factors(const Range& range, Projection projection) {
-    std::optional<FactoredPoly> shared;
-    for (const auto& element : range) {
-      const FactoredPoly& p = projection(element);
-      if (!p.is_zero()) shared = shared ? common_factors(*shared, p) : common_factors(p, p);
-    }
-    return shared.value_or(FactoredPoly{1, {}});
-  }
-
-  Poly without(FactoredPoly p, const FactoredPoly& factors) const {
-    multiply(p, factors, -1);
-    return expanded(p, geometry_.ring());
-  }
 
   bool vanishes_everywhere(const FactoredPoly& p) const {
     return p.is_zero() || std::any_of(p.factors.begin(), p.factors.end(), [&](const PolyFactor& factor) {
@@ -462,41 +390,6 @@ class Derivation {
     }
   }
 
-  const FactoredPoly* numerator(const std::string& joint, Quantity quantity) const {
-    for (const Reaction& reaction : reactions_)
-      if (reaction.joint == joint && reaction.quantity == quantity) return &reaction.numerator;
-    return nullptr;
-  }
-
-  /// Numerators of the Cartesian components of a joint's contact force; none of a prismatic joint.
-  std::vector<FactoredPoly> force_numerators(const mechanism::Joint& joint) const {
-    std::vector<FactoredPoly> parts;
-    for (const Quantity quantity : mechanism::force_components(mechanism_, joint)) {
-      if (selection_.min_force && quantity == Quantity::f1)
-        throw core::InputError(joint.where,
-                               "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
-                                   " cannot be traced: its components lie across a moving axis",
-                               "leave the least force out, or name the other joints with --joint");
-      if (const FactoredPoly* part = numerator(joint.name, quantity)) parts.push_back(*part);
-    }
-    return parts;
-  }
-
-  /// |u|^2 of an actuated joint's axis, of which M = u . m is made; 1 in the plane.
-  Poly squared_axis(const mechanism::Joint& joint) const {
-    if (mechanism_.space == mechanism::Space::planar) return geometry_.poly(1);
-    GiNaC::ex square = 0;
-    for (const GiNaC::ex& u : geometry_.vector(joint.axes.at(0))) square += u * u;
-    return geometry_.poly(square.expand());
-  }
-
-  /// A force along a moving line is size w / |A| for a vector w, and of size f_min where size |w| = +-f_min |A|.
-  /// Squared, the two senses cross wherever size and |A| vanish together, at points that are no better known than the
-  /// curves; over |w| as another root of the tower they are two curves, smooth there.
-  struct TwoSenses {
-    Poly size, square, bound;  ///< |w|^2; f_min |A|
-  };
-
   /// False: the squared margin is not a single curve, or |w| is constant.
   bool add_senses(const TwoSenses& senses, const Poly& squared, LocusFactor common) {
     const std::vector<SheetFactor> parts = elimination_.sheet_factors(squared, true);
@@ -565,69 +458,9 @@ class Derivation {
     for (core::WorkingMode& mode : problem.modes) mode.resize(tower.roots.size(), 1);
   }
 
-  /// |f_J|^2 = f_min^2 and M_J^2 = M_min^2, cleared of |A|^2 (method.md section 5).
   void add_margins() {
-    const FactoredPoly& determinant = determinants_.determinant;
-    // Joints of one chain bear the same force: their margins are one curve.
-    struct Margin {
-      Poly natural;
-      Quantity quantity;
-      core::Rational bound;
-      std::vector<std::string> joints;
-      std::optional<TwoSenses> senses;
-    };
-    std::vector<Margin> margins;
-    const auto add_margin = [&](const std::string& joint, Quantity quantity, const Poly& polynomial,
-                                const core::Rational& bound, std::optional<TwoSenses> senses = std::nullopt) {
-      const Poly natural = polynomial.primitive();
-      auto known = std::find_if(margins.begin(), margins.end(),
-                                [&](const Margin& m) { return m.quantity == quantity && m.natural == natural; });
-      if (known == margins.end()) known = margins.insert(known, {natural, quantity, bound, {}, std::move(senses)});
-      if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
-    };
-    for (const mechanism::Joint& joint : mechanism_.joints) {
-      if (!selected(joint.name)) continue;
-      const std::vector<FactoredPoly> force = force_numerators(joint);
-      const bool loaded =
-          std::any_of(force.begin(), force.end(), [](const FactoredPoly& part) { return !part.is_zero(); });
-      if (selection_.min_force && loaded) {
-        const core::Rational& bound = *selection_.min_force;
-        const FactoredPoly common =
-            shared_factors(force, [](const FactoredPoly& p) -> const FactoredPoly& { return p; });
-        Poly square(geometry_.ring());  // of what is left of the force
-        for (const FactoredPoly& part : force) {
-          if (part.is_zero()) continue;
-          const Poly rest = without(part, common);
-          square += rest * rest;
-        }
-        const FactoredPoly shared = common_factors(common, determinant);
-        const Poly size = without(common, shared), d = without(determinant, shared);
-        // A two-force link of the plane bears (x, y) of constant length: then |f| = f_min is two linear conditions.
-        const std::optional<core::Rational> length2 = elimination_.constant_over_tower(square);
-        if (const auto length = length2 ? rational_root(*length2) : std::nullopt) {
-          add_margin(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound);
-          add_margin(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound);
-        } else {
-          add_margin(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound,
-                     size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
-        }
-      }
-      const FactoredPoly* couple = numerator(joint.name, Quantity::M);
-      if (selection_.min_couple && couple != nullptr) {
-        const core::Rational& bound = *selection_.min_couple;
-        const FactoredPoly shared = common_factors(*couple, determinant);
-        const Poly c = without(*couple, shared), d = without(determinant, shared);
-        const Poly axis2 = squared_axis(joint);
-        const std::optional<core::Rational> length2 = elimination_.constant_over_tower(axis2);
-        if (const auto length = length2 ? rational_root(*length2) : std::nullopt) {
-          add_margin(joint.name, Quantity::M, c - d.scaled(bound * *length), bound);
-          add_margin(joint.name, Quantity::M, c + d.scaled(bound * *length), bound);
-        } else {
-          add_margin(joint.name, Quantity::M, c * c - (d * d * axis2).scaled(bound * bound), bound);
-        }
-      }
-    }
-    for (const Margin& margin : margins) {
+    for (const Margin& margin :
+         margins(geometry_, elimination_, determinants_.determinant, reactions_, selection_, result_.problem.joints)) {
       const bool force = margin.quantity == Quantity::f;
       std::string names;
       LocusFactor factor;

@@ -1,0 +1,123 @@
+#include "symbolic/margins.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Quantity;
+using core::Rational;
+
+class Margins {
+ public:
+  Margins(const Geometry& geometry, const Elimination& elimination, const FactoredPoly& determinant,
+          const std::vector<Reaction>& reactions)
+      : geometry_(geometry), elimination_(elimination), determinant_(determinant), reactions_(reactions) {}
+
+  void add_force(const mechanism::Joint& joint, const Rational& bound) {
+    const std::vector<FactoredPoly> force = force_numerators(joint);
+    if (std::all_of(force.begin(), force.end(), [](const FactoredPoly& part) { return part.is_zero(); })) return;
+    const FactoredPoly common = shared_factors(force);
+    Poly square(ring());  // of what is left of the force
+    for (const FactoredPoly& part : force) {
+      if (part.is_zero()) continue;
+      const Poly rest = without(part, common, ring());
+      square += rest * rest;
+    }
+    const FactoredPoly shared = common_factors(common, determinant_);
+    const Poly size = without(common, shared, ring()), d = without(determinant_, shared, ring());
+    // A two-force link of the plane bears (x, y) of constant length: then |f| = f_min is two linear conditions.
+    if (const auto length = constant_length(square)) {
+      add(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound);
+      add(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound);
+    } else {
+      add(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound,
+          size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
+    }
+  }
+
+  void add_couple(const mechanism::Joint& joint, const Rational& bound) {
+    const FactoredPoly* couple = numerator(reactions_, joint.name, Quantity::M);
+    if (couple == nullptr) return;
+    const FactoredPoly shared = common_factors(*couple, determinant_);
+    const Poly c = without(*couple, shared, ring()), d = without(determinant_, shared, ring());
+    const Poly axis2 = squared_axis(joint);
+    if (const auto length = constant_length(axis2)) {
+      add(joint.name, Quantity::M, c - d.scaled(bound * *length), bound);
+      add(joint.name, Quantity::M, c + d.scaled(bound * *length), bound);
+    } else {
+      add(joint.name, Quantity::M, c * c - (d * d * axis2).scaled(bound * bound), bound);
+    }
+  }
+
+  std::vector<Margin> take() { return std::move(margins_); }
+
+ private:
+  const Ring& ring() const { return geometry_.ring(); }
+
+  void add(const std::string& joint, Quantity quantity, const Poly& polynomial, const Rational& bound,
+           std::optional<TwoSenses> senses = std::nullopt) {
+    const Poly natural = polynomial.primitive();
+    auto known = std::find_if(margins_.begin(), margins_.end(),
+                              [&](const Margin& m) { return m.quantity == quantity && m.natural == natural; });
+    if (known == margins_.end()) known = margins_.insert(known, {natural, quantity, bound, {}, std::move(senses)});
+    if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
+  }
+
+  /// Numerators of the Cartesian components of a joint's contact force; none of a prismatic joint.
+  std::vector<FactoredPoly> force_numerators(const mechanism::Joint& joint) const {
+    std::vector<FactoredPoly> parts;
+    for (const Quantity quantity : mechanism::force_components(geometry_.mechanism(), joint)) {
+      if (quantity == Quantity::f1)
+        throw core::InputError(joint.where,
+                               "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
+                                   " cannot be traced: its components lie across a moving axis",
+                               "leave the least force out, or name the other joints with --joint");
+      if (const FactoredPoly* part = numerator(reactions_, joint.name, quantity)) parts.push_back(*part);
+    }
+    return parts;
+  }
+
+  /// |u|^2 of an actuated joint's axis, of which M = u . m is made; 1 in the plane.
+  Poly squared_axis(const mechanism::Joint& joint) const {
+    if (geometry_.mechanism().space == mechanism::Space::planar) return geometry_.poly(1);
+    GiNaC::ex square = 0;
+    for (const GiNaC::ex& u : geometry_.vector(joint.axes.at(0))) square += u * u;
+    return geometry_.poly(square.expand());
+  }
+
+  std::optional<Rational> constant_length(const Poly& square) const {
+    const std::optional<Rational> constant = elimination_.constant_over_tower(square);
+    return constant ? rational_root(*constant) : std::nullopt;
+  }
+
+  const Geometry& geometry_;
+  const Elimination& elimination_;
+  const FactoredPoly& determinant_;
+  const std::vector<Reaction>& reactions_;
+  std::vector<Margin> margins_;
+};
+
+}  // namespace
+
+std::optional<Rational> rational_root(const Rational& square) {
+  if (square < 0 || !mpz_perfect_square_p(square.get_num_mpz_t()) || !mpz_perfect_square_p(square.get_den_mpz_t()))
+    return std::nullopt;
+  return Rational(sqrt(square.get_num()), sqrt(square.get_den()));
+}
+
+std::vector<Margin> margins(const Geometry& geometry, const Elimination& elimination, const FactoredPoly& determinant,
+                            const std::vector<Reaction>& reactions, const Selection& selection,
+                            const std::vector<std::string>& joints) {
+  Margins result(geometry, elimination, determinant, reactions);
+  for (const mechanism::Joint& joint : geometry.mechanism().joints) {
+    if (std::find(joints.begin(), joints.end(), joint.name) == joints.end()) continue;
+    if (selection.min_force) result.add_force(joint, *selection.min_force);
+    if (selection.min_couple) result.add_couple(joint, *selection.min_couple);
+  }
+  return result.take();
+}
+
+}  // namespace clearloci::symbolic

@@ -1,0 +1,38 @@
+// Where a contact force or a couple is down to a given size (method.md section 5): |f_J|^2 = f_min^2 and
+// M_J^2 = M_min^2, cleared of |A|^2. Private to symbolic/.
+#pragma once
+
+#include <optional>
+
+#include "symbolic/elimination.hpp"
+#include "symbolic/locus_problem.hpp"
+#include "symbolic/reactions.hpp"
+
+namespace clearloci::symbolic {
+
+/// A force along a moving line is size w / |A| for a vector w, and of size f_min where size |w| = +-f_min |A|.
+/// Squared, the two senses cross wherever size and |A| vanish together, at points that are no better known than the
+/// curves; over |w| as another root of the tower they are two curves, smooth there.
+struct TwoSenses {
+  Poly size, square, bound;  ///< |w|^2; f_min |A|
+};
+
+/// A natural polynomial that vanishes where the joints bear `bound`.
+struct Margin {
+  Poly natural;
+  core::Quantity quantity = core::Quantity::f;
+  core::Rational bound;
+  std::vector<std::string> joints;  ///< of one chain: they bear the same force
+  std::optional<TwoSenses> senses = {};
+};
+
+/// Of the named joints, in the mechanism's order. Throws core::InputError for a joint whose components lie across a
+/// moving axis.
+std::vector<Margin> margins(const Geometry& geometry, const Elimination& elimination, const FactoredPoly& determinant,
+                            const std::vector<Reaction>& reactions, const Selection& selection,
+                            const std::vector<std::string>& joints);
+
+/// The root of a rational square; nothing of others.
+std::optional<core::Rational> rational_root(const core::Rational& square);
+
+}  // namespace clearloci::symbolic
