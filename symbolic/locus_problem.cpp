@@ -297,15 +297,27 @@ class Derivation {
 
   bool may_share_curve(std::size_t i, std::size_t k) {
     const auto [known, fresh] = may_share_.try_emplace({i, k}, false);
-    if (fresh) known->second = elimination_.may_share_curve(on_line(i), on_line(k));
+    // Curves are told to be the same by their polynomials: where one is too large to be had, norms say nothing of use.
+    if (fresh && !is_heavy(i) && !is_heavy(k)) known->second = elimination_.may_share_curve(on_line(i), on_line(k));
     return known->second;
+  }
+
+  bool is_heavy(std::size_t factor) {
+    const auto [known, fresh] = heavy_.try_emplace(factor, false);
+    if (fresh) known->second = elimination_.is_too_heavy(sheet_of(factor));
+    return known->second;
+  }
+
+  const Poly& sheet_of(std::size_t factor) {
+    const auto known = sheets_.find(factor);
+    if (known != sheets_.end()) return known->second;
+    return sheets_.emplace(factor, elimination_.over_tower(factors_[factor].natural)).first->second;
   }
 
   const Poly& on_line(std::size_t factor) {
     const auto known = on_line_.find(factor);
     if (known != on_line_.end()) return known->second;
-    return on_line_.emplace(factor, elimination_.norm_on_line(elimination_.over_tower(factors_[factor].natural)))
-        .first->second;
+    return on_line_.emplace(factor, elimination_.norm_on_line(sheet_of(factor))).first->second;
   }
 
   std::string text(const Poly& p) const { return core::to_string(p.plain(), geometry_.ring().names()); }
@@ -348,8 +360,8 @@ class Derivation {
       factor.cause = causes_.of(shared.natural);
       factor.vanishing = shared.vanishing;
       // A natural factor of |A| has been counted against it already.
-      add(FactorRole::reaction, &shared.natural, elimination_.over_tower(shared.natural), shared.wanted_curve, factor,
-          in_determinant(shared.natural) == 0);
+      add(FactorRole::reaction, &shared.natural, sheet_of(static_cast<std::size_t>(&shared - factors_.data())),
+          shared.wanted_curve, factor, in_determinant(shared.natural) == 0);
     }
   }
 
@@ -491,7 +503,8 @@ class Derivation {
   std::vector<SharedFactor> factors_;
   std::vector<Poly> determinant_sheets_;
   std::map<std::pair<std::size_t, std::size_t>, bool> never_both_, may_share_;  ///< by factors
-  std::map<std::size_t, Poly> on_line_;
+  std::map<std::size_t, Poly> sheets_, on_line_;                                ///< by factor
+  std::map<std::size_t, bool> heavy_;
   std::vector<core::Root> more_roots_;  ///< written in the coordinates and the roots of the geometry
   DerivedProblem result_;
 };
