@@ -1,6 +1,7 @@
 #include "loci/sheet/sheet_cell.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/errors.hpp"
 
@@ -22,19 +23,30 @@ T signed_root(int sign, const T& square) {
 }  // namespace
 
 Interval determinant(const std::vector<std::vector<Interval>>& matrix) {
+  // Every minor of the last rows once, by its set of columns: smaller sets are smaller numbers.
   const std::size_t n = matrix.size();
-  if (n == 1) return matrix[0][0];
-  if (n == 2) return matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
-  Interval sum = 0;
-  for (std::size_t column = 0; column < n; ++column) {
-    std::vector<std::vector<Interval>> minor(n - 1);
-    for (std::size_t row = 1; row < n; ++row)
-      for (std::size_t c = 0; c < n; ++c)
-        if (c != column) minor[row - 1].push_back(matrix[row][c]);
-    const Interval term = matrix[0][column] * determinant(minor);
-    sum = column % 2 == 0 ? sum + term : sum - term;
+  std::vector<Interval> minors(std::size_t{1} << n, Interval(0.0));
+  for (std::size_t columns = 1; columns < minors.size(); ++columns) {
+    const std::vector<Interval>& row = matrix[n - static_cast<std::size_t>(std::popcount(columns))];
+    const auto first = static_cast<std::size_t>(std::countr_zero(columns));
+    const std::size_t rest = columns & (columns - 1);
+    if (rest == 0) {
+      minors[columns] = row[first];
+    } else if ((rest & (rest - 1)) == 0) {
+      const auto second = static_cast<std::size_t>(std::countr_zero(rest));
+      minors[columns] = row[first] * minors[rest] - row[second] * minors[columns ^ rest];
+    } else {
+      Interval sum = 0;
+      bool add = true;
+      for (std::size_t left = columns; left != 0; left &= left - 1, add = !add) {
+        const auto column = static_cast<std::size_t>(std::countr_zero(left));
+        const Interval term = row[column] * minors[columns ^ (std::size_t{1} << column)];
+        sum = add ? sum + term : sum - term;
+      }
+      minors[columns] = sum;
+    }
   }
-  return sum;
+  return minors.back();
 }
 
 SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode)

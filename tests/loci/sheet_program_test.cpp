@@ -1,7 +1,9 @@
 // The compiled program against the polynomials it was compiled from.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "loci/sheet/sheet_cell.hpp"
@@ -185,6 +187,34 @@ TEST(PointSign, KnowsTheWorkspace) {
   EXPECT_EQ(wrong(0, 0), -1);
   EXPECT_EQ(right(1, 1e-9), std::nullopt);
   EXPECT_EQ(right(1, 0), 0);
+}
+
+TEST(IntervalDeterminant, IsTheSumOverPermutations) {
+  for (std::size_t n = 1; n <= 6; ++n) {
+    std::vector<std::vector<Interval>> matrix(n);
+    std::vector<std::vector<long>> entries(n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) {
+        entries[i].push_back(static_cast<long>((7 * i * i + 5 * k + 3 * i * k * k) % 11) - 5);
+        matrix[i].emplace_back(static_cast<double>(entries[i].back()));
+      }
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    long expected = 0;
+    do {
+      long product = 1;
+      for (std::size_t i = 0; i < n; ++i) {
+        product *= entries[i][order[i]];
+        for (std::size_t k = 0; k < i; ++k)
+          if (order[k] > order[i]) product = -product;
+      }
+      expected += product;
+    } while (std::next_permutation(order.begin(), order.end()));
+    const Interval found = determinant(matrix);
+    EXPECT_LE(found.lower(), static_cast<double>(expected)) << n;
+    EXPECT_GE(found.upper(), static_cast<double>(expected)) << n;
+    EXPECT_LE(found.width(), 1e-6) << n;
+  }
 }
 
 }  // namespace
