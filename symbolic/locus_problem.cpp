@@ -21,7 +21,6 @@ using core::FactorRole;
 using core::LocusFactor;
 using core::Quantity;
 using core::Vanishing;
-using mechanism::JointIndex;
 using mechanism::Mechanism;
 
 using Clock = std::chrono::steady_clock;
@@ -175,10 +174,6 @@ class Derivation {
 
   const std::string& point_name(mechanism::PointIndex point) const {
     return mechanism_.points[static_cast<std::size_t>(point)].name;
-  }
-
-  const std::string& joint_name(JointIndex joint) const {
-    return mechanism_.joints[static_cast<std::size_t>(joint)].name;
   }
 
   /// How often a factor divides |A|: there the reaction w = N / |A| does not vanish.
