@@ -1,5 +1,5 @@
-// A mechanism's points in floating point, at poses spread over the box: for checks of the input, nothing else.
-// Private to mechanism/.
+// A mechanism's points in floating point, at poses spread over the box: for checks of the input and for the sizes that
+// quantities have. No result rests on it.
 #pragma once
 
 #include <array>
