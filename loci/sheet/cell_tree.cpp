@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "loci/sheet/smooth_cell.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -42,7 +45,26 @@ int steeper_axis(const SheetCell& cell) {
   return variation[0] >= variation[1] ? 0 : 1;
 }
 
-Judgement judge(SheetCell& cell, const Cell& place, double patch_size) {
+/// What second-order enclosures tell of a cell that plain ones leave undecided.
+void judge_again(SmoothCell& cell, const Cell& place, Judgement& judgement) {
+  const SmoothCell::Place found = cell.enter(place.x, place.y);
+  if (found == SmoothCell::Place::unknown) return;
+  if (found == SmoothCell::Place::outside || !cell.value().contains_zero()) {
+    judgement.kind = LeafKind::empty;
+    return;
+  }
+  double best = 0;
+  for (const int along : {0, 1}) {
+    const Interval& slope = cell.slope(1 - along);
+    if (slope.sign() == 0 || slope.mignitude() / slope.magnitude() <= best) continue;
+    best = slope.mignitude() / slope.magnitude();
+    judgement.kind = LeafKind::graph;
+    judgement.along = along;
+  }
+}
+
+/// `smooth`: null where plain enclosures do.
+Judgement judge(SheetCell& cell, SmoothCell* smooth, const Cell& place, double patch_size) {
   if (!cell.enter(place.x, place.y) || !cell.value(0).contains_zero()) return {LeafKind::empty};
   cell.differentiate();
   if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
@@ -63,6 +85,7 @@ Judgement judge(SheetCell& cell, const Cell& place, double patch_size) {
     if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
   }
   judgement.cut_axis = steeper_axis(cell);
+  if (judgement.kind == LeafKind::undecided && smooth != nullptr) judge_again(*smooth, place, judgement);
   return judgement;
 }
 
@@ -73,10 +96,12 @@ CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, c
   nodes_.push_back({domain});
   smallest_ = options.smallest * std::max(domain.x.width(), domain.y.width());
   SheetCell evaluator(program, mode);
-  build(evaluator, options);
+  std::optional<SmoothCell> smooth;
+  if (program.is_nested()) smooth.emplace(program, mode);
+  build(evaluator, smooth ? &*smooth : nullptr, options);
 }
 
-void CellTree::build(SheetCell& evaluator, const TreeOptions& options) {
+void CellTree::build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions& options) {
   const double size = std::max(domain().x.width(), domain().y.width());
   bool stopped = false;
   // Breadth first: a budget that runs out leaves cells of one size undecided instead of one corner.
@@ -94,7 +119,7 @@ void CellTree::build(SheetCell& evaluator, const TreeOptions& options) {
     } else if (cut_at_hole(node, options)) {
       split = true;
     } else {
-      const Judgement judgement = judge(evaluator, node.cell, size);
+      const Judgement judgement = judge(evaluator, smooth, node.cell, size);
       leaf.kind = judgement.kind;
       leaf.along = judgement.along;
       const double widths[2] = {node.cell.x.width(), node.cell.y.width()};

@@ -271,6 +271,12 @@ SheetProgram::SheetProgram(const core::RootTower& tower, const std::vector<Sheet
   compile();
 }
 
+bool SheetProgram::is_nested() const {
+  return std::any_of(square_partials_.begin(), square_partials_.end(), [this](const std::vector<int>& partials) {
+    return std::any_of(partials.begin() + coordinates(), partials.end(), [this](int p) { return p != zero_; });
+  });
+}
+
 void SheetProgram::compile() {
   Builder builder(variables());
   std::vector<int> square_nodes, value_nodes;

@@ -14,6 +14,7 @@
 #include "core/root_tower.hpp"
 #include "loci/sheet/batch.hpp"
 #include "loci/sheet/interval.hpp"
+#include "loci/sheet/jet.hpp"
 #include "loci/sheet/multi_interval.hpp"
 
 namespace clearloci::loci::sheet {
@@ -94,6 +95,8 @@ class SheetProgram {
 
   /// False where the derivative is zero identically.
   bool depends(int function, int v) const { return partials_[function][v] != zero_; }
+  /// A root's square holds another root: a dyad stands on a dyad.
+  bool is_nested() const;
   int instructions() const { return static_cast<int>(instructions_.size()); }
 
  private:
@@ -127,7 +130,7 @@ SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&p
   values_.resize(program.variables() + program.constants_.size() + program.instructions_.size());
   for (std::size_t i = 0; i < program.constants_.size(); ++i) {
     T& own = values_[program.variables() + i];
-    if constexpr (std::is_same_v<T, Interval>)
+    if constexpr (std::is_same_v<T, Interval> || std::is_same_v<T, Jet>)
       own = program.enclosed_constants_[i];
     else if constexpr (std::is_same_v<T, double>)
       own = program.nearest_constants_[i];

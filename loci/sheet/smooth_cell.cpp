@@ -1,0 +1,35 @@
+#include "loci/sheet/smooth_cell.hpp"
+
+#include <cmath>
+
+namespace clearloci::loci::sheet {
+namespace {
+
+bool is_finite(const Interval& a) { return std::isfinite(a.lower()) && std::isfinite(a.upper()); }
+
+bool is_known(const Jet& a) {
+  return a.bounded && is_finite(a.value) && is_finite(a.slope[0]) && is_finite(a.slope[1]);
+}
+
+}  // namespace
+
+SmoothCell::SmoothCell(const SheetProgram& program, core::WorkingMode mode)
+    : program_(&program), mode_(std::move(mode)), registers_(program.registers<Jet>()) {}
+
+SmoothCell::Place SmoothCell::enter(const Interval& x, const Interval& y) {
+  registers_.set(0, Jet(x, 0));
+  registers_.set(1, Jet(y, 1));
+  for (int j = 0; j < program_->roots(); ++j) {
+    registers_.run_square(j);
+    const Jet& square = registers_.square(j);
+    if (!is_known(square)) return Place::unknown;
+    if (square.value.upper() < 0) return Place::outside;
+    if (square.value.lower() <= 0) return Place::unknown;
+    const Jet root = square_root(square);
+    registers_.set(2 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
+  }
+  registers_.run_values();
+  return is_known(registers_.value(0)) ? Place::inside : Place::unknown;
+}
+
+}  // namespace clearloci::loci::sheet

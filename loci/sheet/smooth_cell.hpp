@@ -1,0 +1,33 @@
+// A SheetProgram over a cell on which no root vanishes, every step enclosed to second order (jet.hpp). Where dyads
+// stand on dyads the roots of the upper ones are long computations on those of the lower ones: plain intervals of them
+// tell something on tiny cells only.
+#pragma once
+
+#include "loci/sheet/jet.hpp"
+#include "loci/sheet/sheet_program.hpp"
+
+namespace clearloci::loci::sheet {
+
+class SmoothCell {
+ public:
+  SmoothCell(const SheetProgram& program, core::WorkingMode mode);
+
+  enum class Place {
+    inside,   ///< every root is proven to be away from 0, and function 0 is enclosed
+    outside,  ///< proven to lie outside the workspace
+    unknown,
+  };
+  Place enter(const Interval& x, const Interval& y);
+
+  /// After Place::inside.
+  const Interval& value() const { return registers_.value(0).value; }
+  /// d/d(coordinate c) of the function on the sheet, times the half width of the cell.
+  const Interval& slope(int c) const { return registers_.value(0).slope[static_cast<std::size_t>(c)]; }
+
+ private:
+  const SheetProgram* program_;
+  core::WorkingMode mode_;
+  SheetProgram::Registers<Jet> registers_;
+};
+
+}  // namespace clearloci::loci::sheet
