@@ -19,6 +19,8 @@ constexpr std::size_t most_cells_on_edge = 512;
 // Of crossings, relative to the patch: a tenth of what vertices are held to.
 constexpr double accuracy = 1e-13;
 constexpr std::size_t most_rim_cells = 8192;
+// Where one patch has spent its budget the curve is not proven whatever the others tell: they get this part of theirs.
+constexpr int share_of_spent_budget = 8;
 
 using Side = Chart::Side;
 
@@ -39,6 +41,7 @@ class GraphBuilder {
   std::optional<CurveGraph> run() {
     for (Patch& patch : graph_.patches) {
       TreeOptions options = options_;
+      if (graph_.stopped) options.most_cells /= share_of_spent_budget;
       if (patch.chart.side == Side::plane) options.holes = parts_.holes;
       patch.tree = std::make_unique<CellTree>(*patch.program, mode_, patch.domain, std::move(options));
       // Other cuts do not help where the budget is what runs out.

@@ -8,6 +8,7 @@
 
 #include "loci/sheet/sheet_cell.hpp"
 #include "loci/sheet/sheet_program.hpp"
+#include "loci/sheet/smooth_cell.hpp"
 #include "tests/loci/sheet_cases.hpp"
 
 namespace clearloci::loci::sheet {
@@ -163,6 +164,64 @@ TEST_F(CompiledFiveBar, CellsEncloseTheirPoints) {
   }
   EXPECT_GT(lifted, 10);
   EXPECT_GT(plain, 10);
+}
+
+// A root over a root: values and slopes enclose those of points, and shrink with the square of the cell.
+TEST(SmoothCell, EnclosesToSecondOrder) {
+  const Ring r{4};
+  core::RootTower tower = testing::one_root(r(2) - r.x() * r.x() - r.y() * r.y());
+  tower.roots.push_back({"s2", "B2", core::RootRole::working_mode, r(1) + r.s(1) * r.x() - r.y() * r.y()});
+  const core::Polynomial f = r.s(1) * r.s(2) - r.x() * r.s(1) - r.y() * r.s(2);
+  const SheetProgram program(tower, {f});
+  EXPECT_TRUE(program.is_nested());
+  const Ring below{3};
+  const core::RootTower one = testing::one_root(below(2) - below.x() * below.x());
+  EXPECT_FALSE(SheetProgram(one, {below.s(1) - below.y()}).is_nested());
+  const core::WorkingMode mode = {1, -1};
+  SmoothCell cell(program, mode), point(program, mode);
+  SheetCell plain(program, mode);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int inside = 0, outside = 0, narrower = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double x = -1.6 + 3.2 * unit(random), y = -1.6 + 3.2 * unit(random), w = 0.02 * unit(random);
+    const SmoothCell::Place place = cell.enter({x, x + w}, {y, y + w});
+    if (place == SmoothCell::Place::unknown) continue;
+    ++(place == SmoothCell::Place::inside ? inside : outside);
+    for (int k = 0; k < 5; ++k) {
+      const double px = x + w * unit(random), py = y + w * unit(random), h = 1e-6;
+      if (place == SmoothCell::Place::outside) {
+        EXPECT_EQ(point.enter(px, py), SmoothCell::Place::outside);
+        continue;
+      }
+      const auto value = [&](double at_x, double at_y) {
+        EXPECT_EQ(point.enter(at_x, at_y), SmoothCell::Place::inside);
+        return point.value().middle();
+      };
+      const double along_x = (value(px + h, py) - value(px - h, py)) / (2 * h) * w / 2;
+      EXPECT_LE(cell.slope(0).lower(), along_x + 1e-7 * w);
+      EXPECT_GE(cell.slope(0).upper(), along_x - 1e-7 * w);
+      value(px, py);
+      EXPECT_FALSE(disjoint(point.value(), cell.value()));
+    }
+    if (place == SmoothCell::Place::outside) continue;
+    ASSERT_TRUE(plain.enter({x, x + w}, {y, y + w}));
+    narrower += cell.value().width() < 0.75 * plain.value(0).width() ? 1 : 0;
+  }
+  EXPECT_GT(outside, 10);
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(narrower, inside / 2);
+}
+
+TEST(SmoothCell, KnowsNothingWhereItDividesByZero) {
+  const Ring r{2};
+  core::StraightLineBuilder builder;
+  const core::StraightLine line = builder.line(builder.inverse(builder.variable(0)));
+  const SheetProgram program(testing::plane(), std::vector<SheetFunction>{{r.x(), line}});
+  SmoothCell cell(program, {});
+  EXPECT_EQ(cell.enter({-1, 1}, {0, 1}), SmoothCell::Place::unknown);
+  EXPECT_EQ(cell.enter({1, 2}, {0, 1}), SmoothCell::Place::inside);
+  EXPECT_TRUE(cell.value().contains(0.5) && cell.value().contains(1));
 }
 
 TEST(PointSign, DecidesWhatDoublesCannot) {
