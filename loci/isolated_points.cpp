@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -146,6 +147,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
   const std::vector<sheet::Star> cones = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                core::to_double(problem.upper[1] - problem.lower[1]));
+  std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, sheet::ZeroSet> known;
   for (const std::string& joint : problem.joints) {
     // Two equations in two coordinates; the three of a joint in space have no common zero in general.
     if (core::force_components(problem, joint) != std::vector<Quantity>{Quantity::fx, Quantity::fy}) continue;
@@ -157,9 +159,12 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     }
     for (const core::LocusFactor* fx : x) {
       for (const core::LocusFactor* fy : y) {
-        const sheet::ZeroSet found =
-            sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
-                                  problem.upper, {.special = cones, .stop = stop});
+        // Joints along one chain bear the same force.
+        const auto [place, fresh] = known.try_emplace({fx, fy});
+        if (fresh)
+          place->second = sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line},
+                                                problem.lower, problem.upper, {.special = cones, .stop = stop});
+        const sheet::ZeroSet& found = place->second;
         const auto add = [&](const core::Point2& at, bool certified) {
           if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
           add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},

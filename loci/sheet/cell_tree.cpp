@@ -15,8 +15,6 @@ constexpr double most_offset = 0.06;
 // Below this size, relative to the patch, multi-precision is worth its price where rounding is what hides a sign.
 constexpr double worth_precision = 1e-4;
 constexpr int cells_between_stops = 256;
-// Longer programs come of expanded polynomials, whose cancellation second-order enclosures mend little of.
-constexpr int most_smooth_steps = 6000;
 
 /// A fixed sequence that looks random: in [-1, 1].
 double scatter(unsigned index, unsigned attempt) {
@@ -98,8 +96,7 @@ CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, c
   nodes_.push_back({domain});
   smallest_ = options.smallest * std::max(domain.x.width(), domain.y.width());
   SheetCell evaluator(program, mode);
-  std::optional<SmoothCell> smooth;
-  if (program.is_nested() && program.instructions() <= most_smooth_steps) smooth.emplace(program, mode);
+  std::optional<SmoothCell> smooth = worthwhile_smooth_cell(program, mode);
   build(evaluator, smooth ? &*smooth : nullptr, options);
 }
 

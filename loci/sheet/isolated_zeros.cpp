@@ -9,6 +9,9 @@ namespace clearloci::loci::sheet {
 
 namespace {
 
+// Once a chart is given up the set stays open, and the others get this part of the cells.
+constexpr int share_after_giving_up = 8;
+
 /// The zero in plane coordinates. `enclosure`: of the chart's coordinates and roots.
 SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, const std::vector<Star>& stars) {
   SheetZero zero;
@@ -52,9 +55,11 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
     SheetProgram program(sheet.tower, sheet.functions);
     ZeroSearch search(program, mode, {});
     const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {-1, 1}}};
-    const FoundZeros found =
-        search.run(seeds, {options.smallest * (plane ? size : 1.0), static_cast<std::size_t>(options.most_cells),
-                           2e-15 * size, options.stop});
+    const FoundZeros found = search.run(
+        seeds,
+        {options.smallest * (plane ? size : 1.0),
+         static_cast<std::size_t>(result.gave_up ? options.most_cells / share_after_giving_up : options.most_cells),
+         2e-15 * size, options.stop});
     result.gave_up = result.gave_up || found.gave_up;
     for (const Cell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
     for (const std::vector<Interval>& enclosure : found.enclosures) {

@@ -5,6 +5,9 @@
 namespace clearloci::loci::sheet {
 namespace {
 
+// Longer programs come of expanded polynomials, whose cancellation second-order enclosures mend little of.
+constexpr int most_steps = 6000;
+
 bool is_finite(const Interval& a) { return std::isfinite(a.lower()) && std::isfinite(a.upper()); }
 
 bool is_known(const Jet& a) {
@@ -30,6 +33,16 @@ SmoothCell::Place SmoothCell::enter(const Interval& x, const Interval& y) {
   }
   registers_.run_values();
   return is_known(registers_.value(0)) ? Place::inside : Place::unknown;
+}
+
+bool SmoothCell::excludes(int function) const {
+  const Jet& own = registers_.value(function);
+  return is_known(own) && !own.value.contains_zero();
+}
+
+std::optional<SmoothCell> worthwhile_smooth_cell(const SheetProgram& program, const core::WorkingMode& mode) {
+  if (!program.is_nested() || program.instructions() > most_steps) return std::nullopt;
+  return SmoothCell(program, mode);
 }
 
 }  // namespace clearloci::loci::sheet

@@ -3,6 +3,8 @@
 // tell something on tiny cells only.
 #pragma once
 
+#include <optional>
+
 #include "loci/sheet/jet.hpp"
 #include "loci/sheet/sheet_program.hpp"
 
@@ -21,6 +23,8 @@ class SmoothCell {
 
   /// After Place::inside.
   const Interval& value() const { return registers_.value(0).value; }
+  /// After Place::inside: the function is proven to vanish nowhere on the cell.
+  bool excludes(int function) const;
   /// d/d(coordinate c) of the function on the sheet, times the half width of the cell.
   const Interval& slope(int c) const { return registers_.value(0).slope[static_cast<std::size_t>(c)]; }
 
@@ -29,5 +33,8 @@ class SmoothCell {
   core::WorkingMode mode_;
   SheetProgram::Registers<Jet> registers_;
 };
+
+/// None where plain enclosures do: no root is nested, or the program is too long for the price.
+std::optional<SmoothCell> worthwhile_smooth_cell(const SheetProgram& program, const core::WorkingMode& mode);
 
 }  // namespace clearloci::loci::sheet

@@ -38,7 +38,10 @@ Interval inflated(const Interval& a, double share) {
 }  // namespace
 
 ZeroSearch::ZeroSearch(const SheetProgram& program, const core::WorkingMode& mode, System system)
-    : program_(&program), system_(std::move(system)), cell_(program, mode) {
+    : program_(&program),
+      system_(std::move(system)),
+      cell_(program, mode),
+      smooth_(worthwhile_smooth_cell(program, mode)) {
   core::ensure(system_.functions.size() == system_.free.size(), "as many functions as unknowns");
 }
 
@@ -73,6 +76,7 @@ void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
   };
   if (!cell_.enter(cell.x, cell.y, live.roots) || excluded([&](int f) { return cell_.value(f); }) || known(cell))
     return;
+  if (smoothly_excluded(cell)) return;
   box_.clear();
   const std::vector<int> lifted = cell_.lifted();
   const auto is_free = [&](int c) {
@@ -110,6 +114,14 @@ void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
     undecided_.push_back(cell);
   else
     split({cell, std::move(roots)}, axis, next);
+}
+
+bool ZeroSearch::smoothly_excluded(const Cell& cell) {
+  if (!smooth_) return false;
+  const SmoothCell::Place place = smooth_->enter(cell.x, cell.y);
+  return place == SmoothCell::Place::outside ||
+         (place == SmoothCell::Place::inside && std::any_of(system_.functions.begin(), system_.functions.end(),
+                                                            [this](int f) { return smooth_->excludes(f); }));
 }
 
 /// A root whose range makes a function vary more than the cell's extent does is cut before the cell.

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "loci/sheet/krawczyk.hpp"
 #include "loci/sheet/sheet_cell.hpp"
+#include "loci/sheet/smooth_cell.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -56,6 +58,8 @@ class ZeroSearch {
   };
 
   void examine(const Box& live, std::vector<Box>& next);
+  /// Second-order enclosures prove that no zero is in the cell.
+  bool smoothly_excluded(const Cell& cell);
   int axis_to_cut(const Cell& cell) const;
   Verdict try_wider(std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval>& image);
   bool owns(const CertifiedZero& zero, const std::vector<Interval>& all) const;
@@ -69,6 +73,7 @@ class ZeroSearch {
   const SheetProgram* program_;
   System system_;
   SheetCell cell_;
+  std::optional<SmoothCell> smooth_;
   Limits limits_{};
   std::vector<CertifiedZero> zeros_;
   std::vector<Cell> undecided_;
