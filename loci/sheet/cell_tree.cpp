@@ -45,14 +45,15 @@ int steeper_axis(const SheetCell& cell) {
   return variation[0] >= variation[1] ? 0 : 1;
 }
 
-/// What second-order enclosures tell of a cell that plain ones leave undecided.
-void judge_again(SmoothCell& cell, const Cell& place, Judgement& judgement) {
+/// What second-order enclosures tell of a cell. False: plain ones may tell more.
+bool judge_smoothly(SmoothCell& cell, const Cell& place, Judgement& judgement) {
   const SmoothCell::Place found = cell.enter(place.x, place.y);
-  if (found == SmoothCell::Place::unknown) return;
+  if (found == SmoothCell::Place::unknown) return false;
   if (found == SmoothCell::Place::outside || !cell.value().contains_zero()) {
     judgement.kind = LeafKind::empty;
-    return;
+    return true;
   }
+  judgement.cut_axis = cell.slope(0).magnitude() >= cell.slope(1).magnitude() ? 0 : 1;
   double best = 0;
   for (const int along : {0, 1}) {
     const Interval& slope = cell.slope(1 - along);
@@ -61,14 +62,18 @@ void judge_again(SmoothCell& cell, const Cell& place, Judgement& judgement) {
     judgement.kind = LeafKind::graph;
     judgement.along = along;
   }
+  return judgement.kind != LeafKind::undecided || cell.is_far_from_rims();
 }
 
 /// `smooth`: null where plain enclosures do.
 Judgement judge(SheetCell& cell, SmoothCell* smooth, const Cell& place, double patch_size) {
   if (!cell.enter(place.x, place.y) || !cell.value(0).contains_zero()) return {LeafKind::empty};
+  const double width = std::max(place.x.width(), place.y.width());
+  Judgement judgement;
+  if (smooth != nullptr && width >= worth_precision * patch_size && judge_smoothly(*smooth, place, judgement))
+    return judgement;
   cell.differentiate();
   if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
-  Judgement judgement;
   double best = 0;
   for (int c = 0; c < cell.dimension(); ++c) {
     const Interval tangent = cell.tangent(0, c);
@@ -79,13 +84,11 @@ Judgement judge(SheetCell& cell, SmoothCell* smooth, const Cell& place, double p
     judgement.kind = LeafKind::graph;
     judgement.along = c < 2 ? c : 2 + cell.lifted()[c - 2];
   }
-  const double width = std::max(place.x.width(), place.y.width());
   if (judgement.kind == LeafKind::undecided && width < worth_precision * patch_size && cell.rounding_dominates(0)) {
     cell.sharpen_middle();
     if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
   }
   judgement.cut_axis = steeper_axis(cell);
-  if (judgement.kind == LeafKind::undecided && smooth != nullptr) judge_again(*smooth, place, judgement);
   return judgement;
 }
 

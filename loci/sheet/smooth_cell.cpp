@@ -40,6 +40,13 @@ bool SmoothCell::excludes(int function) const {
   return is_known(own) && !own.value.contains_zero();
 }
 
+bool SmoothCell::is_far_from_rims() const {
+  constexpr double near = 0.25;
+  for (int j = 0; j < program_->roots(); ++j)
+    if (registers_.square(j).value.lower() <= near * registers_.square(j).value.upper()) return false;
+  return true;
+}
+
 std::optional<SmoothCell> worthwhile_smooth_cell(const SheetProgram& program, const core::WorkingMode& mode) {
   if (!program.is_nested() || program.instructions() > most_steps) return std::nullopt;
   return SmoothCell(program, mode);

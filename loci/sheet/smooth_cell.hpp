@@ -25,6 +25,8 @@ class SmoothCell {
   const Interval& value() const { return registers_.value(0).value; }
   /// After Place::inside: the function is proven to vanish nowhere on the cell.
   bool excludes(int function) const;
+  /// After Place::inside: the square of no root varies much over the cell.
+  bool is_far_from_rims() const;
   /// d/d(coordinate c) of the function on the sheet, times the half width of the cell.
   const Interval& slope(int c) const { return registers_.value(0).slope[static_cast<std::size_t>(c)]; }
 
