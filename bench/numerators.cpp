@@ -1,17 +1,15 @@
-// |A| and every Cramer numerator: of the 5R with symbolic parameters, against GiNaC's own determinant() of the full
-// matrix, once for |A| and once a column; of the spatial platforms with their numbers.
+// |A| and every Cramer numerator, factored: of the 5R with symbolic parameters, against GiNaC's own determinant() of
+// the full matrix, once for |A| and once a column; of the spatial platforms with their numbers.
 #include <benchmark/benchmark.h>
 #include <ginac/ginac.h>
 
 #include "mechanism/read.hpp"
-#include "symbolic/cramer.hpp"
 #include "symbolic/determinants.hpp"
 
 namespace {
 
 using clearloci::symbolic::Geometry;
 using clearloci::symbolic::NewtonEulerEquations;
-using clearloci::symbolic::Poly;
 
 constexpr bool keep_parameters = true;
 
@@ -28,15 +26,7 @@ const clearloci::mechanism::Mechanism& five_bar() {
 void numerators_of(benchmark::State& state, const clearloci::mechanism::Mechanism& mechanism, bool keep) {
   for (auto _ : state) {
     const Geometry geometry(mechanism, keep);
-    const NewtonEulerEquations equations = newton_euler_equations(geometry);
-    std::vector<std::vector<Poly>> matrix;
-    std::vector<Poly> loads;
-    for (unsigned i = 0; i < equations.matrix.rows(); ++i) {
-      std::vector<Poly>& row = matrix.emplace_back();
-      for (unsigned j = 0; j < equations.matrix.cols(); ++j) row.push_back(geometry.poly(equations.matrix(i, j)));
-      loads.push_back(geometry.poly(equations.loads(i, 0)));
-    }
-    benchmark::DoNotOptimize(clearloci::symbolic::cramer_determinants(geometry.ring(), matrix, loads));
+    benchmark::DoNotOptimize(clearloci::symbolic::factored_determinants(geometry));
   }
 }
 
@@ -47,14 +37,6 @@ void numerators_gough_stewart(benchmark::State& state) { numerators_of(state, ex
 
 /// 42 unknowns.
 void numerators_three_upu(benchmark::State& state) { numerators_of(state, example("three_upu.yaml"), false); }
-
-/// The same as `numerators`, factored.
-void numerators_factored(benchmark::State& state) {
-  for (auto _ : state) {
-    const Geometry geometry(five_bar(), keep_parameters);
-    benchmark::DoNotOptimize(clearloci::symbolic::factored_determinants(geometry));
-  }
-}
 
 /// From the mechanism to the same numerators by GiNaC alone.
 void numerators_ginac_determinant(benchmark::State& state) {
@@ -71,7 +53,6 @@ void numerators_ginac_determinant(benchmark::State& state) {
 }
 
 BENCHMARK(numerators)->Unit(benchmark::kMillisecond);
-BENCHMARK(numerators_factored)->Unit(benchmark::kMillisecond);
 BENCHMARK(numerators_gough_stewart)->Unit(benchmark::kMillisecond);
 BENCHMARK(numerators_three_upu)->Unit(benchmark::kMillisecond);
 BENCHMARK(numerators_ginac_determinant)->Unit(benchmark::kMillisecond);
