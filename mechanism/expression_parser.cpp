@@ -1,4 +1,4 @@
-// Recursive descent over the grammar of mechanism-format.md:
+// Recursive descent over the grammar of mechanism-file.md:
 //     sum     := product (('+' | '-') product)*
 //     product := signed (('*' | '/') signed | 'deg')*         30 deg = 30*(pi/180), the only multiplication left unsaid
 //     signed  := ('+' | '-') signed | power

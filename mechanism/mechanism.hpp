@@ -1,4 +1,4 @@
-// The exact model of a mechanism: what its file says, checked, with every name resolved. See mechanism-format.md.
+// The exact model of a mechanism: what its file says, checked, with every name resolved. See mechanism-file.md.
 // Units are SI throughout: m, kg, s, N, N m, rad.
 #pragma once
 

@@ -1,4 +1,4 @@
-// From the YAML file of mechanism-format.md to a Mechanism, with every check that needs no algebra.
+// From the YAML file of mechanism-file.md to a Mechanism, with every check that needs no algebra.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ Mechanism read_mechanism(const std::string& path, const std::vector<Override>& o
 Mechanism parse_mechanism(const std::string& text, const std::string& file,
                           const std::vector<Override>& overrides = {});
 
-/// An expression by the rules of mechanism-format.md, e.g. "2*L + cos(30 deg)". `where`: its place, for errors.
+/// An expression by the rules of mechanism-file.md, e.g. "2*L + cos(30 deg)". `where`: its place, for errors.
 Expression parse_expression(const std::string& text, const core::SourcePosition& where);
 
 }  // namespace clearloci::mechanism

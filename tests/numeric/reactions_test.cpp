@@ -138,7 +138,7 @@ TEST(LoadColumn, HoldsForceCoupleAndWeights) {
 }
 
 TEST(Reactions, LegOneIsUnloadedWhereTheLinkIsParallelToTheForce) {
-  // reference-cases.md: F = (3, 4)/5, lengths 6/5 and 1, A = (±1/2, 0): leg 1 unloaded on the circles
+  // tests/reference/reference-cases.md: F = (3, 4)/5, lengths 6/5 and 1, A = (±1/2, 0): leg 1 unloaded on the circles
   // of radius L_B2A2 about A2 ± L_PB2 F/|F|.
   FiveBar design{.a1 = 1.2, .b1 = 1, .a2 = 1.2, .b2 = 1, .fx = 3, .fy = 4};
   design.base_x = 1;  // the same mechanism moved by 1/2 along x

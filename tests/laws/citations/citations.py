@@ -1,0 +1,63 @@
+"""Every citation of a page of this repository can be followed: the page is there, and so is the section.
+
+A citation is the name of a page, alone or with `section 4`, `sections 1 to 5`, or the bare number of the section:
+"method.md section 8", "docs/exactness.md", "method.md 6". Usage: citations.py REPOSITORY; exit status 1 and one line a
+citation that leads nowhere.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+TEXTS = (".hpp", ".cpp", ".py", ".md", ".cmake", ".txt", ".sh", ".yaml", ".ts")
+PAGE = re.compile(r"(?<![\w/.-])((?:[\w.-]+/)*[\w-]+\.md)\b(?:,?\s+(?:sections?\s+)?(\d+)(?:\s+to\s+(\d+))?(?![\d.]*\d))?")
+HEADING = re.compile(r"^#+ (\d+)\. ", re.MULTILINE)
+# Words that look like pages and are none: what a program writes, or a page of somebody else's.
+ELSEWHERE = {"DEVELOPERS.md"}
+
+
+def page_of(root, citing, name):
+    """Where a cited page is: beside the page that cites it, among the documents, or from the root."""
+    for folder in (root / pathlib.PurePosixPath(citing).parent, root / "docs", root):
+        if (folder / name).is_file():
+            return folder / name
+    return None
+
+
+def comment_joined(text):
+    """Lines of a comment as one, so that a citation may be broken between them."""
+    return re.sub(r"\n[ \t]*(?://+|#|\*)?[ \t]*", " ", text)
+
+
+def dead_citations(root, citing, text):
+    found = []
+    for name, first, last in PAGE.findall(comment_joined(text)):
+        if name in ELSEWHERE:
+            continue
+        page = page_of(root, citing, name)
+        if page is None:
+            found.append(f"{citing}: there is no {name}")
+            continue
+        if not first:
+            continue
+        sections = set(HEADING.findall(page.read_text(encoding="utf-8")))
+        for number in range(int(first), int(last or first) + 1):
+            if sections and str(number) not in sections:
+                found.append(f"{citing}: {name} has no section {number}")
+    return found
+
+
+def main(root):
+    files = subprocess.run(["git", "-C", root, "ls-files"], capture_output=True, text=True, check=True).stdout.split("\n")
+    found = []
+    for name in files:
+        if name.endswith(TEXTS) and not name.startswith("tests/laws/citations/") and (root / name).is_file():
+            found += dead_citations(root, name, (root / name).read_text(encoding="utf-8", errors="replace"))
+    for line in found:
+        print(line)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1])))

@@ -1,0 +1,35 @@
+"""The checker of citations finds what it should and nothing else."""
+
+import pathlib
+import tempfile
+import unittest
+
+from citations import dead_citations
+
+
+class Citations(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+        (self.root / "docs").mkdir()
+        (self.root / "docs" / "method.md").write_text("# The method\n\n## 1. Closure\n\n## 2. Statics\n")
+
+    def dead(self, text):
+        return dead_citations(self.root, "core/a.hpp", text)
+
+    def test_a_page_that_is_there(self):
+        self.assertEqual(self.dead("// (method.md section 2), docs/method.md, method.md sections 1 to 2, method.md 1"), [])
+
+    def test_a_page_that_is_not(self):
+        self.assertEqual(self.dead("// (results.md, zones.json)"), ["core/a.hpp: there is no results.md"])
+
+    def test_a_section_that_is_not(self):
+        self.assertEqual(self.dead("// method.md sections 2 to 3"), ["core/a.hpp: method.md has no section 3"])
+
+    def test_a_citation_broken_between_lines(self):
+        self.assertEqual(self.dead("// (paper (3); method.md\n// section 4)"), ["core/a.hpp: method.md has no section 4"])
+
+
+if __name__ == "__main__":
+    unittest.main()
