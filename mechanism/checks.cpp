@@ -295,12 +295,18 @@ void check_axes(const Mechanism& mechanism) {
 }
 
 void check_rigidity(const Mechanism& mechanism) {
-  // Rounding moves a sampled distance by 1e-12 or so of its size, a real motion by far more.
+  // Of the link's size, not of the distance itself: two points of a link may be one place (a point in the middle of a
+  // link is its centre of mass), and what rounding leaves of no distance at all is no part of it. A real motion is far
+  // more.
   constexpr double tolerance = 1e-7;
+  // Of the coordinates: what rounding moves a point by that is far from the origin, with room for a construction.
+  constexpr double rounding = 1e-13;
   constexpr std::size_t enough_postures = 12;
   const std::vector<PosturePoints> postures = sample_postures(mechanism, enough_postures);
+  if (postures.empty()) return;
   for (const Link& link : mechanism.links) {
     std::vector<DistanceRange> pairs = distances_to_keep(link);
+    double size = 0, farthest = 0;
     for (DistanceRange& pair : pairs) {
       for (const PosturePoints& posture : postures) {
         const auto& p = posture[static_cast<std::size_t>(pair.first)];
@@ -308,8 +314,12 @@ void check_rigidity(const Mechanism& mechanism) {
         const double apart = distance(p, q);
         pair.least = std::min(pair.least, apart);
         pair.greatest = std::max(pair.greatest, apart);
+        farthest = std::max({farthest, distance(p, {}), distance(q, {})});
       }
-      if (postures.empty() || pair.greatest - pair.least <= tolerance * pair.greatest) continue;
+      size = std::max(size, pair.greatest);
+    }
+    for (const DistanceRange& pair : pairs) {
+      if (pair.greatest - pair.least <= tolerance * size + rounding * farthest) continue;
       const Point& second = point_at(mechanism, pair.second);
       throw InputError(link.where,
                        "link " + link.name + " is not rigid: the distance between " +

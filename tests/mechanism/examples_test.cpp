@@ -28,6 +28,13 @@ TEST(Examples, FiveBarHasTheColumnsOfThePaper) {
   EXPECT_EQ(order, "fA1x fA1y fB1x fB1y fPx fPy fB2x fB2y fA2x fA2y MA1 MA2 ");
 }
 
+/// A point in the middle of a link is its centre of mass: two places of a link that are one stay together.
+TEST(Rigidity, TakesAPointInTheMiddleOfALinkWithAMass) {
+  const std::filesystem::path corpus = std::filesystem::path(CLEARLOCI_SOURCE_DIR) / "tests/corpus/mechanism";
+  for (const char* name : {"rigid_min.yaml", "watt2_187.yaml"})
+    EXPECT_NO_THROW(read_mechanism((corpus / name).string())) << name;
+}
+
 TEST(ReadMechanism, NamesAFileThatIsNotThere) {
   try {
     read_mechanism("no/such/file.yaml");
