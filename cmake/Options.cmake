@@ -2,6 +2,7 @@
 option(CLEARLOCI_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(CLEARLOCI_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(CLEARLOCI_WARNINGS_AS_ERRORS "Treat warnings in this project's code as errors" OFF)
+option(CLEARLOCI_FUZZ "Build the fuzzers alone, with what they throw bytes at; wants Clang" OFF)
 set(CLEARLOCI_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -27,6 +28,13 @@ endif()
 if(CLEARLOCI_SANITIZE)
   add_compile_options(-fsanitize=${CLEARLOCI_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
   add_link_options(-fsanitize=${CLEARLOCI_SANITIZE})
+endif()
+
+if(CLEARLOCI_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "CLEARLOCI_FUZZ wants Clang, whose libFuzzer it uses")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
 # clearloci_folder(<folder> [sources...]): the folder's static library clearloci_<folder>, alias clearloci::<folder>.
