@@ -65,8 +65,10 @@ Printed print_sum(const Expression& left, const Expression& right) {
   const std::string first = enclosed(print(left), sum);
   if (right.kind() == Kind::negate) return {first + " - " + enclosed_right(print(right.arguments()[0]), product), sum};
   const Printed second = print(right);
-  // -2*x as a second summand: subtract 2*x. The minus of a sum belongs to its first summand only: a + (-b + c).
-  if (second.begins_with_minus() && second.binding >= product) return {first + " - " + second.text.substr(1), sum};
+  // -2*x as a second summand: subtract 2*x. The minus of a sum belongs to its first summand only: a + (-b + c). What
+  // begins with two of them stays whole: a - (-b)*c would be read as a - ((-b)*c), and printed so.
+  const bool subtracts = second.begins_with_minus() && second.binding >= product && second.text.substr(1, 2) != "(-";
+  if (subtracts) return {first + " - " + second.text.substr(1), sum};
   return {first + " + " + enclosed_right(second, sum), sum};
 }
 

@@ -45,6 +45,13 @@ TEST(Expression, FindsSymbols) {
   EXPECT_TRUE(symbols(number(3)).empty());
 }
 
+TEST(ToString, ReadsAsWhatItIs) {
+  // -(-b)/c as a summand: a - (-b)/c would be read as a - ((-b)/c), which prints with other parentheses.
+  const Expression quotient = over(minus(minus(symbol("b"))), symbol("c"));
+  EXPECT_EQ(to_string(add(symbol("a"), quotient)), "a + (-(-b)/c)");
+  EXPECT_EQ(to_string(add(symbol("a"), over(minus(symbol("b")), symbol("c")))), "a - b/c");
+}
+
 TEST(ToString, UsesTheFewestParentheses) {
   const Expression a = symbol("a");
   const Expression b = symbol("b");
