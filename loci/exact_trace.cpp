@@ -112,7 +112,7 @@ class ExactTrace {
       for (const EdgeWalk::Step& step : walk.steps) inside.push_back(point_inside(step.edge));
     if (const std::optional<core::Circle> circle = core::circle_through(form, inside)) {
       const auto& [centre, radius] = *circle;
-      Polyline points = circle_arc(centre, radius, start, inside.front(), end, problem_.tolerance);
+      Polyline points = circle_arc(centre, radius, start, inside.front(), end, walk.closed, problem_.tolerance);
       double sweep = 0;
       for (std::size_t i = 1; i < points.size(); ++i) {
         const double chord = std::hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);

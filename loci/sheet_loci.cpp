@@ -89,6 +89,16 @@ bool is_line_or_circle(const core::ClosedForm& form) {
   return std::holds_alternative<core::LineForm>(form) || std::holds_alternative<core::CircleForm>(form);
 }
 
+/// The side of the box that a line is: 0 to 3 for x0, x1, y0, y1; -1: none.
+int side_along(const LocusProblem& problem, const core::Polynomial& implicit) {
+  for (int side = 0; side < 4; ++side) {
+    const core::Rational& at = (side % 2 == 0 ? problem.lower : problem.upper)[static_cast<std::size_t>(side / 2)];
+    if (implicit == core::primitive_part(core::variable_polynomial(2, side / 2) - core::constant_polynomial(2, at)))
+      return side;
+  }
+  return -1;
+}
+
 /// A branch of |A| = 0 reaches the star on the mode's sheet.
 bool is_singular(const LocusProblem& problem, const core::WorkingMode& mode, const sheet::Star& star) {
   const std::array<double, 4> box = {core::to_double(problem.lower[0]), core::to_double(problem.upper[0]),
@@ -104,6 +114,7 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
   std::vector<PlaneCurve> curves;
   for (const core::Polynomial& p : factor.implicit) {
     options.closed_form.push_back(is_line_or_circle(core::recognise_closed_form(p)));
+    options.along_side.push_back(side_along(problem, p));
     if (factor.implicit.size() > 1) curves.emplace_back(p);
   }
   if (curves.size() > 1) options.colour = [&curves](const Point2& at) { return nearest_curve(curves, at); };
@@ -174,7 +185,7 @@ core::Arc finished(const TracedArc& traced, const core::ClosedForm& form, double
     };
     const Point2 start = on_circle(arc.points.front());
     const Point2 end = arc.closed ? start : on_circle(arc.points.back());
-    arc.points = circle_arc(centre, radius, start, traced.inner, end, tolerance);
+    arc.points = circle_arc(centre, radius, start, traced.inner, end, arc.closed, tolerance);
     arc.length = 0;
     for (std::size_t i = 1; i < arc.points.size(); ++i) {
       const double chord = std::hypot(arc.points[i][0] - arc.points[i - 1][0], arc.points[i][1] - arc.points[i - 1][1]);

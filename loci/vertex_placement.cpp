@@ -155,11 +155,10 @@ core::Polyline place_vertices(const CurveArrangement& arrangement, int edge, con
 }
 
 core::Polyline circle_arc(const Point2& centre, double radius, const Point2& start, const Point2& via,
-                          const Point2& end, double tolerance) {
+                          const Point2& end, bool closed, double tolerance) {
   const auto angle = [&](const Point2& p) { return std::atan2(p[1] - centre[1], p[0] - centre[0]); };
   const double turn = 2 * std::numbers::pi;
   const auto positive = [&](double a) { return a < 0 ? a + turn : a; };
-  const bool closed = start == end;
   const double from = angle(start);
   const double to_via = positive(angle(via) - from);
   double sweep = closed ? turn : positive(angle(end) - from);

@@ -48,7 +48,7 @@ class Stringer {
   int open_junction(const Incidence& end) {
     const int at = junction(end.stretch, end.end);
     const Crossing::Kind kind = graph_.crossings[at].kind;
-    const bool open = kind == Crossing::Kind::star || kind == Crossing::Kind::node;
+    const bool open = kind == Crossing::Kind::star || kind == Crossing::Kind::node || kind == Crossing::Kind::edge;
     return open && own_label(end) == core::ArcEnd::none ? at : -1;
   }
 
@@ -131,10 +131,12 @@ std::vector<Chain> join_at_junctions(const CurveGraph& graph, std::vector<Chain>
       next[ends[1].chain][ends[1].end] = ends[0];
       continue;
     }
+    const Crossing& junction = graph.crossings[place.first];
+    core::ArcEnd label = core::ArcEnd::crossing;
+    if (junction.kind == Crossing::Kind::edge) label = junction.alone;
     // Where the construction is undefined the sheet ends in a point.
-    const bool star = graph.crossings[place.first].kind == Crossing::Kind::star;
-    for (const ChainEnd& end : ends)
-      parts[end.chain].ends[end.end] = star && ends.size() == 1 ? core::ArcEnd::boundary : core::ArcEnd::crossing;
+    if (junction.kind == Crossing::Kind::star && ends.size() == 1) label = core::ArcEnd::boundary;
+    for (const ChainEnd& end : ends) parts[end.chain].ends[end.end] = label;
   }
   std::vector<Chain> result;
   std::vector<bool> used(parts.size(), false);

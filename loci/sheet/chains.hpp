@@ -13,7 +13,8 @@ struct Chain {
   std::vector<Leg> legs;
   bool closed = false;
   std::array<core::ArcEnd, 2> ends = {core::ArcEnd::none, core::ArcEnd::none};
-  /// Crossing at which branches of several curves may meet, a star or a node; -1: another end.
+  /// Crossing at which branches of several curves may meet, a star or a node, or which cuts an arc only where the piece
+  /// beyond is not wanted, a region's edge; -1: another end.
   std::array<int, 2> junctions = {-1, -1};
   int colour = 0;  ///< which of several curves that share the graph it belongs to
 };

@@ -321,6 +321,25 @@ class GraphBuilder {
   std::vector<Touching> touching_;
 };
 
+/// An enclosure wider than rounding, whose middle is not on the curve, gets the curve's point at the middle of its
+/// range of variable `along` for its middle.
+void move_to_curve(const Patch& patch, int along, std::vector<Interval>& enclosure) {
+  const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
+  LiftedPoint point;
+  double width = 0;
+  for (const Interval& value : enclosure) {
+    point.push_back(value.middle());
+    width = std::max(width, value.width());
+  }
+  if (width <= accuracy * size) return;
+  LiftedPoint row(point.size(), 0.0), moved = point;
+  row[static_cast<std::size_t>(along)] = 1;
+  SheetFollower follower(*patch.program, size);
+  if (!follower.correct(moved, row, point[static_cast<std::size_t>(along)])) return;
+  for (std::size_t v = 0; v < point.size(); ++v)
+    if (static_cast<int>(v) != along && enclosure[v].contains(moved[v])) enclosure[v] = Interval(moved[v]);
+}
+
 }  // namespace
 
 LiftedPoint StretchEnd::middle() const {
@@ -354,19 +373,21 @@ CurveGraph curve_graph(const core::RootTower& tower, const SheetFunction& curve,
   }
 }
 
-bool cut_stretch(CurveGraph& graph, int patch, const std::vector<Interval>& enclosure, core::ArcEnd label) {
-  const int leaf = graph.patches[patch].tree->locate(enclosure[0], enclosure[1]);
+bool cut_stretch(CurveGraph& graph, int patch, std::vector<Interval> enclosure, Crossing crossing) {
+  const Patch& own = graph.patches[static_cast<std::size_t>(patch)];
+  const int leaf = own.tree->locate(enclosure[0], enclosure[1]);
   if (leaf < 0) return false;
   for (Stretch& stretch : graph.stretches) {
     if (stretch.patch != patch || stretch.leaf != leaf) continue;
-    const Interval& key = enclosure[stretch.along];
-    if (!(stretch.ends[0].enclosure[stretch.along].upper() < key.lower() &&
-          key.upper() < stretch.ends[1].enclosure[stretch.along].lower()))
+    const auto along = static_cast<std::size_t>(stretch.along);
+    const Interval& key = enclosure[along];
+    if (!(stretch.ends[0].enclosure[along].upper() < key.lower() &&
+          key.upper() < stretch.ends[1].enclosure[along].lower()))
       continue;
-    Crossing crossing;
-    crossing.kind = Crossing::Kind::cut;
-    crossing.label = label;
-    crossing.at = graph.patches[patch].chart.to_plane(enclosure[0].middle(), enclosure[1].middle());
+    move_to_curve(own, stretch.along, enclosure);
+    crossing.at = own.chart.to_plane(enclosure[0].middle(), enclosure[1].middle());
+    for (std::size_t c = 0; c < 2; ++c)
+      if (crossing.fixed[c]) crossing.at[c] = *crossing.fixed[c];
     graph.crossings.push_back(crossing);
     Stretch rest = stretch;
     rest.ends[0] = {static_cast<int>(graph.crossings.size()) - 1, enclosure};

@@ -2,7 +2,9 @@
 // stretches, each inside one cell where it is proven to be a single graph over one variable.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "loci/sheet/cell_tree.hpp"
@@ -20,11 +22,13 @@ struct Patch {
 };
 
 struct Crossing {
-  enum class Kind { seam, box, rim, star, node, cut };
+  enum class Kind { seam, box, rim, star, node, cut, edge };
   Kind kind = Kind::seam;
   core::Point2 at{};
   int star = -1;                            ///< of a star
   core::ArcEnd label = core::ArcEnd::none;  ///< of a cut; of a star where a cutter reaches it in the same direction
+  core::ArcEnd alone = core::ArcEnd::none;  ///< of a region's edge: what an arc that goes no further ends at
+  std::array<std::optional<double>, 2> fixed = {};  ///< of a box's side: the coordinate that it tells
 };
 
 /// One end of a stretch: the crossing, enclosed in the coordinates and roots of the stretch's patch.
@@ -68,8 +72,8 @@ std::vector<Patch> make_patches(const core::RootTower& tower, const SheetFunctio
 CurveGraph curve_graph(const core::RootTower& tower, const SheetFunction& curve, const core::WorkingMode& mode,
                        const Partition& parts, const TreeOptions& options);
 
-/// Cuts the stretch that holds the place (in the coordinates of patch `patch`) at a new crossing. False: rounding does
-/// not tell which one that is.
-bool cut_stretch(CurveGraph& graph, int patch, const std::vector<Interval>& enclosure, core::ArcEnd label);
+/// Cuts the stretch that holds the place (in the coordinates of patch `patch`) at a new crossing, which gets its place
+/// on the curve. False: rounding does not tell which stretch that is.
+bool cut_stretch(CurveGraph& graph, int patch, std::vector<Interval> enclosure, Crossing crossing);
 
 }  // namespace clearloci::loci::sheet

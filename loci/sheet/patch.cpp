@@ -236,11 +236,12 @@ std::optional<std::array<double, 4>> rectangle_around(const Star& star, const st
                                                       const std::vector<core::Point2>& bases) {
   // A star this close to the box's edge, relative to its rectangle, has the rectangle reach across the edge.
   constexpr double margin = 0.05;
-  constexpr double largest = 0.06;  // half a rectangle's width, relative to the box
+  // No round numbers, since sides of rectangles on sides of the box are hard to tell apart.
+  constexpr double largest = 0.0607;  // half a rectangle's width, relative to the box
   // Functions are small around other bases: polynomials in polar coordinates are no good form there.
-  constexpr double share = 0.25;  // of the way to the next base
+  constexpr double share = 0.2473;  // of the way to the next base
   // Along a common tangent, relative to the way off it: every curve towards the touch then stays in the rectangle.
-  constexpr double flat = 0.5;
+  constexpr double flat = 0.4931;
   const auto [x, y] = place_of(star);
   double reach = largest * std::max(box[1] - box[0], box[3] - box[2]);
   for (const core::Point2& base : bases) {

@@ -15,9 +15,14 @@ namespace clearloci::loci::sheet {
 
 namespace {
 
-// The box is widened by this share, the same on no two sides, so that its edges are in general position.
-constexpr double box_margin = 1e-9;
+// The curve is traced in a box that is wider by about this share, the same on no two sides, so that its edges are in
+// general position; then it is cut at the sides of the box itself. Wide enough that what touches a side leaves the
+// wider box at two places well apart, and narrow enough to cost nothing.
+constexpr double box_margin = 1e-3;
 constexpr std::array<double, 4> margin_shares = {-1.137, 1.291, -1.073, 1.419};
+// Where curve and region's edge touch, double zeros stay open down to smallest_cut. Open places up to this width,
+// relative to the patch, count as one point.
+constexpr double widest_touch = 1e-10;
 // Zeros of (N, cutter) closer than this, relative to the patch, are a touch; more live cells than this a shared curve.
 constexpr double smallest_cut = 1e-12;
 constexpr std::size_t most_cut_cells = 8192, most_star_cells = 256;
@@ -26,11 +31,12 @@ constexpr double at_rounding = 1e-14;
 // An arc shorter than this, relative to the region, is none.
 constexpr double same_place = 1e-10;
 
-/// Where arcs are cut; `keep`: only where the polynomial is positive does the curve belong to the result.
+/// Where arcs are cut; `keep`: only where the polynomial is not negative does the curve belong to the result.
 struct Cut {
   SheetFunction sheet;
   core::ArcEnd label;
   bool keep;
+  int side = -1;  ///< of the box: 0 to 3 for x0, x1, y0, y1
 };
 
 /// A root's square, as what its zeros are traced by. The straight line shows how it vanishes at an apex.
@@ -71,6 +77,7 @@ class Tracer {
     const Interval x = hull(constant_as(lower[0], as_interval), constant_as(upper[0], as_interval));
     const Interval y = hull(constant_as(lower[1], as_interval), constant_as(upper[1], as_interval));
     box_ = {x.lower(), x.upper(), y.lower(), y.upper()};
+    for (int i = 0; i < 4; ++i) sides_[i] = (i % 2 == 0 ? lower : upper)[static_cast<std::size_t>(i / 2)];
     size_ = std::max(x.width(), y.width());
     wide_ = box_;
     for (int i = 0; i < 4; ++i) wide_[i] += margin_shares[i] * box_margin * size_;
@@ -90,22 +97,20 @@ class Tracer {
     for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
     for (const int j : own_.dropped)
       cuts.push_back({square_of(tower_, j, options_.special), core::ArcEnd::boundary, true});
-    add_box_cuts(parts, cuts);
+    add_box_cuts(cuts);
     if (!graph_.stretches.empty())
       for (const Cut& cut : cuts) apply(cut, parts);
     SheetTrace trace;
     settle_clusters(trace);
-    place_box_ends();
     std::vector<Chain> pieces;
     for (Chain& chain : chains(graph_)) {
       const core::Point2 inner = point_inside(graph_, chain.legs, size_);
-      if (!wanted(inner, cuts)) continue;
       if (options_.colour) chain.colour = options_.colour(inner);
-      pieces.push_back(std::move(chain));
+      if (wanted(inner, along_side(chain.colour), cuts)) pieces.push_back(std::move(chain));
     }
     for (const Chain& chain : join_at_junctions(graph_, std::move(pieces))) trace.arcs.push_back(place(chain));
     for (const Cell& cell : clusters(graph_.undecided))
-      trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
+      if (meets_box(cell)) trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
     trace.certified = trace.undecided.empty();
     // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
     trace.stopped = options_.stop && options_.stop();
@@ -136,16 +141,41 @@ class Tracer {
     return traced;
   }
 
-  /// A star near the box's edge makes the domain reach across it.
-  void add_box_cuts(const Partition& parts, std::vector<Cut>& cuts) const {
+  void add_box_cuts(std::vector<Cut>& cuts) const {
     const int n = tower_.variables();
     for (int i = 0; i < 4; ++i) {
-      if (parts.domain[i] == wide_[i]) continue;
-      const core::Polynomial line =
-          core::variable_polynomial(n, i / 2) - core::constant_polynomial(n, core::Rational(wide_[i]));
+      const core::Polynomial line = core::variable_polynomial(n, i / 2) - core::constant_polynomial(n, sides_[i]);
       const core::Polynomial sign = core::constant_polynomial(n, i % 2 == 0 ? 1 : -1);
-      cuts.push_back({{sign * line}, core::ArcEnd::box, true});
+      cuts.push_back({{sign * line}, core::ArcEnd::box, true, i});
     }
+  }
+
+  bool meets_box(const Cell& cell) const {
+    return !disjoint(cell.x, {box_[0], box_[1]}) && !disjoint(cell.y, {box_[2], box_[3]});
+  }
+
+  /// The side of the box that a plane curve runs along; -1: none.
+  int along_side(int colour) const {
+    const auto c = static_cast<std::size_t>(colour);
+    return c < options_.along_side.size() ? options_.along_side[c] : -1;
+  }
+
+  /// What the curve's cell is searched for the cut: all of them, or those on the side but not along it.
+  bool is_searched(int patch, int leaf, const Cut& cut) const {
+    const Patch& own = graph_.patches[static_cast<std::size_t>(patch)];
+    const Leaf& candidate = own.tree->leaves()[static_cast<std::size_t>(leaf)];
+    if (candidate.kind != LeafKind::graph) return false;
+    if (cut.side < 0) return true;
+    const Cell place = own.chart.to_plane(candidate.cell);
+    const auto side = static_cast<std::size_t>(cut.side);
+    if (!(cut.side < 2 ? place.x : place.y).contains(box_[side])) return false;
+    if (std::find(options_.along_side.begin(), options_.along_side.end(), cut.side) == options_.along_side.end())
+      return true;
+    return std::none_of(graph_.stretches.begin(), graph_.stretches.end(), [&](const Stretch& stretch) {
+      if (stretch.patch != patch || stretch.leaf != leaf) return false;
+      const int colour = options_.colour ? options_.colour(point_inside(graph_, {{&stretch, true}}, size_)) : 0;
+      return along_side(colour) == cut.side;
+    });
   }
 
   void apply(const Cut& cut, const Partition& parts) {
@@ -164,8 +194,8 @@ class Tracer {
     for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
       const Patch& patch = graph_.patches[p];
       std::vector<Cell> seeds;
-      for (const Leaf& leaf : patch.tree->leaves())
-        if (leaf.kind == LeafKind::graph) seeds.push_back(leaf.cell);
+      for (std::size_t l = 0; l < patch.tree->leaves().size(); ++l)
+        if (is_searched(static_cast<int>(p), static_cast<int>(l), cut)) seeds.push_back(patch.tree->leaves()[l].cell);
       if (seeds.empty()) continue;
       const ChartedSheet sheet = charting.in(patch.chart);
       const SheetProgram program(sheet.tower, sheet.functions);
@@ -174,11 +204,34 @@ class Tracer {
                                    .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop});
       std::vector<Cell> open = found.undecided;
       for (const std::vector<Interval>& zero : found.enclosures)
-        if (!cut_stretch(graph_, static_cast<int>(p), zero, cut.label)) open.push_back({zero[0], zero[1]});
+        if (!cut_stretch(graph_, static_cast<int>(p), zero, crossing_of(cut))) open.push_back({zero[0], zero[1]});
       for (const Cell& cell : clusters(std::move(open)))
-        if ((cut.keep || !at_star(patch.chart, cell)) && !at_end(patch.chart.to_plane(cell)))
+        if (!at_star(patch.chart, cell) && !at_end(patch.chart.to_plane(cell)) &&
+            !touch(static_cast<int>(p), cell, cut))
           graph_.undecided.push_back(patch.chart.to_plane(cell));
     }
+  }
+
+  /// A region's edge cuts arcs where they leave the region, which is seen from their pieces on either side.
+  Crossing crossing_of(const Cut& cut) const {
+    Crossing crossing;
+    crossing.kind = cut.keep ? Crossing::Kind::edge : Crossing::Kind::cut;
+    (cut.keep ? crossing.alone : crossing.label) = cut.label;
+    if (cut.side >= 0) crossing.fixed[static_cast<std::size_t>(cut.side / 2)] = core::to_double(sides_[cut.side]);
+    return crossing;
+  }
+
+  /// The curve meets a region's edge in a place that is one point to rounding: where they touch. What it does there is
+  /// seen from its pieces on either side, which are joined again where both belong to the region.
+  bool touch(int patch, const Cell& place, const Cut& cut) {
+    const Patch& own = graph_.patches[static_cast<std::size_t>(patch)];
+    const double size = std::max(own.domain.x.width(), own.domain.y.width());
+    if (!cut.keep || std::max(place.x.width(), place.y.width()) > widest_touch * size) return false;
+    SheetCell cell(*own.program, own_.mode);
+    if (!cell.enter(place.x, place.y)) return true;  // outside the workspace
+    std::vector<Interval> enclosure = {place.x, place.y};
+    for (std::size_t j = 0; j < own_.mode.size(); ++j) enclosure.push_back(cell.root(static_cast<int>(j)));
+    return cut_stretch(graph_, patch, enclosure, crossing_of(cut));
   }
 
   /// The cutter reaches a star in the direction of a branch: cut_at_stars has seen to it.
@@ -202,7 +255,7 @@ class Tracer {
         continue;
       for (Crossing* end : ends) end->label = cut.label;
       const double r = at_rounding * size_;
-      if (passes) cut_at({{at[0] - r, at[0] + r}, {at[1] - r, at[1] + r}}, cut.label);
+      if (passes) cut_at({{at[0] - r, at[0] + r}, {at[1] - r, at[1] + r}}, crossing_of(cut));
     }
   }
 
@@ -241,14 +294,16 @@ class Tracer {
       const FoundZeros found = ZeroSearch(program, both.mode, {})
                                    .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop});
       for (const Cell& cell : found.undecided)
-        if (cut.keep || !at_star(chart, cell)) open.push_back(chart.to_plane(cell));
+        if (!at_star(chart, cell)) open.push_back(chart.to_plane(cell));
       for (const std::vector<Interval>& zero : found.enclosures) {
         const Cell place = chart.to_plane(Cell{zero[0], zero[1]});
-        if (!at_star(chart, {zero[0], zero[1]}) && !cut_at(place, cut.label)) open.push_back(place);
+        if (!at_star(chart, {zero[0], zero[1]}) && !cut_at(place, crossing_of(cut))) open.push_back(place);
       }
     }
-    for (const Cell& cell : clusters(std::move(open)))
-      if (!at_end(cell)) graph_.undecided.push_back(cell);
+    for (const Cell& cell : clusters(std::move(open))) {
+      const bool small = std::max(cell.x.width(), cell.y.width()) <= widest_touch * size_;
+      if (!at_end(cell) && !(cut.keep && small && cut_at(cell, crossing_of(cut)))) graph_.undecided.push_back(cell);
+    }
   }
 
   /// The curve's cells in a chart of another partition.
@@ -277,7 +332,7 @@ class Tracer {
     });
   }
 
-  bool cut_at(const Cell& place, core::ArcEnd label) {
+  bool cut_at(const Cell& place, const Crossing& crossing) {
     for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
       const Patch& patch = graph_.patches[p];
       const std::optional<Cell> local = patch.chart.from_plane(place);
@@ -288,7 +343,7 @@ class Tracer {
       if (!cell.enter(local->x, local->y)) return false;
       std::vector<Interval> enclosure = {local->x, local->y};
       for (std::size_t j = 0; j < own_.mode.size(); ++j) enclosure.push_back(cell.root(static_cast<int>(j)));
-      return cut_stretch(graph_, static_cast<int>(p), enclosure, label);
+      return cut_stretch(graph_, static_cast<int>(p), enclosure, crossing);
     }
     return false;
   }
@@ -304,37 +359,19 @@ class Tracer {
       if (!place) continue;
       const core::Point2 at = patch.chart.to_plane((*place)[0], (*place)[1]);
       if (cluster.node >= 0) graph_.crossings[cluster.node].at = at;
-      if (cluster.lonely) trace.isolated_points.push_back(at);
+      if (cluster.lonely && meets_box({at[0], at[1]})) trace.isolated_points.push_back(at);
     }
   }
 
-  /// Ends on the widened box move along the curve to the edge itself, where the curve is not nearly parallel to it.
-  void place_box_ends() {
-    SheetFollower follower(*graph_.patches[0].program, size_);
-    for (const Stretch& stretch : graph_.stretches) {
-      if (stretch.patch != 0) continue;
-      for (const StretchEnd& end : stretch.ends) {
-        Crossing& crossing = graph_.crossings[end.crossing];
-        if (crossing.kind != Crossing::Kind::box) continue;
-        LiftedPoint point = end.middle();
-        for (int i = 0; i < 4; ++i) {
-          const double edge = box_[i];
-          const int axis = i / 2;
-          if (std::abs(point[axis] - wide_[i]) > 1e-3 * box_margin * size_) continue;
-          LiftedPoint row(point.size(), 0.0), moved = point;
-          row[axis] = 1;
-          if (!follower.correct(moved, row, edge)) continue;
-          const double distance = std::hypot(moved[0] - point[0], moved[1] - point[1]);
-          if (distance < 1e3 * box_margin * size_) crossing.at = {moved[0], moved[1]};
-        }
-      }
-    }
-  }
-
-  /// The arc is on the kept side of every region's edge.
-  bool wanted(const core::Point2& inner, const std::vector<Cut>& cuts) {
+  /// The piece of an arc lies on the kept side of every region's edge. `along`: the side of the box that it is part of.
+  bool wanted(const core::Point2& inner, int along, const std::vector<Cut>& cuts) {
     for (const Cut& cut : cuts) {
-      if (!cut.keep) continue;
+      if (!cut.keep || (cut.side >= 0 && cut.side == along)) continue;
+      if (cut.side >= 0) {
+        const core::Rational off = core::Rational(inner[static_cast<std::size_t>(cut.side / 2)]) - sides_[cut.side];
+        if (cut.side % 2 == 0 ? off < 0 : off > 0) return false;
+        continue;
+      }
       const Subtower sub = subtower(tower_, mode_, {cut.sheet.polynomial});
       const SheetProgram program(sub.tower, {narrowed(cut.sheet.polynomial, sub)});
       const std::optional<int> sign = PointSign(program, sub.mode)(inner[0], inner[1]);
@@ -349,7 +386,8 @@ class Tracer {
   SheetTraceOptions options_;
   Subtower own_;
   SheetFunction sheet_, curve_;  // over the whole tower, over its own
-  std::array<double, 4> box_{}, wide_{};
+  std::array<core::Rational, 4> sides_;
+  std::array<double, 4> box_{}, wide_{};  // the former around the sides, to rounding
   std::vector<core::Point2> bases_;
   double size_ = 0;
   std::vector<Star> own_stars_;

@@ -27,6 +27,9 @@ struct SheetTraceOptions {
   std::function<int(const core::Point2&)> colour;
   /// Whether a plane curve is wanted as ends and a point between only, its vertices being known in closed form.
   std::vector<bool> closed_form;
+  /// The side of the box that a plane curve is a part of: 0 to 3 for x0, x1, y0, y1; -1: none, as where nothing is
+  /// said.
+  std::vector<int> along_side;
   /// Of the whole tower: where the sheet is not smooth besides its cones, and corners that the curve passes.
   std::vector<Star> special;
   int most_cells = 150000;     ///< budget of cells a patch
@@ -56,8 +59,9 @@ struct SheetTrace {
 bool reaches(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& sheet, const Star& star,
              const std::array<double, 4>& box);
 
-/// All of N = 0 in the box and the mode's workspace. The box counts as wider by 1e-9 of its size on every side, so that
-/// a curve that touches an edge is one arc; ends at an edge lie on it.
+/// All of N = 0 in the closed box and the mode's workspace. Ends at a side of the box lie on it; a curve that touches a
+/// side from inside is not cut there, and one that only touches the box from outside has no arc. What cannot be told
+/// apart within 1e-10 of a place where curve and side touch counts as one point.
 SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mode,
                        const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
                        const SheetFunction& sheet, const std::vector<Cutter>& cutters = {},
