@@ -1,40 +1,65 @@
 #include "tests/laws/lattice_designs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <vector>
+
+#include "core/rational.hpp"
 
 namespace clearloci::test {
 namespace {
 
-/// A quarter n / 4 as it is written in a file.
-std::string quarter(int n) {
-  if (n % 4 == 0) return std::to_string(n / 4);
-  return n % 2 == 0 ? std::to_string(n / 2) + "/2" : std::to_string(n) + "/4";
-}
+using core::Rational;
 
 struct Place {
-  int x = 0, y = 0;  // quarters
-  std::string text() const { return "[" + quarter(x) + ", " + quarter(y) + "]"; }
+  Rational x, y;
+};
+
+std::string text_of(const Rational& value) { return core::to_string(value); }
+std::string text_of(const Place& place) { return "[" + text_of(place.x) + ", " + text_of(place.y) + "]"; }
+
+/// A coordinate and a number as the mechanism file adds them.
+std::string shifted(const char* coordinate, const Rational& by) {
+  return std::string(coordinate) + (by < 0 ? " - " : " + ") + text_of(abs(by));
+}
+
+struct Leg {
+  Rational crank, rod;
 };
 
 class Writer {
  public:
-  Writer(std::mt19937& random, bool weights) : random_(random), weights_(weights) {}
+  Writer(std::mt19937& random, bool on_lattice, bool weights)
+      : random_(random), on_lattice_(on_lattice), weights_(weights) {
+    denominator_ = one_in(4) ? 8 : 4;
+    // Sizes of tables and of hands besides those of a man.
+    const int size = in(0, 7);
+    if (size == 0) scale_ = Rational(1, 10);
+    if (size == 1) scale_ = 10;
+  }
 
   std::string write(Family family) {
     switch (family) {
       case Family::five_bar:
-        five_bar();
+      case Family::mirrored:
+      case Family::kite:
+      case Family::coaxial:
+        five_bar(family);
         break;
       case Family::coupler:
         coupler();
         break;
+      case Family::stacked:
+        stacked();
+        break;
       case Family::prrrp:
-        prrrp();
+      case Family::one_rail:
+        two_sliders(family == Family::one_rail);
         break;
       case Family::prrr_r:
         prrr_r();
+        break;
+      case Family::rrrpr:
+        rrrpr();
         break;
       case Family::rprpr:
         rprpr();
@@ -42,11 +67,17 @@ class Writer {
       case Family::three_rpr:
         three_rpr();
         break;
+      case Family::four_bar:
+        four_bar();
+        break;
+      case Family::slider_crank:
+        slider_crank();
+        break;
     }
-    std::string text = "format: 1\nname: lattice " + to_string(family) + "\nspace: planar\nworkspace:\n" + box() +
-                       "points:\n" + points_ + "links:\n" + links_ + "joints:\n" + joints_ + end_effector_ +
-                       "loads:\n" + loads_;
-    if (weights_) text += "gravity: [0, -9.81]\n";
+    std::string text = "format: 1\nname: " + std::string(on_lattice_ ? "lattice " : "generic ") + to_string(family) +
+                       "\nspace: planar\nworkspace:\n" + (over_an_angle(family) ? range() : box()) + "points:\n" +
+                       points_ + "links:\n" + links_ + "joints:\n" + joints_ + end_effector_ + "loads:\n" + loads_;
+    if (weights_) text += "gravity: " + std::string(one_in(6) ? "[-9.81, 0]" : "[0, -9.81]") + "\n";
     return text;
   }
 
@@ -55,67 +86,109 @@ class Writer {
   bool one_in(int n) { return in(1, n) == 1; }
   std::string side(const char* first, const char* second) { return one_in(2) ? first : second; }
 
-  /// Lengths of the two links of a leg.
-  std::array<int, 2> leg() {
-    const int a = in(1, 6), b = one_in(2) ? a : in(1, 6);
-    reach_ = std::max(reach_, a + b);
-    for (const int r : {a, b, a + b, std::abs(a - b)}) radii_.push_back(r);
-    return {a, b};
+  /// Between two quarters, on the lattice or between its nodes.
+  Rational number(int low, int high) {
+    const int d = on_lattice_ ? denominator_ : 97 + in(0, 40);
+    Rational value(in((low * d + 3) / 4 - (low * d < 0 && (low * d) % 4 != 0 ? 1 : 0), high * d / 4), d);
+    value.canonicalize();
+    return value;
   }
-  std::string lengths(const std::array<int, 2>& leg) { return "[" + quarter(leg[0]) + ", " + quarter(leg[1]) + "]"; }
+  Rational length(int low = 1, int high = 5) {
+    Rational l;
+    do l = number(low, high);
+    while (l <= 0);
+    return l;
+  }
+  Rational scaled(const Rational& value) { return value * scale_; }
+  std::string scaled_text(const Rational& value) { return text_of(scaled(value)); }
+  std::string scaled_text(const Place& place) { return text_of(Place{scaled(place.x), scaled(place.y)}); }
 
-  Place base(const Place& other) {
-    Place place = {other.x + in(1, 6), one_in(3) ? in(-3, 3) : other.y};
-    if (one_in(12)) place = other;  // coincident
-    return centre(place);
-  }
-  Place centre(const Place& place) {
-    centres_.push_back(place);
-    return place;
-  }
-
-  std::string force() {
-    Place f;
-    do f = one_in(2) ? Place{0, -400} : Place{40 * in(-3, 3), 40 * in(-3, 3)};
-    while (f.x == 0 && f.y == 0);
-    return f.text();
-  }
-
-  /// Whole now and then; else its sides are on the lattice, often through centres and where circles have their ends.
-  std::string box() {
-    int low[2] = {1000, 1000}, high[2] = {-1000, -1000};
-    for (const Place& p : centres_) {
-      low[0] = std::min(low[0], p.x), high[0] = std::max(high[0], p.x);
-      low[1] = std::min(low[1], p.y), high[1] = std::max(high[1], p.y);
+  Place place(int reach) { return {number(-reach, reach), number(-reach, reach)}; }
+  Place first_base() { return one_in(2) ? Place{0, 0} : place(2); }
+  Place second_base(const Place& first) {
+    if (one_in(14)) return first;
+    if (one_in(14)) {
+      static const std::array<Rational, 4> little = {Rational(1, 64), Rational(1, 1000), Rational(1, 1000000),
+                                                     Rational(1, 1000000000)};
+      return {first.x + little[static_cast<std::size_t>(in(0, 3))], first.y};
     }
+    return {first.x + length(1, 4), one_in(2) ? first.y : Rational(first.y + number(-2, 2))};
+  }
+
+  /// On the lattice crank and rod are often alike.
+  Leg leg() {
+    const Rational crank = length();
+    return {crank, on_lattice_ && one_in(2) ? crank : length()};
+  }
+  /// Circles about `centre` that matter: the box may be cut where they end.
+  void stops_of_radii(const Place& centre, const std::vector<Rational>& radii) {
+    for (const Rational& r : radii) {
+      reach_ = std::max(reach_, r);
+      stops_[0].insert(stops_[0].end(), {centre.x - r, centre.x + r});
+      stops_[1].insert(stops_[1].end(), {centre.y - r, centre.y + r});
+    }
+  }
+  void stops_about(const Place& centre, const Leg& leg) {
+    stops_of_radii(centre, {0, leg.crank, leg.rod, leg.crank + leg.rod, abs(leg.crank - leg.rod)});
+  }
+
+  /// Whole now and then; else its sides are often where something ends.
+  std::string box() {
     std::string text;
-    for (const int axis : {0, 1}) {
-      int from = low[axis] - reach_ - 1, to = high[axis] + reach_ + 1;
-      if (!one_in(4)) {
-        std::vector<int> stops;
-        for (const Place& p : centres_) {
-          const int c = axis == 0 ? p.x : p.y;
-          stops.push_back(c);
-          for (const int r : radii_) stops.insert(stops.end(), {c - r, c + r});
-        }
-        const auto pick = [&] {
-          return one_in(3) ? in(from, to) : stops[static_cast<std::size_t>(in(0, static_cast<int>(stops.size()) - 1))];
-        };
-        const int own_from = one_in(3) ? from : pick(), own_to = one_in(3) ? to : pick();
-        from = std::min(own_from, own_to);
-        to = std::max({own_from, own_to, from + 1});
+    for (const std::size_t axis : {0u, 1u}) {
+      std::vector<Rational>& stops = stops_[axis];
+      if (stops.empty()) stops = {-1, 0, 1};
+      const auto [least, greatest] = std::minmax_element(stops.begin(), stops.end());
+      const Rational margin = one_in(2) ? Rational(0) : Rational(1, 4);
+      const Rational whole_from = *least - margin, whole_to = *greatest + margin;
+      const auto pick = [&]() -> Rational {
+        if (one_in(3)) return whole_from + (whole_to - whole_from) * Rational(in(1, 7), 8);
+        return stops[static_cast<std::size_t>(in(0, static_cast<int>(stops.size()) - 1))];
+      };
+      Rational from = whole_from, to = whole_to;
+      if (on_lattice_ ? !one_in(3) : one_in(3)) {
+        const Rational a = one_in(2) ? whole_from : pick(), b = one_in(2) ? whole_to : pick();
+        from = std::min(a, b), to = std::max(a, b);
+        if (to - from < Rational(1, 8)) to = from + Rational(1, 4);
       }
-      text += std::string(axis == 0 ? "  x: [" : "  y: [") + quarter(from) + ", " + quarter(to) + "]\n";
+      text += std::string(axis == 0 ? "  x: [" : "  y: [") + scaled_text(from) + ", " + scaled_text(to) + "]\n";
     }
     return text;
   }
 
-  std::string mass() { return weights_ ? ", mass: 1" : ""; }
+  std::string range() {
+    if (one_in(2)) return "  theta: {angle: [0, 360 deg]}\n";
+    const int from = on_lattice_ ? 45 * in(-4, 4) : in(-200, 200);
+    return "  theta: {angle: [" + std::to_string(from) + " deg, " +
+           std::to_string(from + (on_lattice_ ? 90 * in(1, 4) : in(40, 360))) + " deg]}\n";
+  }
+
+  std::string mass() {
+    if (!weights_) return one_in(5) ? ", mass: 1" : "";  // without gravity a mass is of no consequence
+    return one_in(7) ? "" : ", mass: " + text_of(length(1, 8));
+  }
+  void point(const std::string& name, const std::string& form) { points_ += "  " + name + ": " + form + "\n"; }
+  void fixed_point(const std::string& name, const Place& at) { point(name, scaled_text(at)); }
+  void dyad(const std::string& name, const std::string& from, const std::string& to, const Leg& leg,
+            std::string side_of = "") {
+    if (side_of.empty()) side_of = side("left", "right");
+    point(name, "{dyad: [" + from + ", " + to + "], lengths: [" + scaled_text(leg.crank) + ", " + scaled_text(leg.rod) +
+                    "], side: " + side_of + "}");
+  }
+  void slider(const std::string& name, const std::string& base, const std::string& axis, const std::string& from,
+              const Rational& length) {
+    point(name, "{slider: [" + base + ", " + axis + "], from: " + from + ", length: " + scaled_text(length) +
+                    ", side: " + side("ahead", "behind") + "}");
+  }
   void link(const std::string& name, const std::string& points) {
     links_ += "  " + name + ": {points: [" + points + "]" + mass() + "}\n";
   }
-  void block(const std::string& name, const std::string& points) {
+  void weightless(const std::string& name, const std::string& points) {
     links_ += "  " + name + ": {points: [" + points + "]}\n";
+  }
+  void block(const std::string& name, const std::string& at) {
+    links_ += "  " + name + ": {points: [" + at + "]" +
+              (weights_ && one_in(2) ? ", mass: " + text_of(length()) + ", com: " + at + ", inertia: 0" : "") + "}\n";
   }
   void revolute(const std::string& name, const std::string& from, const std::string& to, bool actuated = false) {
     joints_ += "  " + name + ": {revolute: [" + from + ", " + to + "], at: " + name +
@@ -123,139 +196,242 @@ class Writer {
                          : ", clearance: {radial: 10e-6}}\n");
   }
   void prismatic(const std::string& name, const std::string& from, const std::string& to, const std::string& at,
-                 const std::string& axis, bool guide) {
+                 const std::string& axis, bool guide, bool actuated = true) {
+    std::string clearance;
+    if (guide) clearance = "gap: 10e-6, half_length: " + scaled_text(Rational(1, one_in(2) ? 8 : 32));
+    if (actuated) clearance += (clearance.empty() ? "" : ", ") + std::string("axial: 5e-6");
     joints_ += "  " + name + ": {prismatic: [" + from + ", " + to + "], at: " + at + ", axis: " + axis +
-               ", actuated: true, clearance: {" + (guide ? "gap: 10e-6, half_length: 1/32, " : "") + "axial: 5e-6}}\n";
-  }
-  void tool(const std::string& link, const std::string& at) {
-    end_effector_ = "end_effector: {link: " + link + ", at: " + at + "}\n";
-    loads_ = "  - {link: " + link + ", at: " + at + ", force: " + force() + "}\n";
+               (actuated ? ", actuated: true" : "") + ", clearance: {" + clearance + "}}\n";
   }
 
-  void five_bar() {
-    const Place a1 = centre({one_in(2) ? 0 : in(-2, 2), one_in(2) ? 0 : in(-2, 2)}), a2 = base(a1);
-    const auto leg1 = leg(), leg2 = one_in(2) ? leg1 : leg();
-    points_ = "  A1: " + a1.text() + "\n  A2: " + a2.text() +
-              "\n  P: [x, y]\n  B1: {dyad: [A1, P], lengths: " + lengths(leg1) + ", side: " + side("left", "right") +
-              "}\n  B2: {dyad: [A2, P], lengths: " + lengths(leg2) + ", side: " + side("left", "right") + "}\n";
+  std::string force() {
+    if (on_lattice_ && !one_in(4)) {
+      static const std::array<const char*, 8> round = {"[0, -100]", "[0, -100]", "[0, 10]",   "[100, 0]",
+                                                       "[-10, 0]",  "[10, -10]", "[30, -40]", "[-40, -30]"};
+      return round[static_cast<std::size_t>(in(0, 7))];
+    }
+    int x = 0, y = 0;
+    do x = in(-90, 90), y = in(-90, 90);
+    while (x == 0 && y == 0);
+    return "[" + std::to_string(x) + ", " + std::to_string(y) + "]";
+  }
+  void load(const std::string& link, const std::string& at, bool couple) {
+    loads_ += "  - {link: " + link + ", at: " + at + ", force: " + force() +
+              (couple ? ", couple: " + text_of(number(-12, 12)) : "") + "}\n";
+  }
+  /// The load on the end effector, and now and then another one.
+  void tool(const std::string& link, const std::string& at, const std::string& other, const std::string& other_at) {
+    end_effector_ = "end_effector: {link: " + link + ", at: " + at + "}\n";
+    load(link, at, one_in(7));
+    if (one_in(5)) load(other, other_at, one_in(7));
+  }
+
+  void five_bar(Family family) {
+    Place a1 = first_base(), a2 = second_base(a1);
+    Leg leg1 = leg(), leg2 = on_lattice_ && one_in(3) ? leg1 : leg();
+    if (family == Family::mirrored) {
+      a1 = {-length(1, 3), one_in(2) ? Rational(0) : number(-2, 2)}, a2 = {-a1.x, a1.y};
+      leg2 = leg1;
+    } else if (family == Family::kite) {
+      leg1.rod = leg1.crank, leg2.rod = leg2.crank;
+    } else if (family == Family::coaxial) {
+      if (!one_in(4)) a2 = a1;
+      if (!one_in(3)) leg2 = leg1;
+    }
+    fixed_point("A1", a1), fixed_point("A2", a2), point("P", "[x, y]");
+    stops_about(a1, leg1), stops_about(a2, leg2);
+    const std::string first = side("left", "right");
+    dyad("B1", "A1", "P", leg1, first);
+    dyad("B2", "A2", "P", leg2, one_in(4) ? first : first == "left" ? "right" : "left");
     link("A1B1", "A1, B1"), link("B1P", "B1, P"), link("PB2", "P, B2"), link("B2A2", "B2, A2");
     revolute("A1", "ground", "A1B1", true), revolute("B1", "A1B1", "B1P"), revolute("P", "B1P", "PB2");
     revolute("B2", "B2A2", "PB2"), revolute("A2", "ground", "B2A2", true);
-    tool("PB2", "P");
+    tool("PB2", "P", one_in(2) ? "A1B1" : "B1P", "B1");
   }
 
   void coupler() {
-    const Place a1 = centre({0, 0}), a2 = base(a1);
-    const auto leg1 = leg(), leg2 = one_in(2) ? leg1 : leg();
-    const Place offset = {in(1, leg2[1]), one_in(2) ? 0 : in(-2, 2)};
-    points_ = "  A1: " + a1.text() + "\n  A2: " + a2.text() +
-              "\n  E: [x, y]\n  C2: {dyad: [A2, E], lengths: " + lengths(leg2) + ", side: " + side("left", "right") +
-              "}\n  C: {on: [C2, E], offset: " + offset.text() + "}\n  B1: {dyad: [A1, C], lengths: " + lengths(leg1) +
-              ", side: " + side("left", "right") + "}\n";
-    link("A1B1", "A1, B1"), link("B1C", "B1, C"), link("C2E", "C2, E, C"), link("A2C2", "A2, C2");
-    revolute("A1", "ground", "A1B1", true), revolute("B1", "A1B1", "B1C"), revolute("C", "B1C", "C2E");
-    revolute("C2", "A2C2", "C2E"), revolute("A2", "ground", "A2C2", true);
-    tool("C2E", "E");
+    const Place a1 = first_base(), a2 = second_base(a1);
+    const Leg leg1 = leg(), leg2 = on_lattice_ && one_in(2) ? leg1 : leg();
+    fixed_point("A1", a1), fixed_point("A2", a2), point("E", "[x, y]");
+    stops_about(a1, leg1);
+    dyad("B1", "A1", "E", leg1);
+    point("C",
+          "{on: [B1, E], offset: " + scaled_text(Place{length(1, 4), one_in(2) ? Rational(0) : number(-2, 2)}) + "}");
+    dyad("B2", "A2", "C", leg2);
+    link("A1B1", "A1, B1"), link("B1E", "B1, E, C"), link("CB2", "C, B2"), link("A2B2", "A2, B2");
+    revolute("A1", "ground", "A1B1", true), revolute("B1", "A1B1", "B1E"), revolute("C", "B1E", "CB2");
+    revolute("B2", "A2B2", "CB2"), revolute("A2", "ground", "A2B2", true);
+    tool("B1E", "E", "CB2", "B2");
+  }
+
+  void stacked() {
+    const Place a1 = first_base(), a2 = second_base(a1), a3 = second_base(a2);
+    const Leg leg1 = leg(), leg2 = on_lattice_ && one_in(2) ? leg1 : leg();
+    fixed_point("A1", a1), fixed_point("A2", a2), fixed_point("A3", a3), point("P", "[x, y]");
+    stops_about(a1, leg1), stops_about(a2, leg2);
+    dyad("B1", "A1", "P", leg1), dyad("B2", "A2", "P", leg2);
+    point("Q",
+          "{on: [A2, B2], offset: " + scaled_text(Place{length(1, 4), one_in(2) ? Rational(0) : number(-2, 2)}) + "}");
+    dyad("C", "A3", "Q", leg());
+    link("A1B1", "A1, B1"), link("B1P", "B1, P"), link("PB2", "P, B2"), link("crank", "A2, B2, Q");
+    link("QC", "Q, C"), link("A3C", "A3, C");
+    revolute("A1", "ground", "A1B1", true), revolute("B1", "A1B1", "B1P"), revolute("P", "B1P", "PB2");
+    revolute("B2", "crank", "PB2"), revolute("A2", "ground", "crank"), revolute("Q", "crank", "QC");
+    revolute("C", "A3C", "QC"), revolute("A3", "ground", "A3C", true);
+    tool("PB2", "P", "crank", "Q");
   }
 
   std::string rail() {
-    static const std::array<const char*, 5> directions = {"[0, 1]", "[1, 0]", "[1, 1]", "[3, 4]", "[-1, 1]"};
-    return directions[static_cast<std::size_t>(one_in(2) ? in(0, 1) : in(0, 4))];
+    static const std::array<const char*, 7> round = {"[0, 1]", "[1, 0]",  "[0, 1]", "[1, 0]",
+                                                     "[1, 1]", "[-1, 1]", "[3, 4]"};
+    if (on_lattice_) return round[static_cast<std::size_t>(in(0, 6))];
+    return "[" + std::to_string(in(-20, 20)) + ", " + std::to_string(in(1, 20)) + "]";
   }
 
-  void slider(const std::string& name, const std::string& base, const std::string& axis, int length) {
-    points_ += "  " + name + ": {slider: [" + base + ", " + axis + "], from: P, length: " + quarter(length) +
-               ", side: " + side("ahead", "behind") + "}\n";
-    radii_.push_back(length);
-    reach_ = std::max(reach_, length);
-  }
-
-  void prrrp() {
-    const Place r1 = centre({0, 0}), r2 = base(r1);
-    const std::string axis1 = rail(), axis2 = one_in(2) ? axis1 : rail();
-    const int first = in(1, 6), second = one_in(2) ? first : in(1, 6);
-    points_ = "  R1: " + r1.text() + "\n  R2: " + r2.text() + "\n  P: [x, y]\n";
-    slider("S1", "R1", axis1, first), slider("S2", "R2", axis2, second);
+  void two_sliders(bool one_rail) {
+    const Place r1 = first_base(), r2 = one_rail ? r1 : second_base(r1);
+    const std::string axis1 = one_rail ? side("[1, 0]", "[0, 1]") : rail();
+    const std::string axis2 = one_rail || one_in(2) ? axis1 : rail();
+    const Rational first = length(1, 4), second = one_in(3) ? length(1, 4) : first;
+    fixed_point("R1", r1), fixed_point("R2", r2), point("P", "[x, y]");
+    stops_of_radii(r1, {0, first, second}), stops_of_radii(r2, {0, first, second});
+    slider("S1", "R1", axis1, "P", first), slider("S2", "R2", axis2, "P", second);
     block("block1", "S1"), link("S1P", "S1, P"), link("PS2", "P, S2"), block("block2", "S2");
     prismatic("G1", "ground", "block1", "S1", axis1, true);
     revolute("S1", "block1", "S1P"), revolute("P", "S1P", "PS2"), revolute("S2", "block2", "PS2");
     prismatic("G2", "ground", "block2", "S2", axis2, true);
-    tool("PS2", "P");
+    tool("PS2", "P", "S1P", "S1");
   }
 
   void prrr_r() {
-    const Place r1 = centre({0, 0}), a2 = base(r1);
+    const Place r1 = first_base(), a2 = one_in(4) ? r1 : second_base(r1);
     const std::string axis = rail();
-    const auto leg2 = leg();
-    points_ = "  R1: " + r1.text() + "\n  A2: " + a2.text() + "\n  P: [x, y]\n";
-    slider("S1", "R1", axis, in(1, 6));
-    points_ += "  B2: {dyad: [A2, P], lengths: " + lengths(leg2) + ", side: " + side("left", "right") + "}\n";
+    const Leg leg2 = leg();
+    const Rational rod = on_lattice_ && one_in(3) ? leg2.rod : length();
+    fixed_point("R1", r1), fixed_point("A2", a2), point("P", "[x, y]");
+    stops_about(a2, leg2), stops_of_radii(r1, {0, rod});
+    slider("S1", "R1", axis, "P", rod);
+    dyad("B2", "A2", "P", leg2);
     block("block1", "S1"), link("S1P", "S1, P"), link("PB2", "P, B2"), link("A2B2", "A2, B2");
     prismatic("G1", "ground", "block1", "S1", axis, true);
     revolute("S1", "block1", "S1P"), revolute("P", "S1P", "PB2"), revolute("B2", "A2B2", "PB2");
     revolute("A2", "ground", "A2B2", true);
-    tool("PB2", "P");
+    tool("PB2", "P", "A2B2", "B2");
+  }
+
+  /// Revolute at the base, prismatic, ends at `foot`: a cylinder with its rod.
+  void telescope(const std::string& n, const Place& base, const std::string& foot) {
+    fixed_point("A" + n, base);
+    stops_of_radii(base, {0, Rational(1, 2), 1});
+    if (weights_ && one_in(2)) {
+      point("G" + n, "{on: [A" + n + ", " + foot + "], offset: [" + scaled_text(Rational(1, 4)) + ", 0]}");
+      links_ += "  cylinder" + n + ": {points: [A" + n + "], mass: 1, com: G" + n + ", inertia: 1/100}\n";
+    } else {
+      weightless("cylinder" + n, "A" + n);
+    }
+    weightless("rod" + n, foot);
+    revolute("A" + n, "ground", "cylinder" + n);
+    prismatic("S" + n, "cylinder" + n, "rod" + n, foot, "[A" + n + ", " + foot + "]", one_in(2));
   }
 
   void rprpr() {
-    const Place a1 = centre({0, 0}), a2 = base(a1);
-    reach_ = 4;
-    radii_ = {1, 2, 4};
-    points_ = "  A1: " + a1.text() + "\n  A2: " + a2.text() +
-              "\n  P: [x, y]\n  G1: {on: [A1, P], offset: [1/4, 0]}\n  G2: {on: [A2, P], offset: [1/4, 0]}\n";
-    const std::string inertia = weights_ ? ", mass: 1, com: G" : "";
-    links_ = "  cylinder1: {points: [A1]" + (weights_ ? inertia + "1, inertia: 1/100" : "") +
-             "}\n  rod1: {points: [P]}\n  rod2: {points: [P]}\n  cylinder2: {points: [A2]" +
-             (weights_ ? inertia + "2, inertia: 1/100" : "") + "}\n";
-    revolute("A1", "ground", "cylinder1"), revolute("A2", "ground", "cylinder2"), revolute("P", "rod1", "rod2");
-    prismatic("S1", "cylinder1", "rod1", "P", "[A1, P]", true);
-    prismatic("S2", "cylinder2", "rod2", "P", "[A2, P]", true);
-    tool("rod2", "P");
+    const Place a1 = first_base(), a2 = second_base(a1);
+    point("P", "[x, y]");
+    telescope("1", a1, "P"), telescope("2", a2, "P");
+    revolute("P", "rod1", "rod2");
+    tool("rod2", "P", "cylinder1", "A1");
+  }
+
+  void rrrpr() {
+    const Place a1 = first_base(), a2 = second_base(a1);
+    const Leg leg1 = leg();
+    fixed_point("A1", a1), point("P", "[x, y]");
+    stops_about(a1, leg1);
+    dyad("B1", "A1", "P", leg1);
+    link("A1B1", "A1, B1"), link("B1P", "B1, P");
+    revolute("A1", "ground", "A1B1", true), revolute("B1", "A1B1", "B1P");
+    telescope("2", a2, "P");
+    revolute("P", "B1P", "rod2");
+    tool("B1P", "P", "A1B1", "B1");
   }
 
   void three_rpr() {
-    reach_ = 6;
-    radii_ = {1, 2, 4};
-    const std::array<Place, 3> bases = {centre({in(-5, -1), in(-4, 0)}), centre({in(1, 5), in(-4, 0)}),
-                                        centre({in(-2, 2), in(1, 5)})};
-    const std::array<Place, 3> feet = {Place{in(-2, 0), in(-1, 0)}, Place{in(1, 2), in(-1, 0)},
-                                       Place{in(-1, 1), in(1, 2)}};
-    std::string feet_names;
-    weights_ = false;
+    std::array<Place, 3> bases = {place(4), place(4), place(4)}, feet = {place(2), place(2), place(2)};
+    if (on_lattice_ && one_in(2)) {
+      const Rational w = length(2, 4), h = length(2, 4);
+      bases = {Place{-w, -h}, Place{w, -h}, Place{0, h}};
+    }
+    if (one_in(5)) feet[1] = feet[0];
+    if (one_in(10)) bases[1] = bases[0];
+    point("P", "[x, y]");
+    std::string names;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string n = std::to_string(i + 1);
-      points_ += "  A" + n + ": " + bases[i].text() + "\n";
-      feet_names += ", B" + n;
-      links_ += "  cylinder" + n + ": {points: [A" + n + "]}\n  rod" + n + ": {points: [B" + n + "]}\n";
-      revolute("A" + n, "ground", "cylinder" + n);
-      prismatic("S" + n, "cylinder" + n, "rod" + n, "B" + n, "[A" + n + ", B" + n + "]", false);
+      point("B" + n, "[" + shifted("x", scaled(feet[i].x)) + ", " + shifted("y", scaled(feet[i].y)) + "]");
+      names += ", B" + n;
+    }
+    links_ += "  platform: {points: [P" + names + "]" + (weights_ ? ", mass: 1, com: P, inertia: 1/10" : "") + "}\n";
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string n = std::to_string(i + 1);
+      telescope(n, bases[i], "B" + n);
       revolute("B" + n, "rod" + n, "platform");
     }
-    points_ += "  P: [x, y]\n";
-    for (std::size_t i = 0; i < 3; ++i)
-      points_ += "  B" + std::to_string(i + 1) + ": [x + " + quarter(feet[i].x) + ", y + " + quarter(feet[i].y) + "]\n";
-    links_ += "  platform: {points: [P" + feet_names + "]}\n";
-    tool("platform", "P");
-    loads_.insert(loads_.rfind('}'), ", couple: " + quarter(40 * in(-2, 2)));
+    tool("platform", "P", "platform", "B1");
+  }
+
+  std::string on_circle(const Rational& radius) {
+    return "[" + scaled_text(radius) + "*cos(theta), " + scaled_text(radius) + "*sin(theta)]";
+  }
+
+  void four_bar() {
+    const Rational crank = length(1, 4);
+    const Place d = {length(1, 6), one_in(2) ? Rational(0) : number(-2, 2)};
+    Leg rest = {length(2, 6), length(2, 6)};
+    if (one_in(3)) rest.rod = crank;  // a deltoid or, with the next, a parallelogram
+    if (one_in(4)) rest.crank = d.x;
+    fixed_point("A", {0, 0}), fixed_point("D", d), point("B", on_circle(crank));
+    dyad("C", "B", "D", rest);
+    link("AB", "A, B"), link("BC", "B, C"), link("CD", "C, D");
+    revolute("A", "ground", "AB", true), revolute("B", "AB", "BC"), revolute("C", "BC", "CD");
+    revolute("D", "ground", "CD");
+    tool("CD", "C", "BC", "B");
+  }
+
+  void slider_crank() {
+    const Rational crank = length(1, 4), rod = one_in(5) ? crank : length(1, 6);
+    const std::string axis = rail();
+    fixed_point("A", {0, 0}), fixed_point("R", {0, one_in(2) ? Rational(0) : number(-2, 2)});
+    point("B", on_circle(crank));
+    slider("C", "R", axis, "B", rod);
+    link("AB", "A, B"), link("BC", "B, C"), block("block", "C");
+    revolute("A", "ground", "AB", true), revolute("B", "AB", "BC"), revolute("C", "BC", "block");
+    prismatic("G", "ground", "block", "C", axis, true, false);
+    tool("block", "C", "BC", "B");
   }
 
   std::mt19937& random_;
-  bool weights_;
-  int reach_ = 1;
-  std::vector<int> radii_ = {0};
-  std::vector<Place> centres_;
+  bool on_lattice_, weights_;
+  int denominator_ = 4;
+  Rational scale_ = 1, reach_ = 0;
+  std::array<std::vector<Rational>, 2> stops_;
   std::string points_, links_, joints_, end_effector_, loads_;
 };
 
 }  // namespace
 
 std::string to_string(Family family) {
-  static const std::array<const char*, 6> names = {"5R", "coupler five-bar", "PRRRP", "PRRR-R", "RPRPR", "3-RPR"};
+  static const std::array<const char*, all_families.size()> names = {
+      "5R",     "mirrored 5R", "kite 5R", "coaxial 5R", "coupler five-bar", "stacked 5R",  "PRRRP", "one rail",
+      "PRRR-R", "RRRPR",       "RPRPR",   "3-RPR",      "four-bar",         "slider-crank"};
   return names[static_cast<std::size_t>(family)];
 }
 
 std::string lattice_design(std::mt19937& random, Family family, bool weights) {
-  return Writer(random, weights).write(family);
+  return Writer(random, true, weights).write(family);
+}
+
+std::string generic_design(std::mt19937& random, Family family, bool weights) {
+  return Writer(random, false, weights).write(family);
 }
 
 }  // namespace clearloci::test
