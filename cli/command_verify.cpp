@@ -68,11 +68,13 @@ Json result_json(const Verification& result) {
                {"mechanism", report::printable(loci.mechanism)},
                {"working_mode", report::mode_object(loci.tower, result.mode)},
                {"task", {{core::kind_of(result.task.shape), shape_json(result.task.shape)}}},
-               {"verified", result.verified},
+               {"verdict", to_string(result.verdict)},
+               {"verified", result.verified()},
                {"zone", result.zone.empty() ? Json(nullptr) : Json(result.zone)},
-               {"margin", result.verified ? Json(result.margin) : Json(nullptr)},
+               {"margin", result.verified() ? Json(result.margin) : Json(nullptr)},
                {"nearest", nullptr},
-               {"witness", nullptr}};
+               {"witness", nullptr},
+               {"open", nullptr}};
   if (result.by) root["moved_by"] = point_json(*result.by);
   if (result.nearest) {
     const NearestOfTask& nearest = *result.nearest;
@@ -86,12 +88,47 @@ Json result_json(const Verification& result) {
                        {"at", nearest.at},
                        {"distance", nearest.distance}};
   }
-  if (result.witness)
-    root["witness"] = {{"at", result.witness->at},
-                       {"reason", result.witness->reason},
-                       {"vanishing", report::vanishing_array(result.witness->vanishing)}};
+  if (result.witness) {
+    const TaskWitness& witness = *result.witness;
+    root["witness"] = {{"at", witness.at},
+                       {"load", witness.load ? Json(*witness.load) : Json(nullptr)},
+                       {"distance", witness.distance},
+                       {"reason", witness.reason},
+                       {"vanishing", report::vanishing_array(witness.vanishing)},
+                       {"too_small", report::vanishing_array(witness.too_small)},
+                       {"size", witness.size ? Json(*witness.size) : Json(nullptr)}};
+  }
+  if (result.open)
+    root["open"] = {{"lower", result.open->lower},
+                    {"upper", result.open->upper},
+                    {"cells", result.open->cells},
+                    {"reason", result.open->reason}};
   root["notes"] = result.notes;
   return root;
+}
+
+const char* verdict_line(loci::TaskVerdict verdict) {
+  switch (verdict) {
+    case loci::TaskVerdict::verified:
+      return "VERIFIED      no locus, singularity or boundary in the task: proven";
+    case loci::TaskVerdict::refuted:
+      return "REFUTED       the task fails at the witness, confirmed numerically";
+    case loci::TaskVerdict::undecided:
+      break;
+  }
+  return "UNDECIDED     neither proven nor refuted";
+}
+
+int status_of(loci::TaskVerdict verdict) {
+  switch (verdict) {
+    case loci::TaskVerdict::verified:
+      return exit_done;
+    case loci::TaskVerdict::refuted:
+      return exit_check_said_no;
+    case loci::TaskVerdict::undecided:
+      break;
+  }
+  return exit_limit_reached;
 }
 
 void print_result(const Verification& result, bool fit) {
@@ -103,11 +140,10 @@ void print_result(const Verification& result, bool fit) {
     fmt::print("moved by      ({:.6f}, {:.6f}) m\n", core::to_double((*result.by)[0]),
                core::to_double((*result.by)[1]));
   else if (fit)
-    fmt::print("No place in the box is good enough; where the task lies:\n");
-  fmt::print("{}\n",
-             result.verified ? "VERIFIED      no locus, singularity or boundary in the task: proven" : "NOT VERIFIED");
+    fmt::print("No place in the box was found that verifies; where the task lies:\n");
+  fmt::print("{}\n", verdict_line(result.verdict));
   if (!result.zone.empty()) fmt::print("zone          {}\n", result.zone);
-  if (result.verified) fmt::print("margin        at least {:.6g} m, proven\n", result.margin);
+  if (result.verified()) fmt::print("margin        at least {:.6g} m, proven\n", result.margin);
   if (result.nearest) {
     const NearestOfTask& nearest = *result.nearest;
     fmt::print("nearest       {}{}{}{} at ({:.6f}, {:.6f}), {}\n", report::kind_words(nearest.kind),
@@ -118,6 +154,10 @@ void print_result(const Verification& result, bool fit) {
   if (result.witness)
     fmt::print("witness       ({:.9f}, {:.9f}): {}\n", result.witness->at[0], result.witness->at[1],
                result.witness->reason);
+  if (result.open)
+    fmt::print("open          {} cell{} in [{:.9f}, {:.9f}] x [{:.9f}, {:.9f}]: {}; the rest is proven\n",
+               result.open->cells, result.open->cells == 1 ? "" : "s", result.open->lower[0], result.open->upper[0],
+               result.open->lower[1], result.open->upper[1], result.open->reason);
   for (const std::string& note : result.notes) fmt::print("{}\n", report::printable(note));
 }
 
@@ -132,8 +172,8 @@ std::vector<std::string> write_files(const Verification& result, const std::set<
   report::TaskMark mark;
   mark.outline = loci::TaskRegion(result.task.shape).outline();
   mark.filled = !std::holds_alternative<core::TaskPath>(result.task.shape);
-  mark.verified = result.verified;
-  mark.margin = result.verified ? result.margin : core::to_double(result.task.margin);
+  mark.verified = result.verified();
+  mark.margin = result.verified() ? result.margin : core::to_double(result.task.margin);
   if (result.witness)
     mark.points.push_back(result.witness->at);
   else if (result.nearest)
@@ -176,7 +216,7 @@ int run(const Arguments& arguments) {
     print_result(result, goal.has_value());
     fmt::print("\nWritten to {}: {}\n", folder.string(), fmt::join(files, ", "));
   }
-  return result.verified ? exit_done : exit_check_said_no;
+  return status_of(result.verdict);
 }
 
 }  // namespace
@@ -199,7 +239,9 @@ Command add_verify_command(CLI::App& program) {
       ->capture_default_str();
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
-      "Ends with 0 where the task is verified, with 1 where it is not.\n"
+      "Ends with 0 where the task is verified: proven for every pose of it and every load; with 1 where it is refuted: "
+      "a\n"
+      "witness is confirmed numerically; with 3 where it is undecided, within the time limit or by doubles at all.\n"
       "The files go to ./out/<name of MODEL>, or to the folder of -o.");
   return {app, [arguments] { return run(*arguments); }};
 }

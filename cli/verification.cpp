@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include "cli/zone_search.hpp"
 #include "core/errors.hpp"
 #include "loci/plane_graph.hpp"
-#include "loci/task_proof.hpp"
-#include "numeric/reactions.hpp"
+#include "loci/zones.hpp"
+#include "numeric/task_witness.hpp"
 #include "report/wording.hpp"
+#include "symbolic/task_conditions.hpp"
 
 namespace clearloci {
 namespace {
@@ -19,264 +19,325 @@ namespace {
 using core::Point2;
 using core::Quantity;
 using core::Task;
+using core::TaskDemand;
+using loci::TaskVerdict;
+using numeric::TaskFailure;
 
-// A range of loads is cut into this many pieces, then twice, four times ... as many.
-constexpr int most_pieces = 16;
 constexpr int cells_of_the_task = 400'000, cells_of_a_margin = 40'000;
 
 int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 : value.value < -value.error ? -1 : 0; }
 
-double rounded_down(double value) { return std::nextafter(value, 0.0); }
+mechanism::Mechanism under_load(mechanism::Mechanism mechanism, const core::RationalPoint& load) {
+  for (std::size_t c = 0; c < 2; ++c) mechanism.loads.front().force[c] = core::Expression::number(load[c]);
+  return mechanism;
+}
 
-/// One load: the mechanism under it, the problem, its loci.
-struct Case {
+/// One load: the mechanism under it.
+struct LoadCase {
+  explicit LoadCase(mechanism::Mechanism loaded) : mechanism(std::move(loaded)), model(numeric::compile(mechanism)) {}
   mechanism::Mechanism mechanism;
   numeric::NumericModel model;
-  TracedProblem traced;
 };
 
-mechanism::Mechanism under_load(mechanism::Mechanism mechanism, const core::LoadRange& loads, int piece, int pieces) {
-  const core::Rational t(piece, pieces);
-  for (std::size_t c = 0; c < 2; ++c)
-    mechanism.loads.front().force[c] = core::Expression::number((1 - t) * loads.first[c] + t * loads.second[c]);
-  return mechanism;
+std::vector<LoadCase> load_cases(const mechanism::Mechanism& mechanism, const Task& task) {
+  std::vector<LoadCase> cases;
+  if (!task.loads) {
+    cases.emplace_back(mechanism);
+  } else {
+    cases.emplace_back(under_load(mechanism, task.loads->first));
+    if (task.loads->second != task.loads->first) cases.emplace_back(under_load(mechanism, task.loads->second));
+  }
+  return cases;
+}
+
+LociRequest request_of(const Task& task, LociRequest request) {
+  if (task.min_force) request.selection.min_force = task.min_force;
+  if (task.min_couple) request.selection.min_couple = task.min_couple;
+  request.all_working_modes = false;
+  if (request.working_modes.size() > 1) request.working_modes.resize(1);
+  return request;
+}
+
+/// What the loci of a selection are zeros of, and what its margins hold.
+std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const symbolic::Selection& selection) {
+  std::vector<TaskDemand> demands;
+  const auto wanted = [&](Quantity quantity) {
+    return std::find(selection.quantities.begin(), selection.quantities.end(), quantity) != selection.quantities.end();
+  };
+  for (const numeric::TracedReaction& reaction : selected_reactions(mechanism, selection)) {
+    const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
+                                    [&](const mechanism::Joint& j) { return j.name == reaction.joint; });
+    const std::vector<Quantity> force = mechanism::force_components(mechanism, *joint);
+    const auto add = [&](Quantity quantity, const std::optional<core::Rational>& least) {
+      demands.push_back({reaction.joint, quantity, least.value_or(0)});
+    };
+    switch (const Quantity q = reaction.quantity; q) {
+      case Quantity::M:
+      case Quantity::F: {
+        const bool couple = q == Quantity::M && selection.min_couple;
+        if (wanted(q) || wanted(Quantity::M) || couple) add(q, couple ? selection.min_couple : std::nullopt);
+        break;
+      }
+      case Quantity::N:
+      case Quantity::T:
+        if (wanted(q) || (wanted(Quantity::f) && mechanism.space == mechanism::Space::planar)) add(q, std::nullopt);
+        break;
+      default:
+        // Once a joint, with the first component of its force.
+        if (!force.empty() && q == force.front() && (wanted(Quantity::f) || selection.min_force))
+          add(Quantity::f, selection.min_force);
+    }
+  }
+  return demands;
+}
+
+std::string reaction_name(const TaskDemand& demand) { return core::to_string(demand.quantity) + "_" + demand.joint; }
+
+const char* unit_of(const TaskDemand& demand) {
+  return demand.quantity == Quantity::M || demand.quantity == Quantity::T ? "N m" : "N";
 }
 
 class Verifier {
  public:
-  Verifier(const mechanism::Mechanism& mechanism, const Task& task, LociRequest request)
-      : mechanism_(mechanism), task_(task), request_(std::move(request)) {
-    if (task.min_force) request_.selection.min_force = task.min_force;
-    if (task.min_couple) request_.selection.min_couple = task.min_couple;
-    request_.all_working_modes = false;
-    if (request_.working_modes.size() > 1) request_.working_modes.resize(1);
-    pieces(1);
-    mode_ = first().traced.problem.modes.front();
-    sides_ = numeric::dyad_signs(first().model, first().traced.map.tower, mode_);
+  Verifier(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request)
+      : mechanism_(mechanism),
+        task_(task),
+        request_(request_of(task, request)),
+        cases_(load_cases(mechanism, task)),
+        demands_(demands_of(mechanism, request_.selection)),
+        conditions_(symbolic::task_conditions(mechanisms(), demands_)),
+        sides_(requested_modes(mechanism, request_).front()),
+        mode_(mode_of(sides_, conditions_.tower)) {
+    for (const TaskDemand& never : conditions_.never_loaded)
+      std::erase_if(demands_, [&](const TaskDemand& demand) {
+        return demand.joint == never.joint && demand.quantity == never.quantity;
+      });
   }
 
   /// The task where it lies, or moved.
   Verification verify(const Task& task) {
     const loci::TaskRegion region(task.shape);
+    const double margin = core::to_double(task.margin);
+    const numeric::TaskWitness judge = witness_for(region);
     Verification result;
     result.task = task;
-    result.mode = mode_;
-    result.notes = first().traced.map.notes;
+    progress("proof");
+    const loci::TaskProof proof = prove(region, margin, judge, result.witness);
+    result.verdict = proof.verdict;
+    // Loci that touch the task without crossing it are not met by subdivision, but by tracing.
+    if (result.verdict == TaskVerdict::undecided && refuted_by_loci(region, margin, judge, result.witness))
+      result.verdict = TaskVerdict::refuted;
     result.nearest = nearest(region);
-    result.witness = witness(region, core::to_double(task.margin), result.nearest);
-    if (!result.witness) prove(region, core::to_double(task.margin), result);
+    if (result.verdict == TaskVerdict::undecided) result.open = open_part(proof);
+    if (result.verified()) {
+      progress("margin");
+      prove_margin(region, margin, result);
+    }
     return result;
   }
 
-  bool proven(const Task& task) {
+  bool proven(const Task& task) const {
     const loci::TaskRegion region(task.shape);
-    const double margin = core::to_double(task.margin);
-    return !witness(region, margin, nearest(region)) && proof(region, margin, cells_of_the_task).proven;
+    std::optional<TaskWitness> ignored;
+    return prove(region, core::to_double(task.margin), witness_for(region), ignored).verdict == TaskVerdict::verified;
   }
 
-  std::vector<const core::LocusMap*> maps() const {
-    std::vector<const core::LocusMap*> list;
-    for (const Case& one : cases_) list.push_back(&one.traced.map);
-    return list;
+  /// The loci under each load, traced once; fewer where the deadline came first.
+  void trace() {
+    if (traced_ || !notes_.empty()) return;
+    std::vector<TracedProblem> all;
+    for (const LoadCase& one : cases_) {
+      all.push_back(trace_problem(one.mechanism, request_));
+      if (all.back().map.complete) continue;
+      notes_.emplace_back("the loci could not be traced within the time limit");
+      return;
+    }
+    traced_ = std::move(all);
   }
-  const core::WorkingMode& mode() const { return mode_; }
+  const std::optional<std::vector<TracedProblem>>& traced() const { return traced_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+  const DyadSides& sides() const { return sides_; }
+  const LociRequest& request() const { return request_; }
 
   /// None unless assembled, bearing enough, and every couple on one side all over the range of loads.
-  std::optional<std::vector<int>> signature(const Point2& at) const {
-    if (complaint(at)) return std::nullopt;
-    const numeric::BoundedNumerators n = numeric::bounded_numerators(first().model, at, sides_);
-    std::vector<int> signs = {sign(n.determinant)};
-    const auto wanted = selected_reactions(mechanism_, request_.selection);
-    for (std::size_t k = 0; k < n.values.size(); ++k) {
-      const mechanism::Unknown& unknown = first().model.unknowns[k];
-      const std::string& joint = mechanism_.joints[static_cast<std::size_t>(unknown.joint)].name;
-      const bool couple = unknown.quantity == Quantity::M || unknown.quantity == Quantity::F;
-      if (couple && std::any_of(wanted.begin(), wanted.end(),
-                                [&](const auto& w) { return w.joint == joint && w.quantity == unknown.quantity; }))
-        signs.push_back(sign(n.values[k]));
-    }
-    return signs;
+  loci::SignatureAt signature() const {
+    const loci::TaskRegion region(task_.shape);
+    return [this, judge = witness_for(region)](const Point2& at) -> std::optional<std::vector<int>> {
+      if (judge.failure(at, false)) return std::nullopt;
+      const numeric::NumericModel& model = cases_.front().model;
+      const numeric::BoundedNumerators n = numeric::bounded_numerators(model, at, sides_);
+      std::vector<int> signs = {sign(n.determinant)};
+      for (const TaskDemand& demand : demands_)
+        for (std::size_t k = 0; k < n.values.size(); ++k) {
+          const mechanism::Unknown& unknown = model.unknowns[k];
+          if (unknown.quantity == demand.quantity &&
+              mechanism_.joints[static_cast<std::size_t>(unknown.joint)].name == demand.joint)
+            signs.push_back(sign(n.values[k]));
+        }
+      return signs;
+    };
   }
 
  private:
-  const Case& first() const { return cases_.front(); }
-
-  /// Derives the loads between the ends of the range; what is there stays.
-  void pieces(int count) {
-    if (!task_.loads) count = 1;
-    std::vector<Case> all;
-    for (int k = 0; k <= (task_.loads ? count : 0); ++k) {
-      const bool known = !cases_.empty() && k % 2 == 0;
-      if (known) {
-        all.push_back(std::move(cases_[static_cast<std::size_t>(k / 2)]));
-        continue;
-      }
-      mechanism::Mechanism loaded = task_.loads ? under_load(mechanism_, *task_.loads, k, count) : mechanism_;
-      numeric::NumericModel model = numeric::compile(loaded);
-      TracedProblem traced = trace_problem(loaded, request_);
-      if (!traced.map.complete)
-        throw core::LimitReached("the loci could not be traced completely within the time limit");
-      all.push_back({std::move(loaded), std::move(model), std::move(traced)});
-    }
-    cases_ = std::move(all);
+  std::vector<const mechanism::Mechanism*> mechanisms() const {
+    std::vector<const mechanism::Mechanism*> list;
+    for (const LoadCase& one : cases_) list.push_back(&one.mechanism);
+    return list;
   }
 
-  std::optional<NearestOfTask> nearest(const loci::TaskRegion& region) const {
-    std::optional<NearestOfTask> best;
-    for (const Case& one : cases_) {
-      const core::LocusMap& map = one.traced.map;
-      const auto found = loci::nearest_locus(one.traced.problem, map, mode_, region);
-      if (!found || (best && best->distance <= found->distance)) continue;
-      best = NearestOfTask{};
-      best->at = found->at;
-      best->distance = found->distance;
-      if (found->curve >= 0) {
-        const core::LocusCurve& curve = map.curves[static_cast<std::size_t>(found->curve)];
-        best->curve = curve.id;
-        best->kind = curve.kind;
-        best->vanishing = curve.vanishing;
-      } else {
-        const core::IsolatedPoint& point = map.isolated_points[static_cast<std::size_t>(found->point)];
-        best->kind = point.kind;
-        best->vanishing = point.vanishing;
-      }
-    }
-    return best;
+  void progress(const char* stage) const {
+    if (request_.progress) request_.progress(0, stage);
   }
 
-  /// What is wrong at a pose whatever lies around it.
-  std::optional<std::string> complaint(const Point2& at) const {
-    std::vector<numeric::BoundedNumerators> numerators;
-    for (const Case& one : cases_) numerators.push_back(numeric::bounded_numerators(one.model, at, sides_));
-    if (!numerators.front().reachable) return "the mechanism does not reach it";
-    const numeric::NumericModel& model = first().model;
-    const auto wanted = selected_reactions(mechanism_, request_.selection);
-    for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
-      const mechanism::Unknown& unknown = model.unknowns[k];
-      const std::string& joint = mechanism_.joints[static_cast<std::size_t>(unknown.joint)].name;
-      const Quantity q = unknown.quantity;
-      if (std::none_of(wanted.begin(), wanted.end(),
-                       [&](const auto& w) { return w.joint == joint && w.quantity == q; }))
-        continue;
-      const auto size = [&](std::size_t i, std::size_t column) {
-        const numeric::BoundedNumerators& n = numerators[i];
-        return std::abs(n.values[column].value / n.determinant.value);
-      };
-      if (q == Quantity::M || q == Quantity::F) {
-        int side = 0;
-        for (std::size_t i = 0; i < numerators.size(); ++i) {
-          const int own = sign(numerators[i].values[k]);
-          if (own != 0 && side != 0 && own != side)
-            return fmt::format("{}_{} changes its sign within the range of loads", core::to_string(q), joint);
-          side = own == 0 ? side : own;
-          if (q == Quantity::M && task_.min_couple && size(i, k) < core::to_double(*task_.min_couple))
-            return fmt::format("|M_{}| is {:.6g} N m, less than {}", joint, size(i, k),
-                               core::to_string(*task_.min_couple));
-        }
-      }
-    }
-    if (!task_.min_force) return std::nullopt;
-    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j) {
-      const mechanism::Joint& joint = mechanism_.joints[j];
-      const std::vector<Quantity> parts = mechanism::force_components(mechanism_, joint);
-      if (parts.empty() ||
-          std::none_of(wanted.begin(), wanted.end(), [&](const auto& w) { return w.joint == joint.name; }))
-        continue;
-      for (const numeric::BoundedNumerators& n : numerators) {
-        double square = 0;
-        for (const Quantity part : parts) {
-          const int column = numeric::column_of(model, static_cast<int>(j), part);
-          square += std::pow(n.values[static_cast<std::size_t>(column)].value / n.determinant.value, 2);
-        }
-        if (std::sqrt(square) < core::to_double(*task_.min_force))
-          return fmt::format("|f_{}| is {:.6g} N, less than {}", joint.name, std::sqrt(square),
-                             core::to_string(*task_.min_force));
-      }
-    }
-    return std::nullopt;
+  numeric::TaskWitness witness_for(const loci::TaskRegion& region) const {
+    std::vector<const numeric::NumericModel*> models;
+    for (const LoadCase& one : cases_) models.push_back(&one.model);
+    return {std::move(models), sides_, demands_, region.samples()};
   }
 
-  static std::string names(const std::vector<core::Vanishing>& vanishing) {
-    return vanishing.empty() ? std::string() : " (" + report::reaction_names(vanishing) + ")";
-  }
-
-  std::optional<TaskWitness> witness(const loci::TaskRegion& region, double margin,
-                                     const std::optional<NearestOfTask>& nearest) const {
-    const double touching = 1e-10 * (region.upper()[0] - region.lower()[0] + region.upper()[1] - region.lower()[1]);
-    if (nearest && nearest->distance < std::max(margin, touching)) {
-      const std::string what = report::kind_words(nearest->kind) + names(nearest->vanishing);
-      const std::string reason =
-          nearest->distance < touching
-              ? what + " meets the task"
-              : fmt::format("{} is {:.6g} m away, less than the margin of {:.6g} m", what, nearest->distance, margin);
-      return TaskWitness{nearest->at, reason, nearest->vanishing};
-    }
-    for (const Point2& at : region.samples())
-      if (auto reason = complaint(at)) return TaskWitness{at, *reason, {}};
-    return std::nullopt;
-  }
-
-  /// Signs of the numerators of one load relative to their factors, by the independent witness at poses of the task.
-  std::map<loci::Component, int> signs_of(const Case& one, const loci::TaskRegion& region) const {
-    std::map<loci::Component, int> signs;
-    const core::LocusProblem& problem = one.traced.problem;
-    const core::Polyline samples = region.samples();
-    for (std::size_t s = 0; s < std::min<std::size_t>(samples.size(), 6); ++s) {
-      const numeric::BoundedNumerators at = numeric::bounded_numerators(one.model, samples[s], sides_);
-      if (!at.reachable) continue;
-      for (std::size_t k = 0; k < one.model.unknowns.size(); ++k) {
-        const mechanism::Unknown& unknown = one.model.unknowns[k];
-        const loci::Component component = {mechanism_.joints[static_cast<std::size_t>(unknown.joint)].name,
-                                           unknown.quantity};
-        int& known = signs[component];
-        if (known == 0) known = sign(at.values[k]) * loci::product_sign(problem, mode_, component, samples[s]);
-      }
-    }
-    return signs;
-  }
-
-  loci::TaskProof proof(const loci::TaskRegion& region, double margin, int most_cells) {
-    while (true) {
-      std::vector<loci::LoadCase> loads;
-      for (const Case& one : cases_)
-        loads.push_back({&one.traced.problem, task_.loads ? signs_of(one, region) : std::map<loci::Component, int>{}});
-      loci::TaskProof proof = loci::prove_task(loads, mode_, region, margin, most_cells);
-      if (proof.proven || !task_.loads || static_cast<int>(cases_.size()) > most_pieces) return proof;
-      pieces(2 * (static_cast<int>(cases_.size()) - 1));
-    }
-  }
-
-  void prove(const loci::TaskRegion& region, double wanted, Verification& result) {
-    const loci::TaskProof first_proof = proof(region, wanted, cells_of_the_task);
-    result.verified = first_proof.proven;
-    if (!result.verified) {
-      result.witness = TaskWitness{first_proof.open.value_or(region.samples().front()), {}, {}};
-      const auto reason = complaint(result.witness->at);
-      result.witness->reason = reason ? *reason : "it is not proven that no locus passes here";
-      return;
-    }
-    result.margin = wanted;
-    if (!result.nearest) return;
-    // What lies outside the box is not among the nearest loci, but counts in the proof: bisection where that is so.
-    double good = wanted, bad = result.nearest->distance;
-    const auto holds = [&](double margin) {
-      const bool held = margin > good && proof(region, margin, cells_of_a_margin).proven;
-      (held ? good : bad) = margin;
-      return held;
+  loci::RefutedAt refuted_at(const loci::TaskRegion& region, const numeric::TaskWitness& judge,
+                             std::optional<TaskWitness>& witness) const {
+    return [this, &region, &judge, &witness](const Point2& at, bool closely) {
+      if (!judge.failure(at, closely)) return false;
+      witness = described(at, judge.failures(at, closely), region.signed_distance(at));
+      return true;
     };
-    for (const double part : {1 - 1e-3, 1 - 1e-2, 0.9})
-      if (holds(rounded_down(part * result.nearest->distance))) break;
-    for (int i = 0; i < 6 && good < 0.9 * result.nearest->distance && bad - good > 0.01 * bad; ++i)
-      holds((good + bad) / 2);
-    result.margin = good;
+  }
+
+  loci::TaskProof prove(const loci::TaskRegion& region, double margin, const numeric::TaskWitness& judge,
+                        std::optional<TaskWitness>& witness) const {
+    return loci::prove_task(conditions_, mode_, region, margin, refuted_at(region, judge, witness),
+                            {cells_of_the_task, request_.deadline});
+  }
+
+  bool refuted_by_loci(const loci::TaskRegion& region, double margin, const numeric::TaskWitness& judge,
+                       std::optional<TaskWitness>& witness) {
+    trace();
+    if (!traced_) return false;
+    core::Polyline suspects;
+    for (const TracedProblem& one : *traced_) {
+      const core::WorkingMode mode = mode_of(sides_, one.map.tower);
+      if (const auto found = loci::nearest_locus(one.problem, one.map, mode, region)) suspects.push_back(found->at);
+      for (const core::IsolatedPoint& point : one.map.isolated_points)
+        if (point.mode == mode) suspects.push_back({point.at[0], point.at[1]});
+    }
+    return loci::refuted_near(conditions_, mode_, region, margin, refuted_at(region, judge, witness), suspects);
+  }
+
+  TaskWitness described(const Point2& at, const std::vector<TaskFailure>& failures, double distance) const {
+    TaskWitness witness;
+    witness.at = at;
+    witness.distance = std::max(0.0, distance);
+    const TaskFailure& first = failures.front();
+    using Kind = TaskFailure::Kind;
+    switch (first.kind) {
+      case Kind::unreachable:
+        witness.reason = "the mechanism does not reach it";
+        break;
+      case Kind::boundary:
+        witness.reason = "the boundary of the workspace passes here";
+        break;
+      case Kind::singular:
+        witness.reason = "|A| vanishes: a direct singularity";
+        break;
+      case Kind::vanishing: {
+        for (const TaskFailure& failure : failures)
+          if (failure.kind == Kind::vanishing && failure.load == first.load)
+            witness.vanishing.push_back({failure.demand.joint, failure.demand.quantity, 1});
+        witness.reason =
+            report::reaction_names(witness.vanishing) + (witness.vanishing.size() > 1 ? " vanish" : " vanishes");
+        break;
+      }
+      case Kind::too_small:
+        for (const TaskFailure& failure : failures)
+          if (failure.kind == Kind::too_small && failure.load == first.load)
+            witness.too_small.push_back({failure.demand.joint, failure.demand.quantity, 1});
+        witness.size = first.size;
+        witness.reason = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(first.demand), first.size,
+                                     unit_of(first.demand), core::to_string(first.demand.least));
+        break;
+    }
+    const bool of_a_load = first.kind == Kind::vanishing || first.kind == Kind::too_small;
+    if (task_.loads && of_a_load) {
+      Point2 load{};
+      for (std::size_t c = 0; c < 2; ++c)
+        load[c] = (1 - first.load) * core::to_double(task_.loads->first[c]) +
+                  first.load * core::to_double(task_.loads->second[c]);
+      witness.load = load;
+      witness.reason += fmt::format(" under the load ({:.9g}, {:.9g}) N", load[0], load[1]);
+    }
+    if (witness.distance > 1e-12)
+      witness.reason += fmt::format("; {:.6g} m from the task, within its margin", witness.distance);
+    return witness;
+  }
+
+  static OpenTask open_part(const loci::TaskProof& proof) {
+    OpenTask open{proof.open, proof.lower, proof.upper, {}};
+    open.reason = proof.out_of_time    ? "the time limit was reached"
+                  : proof.out_of_cells ? fmt::format("{} cells were looked at", proof.cells)
+                                       : "doubles tell no more apart there";
+    return open;
+  }
+
+  /// From the traced loci. Under a range of loads they are those of its ends, and the loads between have others.
+  std::optional<NearestOfTask> nearest(const loci::TaskRegion& region) {
+    if (task_.loads) return std::nullopt;
+    trace();
+    if (!traced_) return std::nullopt;
+    const TracedProblem& one = traced_->front();
+    const core::LocusMap& map = one.map;
+    const auto found = loci::nearest_locus(one.problem, map, mode_of(sides_, map.tower), region);
+    if (!found) return std::nullopt;
+    NearestOfTask nearest;
+    nearest.at = found->at;
+    nearest.distance = found->distance;
+    if (found->curve >= 0) {
+      const core::LocusCurve& curve = map.curves[static_cast<std::size_t>(found->curve)];
+      nearest.curve = curve.id;
+      nearest.kind = curve.kind;
+      nearest.vanishing = curve.vanishing;
+    } else {
+      const core::IsolatedPoint& point = map.isolated_points[static_cast<std::size_t>(found->point)];
+      nearest.kind = point.kind;
+      nearest.vanishing = point.vanishing;
+    }
+    return nearest;
+  }
+
+  /// Cells look for what ends the margin, also outside the box and under every load of a range.
+  void prove_margin(const loci::TaskRegion& region, double wanted, Verification& result) const {
+    double limit = wanted;
+    for (const mechanism::Coordinate& coordinate : mechanism_.coordinates)
+      limit += core::to_double(coordinate.upper - coordinate.lower);
+    const loci::TaskClearance clearance =
+        loci::proven_clearance(conditions_, mode_, region, wanted, limit, {cells_of_a_margin, request_.deadline});
+    result.margin = clearance.margin;
+    if (result.nearest || !clearance.at) return;
+    NearestOfTask nearest;
+    nearest.at = *clearance.at;
+    nearest.distance = region.signed_distance(*clearance.at);
+    nearest.kind = clearance.kind;
+    if (clearance.condition >= 0) {
+      const core::TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(clearance.condition)];
+      nearest.vanishing = condition.reactions;
+      const Quantity q = condition.reactions.front().quantity;
+      nearest.kind = condition.least > 0                    ? core::LocusKind::margin
+                     : q == Quantity::M || q == Quantity::F ? core::LocusKind::backlash
+                                                            : core::LocusKind::contact_loss;
+    }
+    result.nearest = nearest;
   }
 
   const mechanism::Mechanism& mechanism_;
   const Task& task_;
   LociRequest request_;
-  std::vector<Case> cases_;
-  core::WorkingMode mode_;
-  std::vector<int> sides_;
+  std::vector<LoadCase> cases_;
+  std::vector<TaskDemand> demands_;
+  core::TaskConditions conditions_;
+  DyadSides sides_;
+  core::WorkingMode mode_;  ///< of the conditions' tower
+  std::optional<std::vector<TracedProblem>> traced_;
+  std::vector<std::string> notes_;
 };
 
 bool inside(const core::Zone& zone, const Point2& at) {
@@ -285,15 +346,23 @@ bool inside(const core::Zone& zone, const Point2& at) {
          });
 }
 
-/// The zones that the picture shows and the answer names. Under a range of loads they are those of the file's load.
-void add_zones(const mechanism::Mechanism& mechanism, const LociRequest& request, Verification& result) {
-  LociRequest own = request;
-  own.all_working_modes = false;
-  if (own.working_modes.size() > 1) own.working_modes.resize(1);
-  if (result.task.min_force) own.selection.min_force = result.task.min_force;
-  if (result.task.min_couple) own.selection.min_couple = result.task.min_couple;
-  result.map = find_zones(mechanism, own);
-  if (!result.verified || result.task.loads) return;
+/// The loci and zones that the picture shows and the answer names. Under a range of loads they are those of the file's.
+void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verification& result) {
+  result.notes = verifier.notes();
+  std::optional<TracedProblem> traced;
+  if (result.task.loads && result.notes.empty())
+    traced = trace_problem(mechanism, verifier.request());
+  else if (verifier.traced())
+    traced = verifier.traced()->front();
+  if (traced && traced->map.complete) {
+    result.map = loci::zones(traced->problem, std::move(traced->map));
+    result.notes = result.map.loci.notes;
+  } else {
+    result.map.loci = empty_map(mechanism);
+    if (result.notes.empty()) result.notes.emplace_back("the loci could not be traced within the time limit");
+  }
+  result.mode = mode_of(verifier.sides(), result.map.loci.tower);
+  if (!result.verified() || result.task.loads) return;
   const Point2 at = loci::TaskRegion(result.task.shape).samples().front();
   for (const core::Zone& zone : result.map.zones)
     if (inside(zone, at)) result.zone = zone.id;
@@ -301,9 +370,22 @@ void add_zones(const mechanism::Mechanism& mechanism, const LociRequest& request
 
 }  // namespace
 
+std::string to_string(TaskVerdict verdict) {
+  switch (verdict) {
+    case TaskVerdict::verified:
+      return "verified";
+    case TaskVerdict::refuted:
+      return "refuted";
+    case TaskVerdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
 Verification verify_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request) {
-  Verification result = Verifier(mechanism, task, request).verify(task);
-  add_zones(mechanism, request, result);
+  Verifier verifier(mechanism, task, request);
+  Verification result = verifier.verify(task);
+  add_zones(mechanism, verifier, result);
   return result;
 }
 
@@ -316,12 +398,15 @@ Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, c
     return other;
   };
   const auto accept = [&](const loci::Fit& fit) { return verifier.proven(moved(fit.by)); };
-  const auto fit = loci::fit_task(
-      verifier.maps(), verifier.mode(), task.shape, core::to_double(task.margin), goal,
-      [&](const Point2& at) { return verifier.signature(at); }, accept);
+  verifier.trace();
+  if (!verifier.traced()) throw core::LimitReached("the loci could not be traced completely within the time limit");
+  std::vector<const core::LocusMap*> maps;
+  for (const TracedProblem& one : *verifier.traced()) maps.push_back(&one.map);
+  const auto fit = loci::fit_task(maps, mode_of(verifier.sides(), maps.front()->tower), task.shape,
+                                  core::to_double(task.margin), goal, verifier.signature(), accept);
   Verification result = verifier.verify(fit ? moved(fit->by) : task);
   if (fit) result.by = core::RationalPoint{core::Rational(fit->by[0]), core::Rational(fit->by[1])};
-  add_zones(mechanism, request, result);
+  add_zones(mechanism, verifier, result);
   return result;
 }
 

@@ -2,212 +2,279 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <deque>
+#include <limits>
+#include <numbers>
+#include <queue>
 
-#include "loci/edge_labels.hpp"
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/task_cell.hpp"
 
 namespace clearloci::loci {
 namespace {
 
-using core::FactorRole;
-using core::LocusFactor;
-using core::LocusProblem;
-using core::Quantity;
+using core::Point2;
 using sheet::Interval;
 
-int multiplicity(const LocusFactor& factor, const Component& component) {
-  if (factor.role != FactorRole::reaction) return 0;
-  for (const core::Vanishing& v : factor.vanishing)
-    if (v.joint == component.first && v.quantity == component.second) return v.multiplicity;
-  return 0;
+struct Cell {
+  Interval x, y;
+  int depth = 0;
+  double distance = 0;  ///< at least so far from the task
+
+  Point2 middle() const { return {x.middle(), y.middle()}; }
+  double width() const { return std::max(x.width(), y.width()); }
+  /// The half nearer to square.
+  std::array<Cell, 2> halves() const {
+    std::array<Cell, 2> parts = {*this, *this};
+    const bool along_x = x.width() >= y.width();
+    const double middle = along_x ? x.middle() : y.middle();
+    (along_x ? parts[0].x : parts[0].y) = Interval((along_x ? x : y).lower(), middle);
+    (along_x ? parts[1].x : parts[1].y) = Interval(middle, (along_x ? x : y).upper());
+    for (Cell& part : parts) part.depth = depth + 1;
+    return parts;
+  }
+};
+
+double apart(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+double size_of(const TaskRegion& region, double margin) {
+  return std::max({region.upper()[0] - region.lower()[0], region.upper()[1] - region.lower()[1], margin});
 }
 
-bool always_zero(const LocusProblem& problem, const Component& component) {
-  return std::any_of(problem.always_zero.begin(), problem.always_zero.end(), [&](const core::Vanishing& v) {
-    return v.joint == component.first && v.quantity == component.second;
-  });
+/// Doubles place the task and its margin to rounding; a hair more covers it.
+double hair_of(const TaskRegion& region, double margin) {
+  return 1e-12 * (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
 }
 
-bool wanted(const LocusProblem& problem, Quantity quantity) {
-  return std::find(problem.quantities.begin(), problem.quantities.end(), quantity) != problem.quantities.end();
+/// The finest cells, as a part of the task: some thousand spacings of doubles.
+constexpr double finest = 1e-11;
+
+bool out_of_time(const TaskEffort& effort, int cells) {
+  constexpr int between_looks = 64;
+  return effort.deadline && cells % between_looks == 0 && std::chrono::steady_clock::now() >= *effort.deadline;
 }
 
-sheet::SheetProgram program_of(const LocusProblem& problem) {
-  std::vector<sheet::SheetFunction> functions;
-  for (const LocusFactor& factor : problem.factors) functions.push_back({factor.sheet, factor.line});
-  return {problem.tower, functions};
-}
-
-/// One load's factors over cells.
-class CaseCell {
+/// Looks for a pose of the task that the witness refutes: poses of cells that were not proven, and places between two
+/// of them where something changes its sign.
+class Refutation {
  public:
-  CaseCell(const LoadCase& load, const core::WorkingMode& mode)
-      : load_(&load), problem_(*load.problem), program_(program_of(problem_)), cell_(program_, mode) {
-    signs_.resize(problem_.factors.size());
-  }
-  CaseCell(const CaseCell&) = delete;
-  CaseCell& operator=(const CaseCell&) = delete;
+  Refutation(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+             double margin, const RefutedAt& refuted_at)
+      : point_(conditions, mode),
+        region_(region),
+        margin_(margin),
+        hair_(hair_of(region, margin)),
+        witness_(refuted_at),
+        seen_(point_.watched()),
+        tried_(point_.watched(), std::numeric_limits<double>::infinity()) {}
 
-  /// False: nothing is proven of the cell. `outside`: set where it lies outside the workspace for certain.
-  bool enter(const Interval& x, const Interval& y, bool& outside) {
-    outside = !cell_.enter(x, y);
-    if (outside) return false;
-    for (int j = 0; j < program_.roots(); ++j)
-      if (cell_.square(j).sign() <= 0) return false;
-    bool differentiated = false;
-    for (std::size_t f = 0; f < signs_.size(); ++f) {
-      const int index = static_cast<int>(f);
-      signs_[f] = cell_.value(index).sign();
-      if (signs_[f] != 0) continue;
-      if (!differentiated) cell_.differentiate();
-      differentiated = true;
-      signs_[f] = cell_.centred(index).sign();
+  /// Of the task itself, before any cell: its corners and the like are where engineers put zeros.
+  bool by_samples() {
+    for (const Point2& at : region_.samples())
+      if (refuted_at(at, true) || crossed(at)) return true;
+    return false;
+  }
+
+  bool by_suspect(const Point2& at) {
+    if (refuted_at(at, true)) return true;
+    // Close enough to be on either side of one curve, far enough for signs to be decided.
+    const double step = 1e-7 * (size_of(region_, margin_) + margin_);
+    for (int i = 0; i < 8; ++i) {
+      const double angle = i * std::numbers::pi / 4;
+      const Point2 near = {at[0] + step * std::cos(angle), at[1] + step * std::sin(angle)};
+      if (crossed(region_.signed_distance(near) <= margin_ ? near : region_.closest(near))) return true;
     }
-    return true;
+    return false;
   }
 
-  /// |A|, margins and the closure's denominators.
-  bool regular() const {
-    for (std::size_t f = 0; f < signs_.size(); ++f) {
-      const FactorRole role = problem_.factors[f].role;
-      if (role != FactorRole::reaction && role != FactorRole::workspace_boundary && signs_[f] == 0) return false;
-    }
-    return true;
-  }
-
-  /// Sign of the product of its factors, 0 where one may vanish.
-  int product(const Component& component) const {
-    if (always_zero(problem_, component)) return 0;
-    int sign = 1;
-    for (std::size_t f = 0; f < signs_.size(); ++f) {
-      const int times = multiplicity(problem_.factors[f], component);
-      if (times > 0) sign *= times % 2 == 0 ? std::abs(signs_[f]) : signs_[f];
-    }
-    return sign;
-  }
-
-  /// Sign of the numerator, 0 where it is not known.
-  int numerator(const Component& component) const {
-    const auto known = load_->signs.find(component);
-    return known == load_->signs.end() ? 0 : known->second * product(component);
+  bool by_cell(const Cell& cell, TaskCell::State state, int condition) {
+    const std::optional<Point2> at = pose_of(cell);
+    if (at && (refuted_at(*at, false) || crossed(*at))) return true;
+    return state == TaskCell::State::unmet && cell.depth % between_steps == 0 && stepped(cell.middle(), condition);
   }
 
  private:
-  const LoadCase* load_;
-  const LocusProblem& problem_;
-  sheet::SheetProgram program_;
-  sheet::SheetCell cell_;
-  std::vector<int> signs_;
-};
+  static constexpr int between_steps = 4, most_steps = 12, most_starts = 400;
+  static constexpr std::size_t remembered = 48;
 
-bool holds(const Condition& condition, const std::vector<std::unique_ptr<CaseCell>>& cases) {
-  const auto borne = [&](const CaseCell& first, const CaseCell& second) {
-    return std::any_of(condition.components.begin(), condition.components.end(), [&](Quantity quantity) {
-      const Component component = {condition.reaction.joint, quantity};
-      if (&first == &second) return first.product(component) != 0;
-      const int sign = first.numerator(component);
-      return sign != 0 && sign == second.numerator(component);
-    });
-  };
-  if (cases.size() == 1) return borne(*cases.front(), *cases.front());
-  for (std::size_t k = 1; k < cases.size(); ++k)
-    if (!borne(*cases[k - 1], *cases[k])) return false;
-  return true;
-}
+  /// Only poses of the task, to rounding, or of its margin: one that is as far away as the margin demands is far
+  /// enough.
+  bool refuted_at(const Point2& at, bool closely) const {
+    const double distance = region_.signed_distance(at);
+    const double rounding = 0x1p-50 * std::max({std::abs(at[0]), std::abs(at[1]), 1e-3});
+    return (distance <= rounding || distance < margin_ - hair_) && witness_(at, closely);
+  }
+
+  /// A pose of the cell that belongs to the task or its margin.
+  std::optional<Point2> pose_of(const Cell& cell) const {
+    const Point2 middle = cell.middle(), base = region_.closest(middle);
+    const double far = apart(middle, base);
+    if (far <= margin_) return middle;
+    const double part = (1 - 1e-6) * margin_ / far;  // the very edge of the margin says nothing
+    const Point2 at = {base[0] + part * (middle[0] - base[0]), base[1] + part * (middle[1] - base[1])};
+    if (!cell.x.contains(at[0]) || !cell.y.contains(at[1])) return std::nullopt;
+    return at;
+  }
+
+  /// Whether something has another sign here than at a pose seen before, and the witness refutes a pose between.
+  bool crossed(const Point2& at) {
+    if (!point_.enter(at)) return refuted_at(at, true);
+    std::vector<int> signs;
+    for (std::size_t w = 0; w < seen_.size(); ++w) signs.push_back(point_.sign(w));
+    for (std::size_t w = 0; w < seen_.size(); ++w) {
+      if (signs[w] == 0) {
+        if (refuted_at(at, true)) return true;
+        continue;
+      }
+      std::deque<Point2>& same = seen_[w][signs[w] > 0 ? 1 : 0];
+      const std::deque<Point2>& other = seen_[w][signs[w] > 0 ? 0 : 1];
+      const Point2* nearest = nullptr;
+      for (const Point2& p : other)
+        if (nearest == nullptr || apart(at, p) < apart(at, *nearest)) nearest = &p;
+      // Closer and closer pairs: between them the straight way stays within the task.
+      if (nearest != nullptr && apart(at, *nearest) < 0.5 * tried_[w]) {
+        tried_[w] = apart(at, *nearest);
+        if (between(w, at, *nearest, signs[w])) return true;
+      }
+      same.push_back(at);
+      if (same.size() > remembered) same.pop_front();
+    }
+    return false;
+  }
+
+  bool between(std::size_t watched, Point2 a, Point2 b, int sign_at_a) {
+    for (int i = 0; i < 80; ++i) {
+      const Point2 middle = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+      if (middle == a || middle == b) break;
+      if (!point_.enter(middle)) return refuted_at(middle, true);
+      const int sign = point_.sign(watched);
+      if (sign == 0) return refuted_at(middle, true);
+      (sign == sign_at_a ? a : b) = middle;
+    }
+    return refuted_at(a, true) || refuted_at(b, true);
+  }
+
+  bool stepped(Point2 at, int condition) {
+    if (++starts_ > most_starts) return false;
+    double load = 0.5;
+    const double size = size_of(region_, margin_);
+    for (int i = 0; i < most_steps; ++i) {
+      const Point2 before = at;
+      if (!point_.step(condition, at, load) || region_.signed_distance(at) > margin_ + size) return false;
+      if (apart(at, before) <= 1e-15 * (size + std::abs(at[0]) + std::abs(at[1]))) break;
+    }
+    return refuted_at(at, true);
+  }
+
+  TaskPoint point_;
+  const TaskRegion& region_;
+  double margin_;
+  double hair_;
+  const RefutedAt& witness_;
+  std::vector<std::array<std::deque<Point2>, 2>> seen_;  ///< by sign
+  std::vector<double> tried_;                            ///< how close the closest pair was
+  int starts_ = 0;
+};
 
 }  // namespace
 
-std::vector<Condition> conditions_of(const LocusProblem& problem) {
-  std::vector<Condition> conditions;
-  const auto bears = [&](const std::string& joint, Quantity quantity) {
-    return !always_zero(problem, {joint, quantity});
-  };
-  for (const std::string& joint : problem.joints) {
-    const std::vector<Quantity> force = core::force_components(problem, joint);
-    if (wanted(problem, Quantity::f) &&
-        std::any_of(force.begin(), force.end(), [&](Quantity quantity) { return bears(joint, quantity); }))
-      conditions.emplace_back(core::Vanishing{joint, Quantity::f, 1}, force);
-  }
-  // Couples, axial forces and what guides bear, wherever a factor says that they are loci.
-  for (const LocusFactor& factor : problem.factors) {
-    if (factor.role != FactorRole::reaction) continue;
-    for (const core::Vanishing& v : wanted_vanishing(problem, factor.vanishing)) {
-      const bool single = v.quantity != Quantity::f && gravest_kind({v}) < core::LocusKind::component;
-      const bool known = std::any_of(conditions.begin(), conditions.end(), [&](const Condition& c) {
-        return c.reaction.joint == v.joint && c.reaction.quantity == v.quantity;
-      });
-      if (single && !known && bears(v.joint, v.quantity)) conditions.emplace_back(v, std::vector{v.quantity});
-    }
-  }
-  return conditions;
-}
-
-int product_sign(const LocusProblem& problem, const core::WorkingMode& mode, const Component& component,
-                 const core::Point2& at) {
-  if (always_zero(problem, component)) return 0;
-  const sheet::SheetProgram program = program_of(problem);
-  sheet::PointSign sign_at(program, mode);
-  int sign = 1;
-  for (std::size_t f = 0; f < problem.factors.size() && sign != 0; ++f) {
-    const int times = multiplicity(problem.factors[f], component);
-    if (times == 0) continue;
-    const int own = sign_at(at[0], at[1], static_cast<int>(f)).value_or(0);
-    sign *= times % 2 == 0 ? std::abs(own) : own;
-  }
-  return sign;
-}
-
-TaskProof prove_task(const std::vector<LoadCase>& loads, const core::WorkingMode& mode, const TaskRegion& region,
-                     double margin, int most_cells) {
-  struct Cell {
-    Interval x, y;
-  };
-  std::vector<std::unique_ptr<CaseCell>> cases;
-  for (const LoadCase& load : loads) cases.push_back(std::make_unique<CaseCell>(load, mode));
-  const std::vector<Condition> conditions = conditions_of(*loads.front().problem);
-  const double size = std::max({region.upper()[0] - region.lower()[0], region.upper()[1] - region.lower()[1], margin});
-  // Doubles place the task and its margin to rounding; a hair more covers it.
-  const double reach = margin + 1e-12 * (size + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
-  std::vector<Cell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
-                             Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
+TaskProof prove_task(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+                     double margin, const RefutedAt& refuted_at, const TaskEffort& effort) {
   TaskProof proof;
+  Refutation refutation(conditions, mode, region, margin, refuted_at);
+  if (refutation.by_samples()) {
+    proof.verdict = TaskVerdict::refuted;
+    return proof;
+  }
+  TaskCell judge(conditions, mode);
+  const double size = size_of(region, margin), reach = margin + hair_of(region, margin);
+  // The largest first: a part of the task that fails is met on large cells, before doubtful places are looked at
+  // closely.
+  std::deque<Cell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
+                            Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
+  const auto left_open = [&](const Cell& cell) {
+    const bool first = proof.open++ == 0;
+    const Point2 lower = {cell.x.lower(), cell.y.lower()}, upper = {cell.x.upper(), cell.y.upper()};
+    for (std::size_t c = 0; c < 2; ++c) {
+      proof.lower[c] = first ? lower[c] : std::min(proof.lower[c], lower[c]);
+      proof.upper[c] = first ? upper[c] : std::max(proof.upper[c], upper[c]);
+    }
+  };
   while (!open.empty()) {
-    const Cell cell = open.back();
-    open.pop_back();
-    if (region.distance(cell.x, cell.y) > reach) continue;
-    const core::Point2 middle = {cell.x.middle(), cell.y.middle()};
-    bool outside = false;
-    const bool proven =
-        std::all_of(cases.begin(), cases.end(),
-                    [&](const auto& c) { return c->enter(cell.x, cell.y, outside) && c->regular(); }) &&
-        std::all_of(conditions.begin(), conditions.end(), [&](const Condition& c) { return holds(c, cases); });
-    if (proven) {
-      ++proof.cells;
+    const Cell cell = open.front();
+    if (region.distance(cell.x, cell.y) > reach) {
+      open.pop_front();
       continue;
     }
-    const double width = std::max(cell.x.width(), cell.y.width());
-    if (outside || ++proof.cells > most_cells || width < 1e-11 * size) {
-      proof.open = middle;
+    proof.out_of_cells = proof.cells >= effort.most_cells;
+    proof.out_of_time = out_of_time(effort, proof.cells);
+    if (proof.out_of_cells || proof.out_of_time) break;
+    open.pop_front();
+    ++proof.cells;
+    const TaskCell::State state = judge.enter(cell.x, cell.y);
+    if (state == TaskCell::State::proven) continue;
+    if (refutation.by_cell(cell, state, judge.unmet())) {
+      proof.verdict = TaskVerdict::refuted;
       return proof;
     }
-    // The half nearer to square.
-    if (cell.x.width() >= cell.y.width()) {
-      open.push_back({Interval(cell.x.lower(), middle[0]), cell.y});
-      open.push_back({Interval(middle[0], cell.x.upper()), cell.y});
-    } else {
-      open.push_back({cell.x, Interval(cell.y.lower(), middle[1])});
-      open.push_back({cell.x, Interval(middle[1], cell.y.upper())});
-    }
+    if (cell.width() < finest * size)
+      left_open(cell);
+    else
+      for (const Cell& half : cell.halves()) open.push_back(half);
   }
-  proof.proven = true;
+  for (const Cell& cell : open)
+    if (region.distance(cell.x, cell.y) <= reach) left_open(cell);
+  if (proof.open == 0) proof.verdict = TaskVerdict::verified;
   return proof;
 }
 
-bool outside_workspace(const LocusProblem& problem, const core::WorkingMode& mode, const core::Point2& at) {
-  const sheet::SheetProgram program(problem.tower, std::vector<sheet::SheetFunction>{});
-  sheet::SheetCell cell(program, mode);
-  return !cell.enter(Interval(at[0]), Interval(at[1]));
+bool refuted_near(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+                  double margin, const RefutedAt& refuted_at, const core::Polyline& suspects) {
+  Refutation refutation(conditions, mode, region, margin, refuted_at);
+  return std::any_of(suspects.begin(), suspects.end(), [&](const Point2& at) { return refutation.by_suspect(at); });
+}
+
+TaskClearance proven_clearance(const core::TaskConditions& conditions, const core::WorkingMode& mode,
+                               const TaskRegion& region, double from, double limit, const TaskEffort& effort) {
+  // What ends the margin is told apart to this part of it.
+  constexpr double resolution = 1e-4;
+  TaskCell judge(conditions, mode);
+  const double hair = hair_of(region, limit), size = size_of(region, 0);
+  const auto farther = [](const Cell& a, const Cell& b) { return a.distance > b.distance; };
+  std::priority_queue<Cell, std::vector<Cell>, decltype(farther)> open(farther);
+  open.push({Interval(region.lower()[0] - limit, region.upper()[0] + limit),
+             Interval(region.lower()[1] - limit, region.upper()[1] + limit)});
+  TaskClearance result;
+  result.margin = from;
+  const auto proven_to = [&](double distance) { result.margin = std::max(result.margin, distance - hair); };
+  for (int cells = 0; !open.empty(); ++cells) {
+    const Cell cell = open.top();
+    open.pop();
+    if (cell.distance >= limit) break;
+    if (cells >= effort.most_cells || out_of_time(effort, cells)) {
+      proven_to(cell.distance);
+      return result;
+    }
+    // What the task's proof has covered.
+    const double half = 0.5 * std::hypot(cell.x.width(), cell.y.width());
+    if (region.signed_distance(cell.middle()) + half <= from) continue;
+    const TaskCell::State state = judge.enter(cell.x, cell.y);
+    if (state == TaskCell::State::proven) continue;
+    if (cell.width() <= resolution * std::max(cell.distance, resolution * size)) {
+      proven_to(cell.distance);
+      result.at = cell.middle();
+      result.kind = state == TaskCell::State::singular ? core::LocusKind::direct_singularity
+                    : state == TaskCell::State::unmet  ? core::LocusKind::contact_loss
+                                                       : core::LocusKind::workspace_boundary;
+      result.condition = judge.unmet();
+      return result;
+    }
+    for (Cell part : cell.halves()) {
+      part.distance = std::max(cell.distance, region.distance(part.x, part.y));
+      open.push(part);
+    }
+  }
+  proven_to(limit);
+  return result;
 }
 
 }  // namespace clearloci::loci

@@ -1,61 +1,66 @@
 // The proof that a mechanism keeps clear of every locus over a task: cells that cover the task and a margin around it
-// are subdivided until in each, by enclosures, the mechanism can be assembled (every Q_j > 0), |A| has a sign, every
-// wanted couple has one, and of every wanted force a component has one. The task is connected, so it then lies in one
-// discontinuity-free zone.
+// are subdivided until in each, by enclosures, the mechanism can be assembled (every Q_j > 0), |A| has a sign, and
+// every demand is met under every load. The task is connected, so it then lies in one discontinuity-free zone.
 //
-// Where the load turns from f to g, numerators are N = (1 - t) N_f + t N_g: N vanishes for no t where N_f and N_g have
-// the same sign, and f_J for none where one component has. Loads between f and g make the test for forces as sharp as
-// wanted: the range is cut into pieces, each with a problem at either end.
+// Loads. A reaction w(t) = ((1 - t) a + t b) / D runs along a segment as the load turns from one to the other. It keeps
+// |w| > r for all t if one unit vector n has n.a > r |D| and n.b > r |D|; for r = 0, it vanishes for no t. The
+// segment's nearest point to the origin, at the middle of a cell, gives n; n.a - r |D| and n.b - r |D| are enclosed
+// over the cell. So a cell is proven for the whole range at once, and no load between the ends is left out.
+//
+// Where a cell fails, poses of it that belong to the task are shown to a witness, who solves the equations numerically
+// and knows nothing of the enclosures: only what it confirms refutes the task. What is neither is open.
 #pragma once
 
-#include <map>
+#include <chrono>
+#include <functional>
 #include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
+#include "core/task_conditions.hpp"
 #include "loci/task_region.hpp"
 
 namespace clearloci::loci {
 
-using Component = std::pair<std::string, core::Quantity>;  ///< joint, fx ... M
-
-/// The factors of a mechanism under one load, and of every component the sign of its numerator relative to the product
-/// of its factors; 0 or missing: not known, which only the proof over a range of loads minds.
-struct LoadCase {
-  const core::LocusProblem* problem = nullptr;
-  std::map<Component, int> signs;
-};
-
-/// A reaction that must not vanish: none of its components alone (a couple), or not all of them together (a force).
-struct Condition {
-  core::Vanishing reaction;
-  std::vector<core::Quantity> components;
-
-  Condition(core::Vanishing which, std::vector<core::Quantity> of)
-      : reaction(std::move(which)), components(std::move(of)) {}
-};
-
-/// What the loci of the problem are zeros of. A reaction that vanishes in every pose is left out: `always_zero` tells.
-std::vector<Condition> conditions_of(const core::LocusProblem& problem);
-
-/// Sign of the product of a component's factors, by multiplicity, at a point; 0 where it is not decided. Proven.
-int product_sign(const core::LocusProblem& problem, const core::WorkingMode& mode, const Component& component,
-                 const core::Point2& at);
+enum class TaskVerdict { verified, refuted, undecided };
 
 struct TaskProof {
-  bool proven = false;
-  std::optional<core::Point2> open;  ///< a place where it failed
-  int cells = 0;                     ///< that were looked at
+  TaskVerdict verdict = TaskVerdict::undecided;
+  int cells = 0;  ///< that were looked at
+  // Of the cells that stayed open:
+  std::size_t open = 0;
+  core::Point2 lower{}, upper{};  ///< the box around them
+  bool out_of_time = false;
+  bool out_of_cells = false;  ///< else doubles end there
 };
 
-/// One case: the load is fixed. Several: it runs from the first to the last. `most_cells` bounds the work.
-TaskProof prove_task(const std::vector<LoadCase>& cases, const core::WorkingMode& mode, const TaskRegion& region,
-                     double margin, int most_cells);
+struct TaskEffort {
+  int most_cells = 400'000;
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};
+};
 
-/// Outside the workspace, proven.
-bool outside_workspace(const core::LocusProblem& problem, const core::WorkingMode& mode, const core::Point2& at);
+/// Whether the task fails at a pose of it, for certain. `closely`: the pose was sought out as one where something
+/// vanishes.
+using RefutedAt = std::function<bool(const core::Point2& at, bool closely)>;
+
+TaskProof prove_task(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+                     double margin, const RefutedAt& refuted_at, const TaskEffort& effort = {});
+
+/// Whether the witness refutes one of some poses that are suspected, or one next to them.
+bool refuted_near(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+                  double margin, const RefutedAt& refuted_at, const core::Polyline& suspects);
+
+/// How far around a task everything holds that holds in it.
+struct TaskClearance {
+  double margin = 0;  ///< m, proven
+  /// What ends it there, if the search came so far: what could not be excluded about here. `condition`: its number; -1:
+  /// |A| or the workspace's boundary.
+  std::optional<core::Point2> at;
+  core::LocusKind kind = core::LocusKind::contact_loss;
+  int condition = -1;
+};
+
+/// Requires that the task is verified with the margin `from`. Not beyond `limit`.
+TaskClearance proven_clearance(const core::TaskConditions& conditions, const core::WorkingMode& mode,
+                               const TaskRegion& region, double from, double limit, const TaskEffort& effort);
 
 }  // namespace clearloci::loci

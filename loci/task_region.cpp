@@ -14,10 +14,15 @@ using sheet::Interval;
 
 Point2 rounded(const core::RationalPoint& p) { return {core::to_double(p[0]), core::to_double(p[1])}; }
 
-double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
+Point2 closest_on_segment(const Point2& p, const Point2& a, const Point2& b) {
   const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
   const double t = length2 > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  const double x = a[0] + t * dx - p[0], y = a[1] + t * dy - p[1];
+  return {a[0] + t * dx, a[1] + t * dy};
+}
+
+double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
+  const Point2 at = closest_on_segment(p, a, b);
+  const double x = at[0] - p[0], y = at[1] - p[1];
   return std::sqrt(x * x + y * y);
 }
 
@@ -83,6 +88,23 @@ double TaskRegion::signed_distance(const Point2& at) const {
   for (std::size_t i = 1; i < line_.size(); ++i)
     least = std::min(least, distance_to_segment(at, line_[i - 1], line_[i]));
   return filled_ && inside(at) ? -least : least;
+}
+
+Point2 TaskRegion::closest(const Point2& to) const {
+  if (circle_) {
+    const double dx = to[0] - round_.centre[0], dy = to[1] - round_.centre[1], size = std::sqrt(dx * dx + dy * dy);
+    if (size <= round_.radius) return to;
+    return {round_.centre[0] + dx * (round_.radius / size), round_.centre[1] + dy * (round_.radius / size)};
+  }
+  if (filled_ && inside(to)) return to;
+  Point2 best = line_.front();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < line_.size(); ++i) {
+    const Point2 at = closest_on_segment(to, line_[i - 1], line_[i]);
+    const double own = std::hypot(at[0] - to[0], at[1] - to[1]);
+    if (own < least) least = own, best = at;
+  }
+  return best;
 }
 
 double TaskRegion::distance(const Interval& x, const Interval& y) const {

@@ -16,6 +16,9 @@ class TaskRegion {
   /// Not more than the least distance of a cell from the shape; 0 where they meet.
   double distance(const sheet::Interval& x, const sheet::Interval& y) const;
 
+  /// The point of the shape nearest to a place; of a place inside the place itself.
+  core::Point2 closest(const core::Point2& to) const;
+
   core::Point2 lower() const { return lower_; }
   core::Point2 upper() const { return upper_; }
   /// A few points of the shape, one in its middle first.

@@ -5,8 +5,9 @@
 
 namespace clearloci::symbolic {
 
-FactoredDeterminants factored_determinants(const Geometry& geometry) {
+FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded) {
   NewtonEulerEquations equations = newton_euler_equations(geometry);
+  if (loaded != nullptr) equations.loads = newton_euler_equations(*loaded).loads;
   std::vector<std::vector<Poly>> matrix;
   std::vector<Poly> loads;
   for (unsigned i = 0; i < equations.matrix.rows(); ++i) {

@@ -14,7 +14,8 @@ struct FactoredDeterminants {
   std::vector<FactoredPoly> numerators;  ///< one an unknown
 };
 
-/// Throws core::InputError where |A| vanishes in every pose.
-FactoredDeterminants factored_determinants(const Geometry& geometry);
+/// Throws core::InputError where |A| vanishes in every pose. `loaded`: the same mechanism under another load, which
+/// takes the place of its own; what comes back is in the ring of `geometry`.
+FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded = nullptr);
 
 }  // namespace clearloci::symbolic

@@ -112,14 +112,7 @@ class Derivation {
         causes_(geometry_),
         reactions_(reactions(geometry_, determinants_)),
         lines_(geometry_) {
-    result_.problem.tower = geometry_.plain_tower();
-    for (std::size_t j = 0; j < result_.problem.tower.roots.size(); ++j)
-      result_.problem.tower.roots[j].line = lines_.square(j);
-    const std::vector<int> variables = geometry_.tower_variables();
-    for (const Geometry::Way& way : geometry_.dyad_ways())
-      if (auto lines = lines_.way(way.point))
-        result_.problem.tower.bases.push_back(
-            {way.x.plain(variables), way.y.plain(variables), std::move((*lines)[0]), std::move((*lines)[1])});
+    result_.problem.tower = lines_.tower();
     result_.problem.joints = selected_joints(m, selection);
     result_.problem.quantities = expanded(m, selection.quantities);
     result_.problem.modes = {file_mode()};

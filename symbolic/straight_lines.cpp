@@ -18,6 +18,34 @@ StraightLine StraightLines::of(const Poly& natural) {
   return builder_.line(value(core::scaled_for_doubles(natural.plain())));
 }
 
+StraightLine StraightLines::of(const Rational& constant, const std::vector<PolyFactor>& factors) {
+  // Coefficients in the range of doubles, by powers of two that the constant takes back.
+  Rational scale = constant;
+  int product = builder_.constant(1);
+  for (const PolyFactor& factor : factors) {
+    const Polynomial plain = factor.poly.plain(), scaled = core::scaled_for_doubles(plain);
+    const Rational gained = scaled.terms.front().coefficient / plain.terms.front().coefficient;
+    for (int i = 0; i < factor.multiplicity; ++i) scale /= gained;
+    product = builder_.multiply(product, builder_.power(value(scaled), factor.multiplicity));
+  }
+  return builder_.line(builder_.multiply(builder_.constant(scale), product));
+}
+
+StraightLine StraightLines::over_roots(const Poly& sheet) {
+  return builder_.line(value(core::scaled_for_doubles(sheet.plain())));
+}
+
+core::RootTower StraightLines::tower() {
+  core::RootTower tower = geometry_->plain_tower();
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) tower.roots[j].line = square(j);
+  const std::vector<int> variables = geometry_->tower_variables();
+  for (const Geometry::Way& own : geometry_->dyad_ways())
+    if (auto lines = way(own.point))
+      tower.bases.push_back(
+          {own.x.plain(variables), own.y.plain(variables), std::move((*lines)[0]), std::move((*lines)[1])});
+  return tower;
+}
+
 StraightLine StraightLines::square(std::size_t root) {
   const std::optional<Dyad> known = dyad(geometry_->roots()[root].point);
   if (!known || geometry_->roots()[root].role != core::RootRole::working_mode) return {};

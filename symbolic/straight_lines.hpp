@@ -21,6 +21,15 @@ class StraightLines {
   /// The value of a natural polynomial; the roots are those of the tower.
   core::StraightLine of(const Poly& natural);
 
+  /// The value of a product, as it is.
+  core::StraightLine of(const core::Rational& constant, const std::vector<PolyFactor>& factors);
+
+  /// The value of a polynomial in the coordinates and the roots.
+  core::StraightLine over_roots(const Poly& sheet);
+
+  /// The tower, with everything in it that is known as it is computed.
+  core::RootTower tower();
+
   /// The square of a root of the tower; empty where no better form than its polynomial is known.
   core::StraightLine square(std::size_t root);
 

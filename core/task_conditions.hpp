@@ -1,0 +1,47 @@
+// What a task asks of the reactions, as programs over the root tower: what symbolic/ hands to the proof in loci/. The
+// load turns from the first to the last one, and every reaction is affine in it,
+//     w(t) = ((1 - t) N_first + t N_last) / D,   0 <= t <= 1,
+// with one D for all loads, so that two programs a component cover the whole range.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/locus_factor.hpp"
+
+namespace clearloci::core {
+
+/// A reaction that must not vanish, or must keep a size.
+struct TaskDemand {
+  std::string joint;
+  Quantity quantity = Quantity::f;  ///< f, N, T, M or F
+  Rational least = 0;               ///< N or N m; 0: it must not vanish
+};
+
+/// One demand, of every joint that bears the same: w = 0 for no t, or |w| > least for all. Numbers are those of
+/// functions of TaskConditions.
+struct TaskCondition {
+  std::vector<Vanishing> reactions;
+  Rational least = 0;
+  /// What all components have in common, under every load: w vanishes with any of these. Only where `least` is 0.
+  std::vector<int> factors;
+  /// Load by load the components of what is left of w D; nothing where that is a constant other than 0.
+  std::vector<std::vector<int>> parts;
+  int denominator = -1;   ///< D, where `least` is not 0
+  int squared_axis = -1;  ///< of a couple about an axis u that is no unit vector: |u|^2, for w is M |u|
+  /// Zero in every pose under one of the loads: the demand is met nowhere.
+  std::vector<int> unloaded = {};
+};
+
+struct TaskConditions {
+  RootTower tower;
+  std::vector<StraightLine> functions;  ///< over the tower's variables
+  std::vector<int> determinant;         ///< the factors of |A|
+  std::vector<int> denominators;        ///< squared distances that the closure divides by
+  std::vector<TaskCondition> conditions;
+  /// Demands that no pose can fail to meet otherwise: the reaction is zero whatever the pose and the load.
+  std::vector<TaskDemand> never_loaded;
+  std::size_t loads = 1;
+};
+
+}  // namespace clearloci::core

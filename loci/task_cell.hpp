@@ -1,0 +1,77 @@
+// What can be said of a task's conditions over one cell of poses, by enclosures (task_proof.hpp).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/locus_map.hpp"
+#include "core/task_conditions.hpp"
+#include "loci/sheet/sheet_cell.hpp"
+
+namespace clearloci::loci {
+
+class TaskCell {
+ public:
+  TaskCell(const core::TaskConditions& conditions, const core::WorkingMode& mode);
+  TaskCell(const TaskCell&) = delete;
+  TaskCell& operator=(const TaskCell&) = delete;
+
+  enum class State { proven, outside, boundary, singular, unmet };
+
+  /// `outside`: no pose of the cell is within reach, for certain. The others: not proven, for what is named was not
+  /// excluded.
+  State enter(const sheet::Interval& x, const sheet::Interval& y);
+
+  /// Where the state is `unmet`: the first condition that was not proven.
+  int unmet() const { return unmet_; }
+
+ private:
+  bool nonzero(int function);
+  bool holds(const core::TaskCondition& condition);
+  /// A lower bound of sum weight_i f_i over the cell is positive.
+  bool positive(const std::vector<std::pair<sheet::Interval, int>>& sum, bool with_slopes);
+  void differentiate();
+  std::vector<double> values(const std::vector<int>& functions) const;
+
+  const core::TaskConditions& conditions_;
+  sheet::SheetProgram program_;
+  sheet::SheetCell cell_;
+  std::vector<sheet::Interval> least_;  ///< of every condition
+  bool differentiated_ = false;
+  int unmet_ = -1;
+};
+
+/// The conditions at single poses, in doubles with enclosed roundings: what leads the search for a pose that fails.
+class TaskPoint {
+ public:
+  TaskPoint(const core::TaskConditions& conditions, const core::WorkingMode& mode);
+  TaskPoint(const TaskPoint&) = delete;
+  TaskPoint& operator=(const TaskPoint&) = delete;
+
+  /// False: out of reach, or so close to its boundary that nothing can be told.
+  bool enter(const core::Point2& at);
+
+  /// What changes its sign only where the task fails: |A|'s factors, what forces have in common, couples under either
+  /// load, and of forces under a range of loads the area that their two ends span, where it may pass through zero.
+  std::size_t watched() const { return watched_.size(); }
+  /// +1, -1; 0 where it is not decided, or says nothing.
+  int sign(std::size_t watched) const;
+
+  /// A step towards a pose and a load at which a force vanishes, by Newton's method of least squares. `load`: t, moved
+  /// too where there is a range. False: none.
+  bool step(int condition, core::Point2& at, double& load);
+
+ private:
+  struct Watched {
+    int function = -1;   ///< a sign of its own, or
+    int condition = -1;  ///< the area of this one's ends
+  };
+
+  const core::TaskConditions& conditions_;
+  sheet::SheetProgram program_;
+  sheet::SheetCell cell_;
+  std::vector<Watched> watched_;
+};
+
+}  // namespace clearloci::loci

@@ -1,0 +1,148 @@
+#include "numeric/task_witness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/errors.hpp"
+
+namespace clearloci::numeric {
+namespace {
+
+/// A pose stands for those within so many spacings of doubles: bisections end, and decimals are rounded, that close.
+constexpr double spacings = 4;
+/// What cannot be told from zero counts as zero only where it is known so well, relative to what is usual.
+constexpr double known_zero = 1e-10;
+/// Around a pose to rounding on the boundary others are out of reach: so many spacings away.
+constexpr double boundary_spacings = 64;
+
+double spacing(double value) { return 2 * unit_roundoff * std::abs(value); }
+
+bool is_zero(const Bounded& b) { return !(std::abs(b.value) > b.error); }
+
+/// (1 - t) a + t b.
+Bounded mixed(const Bounded& a, const Bounded& b, const Bounded& t) { return a + t * (b - a); }
+
+}  // namespace
+
+TaskWitness::TaskWitness(std::vector<const NumericModel*> loads, std::vector<int> mode,
+                         std::vector<core::TaskDemand> demands, std::span<const Point2> usual)
+    : loads_(std::move(loads)), mode_(std::move(mode)), demands_(std::move(demands)) {
+  for (const Point2& at : usual) {
+    const BoundedNumerators n = bounded_numerators(*loads_.front(), at, mode_);
+    if (n.reachable && std::isfinite(n.determinant.value))
+      usual_determinant_ = std::max(usual_determinant_, std::abs(n.determinant.value));
+  }
+}
+
+std::vector<int> TaskWitness::columns_of(const core::TaskDemand& demand) const {
+  const NumericModel& model = *loads_.front();
+  const auto joint = std::find_if(model.mechanism.joints.begin(), model.mechanism.joints.end(),
+                                  [&](const mechanism::Joint& j) { return j.name == demand.joint; });
+  core::ensure(joint != model.mechanism.joints.end(), "a demand is of a joint of the mechanism");
+  const int index = static_cast<int>(joint - model.mechanism.joints.begin());
+  using core::Quantity;
+  std::vector<Quantity> parts = {demand.quantity};
+  if (demand.quantity == Quantity::f) parts = {Quantity::fx, Quantity::fy, Quantity::fz};
+  std::vector<int> columns;
+  for (const Quantity part : parts)
+    if (const int column = column_of(model, index, part); column >= 0) columns.push_back(column);
+  return columns;
+}
+
+bool TaskWitness::reachable_at(const Point2& at) const { return reachable(*loads_.front(), at, mode_); }
+
+std::optional<TaskFailure> TaskWitness::failure(const Point2& at, bool closely) const {
+  const std::vector<TaskFailure> found = some_failures(at, closely, 1);
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::vector<TaskFailure> TaskWitness::failures(const Point2& at, bool closely) const {
+  return some_failures(at, closely, demands_.size());
+}
+
+std::vector<TaskFailure> TaskWitness::some_failures(const Point2& at, bool closely, std::size_t most) const {
+  using Kind = TaskFailure::Kind;
+  const auto alone = [](Kind kind) { return std::vector{TaskFailure{kind, {}, 0, 0}}; };
+  const auto around = [&](double many) {
+    std::array<Point2, 8> list{};
+    constexpr std::array<std::array<int, 2>, 8> ways = {
+        {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+    const double step = many * spacing(std::max({std::abs(at[0]), std::abs(at[1]), 1e-3}));
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] = {at[0] + step * ways[i][0], at[1] + step * ways[i][1]};
+    return list;
+  };
+  const auto reached = [&](const Point2& p) { return reachable_at(p); };
+  if (!reachable_at(at)) {
+    const auto near = around(spacings);
+    if (std::none_of(near.begin(), near.end(), reached)) return alone(Kind::unreachable);
+  }
+  if (closely) {
+    const auto near = around(boundary_spacings);
+    if (!std::all_of(near.begin(), near.end(), reached)) return alone(Kind::boundary);
+  }
+  std::vector<Bounded> pose;
+  for (const double value : at) pose.emplace_back(value, spacings * spacing(value));
+  std::vector<BoundedNumerators> numerators;
+  for (const NumericModel* load : loads_) numerators.push_back(bounded_numerators(*load, pose, mode_));
+  if (!numerators.front().reachable) return {};
+  const Bounded& determinant = numerators.front().determinant;
+  if (is_zero(determinant)) {
+    if (determinant.error <= known_zero * usual_determinant_) return alone(Kind::singular);
+    return {};
+  }
+  std::vector<TaskFailure> all;
+  for (const core::TaskDemand& demand : demands_) {
+    if (auto found = failure_of(demand, numerators)) all.push_back(std::move(*found));
+    if (all.size() >= most) break;
+  }
+  return all;
+}
+
+std::optional<TaskFailure> TaskWitness::failure_of(const core::TaskDemand& demand,
+                                                   const std::vector<BoundedNumerators>& numerators) const {
+  const std::vector<int> columns = columns_of(demand);
+  const BoundedNumerators &first = numerators.front(), &last = numerators.back();
+  double along = 0, length2 = 0;
+  for (const int column : columns) {
+    const double a = first.values[static_cast<std::size_t>(column)].value;
+    const double way = last.values[static_cast<std::size_t>(column)].value - a;
+    along -= a * way;
+    length2 += way * way;
+  }
+  const double nearest = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  const auto part = [&](int column, const Bounded& t) {
+    const auto k = static_cast<std::size_t>(column);
+    return numerators.size() == 1 ? first.values[k] : mixed(first.values[k], last.values[k], t);
+  };
+  TaskFailure failure;
+  failure.demand = demand;
+  failure.load = nearest;
+  const double least_determinant = std::abs(first.determinant.value) - first.determinant.error;
+  double most2 = 0, size2 = 0;
+  for (const int column : columns) {
+    const Bounded own = part(column, Bounded(nearest));
+    size2 += own.value * own.value;
+    most2 += std::pow(std::abs(own.value) + own.error, 2);
+  }
+  failure.size = std::sqrt(size2) / std::abs(first.determinant.value);
+  // A few roundings of this very sum, root and quotient.
+  const double most = std::sqrt(most2) / least_determinant * (1 + 16 * unit_roundoff);
+  if (demand.least > 0 && most < core::to_double(demand.least) * (1 - 2 * unit_roundoff)) {
+    failure.kind = TaskFailure::Kind::too_small;
+    return failure;
+  }
+  // The load at which it vanishes is no double: neither is it known better than to a rounding.
+  const Bounded about(nearest, nearest > 0 && nearest < 1 ? spacings * unit_roundoff : 0.0);
+  double usual = 0;
+  for (const BoundedNumerators& load : numerators)
+    for (const Bounded& value : load.values) usual = std::max(usual, std::abs(value.value));
+  for (const int column : columns) {
+    const Bounded own = part(column, about);
+    if (!is_zero(own) || own.error > known_zero * usual) return std::nullopt;
+  }
+  failure.kind = TaskFailure::Kind::vanishing;
+  return failure;
+}
+
+}  // namespace clearloci::numeric

@@ -1,0 +1,187 @@
+#include "symbolic/task_conditions.hpp"
+
+#include <algorithm>
+#include <list>
+
+#include "core/errors.hpp"
+#include "symbolic/determinants.hpp"
+#include "symbolic/elimination.hpp"
+#include "symbolic/margins.hpp"
+#include "symbolic/reactions.hpp"
+#include "symbolic/straight_lines.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Quantity;
+using core::Rational;
+using core::TaskCondition;
+using core::TaskDemand;
+
+class Conditions {
+ public:
+  explicit Conditions(const std::vector<const mechanism::Mechanism*>& loads)
+      : mechanism_(*loads.front()), geometry_(mechanism_, false), elimination_(geometry_), lines_(geometry_) {
+    result_.loads = loads.size();
+    result_.tower = lines_.tower();
+    for (const mechanism::Mechanism* load : loads) {
+      const FactoredDeterminants determinants = load == &mechanism_ ? factored_determinants(geometry_) : under(*load);
+      reactions_.push_back(reactions(geometry_, determinants));
+      if (load == &mechanism_) determinant_ = determinants.determinant;
+    }
+    if (vanishes(determinant_))
+      throw core::InputError({mechanism_.file}, "the equations are singular in every pose: |A| = 0 on the closure",
+                             "check the lengths, the joints and which of them are actuated");
+    for (const PolyFactor& factor : determinant_.factors) result_.determinant.push_back(factor_function(factor.poly));
+    for (const Poly& denominator : elimination_.denominator_factors()) {
+      result_.denominators.push_back(static_cast<int>(result_.functions.size()));
+      result_.functions.push_back(lines_.over_roots(denominator));
+    }
+  }
+
+  void add(const TaskDemand& demand) {
+    const mechanism::Joint& joint = joint_named(demand.joint);
+    std::vector<Quantity> quantities = {demand.quantity};
+    if (demand.quantity == Quantity::f) quantities = mechanism::force_components(mechanism_, joint);
+    if (demand.least > 0 && std::find(quantities.begin(), quantities.end(), Quantity::f1) != quantities.end())
+      throw core::InputError(joint.where,
+                             "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
+                                 " cannot be traced: its components lie across a moving axis",
+                             "leave the least force out, or name the other joints with --joint");
+    // Components that are zero whatever the pose and the load say nothing.
+    std::vector<std::vector<FactoredPoly>> parts(result_.loads);
+    for (const Quantity quantity : quantities) {
+      std::vector<FactoredPoly> own;
+      for (const auto& all : reactions_) {
+        const FactoredPoly* const found = numerator(all, demand.joint, quantity);
+        own.push_back(found == nullptr || vanishes(*found) ? FactoredPoly{} : *found);
+      }
+      if (std::all_of(own.begin(), own.end(), [](const FactoredPoly& p) { return p.is_zero(); })) continue;
+      for (std::size_t i = 0; i < own.size(); ++i) parts[i].push_back(std::move(own[i]));
+    }
+    TaskCondition condition;
+    condition.reactions = {{demand.joint, demand.quantity, 1}};
+    condition.least = demand.least;
+    if (parts.front().empty()) {
+      if (demand.least == 0) {
+        result_.never_loaded.push_back(demand);
+        return;
+      }
+      for (std::size_t i = 0; i < result_.loads; ++i) condition.unloaded.push_back(static_cast<int>(i));
+    }
+    for (std::size_t i = 0; i < parts.size() && !parts.front().empty(); ++i)
+      if (std::all_of(parts[i].begin(), parts[i].end(), [](const FactoredPoly& p) { return p.is_zero(); }))
+        condition.unloaded.push_back(static_cast<int>(i));
+    if (condition.unloaded.empty()) fill(condition, joint, parts);
+    const auto known = std::find_if(result_.conditions.begin(), result_.conditions.end(), [&](const TaskCondition& c) {
+      return condition.unloaded.empty() && c.unloaded.empty() && c.least == condition.least &&
+             c.factors == condition.factors && c.parts == condition.parts && c.denominator == condition.denominator &&
+             c.squared_axis == condition.squared_axis;
+    });
+    if (known == result_.conditions.end())
+      result_.conditions.push_back(std::move(condition));
+    else
+      known->reactions.push_back(condition.reactions.front());
+  }
+
+  core::TaskConditions take() { return std::move(result_); }
+
+ private:
+  const mechanism::Joint& joint_named(const std::string& name) const {
+    const auto found = std::find_if(mechanism_.joints.begin(), mechanism_.joints.end(),
+                                    [&](const mechanism::Joint& joint) { return joint.name == name; });
+    core::ensure(found != mechanism_.joints.end(), "a demand is of a joint of the mechanism");
+    return *found;
+  }
+
+  FactoredDeterminants under(const mechanism::Mechanism& load) const {
+    const Geometry loaded(load, false);
+    return factored_determinants(geometry_, &loaded);
+  }
+
+  bool vanishes(const FactoredPoly& p) const {
+    return p.is_zero() || std::any_of(p.factors.begin(), p.factors.end(), [&](const PolyFactor& factor) {
+             return elimination_.vanishes_everywhere(factor.poly);
+           });
+  }
+
+  int factor_function(const Poly& natural) { return function_of({1, {PolyFactor{natural, 1}}}, 1); }
+
+  /// product / unit.
+  int function_of(const FactoredPoly& product, const Rational& unit) {
+    FactoredPoly own = product;
+    own.constant /= unit;
+    const auto same = [&](const Known& known) {
+      return known.product.constant == own.constant &&
+             std::equal(known.product.factors.begin(), known.product.factors.end(), own.factors.begin(),
+                        own.factors.end(), [](const PolyFactor& a, const PolyFactor& b) {
+                          return a.multiplicity == b.multiplicity && a.poly == b.poly;
+                        });
+    };
+    const auto known = std::find_if(known_.begin(), known_.end(), same);
+    if (known != known_.end()) return known->function;
+    const int index = static_cast<int>(result_.functions.size());
+    result_.functions.push_back(lines_.of(own.constant, own.factors));
+    known_.push_back({std::move(own), index});
+    return index;
+  }
+
+  void fill(TaskCondition& condition, const mechanism::Joint& joint,
+            const std::vector<std::vector<FactoredPoly>>& parts) {
+    std::vector<FactoredPoly> all;
+    for (const auto& load : parts)
+      for (const FactoredPoly& part : load)
+        if (!part.is_zero()) all.push_back(part);
+    const FactoredPoly shared = shared_factors(all), of_determinant = common_factors(shared, determinant_);
+    // Where |A| does not vanish its factors do not; with them divided out there is less to enclose.
+    const bool size = condition.least > 0;
+    if (!size)
+      for (const PolyFactor& factor : shared.factors)
+        if (determinant_.multiplicity(factor.poly) == 0) condition.factors.push_back(factor_function(factor.poly));
+    FactoredPoly denominator = determinant_;
+    multiply(denominator, of_determinant, -1);
+    const Rational unit = size ? denominator.constant : all.front().constant;
+    if (size) condition.denominator = function_of(denominator, unit);
+    bool constant = true;
+    for (const auto& load : parts) {
+      std::vector<int>& own = condition.parts.emplace_back();
+      for (FactoredPoly part : load) {
+        if (!part.is_zero()) multiply(part, size ? of_determinant : shared, -1);
+        constant = constant && part.factors.empty();
+        own.push_back(function_of(part, unit));
+      }
+    }
+    // Of one component under one load nothing is left but its factors.
+    if (!size && constant && parts.size() == 1) condition.parts.clear();
+    if (size && condition.reactions.front().quantity == Quantity::M && mechanism_.space == mechanism::Space::spatial) {
+      GiNaC::ex square = 0;
+      for (const GiNaC::ex& u : geometry_.vector(joint.axes.at(0))) square += u * u;
+      condition.squared_axis = function_of(factored(geometry_.poly(square.expand()), {}), 1);
+    }
+  }
+
+  struct Known {
+    FactoredPoly product;
+    int function = 0;
+  };
+
+  const mechanism::Mechanism& mechanism_;
+  Geometry geometry_;
+  Elimination elimination_;
+  StraightLines lines_;
+  FactoredPoly determinant_;
+  std::vector<std::vector<Reaction>> reactions_;  ///< load by load
+  std::list<Known> known_;
+  core::TaskConditions result_;
+};
+
+}  // namespace
+
+core::TaskConditions task_conditions(const std::vector<const mechanism::Mechanism*>& loads,
+                                     const std::vector<TaskDemand>& demands) {
+  Conditions conditions(loads);
+  for (const TaskDemand& demand : demands) conditions.add(demand);
+  return conditions.take();
+}
+
+}  // namespace clearloci::symbolic

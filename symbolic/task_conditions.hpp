@@ -1,0 +1,17 @@
+// From a mechanism and what a task asks of it to programs that a proof can enclose (core/task_conditions.hpp).
+#pragma once
+
+#include <vector>
+
+#include "core/task_conditions.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::symbolic {
+
+/// `loads`: the mechanism under the one load, or under the first and the last of a range; they differ in nothing else.
+/// Two free coordinates, both lengths. Throws core::InputError as locus_problem does where the equations are singular
+/// in every pose, and for a least force of a joint whose components lie across a moving axis.
+core::TaskConditions task_conditions(const std::vector<const mechanism::Mechanism*>& loads,
+                                     const std::vector<core::TaskDemand>& demands);
+
+}  // namespace clearloci::symbolic
