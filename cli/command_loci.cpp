@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
@@ -23,6 +24,7 @@ struct Arguments {
   CommonArguments common;
   LociArguments loci;
   std::string formats = "svg,png,csv";
+  std::string certificate;
 };
 
 /// loci.json is always among them.
@@ -54,11 +56,17 @@ int run(const Arguments& arguments) {
   const std::set<report::FileFormat> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   check_formats(formats, mechanism.coordinates.size());
+  if (!arguments.certificate.empty()) require_certifiable(mechanism);
   Progress progress(arguments.common.quiet);
-  const core::LocusMap map = trace_loci(mechanism, loci_request(arguments.loci, mechanism, progress));
+  LociRequest request = loci_request(arguments.loci, mechanism, progress);
+  core::Certificate certificate;
+  if (!arguments.certificate.empty()) request.certificate = &certificate;
+  const core::LocusMap map = trace_loci(mechanism, request);
   progress.clear();
 
   const std::filesystem::path folder = output_folder(arguments.common);
+  if (request.certificate != nullptr)
+    write_certificate(arguments.certificate, "loci", arguments.common, certificate, map);
   const std::vector<std::filesystem::path> files =
       report::write_loci(map, sample_sketches(mechanism, map), folder, formats);
   if (arguments.common.json) {
@@ -88,6 +96,7 @@ Command add_loci_command(CLI::App& program) {
          fmt::format("Files besides loci.json, several after commas: {}", fmt::join(report::file_format_names(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
+  add_certificate_argument(*app, arguments->certificate);
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"
       "With three free coordinates the loci are surfaces:\n"

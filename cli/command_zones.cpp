@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
@@ -23,6 +24,7 @@ struct Arguments {
   CommonArguments common;
   LociArguments loci;
   std::string formats = "svg,png";
+  std::string certificate;
 };
 
 const std::set<std::string> known_formats = {"geojson", "json", "pdf", "png", "svg"};
@@ -46,11 +48,17 @@ int run(const Arguments& arguments) {
         {.file = mechanism.file},
         fmt::format("zones are those of two free coordinates; the mechanism has {}", mechanism.coordinates.size()),
         "fix the others by numbers or parameters");
+  if (!arguments.certificate.empty()) require_certifiable(mechanism);
   Progress progress(arguments.common.quiet);
-  const core::ZoneMap map = find_zones(mechanism, loci_request(arguments.loci, mechanism, progress));
+  LociRequest request = loci_request(arguments.loci, mechanism, progress);
+  core::Certificate certificate;
+  if (!arguments.certificate.empty()) request.certificate = &certificate;
+  const core::ZoneMap map = find_zones(mechanism, request);
   progress.clear();
 
   const std::filesystem::path folder = output_folder(arguments.common);
+  if (request.certificate != nullptr)
+    write_certificate(arguments.certificate, "zones", arguments.common, certificate, map.loci, &map.zones);
   const std::vector<std::filesystem::path> files = report::write_zones(map, folder, formats);
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::zones_object(map)));
@@ -75,6 +83,7 @@ Command add_zones_command(CLI::App& program) {
                   fmt::format("Files besides zones.json, several after commas: {}", fmt::join(known_formats, ", ")))
       ->type_name("LIST")
       ->capture_default_str();
+  add_certificate_argument(*app, arguments->certificate);
   app->footer(
       "Example: clearloci zones examples/five_bar.yaml --working-mode all\n"
       "The files go to ./out/<name of MODEL>, or to the folder of -o.");

@@ -20,5 +20,6 @@ Command add_zones_command(CLI::App& program);
 Command add_verify_command(CLI::App& program);
 Command add_error_command(CLI::App& program);
 Command add_trajectory_command(CLI::App& program);
+Command add_check_command(CLI::App& program);
 
 }  // namespace clearloci::cli

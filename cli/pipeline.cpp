@@ -113,7 +113,10 @@ void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map
 core::LocusMap trace_charts(const mechanism::Mechanism& mechanism, const LociRequest& request,
                             const std::vector<symbolic::DerivedProblem>& charts) {
   const loci::TraceOptions options{
-      .engine = request.engine, .progress = request.progress, .deadline = request.deadline};
+      .engine = request.engine,
+      .progress = request.progress,
+      .deadline = request.deadline,
+      .certificate = request.certificate};
   if (mechanism.coordinates.size() == 3) {
     std::vector<const core::LocusProblem*> problems;
     for (const symbolic::DerivedProblem& derived : charts) problems.push_back(&derived.problem);

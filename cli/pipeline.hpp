@@ -30,6 +30,7 @@ struct LociRequest {
   loci::Engine engine = loci::Engine::automatic;
   std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
   std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
+  core::Certificate* certificate = nullptr;  ///< over two lengths: what is claimed of cells goes there
 };
 
 /// The discontinuity loci of a mechanism: points over one free coordinate, curves over two, surfaces over three.

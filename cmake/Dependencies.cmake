@@ -24,6 +24,15 @@ if(NOT TARGET flint)
   target_link_libraries(flint INTERFACE "${FLINT_LIBRARY}" PkgConfig::mpfr)
 endif()
 
+# MPFI ships neither.
+if(NOT TARGET mpfi)
+  find_path(MPFI_INCLUDE_DIR mpfi.h REQUIRED)
+  find_library(MPFI_LIBRARY mpfi REQUIRED)
+  add_library(mpfi INTERFACE IMPORTED)
+  target_include_directories(mpfi SYSTEM INTERFACE "${MPFI_INCLUDE_DIR}")
+  target_link_libraries(mpfi INTERFACE "${MPFI_LIBRARY}" PkgConfig::mpfr)
+endif()
+
 # CGAL is header-only; its CMake package sets flags we do not want, so only the headers are used.
 if(NOT TARGET cgal)
   find_path(CGAL_INCLUDE_DIR CGAL/Arr_algebraic_segment_traits_2.h REQUIRED)

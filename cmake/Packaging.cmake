@@ -3,7 +3,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/clearloci")
-set(folders core mechanism symbolic loci numeric report)
+set(folders core mechanism symbolic loci numeric check report)
 list(TRANSFORM folders PREPEND clearloci_ OUTPUT_VARIABLE folder_targets)
 
 install(TARGETS ${folder_targets} clearloci_library EXPORT clearlociTargets

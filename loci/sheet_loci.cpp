@@ -298,6 +298,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
       cutters.push_back({{factor.sheet, factor.line}, core::ArcEnd::direct_singularity});
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
+  sheet_options.certificate = options.certificate != nullptr;
   if (options.deadline)
     sheet_options.stop = [deadline = *options.deadline] { return std::chrono::steady_clock::now() > deadline; };
 

@@ -102,14 +102,36 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
   shares = std::move(settled);
 }
 
+/// Hands out the claims of shares that were proven on the sheets.
+void certify(const LocusProblem& problem, const std::vector<SheetShare>& shares, core::Certificate& certificate) {
+  for (const SheetShare& share : shares) {
+    const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share.factor)];
+    if (!share.traced.certified || share.traced.stopped) continue;
+    for (core::SheetClaim claim : share.traced.claims) {
+      claim.mode = share.mode;
+      claim.role = factor.role;
+      claim.name = factor.expression;
+      certificate.sheets.push_back(std::move(claim));
+    }
+    std::erase_if(certificate.open, [&](const core::OpenClaim& open) {
+      return open.mode == share.mode && open.factor == share.factor;
+    });
+  }
+}
+
 /// The adaptive engine, with the exact one behind it.
 void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
   std::vector<SheetShare> shares = trace_on_sheets(problem, options);
+  if (options.certificate != nullptr) {
+    *options.certificate = {problem, {}, {}};
+    for (const SheetShare& share : shares) options.certificate->open.push_back({share.mode, share.factor});
+  }
   try {
     settle_exactly(problem, options, shares, map);
   } catch (const core::LimitReached&) {
     map.complete = false;  // what is open stays so
   }
+  if (options.certificate != nullptr) certify(problem, shares, *options.certificate);
   add_sheet_loci(problem, shares, map);
   for (const core::WorkingMode& mode : problem.modes) map.workspace.push_back(workspace_region(problem, mode, map));
 }

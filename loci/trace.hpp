@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/certificate.hpp"
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
 
@@ -19,6 +20,8 @@ struct TraceOptions {
   Engine engine = Engine::automatic;
   std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
   std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
+  /// Where the adaptive engine puts what it claims of its cells; not asked for where it is null.
+  core::Certificate* certificate = nullptr;
 };
 
 /// Every curve, isolated point and workspace region of the problem's modes; over one free coordinate its points and

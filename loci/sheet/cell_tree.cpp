@@ -248,4 +248,26 @@ int CellTree::locate_at(int axis, double at, int side, const Interval& other) co
   return nodes_[index].leaf;
 }
 
+std::vector<core::CellNode> CellTree::preorder(const std::vector<int>& ends) const {
+  using Kind = core::CellNode::Kind;
+  std::vector<core::CellNode> result;
+  std::vector<int> next = {0};
+  while (!next.empty()) {
+    const Node& node = nodes_[next.back()];
+    next.pop_back();
+    if (node.axis >= 0) {
+      result.push_back({Kind::cut, node.axis, node.cut, 0});
+      next.push_back(node.child[1]);
+      next.push_back(node.child[0]);
+      continue;
+    }
+    const Leaf& leaf = leaves_[node.leaf];
+    if (leaf.kind == LeafKind::graph)
+      result.push_back({Kind::graph, leaf.along, 0, ends[node.leaf]});
+    else
+      result.push_back({leaf.kind == LeafKind::empty ? Kind::free : Kind::open, 0, 0, 0});
+  }
+  return result;
+}
+
 }  // namespace clearloci::loci::sheet

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/certificate.hpp"
 #include "loci/sheet/zero_search.hpp"
 
 namespace clearloci::loci::sheet {
@@ -57,6 +58,8 @@ class CellTree {
   int locate(const Interval& x, const Interval& y) const;
   /// The leaf before (side -1) or behind (+1) the line `axis` = `at`, that surely contains `other` along it.
   int locate_at(int axis, double at, int side, const Interval& other) const;
+  /// For a certificate. `ends`: of the curve, one number a leaf.
+  std::vector<core::CellNode> preorder(const std::vector<int>& ends) const;
 
  private:
   struct Node {

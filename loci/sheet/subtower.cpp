@@ -87,6 +87,13 @@ core::StraightLine narrowed(const core::StraightLine& line, const Subtower& part
   return result;
 }
 
+core::StraightLine widened(core::StraightLine line, const Subtower& part) {
+  for (core::StraightLine::Step& step : line.steps)
+    if (step.operation == core::StraightLine::Operation::variable && step.first >= 2)
+      step.first = 2 + part.kept[static_cast<std::size_t>(step.first - 2)];
+  return line;
+}
+
 SheetFunction narrowed(const SheetFunction& function, const Subtower& part) {
   return {narrowed(function.polynomial, part), narrowed(function.line, part)};
 }

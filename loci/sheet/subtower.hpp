@@ -22,6 +22,7 @@ core::Polynomial widened(const core::Polynomial& p, const Subtower& part, int va
 
 /// Empty where the straight line holds a dropped root.
 core::StraightLine narrowed(const core::StraightLine& line, const Subtower& part);
+core::StraightLine widened(core::StraightLine line, const Subtower& part);
 
 SheetFunction narrowed(const SheetFunction& function, const Subtower& part);
 

@@ -62,6 +62,26 @@ bool found_at_star(const Subtower& part, const SheetFunction& sheet, const Parti
   return false;
 }
 
+core::StraightLine as_line(const SheetFunction& function) {
+  if (!function.line.empty()) return function.line;
+  core::StraightLineBuilder builder;
+  std::vector<int> variables;
+  for (int v = 0; v < function.polynomial.variables; ++v) variables.push_back(builder.variable(v));
+  return builder.line(builder.polynomial(function.polynomial, variables));
+}
+
+/// A claim over the tower without a root, as one over the tower with it.
+void put_back(core::SheetClaim& claim, int root) {
+  const int variable = 2 + root;
+  for (core::StraightLine::Step& step : claim.function.steps)
+    if (step.operation == core::StraightLine::Operation::variable && step.first >= variable) ++step.first;
+  for (core::CellNode& node : claim.cells)
+    if (node.kind == core::CellNode::Kind::graph && node.axis >= variable) ++node.axis;
+  for (int& zero : claim.at_zero)
+    if (zero >= root) ++zero;
+  claim.at_zero.push_back(root);
+}
+
 class Tracer {
  public:
   Tracer(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<core::Rational>& lower,
@@ -114,12 +134,31 @@ class Tracer {
     trace.certified = trace.undecided.empty();
     // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
     trace.stopped = options_.stop && options_.stop();
+    if (options_.certificate) trace.claims.push_back(claim());
     return trace;
   }
 
  private:
   Partition parts_of(const Subtower& part) const {
     return partition(part.tower, wide_, bases_, narrowed(options_.special, part));
+  }
+
+  /// What the cells of the plane say; those around stars are left open.
+  core::SheetClaim claim() const {
+    const Patch& plane = graph_.patches[0];
+    std::vector<int> ends(plane.tree->leaves().size(), 0);
+    for (const Stretch& stretch : graph_.stretches) {
+      if (stretch.patch != 0 || stretch.leaf < 0) continue;
+      for (const StretchEnd& end : stretch.ends)
+        if (graph_.crossings[end.crossing].kind != Crossing::Kind::cut) ++ends[stretch.leaf];
+    }
+    core::SheetClaim claim;
+    claim.function = widened(as_line(curve_), own_);
+    claim.domain = {plane.domain.x.lower(), plane.domain.x.upper(), plane.domain.y.lower(), plane.domain.y.upper()};
+    claim.cells = plane.tree->preorder(ends);
+    for (core::CellNode& node : claim.cells)
+      if (node.kind == core::CellNode::Kind::graph && node.axis >= 2) node.axis = 2 + own_.kept[node.axis - 2];
+    return claim;
   }
 
   TracedArc place(const Chain& chain) const {
@@ -401,6 +440,7 @@ bool divisible_by_variable(const core::Polynomial& p, int variable) {
 
 void append(SheetTrace& all, SheetTrace part) {
   all.arcs.insert(all.arcs.end(), part.arcs.begin(), part.arcs.end());
+  all.claims.insert(all.claims.end(), part.claims.begin(), part.claims.end());
   all.isolated_points.insert(all.isolated_points.end(), part.isolated_points.begin(), part.isolated_points.end());
   all.undecided.insert(all.undecided.end(), part.undecided.begin(), part.undecided.end());
   all.certified = all.certified && part.certified;
@@ -446,6 +486,7 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
     SheetTraceOptions there = options;
     there.special = on_rim(options.special, static_cast<int>(j));
     SheetTrace all = trace_sheet(below, rest, lower, upper, without_variable(boundary, v), on_boundary, there);
+    for (core::SheetClaim& claim : all.claims) put_back(claim, static_cast<int>(j));
     if (!rim) {
       core::Polynomial quotient = sheet;
       for (core::Term& term : quotient.terms) --term.exponents[v];

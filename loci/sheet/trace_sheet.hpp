@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/certificate.hpp"
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
 #include "loci/sheet/sheet_program.hpp"
@@ -34,6 +35,7 @@ struct SheetTraceOptions {
   std::vector<Star> special;
   int most_cells = 150000;     ///< budget of cells a patch
   std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
+  bool certificate = false;    ///< fill in SheetTrace::claims
 };
 
 /// A rectangle of the plane.
@@ -53,6 +55,7 @@ struct SheetTrace {
   bool certified = true;                      ///< topology proven: no undecided cell
   bool stopped = false;                       ///< by SheetTraceOptions::stop
   std::vector<Region> undecided;
+  std::vector<core::SheetClaim> claims;  ///< without mode and role
 };
 
 /// Whether a branch of N = 0 on the mode's sheet reaches a star of the whole tower. `box`: x0, x1, y0, y1.

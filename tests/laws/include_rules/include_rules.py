@@ -8,13 +8,14 @@ import pathlib
 import re
 import sys
 
-FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "report", "cli"}
+FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "check", "report", "cli"}
 MAY_INCLUDE = {
     "core": set(),
     "mechanism": {"core"},
     "symbolic": {"core", "mechanism"},
     "loci": {"core"},
     "numeric": {"core", "mechanism"},
+    "check": {"core", "mechanism"},
     "report": {"core"},
     "cli": FOLDERS,
 }
@@ -23,7 +24,8 @@ MAY_INCLUDE = {
 # sources alone may).
 THIRD_PARTIES = {
     "GMP": (("gmp.h", "gmpxx.h"), FOLDERS, set()),
-    "MPFR": (("mpfr.h", "mpfi.h"), set(), {"symbolic", "loci", "mechanism"}),
+    "MPFR": (("mpfr.h",), set(), {"symbolic", "loci", "mechanism"}),
+    "MPFI": (("mpfi.h", "mpfi_io.h"), set(), {"check"}),
     "yaml-cpp": (("yaml-cpp/",), set(), {"mechanism"}),
     "GiNaC": (("ginac/",), set(), {"symbolic", "mechanism"}),
     "CLN": (("cln/",), set(), {"symbolic", "mechanism"}),
@@ -32,8 +34,8 @@ THIRD_PARTIES = {
     "Eigen": (("Eigen/",), {"numeric"}, set()),
     "TBB": (("tbb/", "oneapi/tbb"), {"numeric"}, set()),
     "cairomm": (("cairomm/", "cairo"), set(), {"report"}),
-    "nlohmann-json": (("nlohmann/",), {"report", "cli"}, set()),
-    "fmt": (("fmt/",), {"report", "cli"}, set()),
+    "nlohmann-json": (("nlohmann/",), {"report", "cli"}, {"check"}),
+    "fmt": (("fmt/",), {"report", "cli"}, {"check"}),
     "CLI11": (("CLI/",), {"cli"}, set()),
 }
 

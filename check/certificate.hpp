@@ -1,0 +1,99 @@
+// What a certificate file says (docs/certificates.md), read with limits on everything and believed in nothing.
+// Private to check/.
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/certificate.hpp"
+#include "core/locus_map.hpp"
+
+namespace clearloci::check {
+
+/// The certificate can be read and says something that does not hold, or that could not be shown to hold.
+class FalseClaim : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Function {
+  core::FactorRole role = core::FactorRole::reaction;
+  std::string name;
+  core::StraightLine program;
+};
+
+/// core::SheetClaim with its function by number.
+struct SheetCells {
+  int mode = 0, function = 0;
+  core::FactorRole role = core::FactorRole::reaction;
+  std::vector<int> at_zero;
+  std::array<double, 4> domain{};
+  std::vector<core::CellNode> cells;
+};
+
+using Reaction = std::pair<std::string, core::Quantity>;
+
+struct CurveClaim {
+  int mode = 0;
+  core::LocusKind kind = core::LocusKind::contact_loss;
+  std::vector<Reaction> vanishing;
+  bool certified = false;
+  std::vector<core::Arc> arcs;
+};
+
+struct PointClaim {
+  int mode = 0;
+  core::LocusKind kind = core::LocusKind::contact_loss;
+  std::vector<Reaction> vanishing;
+  bool certified = false;
+  core::Point2 at{};
+};
+
+struct OpenClaim {
+  int mode = 0, function = 0;
+};
+
+struct ZoneClaim {
+  std::string id;
+  int mode = 0;
+  int assembly_mode = 0;
+  std::vector<std::pair<Reaction, int>> signs;
+  double area = 0;
+  core::Polyline outer;
+  std::vector<core::Polyline> holes;
+  core::Point2 sample{};
+  bool certified = false;
+};
+
+
+struct CertificateFile {
+  std::string command, model;
+  std::vector<std::pair<std::string, std::string>> overrides;
+  std::vector<std::string> coordinates;
+  std::array<core::Rational, 4> box;  ///< x0, x1, y0, y1
+  double tolerance = 0;
+  std::vector<std::string> joints;
+  std::vector<core::Quantity> quantities;
+  std::vector<std::string> root_points;
+  std::vector<core::RootRole> root_roles;
+  std::vector<core::StraightLine> squares;
+  std::vector<Function> functions;
+  std::vector<core::WorkingMode> modes;
+  std::vector<SheetCells> sheets;
+  std::vector<OpenClaim> open;
+  std::vector<CurveClaim> curves;
+  std::vector<PointClaim> points;
+  std::vector<ZoneClaim> zones;
+};
+
+/// Whether a model's text is the one of a certificate, in which bytes that are no UTF-8 were replaced.
+bool same_text(const std::string& model, const std::string& in_certificate);
+
+/// `file`: its name, for errors. Throws core::InputError where the text is no certificate, FalseClaim where its cells are
+/// no partition.
+CertificateFile read_certificate(const std::string& text, const std::string& file);
+
+}  // namespace clearloci::check

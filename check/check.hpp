@@ -1,0 +1,25 @@
+// The second opinion: verifies a certificate (docs/certificates.md) from the model, with statics, intervals and proofs of its
+// own. Nothing of what wrote the certificate is used here: only the reader of mechanism files and plain data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace clearloci::check {
+
+struct Verdict {
+  bool accepted = false;
+  std::string why;  ///< the first claim that is false or could not be shown; empty where accepted
+  std::size_t cells = 0, graphs = 0, crossings = 0, arcs = 0, points = 0, zones = 0;  ///< that were shown
+  double open_share = 0;               ///< of the area of all sheets
+  std::vector<std::string> unchecked;  ///< what was not looked at, and why
+};
+
+/// `model`, `certificate`: the files. Throws core::InputError where one of them cannot be read.
+Verdict check_certificate(const std::string& model, const std::string& certificate);
+
+/// The same for texts.
+Verdict check_certificate_text(const std::string& model_text, const std::string& model_file,
+                               const std::string& certificate_text, const std::string& certificate_file);
+
+}  // namespace clearloci::check

@@ -1,0 +1,190 @@
+#include "check/identity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearloci::check {
+namespace {
+
+constexpr std::size_t spare_poses = 6, most_tries = 20'000;
+// Elimination at a thousand bits leaves hundreds; what it leaves below this is 0.
+constexpr double nothing = 0x1p-100;
+
+Interval log_of(const Interval& a) {
+  Interval r(a.bits());
+  mpfi_abs(r.get(), a.get());
+  mpfi_log(r.get(), r.get());
+  return r;
+}
+
+/// A fixed sequence of numbers that look random, in (0, 1), each with 40 bits.
+class Scatter {
+ public:
+  core::Rational next() {
+    state_ += 0x9e3779b97f4a7c15ull;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return core::Rational(static_cast<unsigned long>((z ^ (z >> 31)) >> 24), 1ul << 40);
+  }
+
+ private:
+  std::uint64_t state_ = 2011;
+};
+
+bool is_nothing(const Interval& a) { return a.is_finite() && std::max(-a.lower(), a.upper()) < nothing; }
+
+class Fit {
+ public:
+  Fit(const mechanism::Mechanism& m, const CertificateFile& c, int mode)
+      : m_(m), c_(c), mode_(mode), functions_(c.functions.size()) {}
+
+  Orders run() {
+    Orders orders;
+    if (!sample()) return orders;
+    orders.known = true;
+    eliminate();
+    orders.same_zeros = same_zeros();
+    const std::size_t first = columns_;
+    orders.determinant = exponents(first, "the direct singularity |A|");
+    const std::vector<mechanism::Unknown> unknowns = mechanism::unknowns(m_);
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
+      if (always_zero_[k])
+        orders.reactions.emplace_back();
+      else
+        orders.reactions.emplace_back(exponents(first + 1 + k, mechanism::unknown_name(m_, unknowns[k])));
+    }
+    return orders;
+  }
+
+ private:
+  /// Rows of logarithms: 1, the functions, the model's own, then |A| and the reactions.
+  bool sample() {
+    std::vector<const core::StraightLine*> programs;
+    for (const Function& f : c_.functions) programs.push_back(&f.program);
+    Sheet sheet(parts_of(c_, mode_), programs, identity_bits);
+    const Sides sides = sides_of(c_, mode_);
+    const std::size_t unknowns = mechanism::unknowns(m_).size();
+    always_zero_.assign(unknowns, true);
+    std::vector<std::vector<bool>> zero;
+    Scatter scatter;
+    for (std::size_t tries = 0; tries < most_tries; ++tries) {
+      const Interval x(core::Rational(c_.box[0] + (c_.box[1] - c_.box[0]) * scatter.next()), identity_bits);
+      const Interval y(core::Rational(c_.box[2] + (c_.box[3] - c_.box[2]) * scatter.next()), identity_bits);
+      const std::optional<Posture> here = posture(m_, sides, x, y);
+      if (!here || !std::all_of(here->squares.begin(), here->squares.end(), [](const auto& q) { return q.sign() > 0; }))
+        continue;
+      if (!sheet.enter(x, y)) throw FalseClaim("roots: one of them is imaginary where the model has a pose");
+      const std::optional<Solution> solved = solve(m_, *here, x, y);
+      if (!solved) continue;
+      std::vector<Interval> row = {Interval(1.0, identity_bits)};
+      for (std::size_t f = 0; f < functions_; ++f) row.push_back(log_of(sheet.value(static_cast<int>(f))));
+      for (const Interval& q : here->squares) row.push_back(log_of(q));
+      for (const Interval& d : here->divisors) row.push_back(log_of(d));
+      for (int j = 0; j < static_cast<int>(c_.squares.size()); ++j)
+        if (sheet.uses(j)) row.push_back(log_of(sheet.square(j)));
+      columns_ = row.size();
+      row.push_back(log_of(solved->determinant));
+      for (std::size_t k = 0; k < unknowns; ++k) {
+        if (solved->reactions[k].sign() != 0) always_zero_[k] = false;
+        row.push_back(solved->reactions[k].sign() != 0 ? log_of(solved->reactions[k]) : Interval(identity_bits));
+      }
+      if (!std::all_of(row.begin(), row.end(), [](const Interval& v) { return v.is_finite(); })) continue;
+      rows_.push_back(std::move(row));
+      if (rows_.size() == columns_ + spare_poses) return true;
+    }
+    return false;
+  }
+
+  /// To reduced row echelon form, column by column; columns that depend on earlier ones stay.
+  void eliminate() {
+    const std::size_t width = rows_.front().size();
+    std::size_t next = 0;
+    for (std::size_t column = 0; column < columns_; ++column) {
+      std::size_t pivot = next;
+      double best = 0;
+      for (std::size_t i = next; i < rows_.size(); ++i)
+        if (const double size = std::abs(rows_[i][column].middle()); size > best && rows_[i][column].sign() != 0) {
+          best = size;
+          pivot = i;
+        }
+      if (best < nothing) continue;
+      std::swap(rows_[pivot], rows_[next]);
+      const Interval scale = Interval(1.0, identity_bits) / rows_[next][column];
+      for (std::size_t j = column; j < width; ++j) rows_[next][j] = rows_[next][j] * scale;
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        if (i == next) continue;
+        const Interval factor = rows_[i][column];
+        for (std::size_t j = column; j < width; ++j) rows_[i][j] = rows_[i][j] - factor * rows_[next][j];
+      }
+      pivots_.push_back(column);
+      ++next;
+    }
+  }
+
+  /// Twice the exponents of the functions in a column.
+  std::vector<int> exponents(std::size_t column, const std::string& what) const {
+    std::vector<int> result(functions_, 0);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const Interval& entry = rows_[i][column];
+      if (i >= pivots_.size()) {
+        if (!is_nothing(entry)) throw FalseClaim("functions: they do not make up " + what);
+        continue;
+      }
+      if (pivots_[i] == 0) continue;  // the constant
+      const double twice = std::nearbyint(2 * entry.middle());
+      if (!(std::abs(twice) < 1e6) || !is_nothing(Interval(2.0, identity_bits) * entry - Interval(twice, identity_bits)))
+        throw FalseClaim("functions: they do not make up " + what);
+      if (pivots_[i] <= functions_) result[pivots_[i] - 1] = static_cast<int>(twice);
+    }
+    return result;
+  }
+
+  std::vector<int> same_zeros() const {
+    std::vector<int> result(functions_, -1);
+    for (std::size_t f = 0; f < functions_; ++f) {
+      const std::size_t column = f + 1;
+      if (std::find(pivots_.begin(), pivots_.end(), column) != pivots_.end()) {
+        result[f] = static_cast<int>(f);
+        continue;
+      }
+      int found = -1;
+      bool single = true;
+      for (std::size_t i = 0; i < pivots_.size(); ++i) {
+        if (pivots_[i] == 0 || pivots_[i] > functions_ || is_nothing(rows_[i][column])) continue;
+        single = single && found < 0;
+        found = static_cast<int>(pivots_[i]) - 1;
+      }
+      if (single) result[f] = found;
+    }
+    return result;
+  }
+
+  const mechanism::Mechanism& m_;
+  const CertificateFile& c_;
+  int mode_;
+  std::size_t functions_, columns_ = 0;
+  std::vector<std::vector<Interval>> rows_;
+  std::vector<std::size_t> pivots_;
+  std::vector<bool> always_zero_;
+};
+
+}  // namespace
+
+Sides sides_of(const CertificateFile& certificate, int mode) {
+  Sides sides;
+  for (std::size_t j = 0; j < certificate.squares.size(); ++j)
+    if (certificate.root_roles[j] == core::RootRole::working_mode)
+      sides.push_back(certificate.modes.at(static_cast<std::size_t>(mode))[j]);
+  return sides;
+}
+
+SheetParts parts_of(const CertificateFile& certificate, int mode, std::vector<int> at_zero) {
+  return {&certificate.squares, certificate.modes.at(static_cast<std::size_t>(mode)), std::move(at_zero)};
+}
+
+Orders orders_of(const mechanism::Mechanism& m, const CertificateFile& certificate, int mode) {
+  return Fit(m, certificate, mode).run();
+}
+
+}  // namespace clearloci::check

@@ -1,0 +1,116 @@
+// Intervals by MPFI: every result encloses whatever its arguments may be. The only arithmetic of check/, and the only
+// place of the repository in which MPFI shows. Private to check/.
+#pragma once
+
+#include <mpfi.h>
+// mpfi_io.h is not needed: nothing is printed.
+
+#include "core/rational.hpp"
+
+namespace clearloci::check {
+
+/// Precisions, in bits: of cells, where 128 leave rounding out of account, and of the tests of identities.
+inline constexpr mpfr_prec_t cell_bits = 128, identity_bits = 1024;
+
+class Interval {
+ public:
+  explicit Interval(mpfr_prec_t bits = cell_bits) { mpfi_init2(value_, bits), mpfi_set_ui(value_, 0); }
+  Interval(double value, mpfr_prec_t bits) { mpfi_init2(value_, bits), mpfi_set_d(value_, value); }
+  Interval(double lower, double upper, mpfr_prec_t bits) {
+    mpfi_init2(value_, bits), mpfi_interv_d(value_, lower, upper);
+  }
+  Interval(const core::Rational& value, mpfr_prec_t bits) {
+    mpfi_init2(value_, bits), mpfi_set_q(value_, value.get_mpq_t());
+  }
+  Interval(const Interval& other) { mpfi_init2(value_, other.bits()), mpfi_set(value_, other.value_); }
+  Interval& operator=(const Interval& other) {
+    if (this != &other) mpfi_set_prec(value_, other.bits()), mpfi_set(value_, other.value_);
+    return *this;
+  }
+  ~Interval() { mpfi_clear(value_); }
+
+  mpfr_prec_t bits() const { return mpfi_get_prec(value_); }
+  mpfi_ptr get() { return value_; }
+  mpfi_srcptr get() const { return value_; }
+
+  /// Outwards.
+  double lower() const { return mpfr_get_d(&value_->left, MPFR_RNDD); }
+  double upper() const { return mpfr_get_d(&value_->right, MPFR_RNDU); }
+  double middle() const { return mpfi_get_d(value_); }
+  double width() const { return upper() - lower(); }
+  /// +1, -1; 0: it contains 0, or is no number.
+  int sign() const {
+    if (mpfi_nan_p(value_) != 0) return 0;
+    return mpfr_sgn(&value_->left) > 0 ? 1 : mpfr_sgn(&value_->right) < 0 ? -1 : 0;
+  }
+  bool is_finite() const { return mpfi_bounded_p(value_) != 0; }
+  bool contains_zero() const { return sign() == 0; }
+  /// Every number of it is at most 0; at least 0.
+  bool below() const { return mpfi_nan_p(value_) == 0 && mpfr_sgn(&value_->right) < 0; }
+
+ private:
+  mpfi_t value_;
+};
+
+inline Interval operator+(const Interval& a, const Interval& b) {
+  Interval r(a.bits());
+  mpfi_add(r.get(), a.get(), b.get());
+  return r;
+}
+inline Interval operator-(const Interval& a, const Interval& b) {
+  Interval r(a.bits());
+  mpfi_sub(r.get(), a.get(), b.get());
+  return r;
+}
+inline Interval operator*(const Interval& a, const Interval& b) {
+  Interval r(a.bits());
+  mpfi_mul(r.get(), a.get(), b.get());
+  return r;
+}
+inline Interval operator/(const Interval& a, const Interval& b) {
+  Interval r(a.bits());
+  mpfi_div(r.get(), a.get(), b.get());
+  return r;
+}
+inline Interval operator-(const Interval& a) {
+  Interval r(a.bits());
+  mpfi_neg(r.get(), a.get());
+  return r;
+}
+inline Interval squared(const Interval& a) {
+  Interval r(a.bits());
+  mpfi_sqr(r.get(), a.get());
+  return r;
+}
+/// Of the numbers that have one: what is below 0 is left out.
+inline Interval root_of(const Interval& a) {
+  Interval r(a);
+  if (mpfi_nan_p(r.get()) != 0) return r;
+  if (mpfr_sgn(&r.get()->left) < 0) mpfr_set_zero(&r.get()->left, 1);
+  if (mpfr_sgn(&r.get()->right) < 0) mpfr_set_zero(&r.get()->right, 1);
+  mpfi_sqrt(r.get(), r.get());
+  return r;
+}
+/// The numbers of both; `b` where they have none in common.
+inline Interval meet(const Interval& a, const Interval& b) {
+  Interval r(a.bits());
+  mpfi_intersect(r.get(), a.get(), b.get());
+  return mpfi_is_empty(r.get()) != 0 ? b : r;
+}
+inline bool disjoint(const Interval& a, const Interval& b) {
+  return mpfr_less_p(&a.get()->right, &b.get()->left) != 0 || mpfr_less_p(&b.get()->right, &a.get()->left) != 0;
+}
+/// Its middle as an interval without width.
+inline Interval middle_of(const Interval& a) {
+  Interval r(a.bits());
+  mpfr_t m;
+  mpfr_init2(m, a.bits());
+  mpfi_mid(m, a.get());
+  mpfi_set_fr(r.get(), m);
+  mpfr_clear(m);
+  return r;
+}
+/// a lies in the interior of b.
+inline bool inside(const Interval& a, const Interval& b) { return mpfi_is_strictly_inside(a.get(), b.get()) > 0; }
+
+}  // namespace clearloci::check

@@ -1,0 +1,281 @@
+#include "check/statics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "mechanism/evaluate.hpp"
+
+namespace clearloci::check {
+namespace {
+
+using core::Expression;
+using core::Quantity;
+using mechanism::Mechanism;
+using Vector = std::array<Interval, 2>;
+
+Vector operator+(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1]}; }
+Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
+Vector operator*(const Interval& s, const Vector& a) { return {s * a[0], s * a[1]}; }
+Vector left_of(const Vector& a) { return {-a[1], a[0]}; }
+Interval dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
+Interval cross(const Vector& a, const Vector& b) { return a[0] * b[1] - a[1] * b[0]; }
+Interval square_of(const Vector& a) { return squared(a[0]) + squared(a[1]); }
+
+class Pose {
+ public:
+  Pose(const Mechanism& m, const Interval& x, const Interval& y) : m_(m), x_(x), y_(y), bits_(x.bits()) {}
+
+  Interval number(double value) const { return {value, bits_}; }
+
+  Interval value(const Expression& e) const {
+    using Kind = Expression::Kind;
+    bool free = false;
+    for (const std::string& name : core::symbols(e))
+      free = free || name == m_.coordinates[0].name || name == m_.coordinates[1].name;
+    if (!free) return {mechanism::value_of(e, m_), bits_};
+    const auto argument = [&](std::size_t i) { return value(e.arguments()[i]); };
+    switch (e.kind()) {
+      case Kind::symbol:
+        return e.name() == m_.coordinates[0].name ? x_ : y_;
+      case Kind::add:
+        return argument(0) + argument(1);
+      case Kind::multiply:
+        return argument(0) * argument(1);
+      case Kind::divide:
+        return argument(0) / argument(1);
+      case Kind::negate:
+        return -argument(0);
+      case Kind::power: {
+        const core::Rational exponent = mechanism::value_of(e.arguments()[1], m_);
+        core::ensure(exponent.get_den() == 1 && exponent >= 0 && exponent <= 64, "a small natural power");
+        const Interval base = argument(0);
+        Interval result = number(1);
+        for (long i = 0; i < exponent.get_num().get_si(); ++i) result = result * base;
+        return result;
+      }
+      default:
+        throw core::InputError({m_.file}, "a function of a coordinate that check does not know", "");
+    }
+  }
+
+  Vector vector(const mechanism::VectorExpression& v, const std::vector<Vector>& points) const {
+    using Kind = mechanism::VectorExpression::Kind;
+    const auto argument = [&](std::size_t i) { return vector(v.arguments[i], points); };
+    switch (v.kind) {
+      case Kind::components:
+        return {value(v.numbers.at(0)), value(v.numbers.at(1))};
+      case Kind::point:
+        return points.at(static_cast<std::size_t>(v.point));
+      case Kind::add:
+        return argument(0) + argument(1);
+      case Kind::negate:
+        return number(-1) * argument(0);
+      case Kind::scale:
+        return value(v.numbers.at(0)) * argument(0);
+      case Kind::cross:
+        break;
+    }
+    throw core::InputError({m_.file}, "a cross product in the plane", "");
+  }
+
+ private:
+  const Mechanism& m_;
+  const Interval &x_, &y_;
+  mpfr_prec_t bits_;
+};
+
+/// Places the points one by one.
+class Closure {
+ public:
+  Closure(const Mechanism& m, const Sides& sides, const Interval& x, const Interval& y)
+      : pose_(m, x, y), sides_(sides) {}
+
+  bool place(const mechanism::Point& point) {
+    return std::visit([&](const auto& form) { return place(form); }, point.form);
+  }
+
+  Posture result;
+
+ private:
+  const Vector& at(mechanism::PointIndex point) const { return result.points.at(static_cast<std::size_t>(point)); }
+
+  bool put(Vector place) {
+    result.points.push_back(std::move(place));
+    return true;
+  }
+
+  bool divides(const Interval& d) {
+    result.divisors.push_back(d);
+    return d.sign() != 0;
+  }
+
+  /// +- sqrt(Q); none: Q < 0.
+  std::optional<Interval> branch(const Interval& q) {
+    result.squares.push_back(q);
+    if (q.below()) return std::nullopt;
+    const Interval root = root_of(q);
+    return sides_.at(result.squares.size() - 1) > 0 ? root : -root;
+  }
+
+  bool place(const mechanism::ExplicitPoint& form) {
+    return put({pose_.value(form.coordinates.at(0)), pose_.value(form.coordinates.at(1))});
+  }
+
+  bool place(const mechanism::MeanPoint& form) {
+    return put(pose_.number(0.5) * (at(form.first) + at(form.second)));
+  }
+
+  bool place(const mechanism::DyadPoint& form) {
+    const Vector way = at(form.to) - at(form.from);
+    const Interval d = square_of(way);
+    const Interval a2 = squared(pose_.value(form.from_length)), b2 = squared(pose_.value(form.to_length));
+    const Interval k = a2 - b2 + d;
+    const std::optional<Interval> s = branch(pose_.number(4) * a2 * d - squared(k));
+    if (!s || !divides(d)) return false;
+    const Interval half = pose_.number(0.5) / d;
+    return put(at(form.from) + (k * half) * way + (*s * half) * left_of(way));
+  }
+
+  bool place(const mechanism::SliderPoint& form) {
+    const Vector u = pose_.vector(form.along, result.points), way = at(form.from) - at(form.base);
+    const Interval u2 = square_of(u);
+    const std::optional<Interval> s = branch(squared(pose_.value(form.length)) * u2 - squared(cross(u, way)));
+    if (!s || !divides(u2)) return false;
+    return put(at(form.base) + ((dot(u, way) + *s) / u2) * u);
+  }
+
+  bool place(const mechanism::OffsetPoint& form) {
+    const Vector way = at(form.second) - at(form.first);
+    const Interval d = square_of(way);
+    if (!divides(d)) return false;
+    const Interval length = root_of(d);
+    return put(at(form.first) + (pose_.value(form.along) / length) * way +
+               (pose_.value(form.left) / length) * left_of(way));
+  }
+
+  Pose pose_;
+  const Sides& sides_;
+};
+
+/// The matrix of the equations with the column -w_e behind it.
+class Equations {
+ public:
+  Equations(const Mechanism& m, const Posture& posture, const Interval& x, const Interval& y)
+      : m_(m), posture_(posture), pose_(m, x, y), unknowns_(mechanism::unknowns(m)) {
+    rows.assign(3 * m.links.size(), std::vector<Interval>(unknowns_.size() + 1, Interval(x.bits())));
+    core::ensure(rows.size() == unknowns_.size(), "as many equations as unknowns");
+    for (std::size_t k = 0; k < unknowns_.size(); ++k) write_unknown(k);
+    write_loads();
+  }
+
+  std::vector<std::vector<Interval>> rows;
+
+ private:
+  using Wrench = std::array<Interval, 3>;
+
+  Vector arm(mechanism::PointIndex point) const {
+    return posture_.points.at(static_cast<std::size_t>(point)) -
+           posture_.points.at(static_cast<std::size_t>(m_.end_effector_point));
+  }
+  Wrench force_at(mechanism::PointIndex point, const Vector& force) const {
+    return {force[0], force[1], cross(arm(point), force)};
+  }
+  Wrench couple(const Interval& moment) const { return {pose_.number(0), pose_.number(0), moment}; }
+
+  void add(mechanism::LinkIndex link, std::size_t column, const Wrench& wrench, int sign) {
+    if (link == mechanism::ground) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+      Interval& entry = rows[3 * static_cast<std::size_t>(link) + i][column];
+      entry = sign > 0 ? entry + wrench[i] : entry - wrench[i];
+    }
+  }
+
+  Wrench unit(const mechanism::Joint& joint, Quantity quantity) const {
+    switch (quantity) {
+      case Quantity::fx:
+        return force_at(joint.at, {pose_.number(1), pose_.number(0)});
+      case Quantity::fy:
+        return force_at(joint.at, {pose_.number(0), pose_.number(1)});
+      case Quantity::M:
+      case Quantity::T:
+        return couple(pose_.number(1));
+      case Quantity::N:
+        return force_at(joint.at, left_of(pose_.vector(joint.axes.at(0), posture_.points)));
+      case Quantity::F:
+        return force_at(joint.at, pose_.vector(joint.axes.at(0), posture_.points));
+      default:
+        throw core::InputError({m_.file}, "a reaction that check does not know", "");
+    }
+  }
+
+  void write_unknown(std::size_t k) {
+    const mechanism::Joint& joint = m_.joints.at(static_cast<std::size_t>(unknowns_[k].joint));
+    const Wrench wrench = unit(joint, unknowns_[k].quantity);
+    add(joint.to, k, wrench, 1);
+    add(joint.from, k, wrench, -1);
+  }
+
+  void write_loads() {
+    const std::size_t last = unknowns_.size();
+    for (const mechanism::Load& load : m_.loads) {
+      add(load.link, last, couple(pose_.value(load.couple)), -1);
+      if (!load.force.empty())
+        add(load.link, last, force_at(*load.at, {pose_.value(load.force.at(0)), pose_.value(load.force.at(1))}), -1);
+    }
+    if (m_.gravity.empty()) return;
+    const Vector g = {pose_.value(m_.gravity.at(0)), pose_.value(m_.gravity.at(1))};
+    for (std::size_t i = 0; i < m_.links.size(); ++i)
+      add(static_cast<mechanism::LinkIndex>(i), last,
+          force_at(m_.links[i].centre_of_mass, pose_.value(m_.links[i].mass) * g), -1);
+  }
+
+  const Mechanism& m_;
+  const Posture& posture_;
+  Pose pose_;
+  std::vector<mechanism::Unknown> unknowns_;
+};
+
+}  // namespace
+
+std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Interval& x, const Interval& y) {
+  Closure closure(m, sides, x, y);
+  for (const mechanism::Point& point : m.points)
+    if (!closure.place(point)) return std::nullopt;
+  return std::move(closure.result);
+}
+
+std::optional<Solution> solve(const Mechanism& m, const Posture& posture, const Interval& x, const Interval& y) {
+  auto rows = Equations(m, posture, x, y).rows;
+  const std::size_t n = rows.size();
+  Solution solution{{}, Interval(1.0, x.bits())};
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    double best = 0;
+    for (std::size_t i = k; i < n; ++i)
+      if (rows[i][k].sign() != 0 && std::abs(rows[i][k].middle()) > best) {
+        best = std::abs(rows[i][k].middle());
+        pivot = i;
+      }
+    if (rows[pivot][k].sign() == 0) return std::nullopt;
+    if (pivot != k) {
+      std::swap(rows[pivot], rows[k]);
+      solution.determinant = -solution.determinant;
+    }
+    solution.determinant = solution.determinant * rows[k][k];
+    for (std::size_t i = k + 1; i < n; ++i) {
+      if (rows[i][k].lower() == 0 && rows[i][k].upper() == 0) continue;
+      const Interval factor = rows[i][k] / rows[k][k];
+      for (std::size_t j = k + 1; j <= n; ++j) rows[i][j] = rows[i][j] - factor * rows[k][j];
+    }
+  }
+  solution.reactions.assign(n, Interval(x.bits()));
+  for (std::size_t k = n; k-- > 0;) {
+    Interval sum = rows[k][n];
+    for (std::size_t j = k + 1; j < n; ++j) sum = sum - rows[k][j] * solution.reactions[j];
+    solution.reactions[k] = sum / rows[k][k];
+  }
+  return solution;
+}
+
+}  // namespace clearloci::check

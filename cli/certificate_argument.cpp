@@ -1,0 +1,37 @@
+#include "cli/certificate_argument.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iterator>
+
+#include "core/errors.hpp"
+#include "report/certificate.hpp"
+#include "report/files.hpp"
+
+namespace clearloci::cli {
+
+void add_certificate_argument(CLI::App& command, std::string& file) {
+  command.add_option("--certificate", file, "Also what was proven and how, for clearloci check; over two lengths, planar")
+      ->type_name("FILE");
+}
+
+void require_certifiable(const mechanism::Mechanism& mechanism) {
+  const bool lengths = mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
+  if (mechanism.space == mechanism::Space::planar && lengths) return;
+  throw core::InputError({.file = "--certificate"}, "certificates are of planar mechanisms over two lengths",
+                         "leave it out for this mechanism");
+}
+
+void write_certificate(const std::string& file, const std::string& command, const CommonArguments& arguments,
+                       const core::Certificate& certificate, const core::LocusMap& map,
+                       const std::vector<core::Zone>* zones) {
+  std::ifstream stream(arguments.model, std::ios::binary);
+  report::CertificateSource source{command, {std::istreambuf_iterator<char>(stream), {}}, {}};
+  for (const std::string& pair : arguments.overrides) {
+    const std::size_t sign = pair.find('=');
+    source.overrides.emplace_back(pair.substr(0, sign), sign == std::string::npos ? "" : pair.substr(sign + 1));
+  }
+  report::write_atomically(file, report::certificate_text(source, certificate, map, zones));
+}
+
+}  // namespace clearloci::cli

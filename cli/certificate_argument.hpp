@@ -1,0 +1,23 @@
+// --certificate of the commands that prove something.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "cli/arguments.hpp"
+#include "core/certificate.hpp"
+#include "core/zone_map.hpp"
+
+namespace clearloci::cli {
+
+void add_certificate_argument(CLI::App& command, std::string& file);
+
+/// Throws core::InputError where the mechanism has no certificate: it is in space, or not over two lengths.
+void require_certifiable(const mechanism::Mechanism& mechanism);
+
+/// Writes `file`. `zones`: null where none were asked for.
+void write_certificate(const std::string& file, const std::string& command, const CommonArguments& arguments,
+                       const core::Certificate& certificate, const core::LocusMap& map,
+                       const std::vector<core::Zone>* zones = nullptr);
+
+}  // namespace clearloci::cli

@@ -1,0 +1,212 @@
+#include "report/certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using core::CellNode;
+using core::StraightLine;
+
+std::string program_text(const StraightLine& line) {
+  std::string text;
+  for (const StraightLine::Step& step : line.steps) {
+    if (!text.empty()) text += ' ';
+    switch (step.operation) {
+      case StraightLine::Operation::constant:
+        text += 'c' + core::to_string(step.value());
+        if (step.radius() != 0) text += '~' + core::to_string(step.radius());
+        break;
+      case StraightLine::Operation::variable:
+        text += fmt::format("v{}", step.first);
+        break;
+      case StraightLine::Operation::add:
+        text += fmt::format("+{},{}", step.first, step.second);
+        break;
+      case StraightLine::Operation::subtract:
+        text += fmt::format("-{},{}", step.first, step.second);
+        break;
+      case StraightLine::Operation::multiply:
+        text += fmt::format("*{},{}", step.first, step.second);
+        break;
+      case StraightLine::Operation::inverse:
+        text += fmt::format("i{}", step.first);
+        break;
+    }
+  }
+  return text;
+}
+
+StraightLine line_of(const core::Polynomial& p) {
+  core::StraightLineBuilder builder;
+  std::vector<int> variables;
+  for (int v = 0; v < p.variables; ++v) variables.push_back(builder.variable(v));
+  return builder.line(builder.polynomial(p, variables));
+}
+
+std::string cells_text(const std::vector<CellNode>& cells) {
+  std::string text;
+  for (const CellNode& node : cells) {
+    if (!text.empty()) text += ' ';
+    switch (node.kind) {
+      case CellNode::Kind::cut:
+        text += fmt::format("{}:{:a}", node.axis == 0 ? 'x' : 'y', node.at);
+        break;
+      case CellNode::Kind::free:
+        text += '.';
+        break;
+      case CellNode::Kind::graph:
+        text += fmt::format("g{}:{}", node.axis, node.ends);
+        break;
+      case CellNode::Kind::open:
+        text += '?';
+        break;
+    }
+  }
+  return text;
+}
+
+std::string role_text(core::FactorRole role) {
+  switch (role) {
+    case core::FactorRole::reaction:
+      return "reaction";
+    case core::FactorRole::margin:
+      return "margin";
+    case core::FactorRole::direct_singularity:
+      return "direct-singularity";
+    case core::FactorRole::workspace_boundary:
+      return "workspace-boundary";
+    case core::FactorRole::construction:
+      break;
+  }
+  return "construction";
+}
+
+/// Functions of a certificate, each program once.
+class Functions {
+ public:
+  int add(core::FactorRole role, const std::string& name, const StraightLine& line) {
+    std::string program = program_text(line);
+    const auto [known, fresh] = known_.try_emplace(program, static_cast<int>(list.size()));
+    if (fresh) list.push_back({{"role", role_text(role)}, {"name", name}, {"program", std::move(program)}});
+    return known->second;
+  }
+
+  Json list = Json::array();
+
+ private:
+  std::map<std::string, int> known_;
+};
+
+Json vanishing_list(const std::vector<core::Vanishing>& vanishing) {
+  Json list = Json::array();
+  for (const core::Vanishing& v : vanishing) list.push_back({v.joint, core::to_string(v.quantity)});
+  return list;
+}
+
+Json points_list(const core::Polyline& line) {
+  Json list = Json::array();
+  for (const core::Point2& p : line) list.push_back({p[0], p[1]});
+  return list;
+}
+
+}  // namespace
+
+std::string certificate_text(const CertificateSource& source, const core::Certificate& certificate,
+                             const core::LocusMap& map, const std::vector<core::Zone>* zones) {
+  const core::LocusProblem& problem = certificate.problem;
+  const auto mode_of = [&](const core::WorkingMode& mode) {
+    return std::find(problem.modes.begin(), problem.modes.end(), mode) - problem.modes.begin();
+  };
+  Json root = {{"format", "clearloci-certificate"}, {"version", 1}, {"command", source.command}};
+  root["model"] = {{"text", source.model_text}, {"set", Json::array()}};
+  for (const auto& [name, value] : source.overrides) root["model"]["set"].push_back({name, value});
+  root["coordinates"] = problem.tower.coordinates;
+  root["box"] = Json::array();
+  for (std::size_t i = 0; i < problem.lower.size(); ++i)
+    root["box"].push_back({core::to_string(problem.lower[i]), core::to_string(problem.upper[i])});
+  root["tolerance"] = problem.tolerance;
+  root["joints"] = problem.joints;
+  root["quantities"] = Json::array();
+  for (const core::Quantity quantity : problem.quantities) root["quantities"].push_back(core::to_string(quantity));
+  root["roots"] = Json::array();
+  for (const core::Root& own : problem.tower.roots)
+    root["roots"].push_back({{"point", own.point},
+                             {"role", own.role == core::RootRole::length ? "length" : "working-mode"},
+                             {"square", program_text(own.line.empty() ? line_of(own.square) : own.line)}});
+  root["modes"] = problem.modes;
+
+  Functions functions;
+  Json sheets = Json::array(), open = Json::array();
+  for (const core::SheetClaim& claim : certificate.sheets) {
+    Json domain = Json::array();
+    for (const double side : claim.domain) domain.push_back(fmt::format("{:a}", side));
+    sheets.push_back({{"mode", claim.mode},
+                      {"function", functions.add(claim.role, claim.name, claim.function)},
+                      {"role", role_text(claim.role)},
+                      {"at_zero", claim.at_zero},
+                      {"domain", std::move(domain)},
+                      {"cells", cells_text(claim.cells)}});
+  }
+  for (const core::OpenClaim& claim : certificate.open) {
+    const core::LocusFactor& factor = problem.factors.at(static_cast<std::size_t>(claim.factor));
+    open.push_back({{"mode", claim.mode},
+                    {"function", functions.add(factor.role, factor.expression,
+                                               factor.line.empty() ? line_of(factor.sheet) : factor.line)}});
+  }
+  for (const core::LocusFactor& factor : problem.factors)
+    functions.add(factor.role, factor.expression, factor.line.empty() ? line_of(factor.sheet) : factor.line);
+  root["functions"] = std::move(functions.list);
+  root["sheets"] = std::move(sheets);
+  root["open"] = std::move(open);
+
+  root["curves"] = Json::array();
+  for (const core::LocusCurve& curve : map.curves) {
+    Json arcs = Json::array();
+    for (const core::Arc& arc : curve.arcs)
+      arcs.push_back({{"closed", arc.closed},
+                      {"ends", {core::to_string(arc.ends[0]), core::to_string(arc.ends[1])}},
+                      {"points", points_list(arc.points)}});
+    root["curves"].push_back({{"id", curve.id},
+                              {"mode", mode_of(curve.mode)},
+                              {"kind", core::to_string(curve.kind)},
+                              {"vanishing", vanishing_list(curve.vanishing)},
+                              {"certified", curve.certified},
+                              {"arcs", std::move(arcs)}});
+  }
+  root["points"] = Json::array();
+  for (const core::IsolatedPoint& point : map.isolated_points)
+    root["points"].push_back({{"mode", mode_of(point.mode)},
+                              {"kind", core::to_string(point.kind)},
+                              {"vanishing", vanishing_list(point.vanishing)},
+                              {"certified", point.certified},
+                              {"at", point.at}});
+  if (zones != nullptr) {
+    root["zones"] = Json::array();
+    for (const core::Zone& zone : *zones) {
+      Json signs = Json::array(), holes = Json::array();
+      for (const auto& [reaction, sign] : zone.signs)
+        signs.push_back({reaction.joint, core::to_string(reaction.quantity), sign});
+      for (const core::Polyline& hole : zone.holes) holes.push_back(points_list(hole));
+      root["zones"].push_back({{"id", zone.id},
+                               {"mode", mode_of(zone.mode)},
+                               {"assembly_mode", zone.assembly_mode},
+                               {"signs", std::move(signs)},
+                               {"area", zone.area},
+                               {"outer", points_list(zone.outer)},
+                               {"holes", std::move(holes)},
+                               {"sample", zone.sample},
+                               {"certified", zone.certified}});
+    }
+  }
+  return root.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace clearloci::report
