@@ -148,7 +148,10 @@ void print_result(const Verification& result, bool fit) {
     const NearestOfTask& nearest = *result.nearest;
     fmt::print("nearest       {}{}{}{} at ({:.6f}, {:.6f}), {}\n", report::kind_words(nearest.kind),
                nearest.vanishing.empty() ? "" : " ", report::reaction_names(nearest.vanishing),
-               nearest.curve.empty() ? ", an isolated point" : " on " + nearest.curve, nearest.at[0], nearest.at[1],
+               nearest.isolated        ? ", an isolated point"
+               : nearest.curve.empty() ? ""
+                                       : " on " + nearest.curve,
+               nearest.at[0], nearest.at[1],
                nearest.distance > 1e-12 ? fmt::format("{:.6g} m away", nearest.distance) : "in the task");
   }
   if (result.witness)

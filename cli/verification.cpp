@@ -114,25 +114,40 @@ class Verifier {
       });
   }
 
-  /// The task where it lies, or moved.
-  Verification verify(const Task& task) {
+  /// The task where it lies, or moved: the verdict, and the margin where it is verified.
+  Verification decide(const Task& task) const {
     const loci::TaskRegion region(task.shape);
     const double margin = core::to_double(task.margin);
     const numeric::TaskWitness judge = witness_for(region);
     Verification result;
     result.task = task;
+    result.mode = mode_;
     progress("proof");
     const loci::TaskProof proof = prove(region, margin, judge, result.witness);
     result.verdict = proof.verdict;
-    // Loci that touch the task without crossing it are not met by subdivision, but by tracing.
-    if (result.verdict == TaskVerdict::undecided && refuted_by_loci(region, margin, judge, result.witness))
-      result.verdict = TaskVerdict::refuted;
-    result.nearest = nearest(region);
     if (result.verdict == TaskVerdict::undecided) result.open = open_part(proof);
     if (result.verified()) {
       progress("margin");
       prove_margin(region, margin, result);
     }
+    return result;
+  }
+
+  /// And what the traced loci say.
+  Verification verify(const Task& task) {
+    const loci::TaskRegion region(task.shape);
+    const numeric::TaskWitness judge = witness_for(region);
+    Verification result = decide(task);
+    // Loci that touch the task without crossing it are not met by subdivision, but by tracing.
+    if (result.verdict == TaskVerdict::undecided &&
+        refuted_by_loci(region, core::to_double(task.margin), judge, result.witness)) {
+      result.verdict = TaskVerdict::refuted;
+      result.open.reset();
+    }
+    // What the proof met may lie outside the box, where nothing is traced.
+    if (const auto traced = nearest(region);
+        traced && (!result.nearest || traced->distance <= (1 + 1e-3) * result.nearest->distance))
+      result.nearest = traced;
     return result;
   }
 
@@ -298,6 +313,7 @@ class Verifier {
       nearest.vanishing = curve.vanishing;
     } else {
       const core::IsolatedPoint& point = map.isolated_points[static_cast<std::size_t>(found->point)];
+      nearest.isolated = true;
       nearest.kind = point.kind;
       nearest.vanishing = point.vanishing;
     }
@@ -312,7 +328,7 @@ class Verifier {
     const loci::TaskClearance clearance =
         loci::proven_clearance(conditions_, mode_, region, wanted, limit, {cells_of_a_margin, request_.deadline});
     result.margin = clearance.margin;
-    if (result.nearest || !clearance.at) return;
+    if (!clearance.at) return;
     NearestOfTask nearest;
     nearest.at = *clearance.at;
     nearest.distance = region.signed_distance(*clearance.at);
@@ -387,6 +403,10 @@ Verification verify_task(const mechanism::Mechanism& mechanism, const Task& task
   Verification result = verifier.verify(task);
   add_zones(mechanism, verifier, result);
   return result;
+}
+
+Verification decide_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request) {
+  return Verifier(mechanism, task, request).decide(task);
 }
 
 Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request,

@@ -27,11 +27,12 @@ struct TaskWitness {
 };
 
 struct NearestOfTask {
-  std::string curve;  ///< LocusCurve::id; empty: an isolated point, or under a range of loads
+  std::string curve;  ///< LocusCurve::id; empty: an isolated point, or not among the traced loci
   core::LocusKind kind = core::LocusKind::contact_loss;
   std::vector<core::Vanishing> vanishing;
   core::Point2 at{};
-  double distance = 0;  ///< m; negative: its depth inside the task
+  double distance = 0;    ///< m; negative: its depth inside the task
+  bool isolated = false;  ///< a point of contact loss
 };
 
 /// What a verdict of `undecided` leaves open.
@@ -64,10 +65,15 @@ std::string to_string(loci::TaskVerdict verdict);
 /// request's. Where the request's deadline comes first, what is not proven is undecided. Throws as trace_loci.
 Verification verify_task(const mechanism::Mechanism& mechanism, const core::Task& task, const LociRequest& request);
 
-/// The same for the best translation of the task in the box by that goal. Without `by`: none was found that verifies;
-/// there is none, apart from places that a five thousandth of the box separates from others that fail, or that cannot
-/// be decided. The verdict is then of the task where it lies. Throws core::LimitReached where the deadline comes before
-/// the loci are traced.
+/// The verdict and the margin alone, by cells and the witness: no locus is traced, and `map` is empty. `mode` is of the
+/// tower of core::TaskConditions.
+Verification decide_task(const mechanism::Mechanism& mechanism, const core::Task& task,
+                         const LociRequest& request = {});
+
+/// The same as verify_task for the best translation of the task in the box by that goal. Without `by`: none was found
+/// that verifies; there is none, apart from places that a five thousandth of the box separates from others that fail,
+/// or that cannot be decided. The verdict is then of the task where it lies. Throws core::LimitReached where the
+/// deadline comes before the loci are traced.
 Verification fit_task(const mechanism::Mechanism& mechanism, const core::Task& task, const LociRequest& request,
                       loci::FitGoal goal);
 

@@ -176,22 +176,22 @@ Verification verified(const mechanism::Mechanism& m, const std::string& task, co
 TEST(SpatialSlices, TasksAreVerifiedInsideAZoneAndNotAcrossALocus) {
   const mechanism::Mechanism m = slice();
   const Verification good = verified(m, "box: {x: [0.3, 0.35], y: [0.2, 0.25]}\nmargin: 0.05");
-  EXPECT_TRUE(good.verified);
+  EXPECT_TRUE(good.verified());
   ASSERT_TRUE(good.nearest);
   EXPECT_GE(good.margin, 0.05);
   EXPECT_LE(good.margin, good.nearest->distance);
   // Some leg's force changes its sign between two corners of this one, and |A| between two of the next.
   const Verification across = verified(m, "box: {x: [0, 0.1], y: [0.2, 0.3]}");
-  EXPECT_FALSE(across.verified);
+  EXPECT_FALSE(across.verified());
   ASSERT_TRUE(across.witness);
   EXPECT_FALSE(across.witness->vanishing.empty());
-  EXPECT_FALSE(verified(m, "box: {x: [0.1, 0.25], y: [-0.1, 0]}").verified);
+  EXPECT_FALSE(verified(m, "box: {x: [0.1, 0.25], y: [-0.1, 0]}").verified());
   LociRequest one;
   one.selection.joints = {"B1"};
   one.engine = loci::Engine::exact;
   const std::string box = "box: {x: [0.3, 0.31], y: [0.2, 0.21]}\n";
-  EXPECT_TRUE(verified(m, box + "min_force: 10", one).verified);
-  EXPECT_FALSE(verified(m, box + "min_force: 100000", one).verified);
+  EXPECT_TRUE(verified(m, box + "min_force: 10", one).verified());
+  EXPECT_FALSE(verified(m, box + "min_force: 100000", one).verified());
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(Verify, ThePapersPathLiesInOneZone) {
   const mechanism::Mechanism mechanism = five_bar();
   const std::string file = std::string(CLEARLOCI_SOURCE_DIR) + "/examples/tasks/pick_and_place.yaml";
   const Verification result = verify_task(mechanism, mechanism::read_task(file, mechanism), {});
-  EXPECT_TRUE(result.verified);
+  EXPECT_TRUE(result.verified());
   EXPECT_EQ(result.zone, "z1");
   // The outer boundary of leg 2 is the circle of radius 1 about (1/2, 0).
   const double distance = 1 - std::hypot(0.5, 0.7);
@@ -38,19 +38,19 @@ TEST(Verify, ThePapersPathLiesInOneZone) {
 
 TEST(Verify, ACircleBetweenTheCirclesFitsUpToAQuarterMetre) {
   const mechanism::Mechanism mechanism = five_bar();
-  EXPECT_TRUE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.2499}").verified);
+  EXPECT_TRUE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.2499}").verified());
   const Verification touching = verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 1/4}");
-  EXPECT_FALSE(touching.verified);
+  EXPECT_FALSE(touching.verified());
   ASSERT_TRUE(touching.witness);
   EXPECT_NEAR(std::hypot(touching.witness->at[0] - 0.25, touching.witness->at[1] - 0.5), 0.25, 1e-7);
-  EXPECT_FALSE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.24}\nmargin: 0.0101").verified);
-  EXPECT_TRUE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.24}\nmargin: 0.0099").verified);
+  EXPECT_FALSE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.24}\nmargin: 0.0101").verified());
+  EXPECT_TRUE(verified(mechanism, "circle: {centre: [1/4, 1/2], radius: 0.24}\nmargin: 0.0099").verified());
 }
 
 TEST(Verify, ATaskOutOfReachHasAWitnessOutOfReach) {
   const mechanism::Mechanism mechanism = five_bar();
   const Verification result = verified(mechanism, "box: {x: [0.9, 1.0], y: [0.9, 1.0]}");
-  EXPECT_FALSE(result.verified);
+  EXPECT_FALSE(result.verified());
   ASSERT_TRUE(result.witness);
   EXPECT_FALSE(numeric::reachable(numeric::compile(mechanism), result.witness->at, mechanism::working_mode(mechanism)));
 }
@@ -59,9 +59,9 @@ TEST(Verify, HoldsTheLeastForce) {
   const mechanism::Mechanism mechanism = five_bar();
   const std::string box = "box: {x: [0.2, 0.3], y: [-0.75, -0.65]}\n";
   const Verification free = verified(mechanism, box + "min_force: 5");
-  EXPECT_TRUE(free.verified);
-  EXPECT_FALSE(verified(mechanism, box + "min_force: 1000").verified);
-  EXPECT_FALSE(verified(mechanism, box + "min_couple: 1000").verified);
+  EXPECT_TRUE(free.verified());
+  EXPECT_FALSE(verified(mechanism, box + "min_force: 1000").verified());
+  EXPECT_FALSE(verified(mechanism, box + "min_couple: 1000").verified());
 }
 
 /// Signs of |A| and the couples, and the contact forces, at a pose; none out of reach.
@@ -133,8 +133,8 @@ TEST(VerifyRandomDesigns, NoSampleContradictsAProof) {
     SCOPED_TRACE(design.text() + "\n" + text);
     const core::Task task = mechanism::parse_task(text, "task.yaml", mechanism);
     const Verification result = verify_task(mechanism, task, {});
-    ++(result.verified ? proven : refused);
-    if (!result.verified) {
+    ++(result.verified() ? proven : refused);
+    if (!result.verified()) {
       EXPECT_TRUE(result.witness);
       continue;
     }
@@ -170,17 +170,17 @@ TEST(VerifyFit, FindsTheShortestMoveThatVerifies) {
   // Too low by 0.05: the box's lower corners leave the workspace, symmetrically.
   const core::Task task =
       mechanism::parse_task("format: 1\nbox: {x: [0.15, 0.35], y: [-0.95, -0.85]}\nmargin: 0.01", "t.yaml", mechanism);
-  EXPECT_FALSE(verify_task(mechanism, task, {}).verified);
+  EXPECT_FALSE(verify_task(mechanism, task, {}).verified());
   const Verification nearest = fit_task(mechanism, task, {}, loci::FitGoal::nearest);
   ASSERT_TRUE(nearest.by);
-  EXPECT_TRUE(nearest.verified);
+  EXPECT_TRUE(nearest.verified());
   // The corner (0.15, y) stays 0.01 within the circle of radius 1 about (1/2, 0).
   const double up = 0.95 - std::sqrt(0.99 * 0.99 - 0.35 * 0.35);
   const double moved = std::hypot(core::to_double((*nearest.by)[0]), core::to_double((*nearest.by)[1]));
   EXPECT_GE(moved, up - 1e-6);
   EXPECT_LE(moved, up + 1e-3);
   const Verification best = fit_task(mechanism, task, {}, loci::FitGoal::best);
-  EXPECT_TRUE(best.verified);
+  EXPECT_TRUE(best.verified());
   EXPECT_GT(best.margin, 0.1);
 }
 
@@ -189,7 +189,7 @@ TEST(VerifyFit, SaysThatThereIsNoPlace) {
   const core::Task task =
       mechanism::parse_task("format: 1\nbox: {x: [-0.4, 0.9], y: [-0.8, 0.8]}", "t.yaml", mechanism);
   const Verification result = fit_task(mechanism, task, {}, loci::FitGoal::nearest);
-  EXPECT_FALSE(result.verified);
+  EXPECT_FALSE(result.verified());
   EXPECT_FALSE(result.by);
 }
 
