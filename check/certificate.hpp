@@ -3,13 +3,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/certificate.hpp"
-#include "core/locus_map.hpp"
+#include "core/task.hpp"
 
 namespace clearloci::check {
 
@@ -69,6 +70,15 @@ struct ZoneClaim {
 };
 
 
+/// Over the task and its margin nothing wanted vanishes.
+struct TaskClaim {
+  int mode = 0;
+  std::string shape;                 ///< "box", "circle", "polygon", "path"
+  std::vector<core::RationalPoint> points;  ///< opposite corners; the centre; corners
+  core::Rational radius, margin;
+  std::vector<std::string> unchecked;  ///< what else was asked for
+};
+
 struct CertificateFile {
   std::string command, model;
   std::vector<std::pair<std::string, std::string>> overrides;
@@ -87,6 +97,7 @@ struct CertificateFile {
   std::vector<CurveClaim> curves;
   std::vector<PointClaim> points;
   std::vector<ZoneClaim> zones;
+  std::optional<TaskClaim> task;
 };
 
 /// Whether a model's text is the one of a certificate, in which bytes that are no UTF-8 were replaced.

@@ -14,6 +14,7 @@
 #include "check/identity.hpp"
 #include "check/labels.hpp"
 #include "check/points.hpp"
+#include "check/task.hpp"
 #include "check/zones.hpp"
 #include "core/errors.hpp"
 #include "mechanism/read.hpp"
@@ -130,6 +131,7 @@ class Check {
       check_chains(s, check_sheet(c_, s, singular_list, arcs_, tally_), claimed[same(sheet.function)]);
     }
     check_points(m_, c_, mode, orders, verdict_);
+    if (c_.task && c_.task->mode == mode) check_task(m_, c_, orders, verdict_);
   }
 
   template <class Need>

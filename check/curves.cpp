@@ -15,9 +15,10 @@ using core::ArcEnd;
 using core::CellNode;
 using core::Point2;
 
-// All relative to the box. Vertices are on the curve to rounding; the engine's box is wider than the user's by up to 1.5e-9,
-// and ends on it were moved along the curve to the user's.
-constexpr double on_curve = 1e-11, same_place = 1e-8, box_end = 1e-5;
+// All relative to the box. Vertices are on the curve to rounding; ends are where two curves cross, to rounding.
+constexpr double on_curve = 1e-11, same_place = 1e-8;
+// Curves that touch meet in cells of this size at most, which count as one point.
+constexpr double widest_touch = 1e-9;
 // A cell is cut so often before its claim counts as not shown.
 constexpr int most_cuts = 14;
 constexpr std::size_t most_cells_of_pair = 400'000;
@@ -37,7 +38,9 @@ struct Node {
 
 /// Where pieces begin and end.
 struct Junction {
-  enum class Kind { seam, box, rim, cut, open };
+  /// `side`: of the domain, outside of the box. `edge`: of the box or of another root's workspace, where the curve is cut
+  /// unless it is wanted on both sides.
+  enum class Kind { seam, side, rim, cut, edge, open };
   Kind kind = Kind::seam;
   Place place;
   int root = -1;    ///< of a rim: its root is 0 there
@@ -117,8 +120,18 @@ class SheetCheck {
     meet_rims();
     pair();
     cut_pieces();
+    wanted_.assign(pieces_.size(), false);
     string_together();
     drop_outside();
+    string_together();
+    kept_.clear();
+    for (const Path& path : paths_) {
+      const auto first = static_cast<std::size_t>(path.steps.front().piece);
+      kept_.push_back(wanted_[first]);
+      inner_.push_back(inner_of_piece_[first]);
+    }
+    for (const Junction& junction : junctions_)
+      if (junction.kind != Junction::Kind::seam) ++tally_.crossings;
     for (KnownArc& arc : arcs)
       if (arc.curve->mode == claim_.mode && kind_fits(arc.curve->kind, claim_.role) && is_mine(*arc.arc)) {
         match(*arc.arc);
@@ -314,7 +327,7 @@ class SheetCheck {
       const auto side = [&](bool on, int axis, double at, double from, double to) {
         if (!on) return;
         for (const Place& place : zeros(axis, at, from, to))
-          attach(static_cast<int>(l), add_junction({Junction::Kind::box, place, -1, -1, ArcEnd::box}));
+          attach(static_cast<int>(l), add_junction({Junction::Kind::side, place, -1, -1, ArcEnd::none}));
       };
       side(cell.x0 == d[0], 0, cell.x0, cell.y0, cell.y1);
       side(cell.x1 == d[1], 0, cell.x1, cell.y0, cell.y1);
@@ -420,21 +433,83 @@ class SheetCheck {
         claim_.role == core::FactorRole::reaction || claim_.role == core::FactorRole::margin;
     if (by_singularity)
       for (const int f : singular_)
-        cut_by(c_.functions[static_cast<std::size_t>(f)].program, ArcEnd::direct_singularity);
+        cut_by(c_.functions[static_cast<std::size_t>(f)].program, Junction::Kind::cut, ArcEnd::direct_singularity,
+               graph_cells(-1));
     for (int k = 0; k < static_cast<int>(c_.squares.size()); ++k)
-      if (is_foreign(k)) cut_by(c_.squares[static_cast<std::size_t>(k)], ArcEnd::boundary);
+      if (is_foreign(k))
+        cut_by(c_.squares[static_cast<std::size_t>(k)], Junction::Kind::edge, ArcEnd::boundary, graph_cells(-1));
+    for (int side = 0; side < 4; ++side) {
+      along_[static_cast<std::size_t>(side)] = runs_along(side);
+      cut_by(side_line(side), Junction::Kind::edge, ArcEnd::box, cells_at_side(side));
+    }
+  }
+
+  /// Positive inside.
+  core::StraightLine side_line(int side) const {
+    core::StraightLineBuilder builder;
+    const int variable = builder.variable(side / 2), at = builder.constant(c_.box[static_cast<std::size_t>(side)]);
+    return builder.line(side % 2 == 0 ? builder.subtract(variable, at) : builder.subtract(at, variable));
+  }
+
+  /// The function vanishes all along a side of the box: at places on it that were not chosen for that.
+  bool runs_along(int side) {
+    Sheet precise(parts_of(c_, claim_.mode, claim_.at_zero), {program_}, identity_bits);
+    const auto s = static_cast<std::size_t>(side), o = side < 2 ? std::size_t{2} : std::size_t{0};
+    const Interval at(c_.box[s], identity_bits);
+    int zero = 0;
+    for (const long part : {137, 311, 498, 673, 891}) {
+      const Interval other(core::Rational(c_.box[o] + (c_.box[o + 1] - c_.box[o]) * core::Rational(part, 1009)),
+                           identity_bits);
+      if (!(side < 2 ? precise.enter(at, other) : precise.enter(other, at))) continue;
+      if (!precise.value(0).contains_zero()) return false;
+      ++zero;
+    }
+    return zero > 0;
+  }
+
+  /// Of those that hold a part of the side, without those in which the curve runs along it.
+  std::vector<Rectangle> cells_at_side(int side) {
+    const double at = box_[static_cast<std::size_t>(side)];
+    std::vector<Rectangle> cells;
+    for (std::size_t l = 0; l < leaves_.size(); ++l) {
+      const Rectangle& cell = leaves_[l].cell;
+      if (leaves_[l].claim.kind != CellNode::Kind::graph) continue;
+      if (side < 2 ? at < cell.x0 || cell.x1 < at : at < cell.y0 || cell.y1 < at) continue;
+      if (along_[static_cast<std::size_t>(side)] &&
+          std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
+            return piece.leaf == static_cast<int>(l) && lies_along(junction_at(piece.ends[0]), side) &&
+                   lies_along(junction_at(piece.ends[1]), side);
+          }))
+        continue;
+      cells.push_back(cell);
+    }
+    return cells;
+  }
+
+  Point2 junction_at(const End& end) const { return junctions_[static_cast<std::size_t>(end.junction)].at(); }
+
+  bool lies_along(const Point2& at, int side) const {
+    return along_[static_cast<std::size_t>(side)] &&
+           std::abs(at[static_cast<std::size_t>(side / 2)] - box_[static_cast<std::size_t>(side)]) <= on_curve * size_;
   }
 
   bool is_foreign(int root) const {
     return !sheet_.uses(root) && std::find(claim_.at_zero.begin(), claim_.at_zero.end(), root) == claim_.at_zero.end();
   }
 
-  void cut_by(const core::StraightLine& other, ArcEnd label) {
+  void cut_by(const core::StraightLine& other, Junction::Kind kind_of_cut, ArcEnd label,
+              const std::vector<Rectangle>& cells) {
+    if (cells.empty()) return;
     Sheet both(parts_of(c_, claim_.mode, claim_.at_zero), {program_, &other});
-    const CommonZeros found = common_zeros(both, graph_cells(-1), size_, most_cells_of_pair);
-    for (const Rectangle& cell : found.undecided)
-      if (!near_end({0.5 * (cell.x0 + cell.x1), 0.5 * (cell.y0 + cell.y1)}))
+    CommonZeros found = common_zeros(both, cells, size_, most_cells_of_pair);
+    // At an edge double zeros count as one point: what the curve does there is seen from the pieces on either side.
+    for (const Rectangle& cell : joined(std::move(found.undecided))) {
+      const Point2 at = {0.5 * (cell.x0 + cell.x1), 0.5 * (cell.y0 + cell.y1)};
+      if (near_end(at)) continue;
+      if (kind_of_cut != Junction::Kind::edge || cell.size() > widest_touch * size_)
         fail("where it is cut by another curve is not shown in " + describe(cell));
+      found.zeros.push_back({range(cell.x0, cell.x1), range(cell.y0, cell.y1)});
+    }
     for (const Place& place : found.zeros) {
       const int leaf = leaf_at(place);
       if (leaf == outside || near_end({place.x.middle(), place.y.middle()})) continue;
@@ -444,12 +519,33 @@ class SheetCheck {
       const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [&](const Piece& p) {
         return p.leaf == leaf && p.ends[0].key.upper() < own.lower() && own.upper() < p.ends[1].key.lower();
       });
-      if (piece == pieces_.end()) fail("another curve cuts it where it is not");
-      const int junction = add_junction({Junction::Kind::cut, place, -1, -1, label});
+      if (piece == pieces_.end()) {
+        if (place.x.width() + place.y.width() < 1e-3 * widest_touch * size_) fail("another curve cuts it where it is not");
+        continue;  // two that pass very near each other
+      }
+      const int junction = add_junction({kind_of_cut, place, -1, -1, label});
       Piece rest = *piece;
       piece->ends[1] = rest.ends[0] = {junction, own};
       pieces_.push_back(rest);
     }
+  }
+
+  /// Cells that touch, as one.
+  static std::vector<Rectangle> joined(std::vector<Rectangle> cells) {
+    for (bool again = true; again;) {
+      again = false;
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        for (std::size_t k = i + 1; k < cells.size(); ++k) {
+          Rectangle &a = cells[i], &b = cells[k];
+          if (a.x1 < b.x0 || b.x1 < a.x0 || a.y1 < b.y0 || b.y1 < a.y0) continue;
+          a = {std::min(a.x0, b.x0), std::max(a.x1, b.x1), std::min(a.y0, b.y0), std::max(a.y1, b.y1)};
+          b = cells.back();
+          cells.pop_back();
+          again = true;
+          --k;
+        }
+    }
+    return cells;
   }
 
   void string_together() {
@@ -457,9 +553,15 @@ class SheetCheck {
     for (std::size_t p = 0; p < pieces_.size(); ++p)
       for (const int end : {0, 1})
         meeting[static_cast<std::size_t>(pieces_[p].ends[end].junction)].push_back({static_cast<int>(p), end});
+    // Through an edge where both of its pieces are wanted.
     const auto passes = [&](int junction) {
-      return junctions_[static_cast<std::size_t>(junction)].kind == Junction::Kind::seam;
+      const Junction::Kind own = junctions_[static_cast<std::size_t>(junction)].kind;
+      const auto& here = meeting[static_cast<std::size_t>(junction)];
+      return own == Junction::Kind::seam ||
+             (own == Junction::Kind::edge && here.size() == 2 && wanted_[static_cast<std::size_t>(here[0].first)] &&
+              wanted_[static_cast<std::size_t>(here[1].first)]);
     };
+    paths_.clear();
     std::vector<bool> used(pieces_.size(), false);
     for (const bool closed : {false, true})
       for (std::size_t p = 0; p < pieces_.size(); ++p)
@@ -481,8 +583,6 @@ class SheetCheck {
           paths_.push_back(std::move(path));
         }
     visits_.assign(paths_.size(), 0);
-    for (const Junction& junction : junctions_)
-      if (junction.kind != Junction::Kind::seam) ++tally_.crossings;
   }
 
   /// A point between the ends of a piece.
@@ -505,46 +605,55 @@ class SheetCheck {
     return std::nullopt;
   }
 
-  /// Paths on which some root that the curve does not hold is imaginary; what is left needs an arc.
+  /// Which pieces lie in the box and where every root that the curve does not hold is real.
   void drop_outside() {
-    std::vector<const core::StraightLine*> squares;
+    std::vector<core::StraightLine> edges;
     for (int k = 0; k < static_cast<int>(c_.squares.size()); ++k)
-      if (is_foreign(k)) squares.push_back(&c_.squares[static_cast<std::size_t>(k)]);
-    kept_.assign(paths_.size(), true);
-    inner_.resize(paths_.size());
-    Sheet all(parts_of(c_, claim_.mode, claim_.at_zero), squares);
-    for (std::size_t p = 0; p < paths_.size(); ++p) {
+      if (is_foreign(k)) edges.push_back(c_.squares[static_cast<std::size_t>(k)]);
+    const std::size_t roots = edges.size();
+    for (int side = 0; side < 4; ++side) edges.push_back(side_line(side));
+    std::vector<const core::StraightLine*> functions;
+    for (const core::StraightLine& edge : edges) functions.push_back(&edge);
+    Sheet all(parts_of(c_, claim_.mode, claim_.at_zero), functions);
+    inner_of_piece_.assign(pieces_.size(), {});
+    for (const Path& path : paths_) {
       // From the longest piece on.
       std::vector<int> order;
-      for (const Step& step : paths_[p].steps) order.push_back(step.piece);
+      for (const Step& step : path.steps) order.push_back(step.piece);
       const auto length = [&](int piece) {
         const Piece& own = pieces_[static_cast<std::size_t>(piece)];
-        return distance(junctions_[static_cast<std::size_t>(own.ends[0].junction)].at(),
-                        junctions_[static_cast<std::size_t>(own.ends[1].junction)].at());
+        return distance(junction_at(own.ends[0]), junction_at(own.ends[1]));
       };
       std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length(a) > length(b); });
-      bool known = false;
+      bool known = false, out = false;
+      Point2 inner{};
       for (std::size_t i = 0; i < std::min<std::size_t>(order.size(), 5) && !known; ++i) {
         const std::optional<Place> place = inside_piece(pieces_[static_cast<std::size_t>(order[i])]);
         if (!place) continue;
-        if (!all.enter(place->x, place->y)) {
-          known = true;
-          kept_[p] = false;
-          break;
-        }
+        inner = {place->x.middle(), place->y.middle()};
         known = true;
-        bool out = false;
-        for (std::size_t k = 0; k < squares.size(); ++k) {
+        out = !all.enter(place->x, place->y);
+        for (std::size_t k = 0; k < edges.size() && !out; ++k) {
+          if (k >= roots && lies_along(inner, static_cast<int>(k - roots))) continue;
           const int sign = all.value(static_cast<int>(k)).sign();
           known = known && sign != 0;
-          out = out || sign < 0;
+          out = sign < 0;
         }
-        if (out) known = true;
-        kept_[p] = !out;
-        inner_[p] = {place->x.middle(), place->y.middle()};
+        known = known || out;
       }
-      if (!known) fail("whether a piece of it lies in the workspace is not shown");
+      if (!known && !tiny(path)) fail("whether a piece of it lies in the workspace is not shown");
+      for (const int piece : order) {
+        wanted_[static_cast<std::size_t>(piece)] = !out && known;
+        inner_of_piece_[static_cast<std::size_t>(piece)] = inner;
+      }
     }
+    inner_.clear();
+  }
+
+  /// Between two places that are one to rounding.
+  bool tiny(const Path& path) const {
+    return path.steps.size() == 1 && distance(junctions_[static_cast<std::size_t>(path.first)].at(),
+                                              junctions_[static_cast<std::size_t>(path.last)].at()) < widest_touch * size_;
   }
 
   // --- arcs ---------------------------------------------------------------------------------------------------------
@@ -742,7 +851,7 @@ class SheetCheck {
       bool found = false;
       for (const int junction : {last[end]->first, last[end]->last}) {
         const Junction& own = junctions_[static_cast<std::size_t>(junction)];
-        const double reach = (own.kind == Junction::Kind::box ? box_end : 10 * same_place) * size_;
+        const double reach = 10 * same_place * size_;
         const bool there = own.kind == Junction::Kind::open || distance(own.at(), at) <= reach;
         const bool said = own.label == ArcEnd::none || own.label == arc.ends[end] || arc.ends[end] == ArcEnd::crossing;
         found = found || (there && (said || near_end_of_kind(at, arc.ends[end])));
@@ -790,8 +899,9 @@ class SheetCheck {
   std::vector<std::vector<End>> ends_;
   std::vector<Piece> pieces_;
   std::vector<Path> paths_;
-  std::vector<bool> kept_;
-  std::vector<Point2> inner_;
+  std::array<bool, 4> along_{};  // of the box's sides: the curve runs along it
+  std::vector<bool> wanted_, kept_;  // of pieces, of paths
+  std::vector<Point2> inner_of_piece_, inner_;
   std::vector<int> visits_;
   std::map<int, std::vector<std::pair<int, int>>> places_of_;  // leaf: path, step
 };

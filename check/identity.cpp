@@ -34,6 +34,57 @@ class Scatter {
 
 bool is_nothing(const Interval& a) { return a.is_finite() && std::max(-a.lower(), a.upper()) < nothing; }
 
+/// Rows of logarithms at one pose each: columns that may explain, then columns to be explained.
+struct LogSystem {
+  std::vector<std::vector<Interval>> rows;
+  std::size_t columns = 0;
+  std::vector<std::size_t> pivots;
+
+  /// To reduced row echelon form, column by column; columns that depend on earlier ones stay.
+  void eliminate() {
+    const std::size_t width = rows.front().size();
+    std::size_t next = 0;
+    for (std::size_t column = 0; column < columns; ++column) {
+      std::size_t pivot = next;
+      double best = 0;
+      for (std::size_t i = next; i < rows.size(); ++i)
+        if (const double size = std::abs(rows[i][column].middle()); size > best && rows[i][column].sign() != 0) {
+          best = size;
+          pivot = i;
+        }
+      if (best < nothing) continue;
+      std::swap(rows[pivot], rows[next]);
+      const Interval scale = Interval(1.0, identity_bits) / rows[next][column];
+      for (std::size_t j = column; j < width; ++j) rows[next][j] = rows[next][j] * scale;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (i == next) continue;
+        const Interval factor = rows[i][column];
+        for (std::size_t j = column; j < width; ++j) rows[i][j] = rows[i][j] - factor * rows[next][j];
+      }
+      pivots.push_back(column);
+      ++next;
+    }
+  }
+
+  /// Twice the exponents of the columns in a column to be explained, all but the constant's, by column.
+  std::vector<int> exponents(std::size_t column, const std::string& what) const {
+    std::vector<int> result(columns, 0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Interval& entry = rows[i][column];
+      if (i >= pivots.size()) {
+        if (!is_nothing(entry)) throw FalseClaim("functions: they do not make up " + what);
+        continue;
+      }
+      if (pivots[i] == 0) continue;  // the constant
+      const double twice = std::nearbyint(2 * entry.middle());
+      if (!(std::abs(twice) < 1e6) || !is_nothing(Interval(2.0, identity_bits) * entry - Interval(twice, identity_bits)))
+        throw FalseClaim("functions: they do not make up " + what);
+      result[pivots[i]] = static_cast<int>(twice);
+    }
+    return result;
+  }
+};
+
 class Fit {
  public:
   Fit(const mechanism::Mechanism& m, const CertificateFile& c, int mode)
@@ -43,9 +94,10 @@ class Fit {
     Orders orders;
     if (!sample()) return orders;
     orders.known = true;
-    eliminate();
+    check_roots();
+    system_.eliminate();
     orders.same_zeros = same_zeros();
-    const std::size_t first = columns_;
+    const std::size_t first = system_.columns;
     orders.determinant = exponents(first, "the direct singularity |A|");
     const std::vector<mechanism::Unknown> unknowns = mechanism::unknowns(m_);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
@@ -62,6 +114,13 @@ class Fit {
   bool sample() {
     std::vector<const core::StraightLine*> programs;
     for (const Function& f : c_.functions) programs.push_back(&f.program);
+    // Roots that no function holds are wanted too.
+    std::vector<core::StraightLine> variables;
+    for (int j = 0; j < static_cast<int>(c_.squares.size()); ++j) {
+      core::StraightLineBuilder builder;
+      variables.push_back(builder.line(builder.variable(2 + j)));
+    }
+    for (const core::StraightLine& variable : variables) programs.push_back(&variable);
     Sheet sheet(parts_of(c_, mode_), programs, identity_bits);
     const Sides sides = sides_of(c_, mode_);
     const std::size_t unknowns = mechanism::unknowns(m_).size();
@@ -83,77 +142,60 @@ class Fit {
       for (const Interval& d : here->divisors) row.push_back(log_of(d));
       for (int j = 0; j < static_cast<int>(c_.squares.size()); ++j)
         if (sheet.uses(j)) row.push_back(log_of(sheet.square(j)));
-      columns_ = row.size();
+      system_.columns = row.size();
       row.push_back(log_of(solved->determinant));
       for (std::size_t k = 0; k < unknowns; ++k) {
         if (solved->reactions[k].sign() != 0) always_zero_[k] = false;
         row.push_back(solved->reactions[k].sign() != 0 ? log_of(solved->reactions[k]) : Interval(identity_bits));
       }
       if (!std::all_of(row.begin(), row.end(), [](const Interval& v) { return v.is_finite(); })) continue;
-      rows_.push_back(std::move(row));
-      if (rows_.size() == columns_ + spare_poses) return true;
+      system_.rows.push_back(std::move(row));
+      add_roots(sheet, *here);
+      if (system_.rows.size() == system_.columns + spare_poses) return true;
     }
     return false;
   }
 
-  /// To reduced row echelon form, column by column; columns that depend on earlier ones stay.
-  void eliminate() {
-    const std::size_t width = rows_.front().size();
-    std::size_t next = 0;
-    for (std::size_t column = 0; column < columns_; ++column) {
-      std::size_t pivot = next;
-      double best = 0;
-      for (std::size_t i = next; i < rows_.size(); ++i)
-        if (const double size = std::abs(rows_[i][column].middle()); size > best && rows_[i][column].sign() != 0) {
-          best = size;
-          pivot = i;
-        }
-      if (best < nothing) continue;
-      std::swap(rows_[pivot], rows_[next]);
-      const Interval scale = Interval(1.0, identity_bits) / rows_[next][column];
-      for (std::size_t j = column; j < width; ++j) rows_[next][j] = rows_[next][j] * scale;
-      for (std::size_t i = 0; i < rows_.size(); ++i) {
-        if (i == next) continue;
-        const Interval factor = rows_[i][column];
-        for (std::size_t j = column; j < width; ++j) rows_[i][j] = rows_[i][j] - factor * rows_[next][j];
-      }
-      pivots_.push_back(column);
-      ++next;
-    }
+  /// Twice the exponents of the functions.
+  std::vector<int> exponents(std::size_t column, const std::string& what) const {
+    const std::vector<int> all = system_.exponents(column, what);
+    return {all.begin() + 1, all.begin() + 1 + static_cast<std::ptrdiff_t>(functions_)};
   }
 
-  /// Twice the exponents of the functions in a column.
-  std::vector<int> exponents(std::size_t column, const std::string& what) const {
-    std::vector<int> result(functions_, 0);
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const Interval& entry = rows_[i][column];
-      if (i >= pivots_.size()) {
-        if (!is_nothing(entry)) throw FalseClaim("functions: they do not make up " + what);
-        continue;
-      }
-      if (pivots_[i] == 0) continue;  // the constant
-      const double twice = std::nearbyint(2 * entry.middle());
-      if (!(std::abs(twice) < 1e6) || !is_nothing(Interval(2.0, identity_bits) * entry - Interval(twice, identity_bits)))
-        throw FalseClaim("functions: they do not make up " + what);
-      if (pivots_[i] <= functions_) result[pivots_[i] - 1] = static_cast<int>(twice);
-    }
-    return result;
+  /// Every root of a dyad or slider is the model's, times what the closure divides by: both are real in the same poses.
+  void check_roots() {
+    roots_.eliminate();
+    std::size_t column = roots_.columns;
+    for (std::size_t j = 0; j < c_.squares.size(); ++j)
+      if (c_.root_roles[j] == core::RootRole::working_mode)
+        (void)roots_.exponents(column++, "the root of " + c_.root_points[j].substr(0, 40));
+  }
+
+  void add_roots(const Sheet& sheet, const Posture& here) {
+    std::vector<Interval> row = {Interval(1.0, identity_bits)};
+    for (const Interval& d : here.divisors) row.push_back(log_of(d));
+    roots_.columns = row.size();
+    std::size_t own = 0;
+    for (int j = 0; j < static_cast<int>(c_.squares.size()); ++j)
+      if (c_.root_roles[static_cast<std::size_t>(j)] == core::RootRole::working_mode)
+        row.push_back(log_of(sheet.square(j)) - log_of(here.squares[own++]));
+    roots_.rows.push_back(std::move(row));
   }
 
   std::vector<int> same_zeros() const {
     std::vector<int> result(functions_, -1);
     for (std::size_t f = 0; f < functions_; ++f) {
       const std::size_t column = f + 1;
-      if (std::find(pivots_.begin(), pivots_.end(), column) != pivots_.end()) {
+      if (std::find(system_.pivots.begin(), system_.pivots.end(), column) != system_.pivots.end()) {
         result[f] = static_cast<int>(f);
         continue;
       }
       int found = -1;
       bool single = true;
-      for (std::size_t i = 0; i < pivots_.size(); ++i) {
-        if (pivots_[i] == 0 || pivots_[i] > functions_ || is_nothing(rows_[i][column])) continue;
+      for (std::size_t i = 0; i < system_.pivots.size(); ++i) {
+        if (system_.pivots[i] == 0 || system_.pivots[i] > functions_ || is_nothing(system_.rows[i][column])) continue;
         single = single && found < 0;
-        found = static_cast<int>(pivots_[i]) - 1;
+        found = static_cast<int>(system_.pivots[i]) - 1;
       }
       if (single) result[f] = found;
     }
@@ -163,9 +205,8 @@ class Fit {
   const mechanism::Mechanism& m_;
   const CertificateFile& c_;
   int mode_;
-  std::size_t functions_, columns_ = 0;
-  std::vector<std::vector<Interval>> rows_;
-  std::vector<std::size_t> pivots_;
+  std::size_t functions_;
+  LogSystem system_, roots_;
   std::vector<bool> always_zero_;
 };
 

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "core/errors.hpp"
-#include "report/certificate.hpp"
 #include "report/files.hpp"
 
 namespace clearloci::cli {
@@ -24,14 +23,14 @@ void require_certifiable(const mechanism::Mechanism& mechanism) {
 
 void write_certificate(const std::string& file, const std::string& command, const CommonArguments& arguments,
                        const core::Certificate& certificate, const core::LocusMap& map,
-                       const std::vector<core::Zone>* zones) {
+                       const report::CertifiedMore& more) {
   std::ifstream stream(arguments.model, std::ios::binary);
   report::CertificateSource source{command, {std::istreambuf_iterator<char>(stream), {}}, {}};
   for (const std::string& pair : arguments.overrides) {
     const std::size_t sign = pair.find('=');
     source.overrides.emplace_back(pair.substr(0, sign), sign == std::string::npos ? "" : pair.substr(sign + 1));
   }
-  report::write_atomically(file, report::certificate_text(source, certificate, map, zones));
+  report::write_atomically(file, report::certificate_text(source, certificate, map, more));
 }
 
 }  // namespace clearloci::cli

@@ -6,7 +6,7 @@
 
 #include "cli/arguments.hpp"
 #include "core/certificate.hpp"
-#include "core/zone_map.hpp"
+#include "report/certificate.hpp"
 
 namespace clearloci::cli {
 
@@ -15,9 +15,9 @@ void add_certificate_argument(CLI::App& command, std::string& file);
 /// Throws core::InputError where the mechanism has no certificate: it is in space, or not over two lengths.
 void require_certifiable(const mechanism::Mechanism& mechanism);
 
-/// Writes `file`. `zones`: null where none were asked for.
+/// Writes `file`.
 void write_certificate(const std::string& file, const std::string& command, const CommonArguments& arguments,
                        const core::Certificate& certificate, const core::LocusMap& map,
-                       const std::vector<core::Zone>* zones = nullptr);
+                       const report::CertifiedMore& more = {});
 
 }  // namespace clearloci::cli

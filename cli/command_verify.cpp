@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
@@ -29,6 +30,7 @@ struct Arguments {
   LociArguments loci;
   std::string task, fit;
   std::string formats = "svg,png";
+  std::string certificate;
 };
 
 const std::set<std::string> known_formats = {"pdf", "png", "svg"};

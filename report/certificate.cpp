@@ -117,10 +117,36 @@ Json points_list(const core::Polyline& line) {
   return list;
 }
 
+Json task_object(const core::Task& task) {
+  Json points = Json::array();
+  const auto add = [&](const core::RationalPoint& p) { points.push_back({core::to_string(p[0]), core::to_string(p[1])}); };
+  core::Rational radius = 0;
+  if (const auto* box = std::get_if<core::TaskBox>(&task.shape)) {
+    add(box->lower);
+    add(box->upper);
+  } else if (const auto* circle = std::get_if<core::TaskCircle>(&task.shape)) {
+    add(circle->centre);
+    radius = circle->radius;
+  } else if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape)) {
+    for (const core::RationalPoint& p : polygon->corners) add(p);
+  } else {
+    for (const core::RationalPoint& p : std::get<core::TaskPath>(task.shape).points) add(p);
+  }
+  Json unchecked = Json::array();
+  if (task.min_force || task.min_couple) unchecked.push_back("the least forces and couples");
+  if (task.loads) unchecked.push_back("the loads, but for the first of the range");
+  return {{"mode", 0},
+          {"shape", core::kind_of(task.shape)},
+          {"points", std::move(points)},
+          {"radius", core::to_string(radius)},
+          {"margin", core::to_string(task.margin)},
+          {"unchecked", std::move(unchecked)}};
+}
+
 }  // namespace
 
 std::string certificate_text(const CertificateSource& source, const core::Certificate& certificate,
-                             const core::LocusMap& map, const std::vector<core::Zone>* zones) {
+                             const core::LocusMap& map, const CertifiedMore& more) {
   const core::LocusProblem& problem = certificate.problem;
   const auto mode_of = [&](const core::WorkingMode& mode) {
     return std::find(problem.modes.begin(), problem.modes.end(), mode) - problem.modes.begin();
@@ -188,9 +214,10 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
                               {"vanishing", vanishing_list(point.vanishing)},
                               {"certified", point.certified},
                               {"at", point.at}});
-  if (zones != nullptr) {
+  if (more.task != nullptr) root["task"] = task_object(*more.task);
+  if (more.zones != nullptr) {
     root["zones"] = Json::array();
-    for (const core::Zone& zone : *zones) {
+    for (const core::Zone& zone : *more.zones) {
       Json signs = Json::array(), holes = Json::array();
       for (const auto& [reaction, sign] : zone.signs)
         signs.push_back({reaction.joint, core::to_string(reaction.quantity), sign});

@@ -7,6 +7,7 @@
 
 #include "core/certificate.hpp"
 #include "core/locus_map.hpp"
+#include "core/task.hpp"
 #include "core/zone_map.hpp"
 
 namespace clearloci::report {
@@ -18,8 +19,13 @@ struct CertificateSource {
   std::vector<std::pair<std::string, std::string>> overrides;
 };
 
-/// `zones`: null where none were asked for.
+/// What was proven besides the loci; null where it was not asked for.
+struct CertifiedMore {
+  const std::vector<core::Zone>* zones = nullptr;
+  const core::Task* task = nullptr;  ///< that was verified, in the problem's first mode
+};
+
 std::string certificate_text(const CertificateSource& source, const core::Certificate& certificate,
-                             const core::LocusMap& map, const std::vector<core::Zone>* zones = nullptr);
+                             const core::LocusMap& map, const CertifiedMore& more = {});
 
 }  // namespace clearloci::report

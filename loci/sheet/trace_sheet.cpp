@@ -150,7 +150,9 @@ class Tracer {
     for (const Stretch& stretch : graph_.stretches) {
       if (stretch.patch != 0 || stretch.leaf < 0) continue;
       for (const StretchEnd& end : stretch.ends)
-        if (graph_.crossings[end.crossing].kind != Crossing::Kind::cut) ++ends[stretch.leaf];
+        if (const Crossing::Kind kind = graph_.crossings[end.crossing].kind;
+            kind != Crossing::Kind::cut && kind != Crossing::Kind::edge)
+          ++ends[stretch.leaf];
     }
     core::SheetClaim claim;
     claim.function = widened(as_line(curve_), own_);

@@ -1,0 +1,324 @@
+// True certificates are accepted, and false ones rejected, whatever is made false in them.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "tests/check/certified.hpp"
+#include "tests/laws/design_texts.hpp"
+
+namespace clearloci::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Examples : public testing::TestWithParam<const char*> {};
+
+TEST_P(Examples, AreAccepted) {
+  const std::string model = example(GetParam());
+  const check::Verdict verdict = verdict_of(model, certificate_of(model));
+  EXPECT_TRUE(verdict.accepted) << summary(verdict);
+  EXPECT_GT(verdict.cells, 0u);
+  EXPECT_GT(verdict.arcs, 0u);
+  EXPECT_LT(verdict.open_share, 0.2);
+  RecordProperty("verdict", summary(verdict));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
+                         testing::Values("five_bar.yaml", "five_bar_generic.yaml", "five_bar_horizontal.yaml",
+                                         "five_bar_inclined.yaml", "five_bar_isolated.yaml", "five_bar_weights.yaml",
+                                         "five_bar_coupler.yaml", "prrrp.yaml", "rprpr.yaml", "three_rpr.yaml",
+                                         "three_rrr.yaml"),
+                         [](const auto& info) {
+                           const std::string file = info.param;
+                           return file.substr(0, file.find('.'));
+                         });
+
+TEST(Certificate, OfEveryWorkingModeIsAccepted) {
+  const std::string model = example("five_bar_generic.yaml");
+  LociRequest request;
+  request.all_working_modes = true;
+  const check::Verdict verdict = verdict_of(model, certificate_of(model, request));
+  EXPECT_TRUE(verdict.accepted) << summary(verdict);
+}
+
+TEST(Certificate, OfZonesIsAccepted) {
+  const std::string model = example("five_bar.yaml");
+  const check::Verdict verdict = verdict_of(model, certificate_of(model, {}, true));
+  EXPECT_TRUE(verdict.accepted) << summary(verdict);
+  EXPECT_GT(verdict.zones, 3u);
+}
+
+TEST(Certificate, OfRandomDesignsIsAccepted) {
+  std::mt19937 random(20110501);
+  int accepted = 0;
+  const char* const count = std::getenv("CLEARLOCI_DESIGNS");
+  const int designs = count != nullptr ? std::atoi(count) : 6;
+  for (int i = 0; i < designs; ++i) {
+    const std::string model = random_five_bar(random, i % 2 == 1).text();
+    const check::Verdict verdict = verdict_of(model, certificate_of(model));
+    EXPECT_TRUE(verdict.accepted) << model << summary(verdict);
+    accepted += verdict.accepted ? 1 : 0;
+  }
+  EXPECT_EQ(accepted, designs);
+}
+
+// --- what is false ----------------------------------------------------------------------------------------------------
+
+class Mutations : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    model_ = new std::string(example("five_bar_generic.yaml"));
+    certificate_ = new std::string(certificate_of(*model_));
+  }
+  static void TearDownTestSuite() {
+    delete model_;
+    delete certificate_;
+  }
+  static Json certificate() { return Json::parse(*certificate_); }
+
+  static void expect_rejected(const Json& changed, const std::string& word = "") {
+    const check::Verdict verdict = verdict_of(*model_, changed.dump());
+    EXPECT_FALSE(verdict.accepted);
+    EXPECT_NE(verdict.why.find(word), std::string::npos) << verdict.why;
+  }
+
+  /// The first arc of a curve of some kind.
+  static Json& arc_of(Json& certificate, const std::string& kind) {
+    for (Json& curve : certificate["curves"])
+      if (curve["kind"] == kind && !curve["arcs"].empty()) return curve["arcs"][0];
+    throw std::logic_error("no such curve");
+  }
+
+  static std::string* model_;
+  static std::string* certificate_;
+};
+std::string* Mutations::model_ = nullptr;
+std::string* Mutations::certificate_ = nullptr;
+
+TEST_F(Mutations, WithoutOneIsAccepted) {
+  const check::Verdict verdict = verdict_of(*model_, certificate().dump());
+  EXPECT_TRUE(verdict.accepted) << summary(verdict);
+}
+
+TEST_F(Mutations, ACellLeftOut) {
+  for (std::size_t s = 0; s < certificate()["sheets"].size(); ++s) {
+    Json changed = certificate();
+    std::string cells = changed["sheets"][s]["cells"];
+    cells.erase(cells.rfind(' '));
+    changed["sheets"][s]["cells"] = cells;
+    expect_rejected(changed, "cover");
+  }
+}
+
+TEST_F(Mutations, AGraphCalledFree) {
+  for (std::size_t s = 0; s < certificate()["sheets"].size(); ++s) {
+    Json changed = certificate();
+    std::string cells = changed["sheets"][s]["cells"];
+    const std::size_t at = cells.find(":2");
+    if (at == std::string::npos) continue;
+    const std::size_t from = cells.rfind(' ', at) + 1;
+    cells.replace(from, at + 2 - from, ".");
+    changed["sheets"][s]["cells"] = cells;
+    expect_rejected(changed, "free of zeros");
+  }
+}
+
+TEST_F(Mutations, ACountChanged) {
+  for (std::size_t s = 0; s < certificate()["sheets"].size(); ++s) {
+    Json changed = certificate();
+    std::string cells = changed["sheets"][s]["cells"];
+    const std::size_t at = cells.find(":2 ");
+    if (at == std::string::npos) continue;
+    cells[at + 1] = '4';
+    changed["sheets"][s]["cells"] = cells;
+    expect_rejected(changed, "ends");
+  }
+}
+
+TEST_F(Mutations, AVariableChanged) {
+  // Every graph over x said to be over y: some of them are both, not all.
+  Json changed = certificate();
+  for (Json& sheet : changed["sheets"]) {
+    std::string cells = sheet["cells"];
+    for (std::size_t at = cells.find("g0:"); at != std::string::npos; at = cells.find("g0:", at + 1)) cells[at + 1] = '1';
+    sheet["cells"] = cells;
+  }
+  expect_rejected(changed);
+}
+
+TEST_F(Mutations, ASmallerDomain) {
+  Json changed = certificate();
+  changed["sheets"][0]["domain"][0] = "0x0p+0";
+  expect_rejected(changed);
+}
+
+TEST_F(Mutations, ASheetLeftOut) {
+  for (std::size_t s = 0; s < certificate()["sheets"].size(); ++s) {
+    Json changed = certificate();
+    changed["sheets"].erase(s);
+    expect_rejected(changed);
+  }
+}
+
+TEST_F(Mutations, AnArcMoved) {
+  for (const char* kind : {"contact-loss", "direct-singularity", "workspace-boundary"}) {
+    Json changed = certificate();
+    for (Json& point : arc_of(changed, kind)["points"]) point[0] = point[0].get<double>() + 1e-7;
+    expect_rejected(changed);
+  }
+}
+
+TEST_F(Mutations, AVertexMoved) {
+  for (const char* kind : {"contact-loss", "direct-singularity", "workspace-boundary"}) {
+    Json changed = certificate();
+    Json& points = arc_of(changed, kind)["points"];
+    points[points.size() / 3][1] = points[points.size() / 3][1].get<double>() + 1e-8;
+    expect_rejected(changed);
+  }
+}
+
+TEST_F(Mutations, AnArcRemoved) {
+  for (std::size_t c = 0; c < certificate()["curves"].size(); ++c)
+    for (std::size_t a = 0; a < certificate()["curves"][c]["arcs"].size(); ++a) {
+      Json changed = certificate();
+      changed["curves"][c]["arcs"].erase(a);
+      expect_rejected(changed);
+    }
+}
+
+TEST_F(Mutations, AnArcTwice) {
+  for (const char* kind : {"contact-loss", "direct-singularity", "workspace-boundary"}) {
+    Json changed = certificate();
+    for (Json& curve : changed["curves"])
+      if (curve["kind"] == kind && !curve["arcs"].empty()) {
+        curve["arcs"].push_back(Json(curve["arcs"][0]));
+        break;
+      }
+    expect_rejected(changed, "two arcs");
+  }
+}
+
+TEST_F(Mutations, HalfAnArc) {
+  for (const char* kind : {"contact-loss", "direct-singularity", "workspace-boundary"}) {
+    Json changed = certificate();
+    Json& arc = arc_of(changed, kind);
+    Json half = Json::array();
+    for (std::size_t i = 0; i <= arc["points"].size() / 2; ++i) half.push_back(arc["points"][i]);
+    arc["points"] = half;
+    expect_rejected(changed);
+  }
+}
+
+TEST_F(Mutations, AnArcAdded) {
+  Json changed = certificate();
+  Json& curve = changed["curves"][0];
+  curve["arcs"].push_back({{"closed", false},
+                           {"ends", {"crossing", "crossing"}},
+                           {"points", {{0.31, -0.42}, {0.315, -0.424}, {0.32, -0.43}, {0.33, -0.44}}}});
+  expect_rejected(changed);
+}
+
+TEST_F(Mutations, AnEndRelabelled) {
+  Json changed = certificate();
+  for (Json& curve : changed["curves"])
+    for (Json& arc : curve["arcs"])
+      if (arc["ends"][0] == "boundary") {
+        arc["ends"][0] = "direct-singularity";
+        return expect_rejected(changed, "ends");
+      }
+  FAIL() << "no arc ends on the boundary";
+}
+
+TEST_F(Mutations, ALabelChanged) {
+  for (std::size_t c = 0; c < certificate()["curves"].size(); ++c) {
+    Json changed = certificate();
+    Json& vanishing = changed["curves"][c]["vanishing"];
+    if (vanishing.empty()) continue;
+    vanishing.erase(0);
+    expect_rejected(changed, "vanish");
+  }
+}
+
+TEST_F(Mutations, AFunctionChanged) {
+  for (std::size_t f = 0; f < certificate()["functions"].size(); ++f) {
+    Json changed = certificate();
+    std::string program = changed["functions"][f]["program"];
+    const std::size_t at = program.find('*');
+    if (at == std::string::npos) continue;
+    program[at] = '+';
+    changed["functions"][f]["program"] = program;
+    expect_rejected(changed);
+  }
+}
+
+TEST_F(Mutations, ARootChanged) {
+  for (std::size_t r = 0; r < certificate()["roots"].size(); ++r) {
+    Json changed = certificate();
+    std::string program = changed["roots"][r]["square"];
+    program[program.find('*')] = '+';
+    changed["roots"][r]["square"] = program;
+    expect_rejected(changed);
+  }
+}
+
+TEST_F(Mutations, AModeChanged) {
+  Json changed = certificate();
+  changed["modes"][0][0] = -changed["modes"][0][0].get<int>();
+  expect_rejected(changed);
+}
+
+TEST_F(Mutations, ABoxChanged) {
+  Json changed = certificate();
+  changed["box"][0][0] = "-1/3";
+  expect_rejected(changed, "box");
+}
+
+TEST_F(Mutations, AModelChanged) {
+  std::string model = *model_;
+  model += "# another comment\n";
+  const check::Verdict verdict = verdict_of(model, *certificate_);
+  EXPECT_FALSE(verdict.accepted);
+  EXPECT_NE(verdict.why.find("model"), std::string::npos);
+
+  // Both the file and its copy in the certificate: another mechanism.
+  Json changed = certificate();
+  const std::size_t at = model_->find("force: [");
+  ASSERT_NE(at, std::string::npos);
+  std::string other = *model_;
+  other.replace(at, 8, "force: [7 + ");
+  changed["model"]["text"] = other;
+  EXPECT_FALSE(verdict_of(other, changed.dump()).accepted);
+}
+
+TEST(Points, AreCounted) {
+  const std::string model = example("five_bar_isolated.yaml");
+  Json certificate = Json::parse(certificate_of(model));
+  ASSERT_FALSE(certificate["points"].empty());
+  EXPECT_GT(verdict_of(model, certificate.dump()).points, 0u);
+
+  Json moved = certificate;
+  moved["points"][0]["at"][0] = moved["points"][0]["at"][0].get<double>() + 1e-6;
+  EXPECT_FALSE(verdict_of(model, moved.dump()).accepted);
+
+  Json fewer = certificate;
+  fewer["points"].erase(0);
+  EXPECT_FALSE(verdict_of(model, fewer.dump()).accepted);
+}
+
+TEST(Zones, AreHeldAgainstTheModel) {
+  const std::string model = example("five_bar.yaml");
+  const Json certificate = Json::parse(certificate_of(model, {}, true));
+  const auto rejected = [&](const std::function<void(Json&)>& change) {
+    Json changed = certificate;
+    change(changed["zones"][0]);
+    EXPECT_FALSE(verdict_of(model, changed.dump()).accepted);
+  };
+  rejected([](Json& zone) { zone["assembly_mode"] = -zone["assembly_mode"].get<int>(); });
+  rejected([](Json& zone) { zone["signs"][0][2] = -zone["signs"][0][2].get<int>(); });
+  rejected([](Json& zone) { zone["area"] = zone["area"].get<double>() + 0.01; });
+  rejected([](Json& zone) { zone["sample"][0] = zone["sample"][0].get<double>() + 10; });
+}
+
+}  // namespace
+}  // namespace clearloci::test

@@ -1,0 +1,47 @@
+// Certificates of mechanism files, and what the checker says of them.
+#pragma once
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "check/check.hpp"
+#include "cli/pipeline.hpp"
+#include "cli/zone_search.hpp"
+#include "mechanism/read.hpp"
+#include "report/certificate.hpp"
+
+namespace clearloci::test {
+
+inline std::string example(const std::string& name) {
+  std::ifstream stream(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline std::string certificate_of(const std::string& model, LociRequest request = {}, bool zones = false) {
+  const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model, "model.yaml");
+  core::Certificate certificate;
+  request.certificate = &certificate;
+  if (zones) {
+    const core::ZoneMap map = find_zones(mechanism, request);
+    return report::certificate_text({"zones", model, {}}, certificate, map.loci, {.zones = &map.zones});
+  }
+  const core::LocusMap map = trace_loci(mechanism, request);
+  return report::certificate_text({"loci", model, {}}, certificate, map);
+}
+
+inline check::Verdict verdict_of(const std::string& model, const std::string& certificate) {
+  return check::check_certificate_text(model, "model.yaml", certificate, "certificate");
+}
+
+inline std::string summary(const check::Verdict& verdict) {
+  std::string text = verdict.accepted ? "accepted: " : "rejected: " + verdict.why + "; ";
+  text += std::to_string(verdict.cells) + " cells, " + std::to_string(verdict.arcs) + " arcs, open " +
+          std::to_string(verdict.open_share);
+  for (const std::string& what : verdict.unchecked) text += "\n  unchecked: " + what;
+  return text;
+}
+
+}  // namespace clearloci::test
