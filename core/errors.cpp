@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/text.hpp"
+
 namespace clearloci::core {
 namespace {
 
@@ -12,7 +14,7 @@ std::string one_line(const SourcePosition& position, const std::string& problem,
   if (!line.empty()) line += ": ";
   line += problem;
   if (!mend.empty()) line += "; " + mend;
-  return line;
+  return message_line(line);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.hpp"
+
 namespace clearloci::report {
 namespace {
 
@@ -68,21 +70,6 @@ std::string linear_words(const core::LineForm& line, std::span<const std::string
   text += term(line.b, coordinates[1], text.empty());
   text += term(line.c, "", text.empty());
   return text;
-}
-
-/// Length of the well-formed UTF-8 sequence at the start of `text`, 0 for an ill-formed one.
-std::size_t sequence_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return 1;
-  const std::size_t length = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
-  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  // Overlong forms, surrogates and what lies beyond U+10FFFF show in the second byte.
-  const bool ill = (byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xED && byte(1) > 0x9F) ||
-                   (byte(0) == 0xF0 && byte(1) < 0x90) || (byte(0) == 0xF4 && byte(1) > 0x8F);
-  return ill ? 0 : length;
 }
 
 }  // namespace
@@ -186,16 +173,7 @@ std::string short_number(double value, int digits) {
 
 std::string exact_number(double value) { return value == 0 ? "0" : fmt::format("{}", value); }
 
-std::string printable(std::string_view text) {
-  std::string clean;
-  while (!text.empty()) {
-    const std::size_t length = sequence_length(text);
-    const bool control = length == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F);
-    clean += length == 0 || control ? std::string_view("\xEF\xBF\xBD") : text.substr(0, length);
-    text.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  return clean;
-}
+std::string printable(std::string_view text) { return core::printable(text); }
 
 int columns(std::string_view text) {
   return static_cast<int>(

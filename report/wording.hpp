@@ -43,8 +43,7 @@ std::string short_number(double value, int digits);
 /// The shortest decimal that reads back as the same double.
 std::string exact_number(double value);
 
-/// The text with every ill-formed UTF-8 sequence and every control character replaced by U+FFFD: what a user calls a
-/// mechanism must not break a file.
+/// core::printable: what a user calls a mechanism must not break a file.
 std::string printable(std::string_view text);
 
 /// Code points of `text`, the number of columns it takes in a terminal (wide scripts aside).
