@@ -1,6 +1,7 @@
 #include "mechanism/evaluate.hpp"
 
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "mechanism/radical_sum.hpp"
@@ -12,6 +13,19 @@ namespace {
 class Evaluator {
  public:
   explicit Evaluator(const std::vector<Parameter>& parameters) : parameters_(parameters) {}
+
+  /// Required before an expression is evaluated: what it uses, in the order of the file. Otherwise each parameter's
+  /// expression would be evaluated inside that of the next, as deep as there are parameters.
+  void prepare(const Expression& expression) {
+    std::set<std::string> needed = core::symbols(expression);
+    std::vector<const Parameter*> used;
+    for (auto p = parameters_.rbegin(); p != parameters_.rend(); ++p) {
+      if (!needed.contains(p->name)) continue;
+      needed.merge(core::symbols(p->expression));
+      used.push_back(&*p);
+    }
+    for (auto p = used.rbegin(); p != used.rend(); ++p) values_[(*p)->name] = (*this)((*p)->expression);
+  }
 
   RadicalSum operator()(const Expression& expression) {
     using Kind = Expression::Kind;
@@ -50,12 +64,6 @@ class Evaluator {
   RadicalSum parameter(const std::string& name) {
     const auto known = values_.find(name);
     if (known != values_.end()) return known->second;
-    for (const Parameter& candidate : parameters_) {
-      if (candidate.name != name) continue;
-      // Entered before its expression is evaluated: a parameter that used itself would be unknown, not endless.
-      values_.emplace(name, radical_sum(candidate.value));
-      return values_[name] = (*this)(candidate.expression);
-    }
     throw std::out_of_range("'" + name + "' is not a parameter");
   }
 
@@ -66,8 +74,22 @@ class Evaluator {
 }  // namespace
 
 ExactValue evaluate(const Expression& expression, const std::vector<Parameter>& parameters) {
-  const RadicalSum sum = Evaluator(parameters)(expression);
+  Evaluator evaluator(parameters);
+  evaluator.prepare(expression);
+  const RadicalSum sum = evaluator(expression);
   return {rational_value(sum), sum.exact && sum.is_rational()};
+}
+
+std::optional<std::string> unusable(const Rational& value) {
+  // Products of some twenty such numbers are still doubles; nothing that is built or loaded comes near.
+  static const Rational largest = core::rational_from_decimal("1e15"), smallest = core::rational_from_decimal("1e-30");
+  constexpr std::size_t most_bits = 4096;
+  const Rational size = abs(value);
+  if (size > largest) return "is larger than 1e15";
+  if (sgn(value) != 0 && size < smallest) return "is nearer to 0 than 1e-30 without being 0";
+  if (mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2) > most_bits)
+    return "has more than 4096 bits";
+  return std::nullopt;
 }
 
 Rational value_of(const Expression& expression, const Mechanism& mechanism) {

@@ -1,6 +1,9 @@
 // Exact values of constant expressions.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci::mechanism {
@@ -17,6 +20,9 @@ struct ExactValue {
 /// coordinates are replaced, also where one of them is rational (cos(60 deg)).
 /// Throws std::domain_error (division by zero, root of a negative number) or std::out_of_range (unknown symbol).
 ExactValue evaluate(const Expression& expression, const std::vector<Parameter>& parameters);
+
+/// Why a number of a file or a call cannot be worked with: it or what follows from it would be no double. None: it can.
+std::optional<std::string> unusable(const Rational& value);
 
 /// Shorthand for evaluate(expression, mechanism.parameters).value.
 Rational value_of(const Expression& expression, const Mechanism& mechanism);

@@ -15,7 +15,9 @@ namespace {
 const Integer pi_key = 0;
 const Integer rational_key = 1;
 
-constexpr std::size_t largest_result_bits = 1'000'000;
+// Far beyond what a person means, far below what fills the memory: repeated squaring doubles the bits each time.
+constexpr std::size_t largest_result_bits = 100'000;
+constexpr std::size_t most_terms = 256;  // different square roots in one number; products multiply their number
 
 /// 10^-digits.
 Rational decimal_place(unsigned long digits) {
@@ -51,6 +53,15 @@ class BigFloat {
 
 std::size_t bits(const Rational& value) {
   return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+}
+
+/// Throws std::domain_error where a number has grown beyond all use.
+RadicalSum checked(RadicalSum sum) {
+  if (sum.terms.size() > most_terms) throw std::domain_error("a number of more than 256 different roots");
+  std::size_t size = 0;
+  for (const auto& [key, coefficient] : sum.terms) size += mpz_sizeinbase(key.get_mpz_t(), 2) + bits(coefficient);
+  if (size > largest_result_bits) throw std::domain_error("a number of more than 100000 bits");
+  return sum;
 }
 
 /// pi within 10^-80.
@@ -177,7 +188,7 @@ RadicalSum operator+(const RadicalSum& a, const RadicalSum& b) {
   RadicalSum sum = a;
   for (const auto& [key, coefficient] : b.terms) add_to(sum, key, coefficient);
   sum.exact = a.exact && b.exact;
-  return sum;
+  return checked(std::move(sum));
 }
 
 RadicalSum operator-(const RadicalSum& a) {
@@ -196,7 +207,7 @@ RadicalSum operator*(const RadicalSum& a, const RadicalSum& b) {
       add_to(result, product->first, p * q * product->second);
     }
   }
-  return result;
+  return checked(std::move(result));
 }
 
 RadicalSum operator/(const RadicalSum& a, const RadicalSum& b) {
@@ -223,7 +234,7 @@ RadicalSum power(const RadicalSum& base, const RadicalSum& exponent) {
   if (base.terms.empty() && sgn(y) < 0) throw std::domain_error("division by zero (0 to a negative power)");
   if (base.terms.empty()) return sgn(y) == 0 ? radical_sum(1) : RadicalSum{{}, base.exact};
   const Rational steps = abs(y);
-  if (steps * bits(x) > largest_result_bits) throw std::domain_error("a power of more than a million bits");
+  if (steps * bits(x) > largest_result_bits) throw std::domain_error("a number of more than 100000 bits");
   if (y.get_den() == 1) return integer_power(base, y.get_num().get_si());
   if (sgn(x) < 0) throw std::domain_error("a fractional power of the negative number " + core::to_string(x));
   RadicalSum result = fractional_power(x, y);

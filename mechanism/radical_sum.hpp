@@ -35,7 +35,7 @@ RadicalSum operator*(const RadicalSum& a, const RadicalSum& b);
 RadicalSum operator/(const RadicalSum& a, const RadicalSum& b);
 
 /// base^exponent. Throws std::domain_error for 0 to a negative power, for a root of a negative number and for a result
-/// of more than a million bits.
+/// of more than 100000 bits; so do sums and products.
 RadicalSum power(const RadicalSum& base, const RadicalSum& exponent);
 
 /// Throws std::domain_error for a negative number.

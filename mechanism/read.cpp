@@ -1,9 +1,11 @@
 #include "mechanism/read.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <vector>
 
+#include "core/text.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
@@ -20,10 +22,8 @@ void check_format(const Value& value) {
     throw InputError(value.where, "the format is '" + text + "', but this version reads format 1", "write format: 1");
 }
 
-/// The file's name without folder and extension, where the file gives the mechanism no name.
-std::string read_name(const std::optional<Value>& value, const std::string& file) {
-  return value ? text_of(*value) : std::filesystem::path(file).stem().string();
-}
+// No mechanism, task or path that a person writes comes near; a device or a wrong file would fill the memory.
+constexpr std::size_t largest_file = std::size_t{4} << 20;
 
 Space read_space(const std::optional<Value>& value) {
   if (!value) return Space::planar;
@@ -35,6 +35,14 @@ Space read_space(const std::optional<Value>& value) {
 
 }  // namespace
 
+std::string name_of(const std::optional<Value>& value, const std::string& file) {
+  constexpr std::size_t longest = 160;
+  std::string name = value ? text_of(*value) : std::filesystem::path(file).stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return core::shortened(name, longest);
+}
+
 Mechanism parse_mechanism(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
   const Value document = parse_document(text, file);
   if (!document.is_map())
@@ -45,7 +53,7 @@ Mechanism parse_mechanism(const std::string& text, const std::string& file, cons
   Mechanism mechanism;
   mechanism.space = read_space(root.find("space"));
   mechanism.file = file;
-  mechanism.name = read_name(root.find("name"), file);
+  mechanism.name = name_of(root.find("name"), file);
   read_parameters(mechanism, root.find("parameters"), overrides);
   read_workspace(mechanism, root.at("workspace"));
   read_points(mechanism, root.at("points"));
@@ -72,10 +80,18 @@ std::string read_text(const std::string& path, const std::string& what) {
   if (std::filesystem::is_directory(status))
     throw InputError({path, 0, 0}, "this is a folder, not a file", "name " + what + " in it");
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
   if (!file) throw InputError({path, 0, 0}, "the file cannot be read", "check its permissions");
-  return text.str();
+  // Read piece by piece, since the size of a pipe is not known and that of a device is endless.
+  std::string text;
+  std::vector<char> piece(std::size_t{1} << 16);
+  while (file) {
+    file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    text.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.size() > largest_file)
+      throw InputError({path, 0, 0}, "the file has more than 4 MB", "name " + what + ", a text written by hand");
+  }
+  if (file.bad()) throw InputError({path, 0, 0}, "the file cannot be read", "check its permissions");
+  return text;
 }
 
 Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides) {

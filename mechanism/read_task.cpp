@@ -80,6 +80,9 @@ bool meet(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c
 core::TaskPolygon read_polygon(const Mechanism& mechanism, const Value& value) {
   const auto points = read_points_of(mechanism, value, 3);
   const std::size_t n = points.size();
+  constexpr std::size_t most = 1000;  // every side is held against every other, exactly
+  if (n > most)
+    throw InputError(value.where, value.what + " has " + std::to_string(n) + " corners", "write 1000 at most");
   const auto at = [&](std::size_t i) -> const RationalPoint& { return points[i % n].first; };
   for (std::size_t i = 0; i < n; ++i) {
     // A side and the next share their corner; they must not run back on each other.

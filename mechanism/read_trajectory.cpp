@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "mechanism/reader.hpp"
@@ -221,7 +220,7 @@ Trajectory parse_trajectory(const std::string& text, const std::string& file, co
   Trajectory trajectory;
   trajectory.file = file;
   const auto name = root.find("name");
-  trajectory.name = name ? text_of(*name) : std::filesystem::path(file).stem().string();
+  trajectory.name = name_of(name, file);
   read_path(mechanism, root.at("path"), trajectory);
   trajectory.law = read_law(mechanism, root.at("motion"));
   trajectory.period = number(mechanism, root.at("period"), Sign::positive);

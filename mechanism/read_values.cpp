@@ -51,11 +51,59 @@ SourcePosition place_of_word(const Value& value, const std::string& word) {
 
 ExactValue evaluate_at(const Expression& expression, const Mechanism& mechanism, const Value& value) {
   try {
-    return evaluate(expression, mechanism.parameters);
+    ExactValue result = evaluate(expression, mechanism.parameters);
+    if (const auto reason = unusable(result.value))
+      throw InputError(value.where, value.what + ": '" + value.node.Scalar() + "' " + *reason,
+                       "write it in m, kg, s, N and rad, of a size that can be built");
+    return result;
   } catch (const std::domain_error& error) {
     throw InputError(value.where, value.what + ": " + error.what() + " in '" + value.node.Scalar() + "'",
                      "change the expression or the parameters in it");
   }
+}
+
+bool is_free(const Expression& expression, const Mechanism& mechanism) {
+  const std::set<std::string> names = symbols(expression);
+  return std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                     [&](const Coordinate& coordinate) { return names.contains(coordinate.name); });
+}
+
+/// Bound of the degree in the free coordinates. Every constant part is evaluated on the way, so that none is unusable.
+long degree_in_coordinates(const Expression& expression, const Mechanism& mechanism, const Value& value) {
+  using Kind = Expression::Kind;
+  if (!is_free(expression, mechanism)) {
+    (void)evaluate_at(expression, mechanism, value);
+    return 0;
+  }
+  constexpr long beyond = 1'000'000;  // larger degrees are not told apart
+  const auto degree = [&](std::size_t i) { return degree_in_coordinates(expression.arguments()[i], mechanism, value); };
+  switch (expression.kind()) {
+    case Kind::add:
+      return std::max(degree(0), degree(1));
+    case Kind::multiply:
+    case Kind::divide:
+      return std::min(degree(0) + degree(1), beyond);
+    case Kind::power: {
+      const long base = degree(0);
+      if (is_free(expression.arguments()[1], mechanism)) return base;  // refused for that elsewhere
+      const Rational exponent = abs(evaluate_at(expression.arguments()[1], mechanism, value).value);
+      return exponent > beyond ? beyond : std::min(base * std::max(1L, exponent.get_num().get_si()), beyond);
+    }
+    case Kind::negate:
+    case Kind::sqrt:
+    case Kind::cos:
+    case Kind::sin:
+      return degree(0);
+    default:
+      return 1;
+  }
+}
+
+void check_degree(const Expression& expression, const Mechanism& mechanism, const Value& value) {
+  constexpr long highest = 32;  // a place of a mechanism is of degree 1 or 2; powers of sums grow out of all memory
+  if (degree_in_coordinates(expression, mechanism, value) > highest)
+    throw InputError(value.where, value.what + " is of a degree above 32 in the free coordinates",
+                     "write it with lower powers");
 }
 
 /// An override has no line in the file; it is shown as it was written.
@@ -134,6 +182,7 @@ Expression read_expression(const Mechanism& mechanism, const Value& value, Scope
   const std::vector<std::string> known = names_in(mechanism, scope);
   for (const std::string& name : symbols(expression))
     if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name(mechanism, value, scope, name);
+  if (scope == Scope::parameters_and_coordinates) check_degree(expression, mechanism, value);
   return expression;
 }
 
@@ -161,6 +210,9 @@ void check_identifier(const std::string& name, const SourcePosition& where, cons
 }
 
 void check_label(const std::string& name, const SourcePosition& where, const std::string& what) {
+  constexpr std::size_t longest = 64;
+  if (name.size() > longest)
+    throw InputError(where, "'" + name + "' is too long to name " + what, "use 64 letters, digits and _ at most");
   if (name.empty() || !std::all_of(name.begin(), name.end(), is_word_character))
     throw InputError(where, "'" + name + "' cannot name " + what, "use letters, digits and _ only");
 }

@@ -165,6 +165,9 @@ class VectorReader {
 
 VectorExpression read_vector_expression(const Mechanism& mechanism, const Value& value) {
   const VectorReader reader(mechanism, value);
+  constexpr std::size_t longest_text = 5000;
+  if (!value.is_sequence() && text_of(value).size() > longest_text)
+    throw InputError(value.where, value.what + " has more than 5000 characters", "write it in fewer steps");
   if (!value.is_sequence()) return reader.sum(text_of(value));
   std::vector<std::string> parts;
   for (const Value& part : elements(value)) parts.push_back(text_of(part));

@@ -12,6 +12,9 @@ namespace {
 using core::InputError;
 using core::SourcePosition;
 
+// Of one mapping (points, links, parameters) and one list (a path): more is no mechanism that a person describes.
+constexpr std::size_t most_entries = 1000, longest_list = 10000;
+
 SourcePosition position(const YAML::Mark& mark, const std::string& file) {
   if (mark.is_null()) return {file, 0, 0};
   return {file, mark.line + 1, mark.column + 1};
@@ -110,6 +113,9 @@ std::vector<Entry> entries(const Value& value) {
   if (!value.is_map())
     throw InputError(value.where, value.what + " should be a mapping, not " + kind_of(value.node),
                      "write it as name: value");
+  if (value.node.size() > most_entries)
+    throw InputError(value.where, value.what + " has " + std::to_string(value.node.size()) + " entries",
+                     "write 1000 at most");
   std::vector<Entry> result;
   std::map<std::string, SourcePosition> first;
   for (const auto& pair : value.node) {
@@ -137,6 +143,9 @@ std::vector<Value> elements(const Value& value, int size) {
   if (size >= 0 && static_cast<int>(value.node.size()) != size)
     throw InputError(value.where, value.what + " should be " + wanted + ", not of " + std::to_string(value.node.size()),
                      "write " + std::to_string(size) + " entries in the brackets");
+  if (value.node.size() > longest_list)
+    throw InputError(value.where, value.what + " has " + std::to_string(value.node.size()) + " entries",
+                     "write 10000 at most");
   std::vector<Value> result;
   for (const YAML::Node& element : value.node)
     result.push_back({element, value.what, position(element, value.where.file)});
