@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <iomanip>
 #include <sstream>
 
 #include "core/locus_map.hpp"
 #include "mechanism/evaluate.hpp"
 #include "symbolic/causes.hpp"
+#include "symbolic/code_names.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
+#include "symbolic/expression_text.hpp"
 #include "symbolic/formula.hpp"
 #include "symbolic/formula_text.hpp"
 
@@ -27,16 +30,19 @@ class SheetWriter {
         geometry_(m, options.keep_parameters),
         determinants_(factored_determinants(geometry_)),
         elimination_(geometry_),
-        causes_(geometry_) {}
+        causes_(geometry_),
+        names_(options.language) {
+    name_symbols();
+  }
 
   EquationSheet write() {
     EquationSheet sheet;
     sheet.mechanism = mechanism_.name;
     sheet.language = language_;
     for (const auto& p : mechanism_.parameters) {
-      sheet.parameters.emplace_back(p.name, parameter_text(p));
+      sheet.parameters.emplace_back(names_.name(user, p.name), parameter_text(p));
     }
-    for (const auto& c : mechanism_.coordinates) sheet.coordinates.push_back(c.name);
+    for (const auto& c : mechanism_.coordinates) sheet.coordinates.push_back(names_.name(user, c.name));
     const NewtonEulerEquations& equations = determinants_.equations;
     sheet.rows = equations.row_names;
     sheet.unknowns = equations.unknown_names;
@@ -50,24 +56,67 @@ class SheetWriter {
     for (std::size_t k = 0; k < equations.unknown_names.size(); ++k) {
       sheet.numerators.push_back(determinant(equations.unknown_names[k], determinants_.numerators[k]));
     }
+    sheet.renamed = names_.renamed();
     return sheet;
   }
 
  private:
-  /// In C the value itself: an expression of integers would be divided as integers.
-  std::string parameter_text(const mechanism::Parameter& p) const {
+  // Kinds of names: the file's parameters and coordinates, no two of which are alike, and what is derived.
+  static constexpr const char* user = "";
+  static constexpr const char* derived = "derived ";
+
+  /// The file's names come first, so that derived ones give way.
+  void name_symbols() {
+    for (const auto& c : mechanism_.coordinates) names_.name(user, c.name);
+    for (const auto& p : mechanism_.parameters) names_.name(user, p.name);
+    const auto written = [this](const std::string& name) { return names_.in_formula(user, name); };
+    const auto& ring = geometry_.ring().names();
+    const auto& kept = geometry_.kept_expressions();
+    for (const std::string& name : ring) {
+      const auto expression = kept.find(name);
+      const auto angle = std::find_if(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), [&](const auto& c) {
+        return name == "cos(" + c.name + ")" || name == "sin(" + c.name + ")";
+      });
+      if (expression != kept.end()) {
+        symbols_.push_back(enclosed_expression_text(expression->second, language_, written));
+      } else if (angle != mechanism_.coordinates.end()) {
+        const std::string call = name.substr(0, 3);
+        symbols_.push_back((language_ == Language::latex ? "\\" + call : call) + "(" + written(angle->name) + ")");
+      } else {
+        const bool own = std::any_of(mechanism_.coordinates.begin(), mechanism_.coordinates.end(),
+                                     [&](const auto& c) { return c.name == name; });
+        symbols_.push_back(own ? written(name) : name);
+      }
+    }
+    for (const ConstructedPoint& c : geometry_.constructed())
+      for (const int variable : {c.x, c.y, c.z}) {
+        if (variable < 0) continue;
+        const auto v = static_cast<std::size_t>(variable);
+        symbols_[v] = names_.in_formula(derived, ring[v]);
+      }
+  }
+
+  /// A symbol of the closure: "kB1".
+  FormulaText symbol_text(const std::string& name) {
+    return {names_.in_formula(derived, name), FormulaText::Form::atom};
+  }
+
+  /// In C the value itself, for a file's own text may be of any length.
+  std::string parameter_text(const mechanism::Parameter& p) {
     if (p.exact) return number_text(p.value, language_);
-    if (language_ != Language::c) return core::to_string(p.expression);
+    if (language_ != Language::c)
+      return expression_text(p.expression, language_,
+                             [this](const std::string& name) { return names_.in_formula(user, name); });
     std::ostringstream digits;
     digits << std::setprecision(17) << core::to_double(p.value);
     return digits.str();
   }
 
-  std::string text(const Poly& p) const { return formula(p.plain(), geometry_.ring().names(), language_); }
+  std::string text(const Poly& p) const { return formula(p.plain(), symbols_, language_); }
   std::string text(const GiNaC::ex& e) const { return text(geometry_.poly(e)); }
 
   Determinant determinant(const std::string& name, const FactoredPoly& p) {
-    Determinant result{name, product_formula(p, geometry_.ring().names(), language_), {}};
+    Determinant result{name, product_formula(p, symbols_, language_), {}};
     for (const PolyFactor& factor : p.factors) {
       const Implicit& own = implicit(factor.poly);
       DeterminantFactor entry{text(factor.poly), factor.multiplicity, causes_.of(factor.poly), own.list, own.too_heavy};
@@ -143,7 +192,7 @@ class SheetWriter {
   using Lines = std::vector<std::pair<std::string, std::string>>;
 
   /// How a constructed point follows from the ones before it, in the formulas of method.md section 1.
-  void write_closure(const ConstructedPoint& c, Lines& lines) const {
+  void write_closure(const ConstructedPoint& c, Lines& lines) {
     const mechanism::Point& point = mechanism_.points[static_cast<std::size_t>(c.point)];
     if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&point.form)) {
       write_dyad(c, point.name, *dyad, lines);
@@ -157,11 +206,9 @@ class SheetWriter {
 
   using Vector = std::array<FormulaText, 3>;  // z = 0 in the plane
 
-  void write_dyad(const ConstructedPoint& c, const std::string& name, const mechanism::DyadPoint& dyad,
-                  Lines& lines) const {
+  void write_dyad(const ConstructedPoint& c, const std::string& name, const mechanism::DyadPoint& dyad, Lines& lines) {
     const FormulaWriter w(language_);
-    const FormulaText D = symbol_text("D" + name, language_), k = symbol_text("k" + name, language_),
-                      s = symbol_text("s" + name, language_);
+    const FormulaText D = symbol_text("D" + name), k = symbol_text("k" + name), s = symbol_text("s" + name);
     const Vector way = difference(dyad.from, dyad.to);
     const Poly a = length(dyad.from_length), b = length(dyad.to_length);
     const FormulaText way2 = squared(way), reach = as_text((a * a).scaled(4)), excess = as_text(a * a - b * b);
@@ -180,7 +227,7 @@ class SheetWriter {
       write_place(c, dyad.from, {x, over_twice_D(way[1], way[0]), {}}, lines);
       return;
     }
-    const FormulaText h = symbol_text("h" + name, language_);
+    const FormulaText h = symbol_text("h" + name);
     const Vector n = direction(*dyad.axis);
     const FormulaText n2 = as_text(squared(*dyad.axis));
     lines.emplace_back(h.text, dot(n, way).text);
@@ -196,14 +243,14 @@ class SheetWriter {
 
   /// S = Q + (p + s) u / U,  p = u . (C - Q),  U = u . u,  s^2 = l^2 U - (u x (C - Q))^2.
   void write_slider(const ConstructedPoint& c, const std::string& name, const mechanism::SliderPoint& slider,
-                    Lines& lines) const {
+                    Lines& lines) {
     const FormulaWriter w(language_);
-    const FormulaText p = symbol_text("p" + name, language_), s = symbol_text("s" + name, language_);
+    const FormulaText p = symbol_text("p" + name), s = symbol_text("s" + name);
     const Vector u = direction(slider.along), way = difference(slider.base, slider.from), across = cross(u, way);
     lines.emplace_back(p.text, dot(u, way).text);
     FormulaText q = across[2];
     if (mechanism_.space == mechanism::Space::planar) {
-      q = symbol_text("q" + name, language_);
+      q = symbol_text("q" + name);
       lines.emplace_back(q.text, across[2].text);
     }
     const FormulaText across2 = mechanism_.space == mechanism::Space::planar ? w.squared(q) : squared(across);
@@ -216,9 +263,9 @@ class SheetWriter {
   }
 
   void write_offset(const ConstructedPoint& c, const std::string& name, const mechanism::OffsetPoint& offset,
-                    Lines& lines) const {
+                    Lines& lines) {
     const FormulaWriter w(language_);
-    const FormulaText l = symbol_text("l" + name, language_);
+    const FormulaText l = symbol_text("l" + name);
     const Vector way = difference(offset.first, offset.second);
     const FormulaText along = as_text(length(offset.along)), left = as_text(length(offset.left));
     lines.emplace_back(l.text, w.root(squared(way)).text);
@@ -231,11 +278,10 @@ class SheetWriter {
 
   void write_place(const ConstructedPoint& c, mechanism::PointIndex from, const Vector& step, Lines& lines) const {
     const FormulaWriter w(language_);
-    const auto& names = geometry_.ring().names();
     const std::array<int, 3> variables = {c.x, c.y, c.z};
     for (std::size_t i = 0; i < 3; ++i) {
       if (variables[i] < 0) continue;
-      lines.emplace_back(variable_text(names[static_cast<std::size_t>(variables[i])], language_),
+      lines.emplace_back(symbols_[static_cast<std::size_t>(variables[i])],
                          w.sum(as_text(coordinate(from, i)), step[i]).text);
     }
   }
@@ -271,7 +317,7 @@ class SheetWriter {
     return geometry_.poly(geometry_.natural(point)[axis]);
   }
   Poly length(const core::Expression& e) const { return geometry_.poly(geometry_.expression(e).expand()); }
-  FormulaText as_text(const Poly& p) const { return formula_text(p.plain(), geometry_.ring().names(), language_); }
+  FormulaText as_text(const Poly& p) const { return formula_text(p.plain(), symbols_, language_); }
   Vector difference(mechanism::PointIndex from, mechanism::PointIndex to) const {
     const auto along = [&](std::size_t axis) { return as_text(coordinate(to, axis) - coordinate(from, axis)); };
     return {along(0), along(1), along(2)};
@@ -283,7 +329,9 @@ class SheetWriter {
   FactoredDeterminants determinants_;
   Elimination elimination_;
   Causes causes_;
-  std::deque<Implicit> implicit_;  ///< references to its elements stay valid
+  CodeNames names_;
+  std::vector<std::string> symbols_;  ///< of the ring's variables, as the language writes them
+  std::deque<Implicit> implicit_;     ///< references to its elements stay valid
 };
 
 }  // namespace

@@ -37,6 +37,8 @@ struct EquationSheet {
   std::string mechanism;
   Language language = Language::text;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name, exact value
+  /// Names that mean something else in the language or in the equations: as in the file, as written here.
+  std::vector<std::pair<std::string, std::string>> renamed;
   std::vector<std::string> coordinates;
   std::vector<std::string> rows;                 ///< "A1B1: fx", "A1B1: moment about P", ...
   std::vector<std::string> unknowns;             ///< column order: "fA1x", "fA1y", ..., "MA1"

@@ -1,8 +1,11 @@
 // The equation sheet as a document to read or a program to run.
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <sstream>
 
+#include "core/text.hpp"
+#include "symbolic/code_names.hpp"
 #include "symbolic/equation_sheet.hpp"
 
 namespace clearloci::symbolic {
@@ -32,8 +35,10 @@ void write_factors(std::ostream& out, const Determinant& d, const std::string& i
 
 std::string format_text(const EquationSheet& sheet) {
   std::ostringstream out;
-  out << sheet.mechanism << "\n\nA w = -w_e\n\nParameters\n";
+  out << core::printable(sheet.mechanism) << "\n\nA w = -w_e\n\nParameters\n";
   for (const auto& [name, value] : sheet.parameters) out << "  " << name << " = " << value << "\n";
+  if (!sheet.renamed.empty()) out << "\nNames that mean something else here\n";
+  for (const auto& [name, written] : sheet.renamed) out << "  " << name << " is written " << written << "\n";
   out << "\nClosure\n";
   for (const auto& [name, value] : sheet.closure) out << "  " << name << " = " << value << "\n";
   out << "\nMatrix A and right-hand side -w_e\n";
@@ -67,14 +72,21 @@ std::string format_text(const EquationSheet& sheet) {
   return out.str();
 }
 
+/// A comment of its own line for every name that had to change.
+void write_renamed(std::ostream& out, const EquationSheet& sheet, const std::string& comment) {
+  for (const auto& [name, written] : sheet.renamed) out << comment << name << " is written " << written << "\n";
+}
+
 std::string latex_name(const std::string& unknown) {
-  return unknown.substr(0, 1) + "_{\\mathrm{" + unknown.substr(1) + "}}";
+  return unknown.substr(0, 1) + "_{\\mathrm{" + latex_text(unknown.substr(1)) + "}}";
 }
 
 std::string format_latex(const EquationSheet& sheet) {
   std::ostringstream out;
-  out << "% " << sheet.mechanism << ": A w = -w_e\n% needs amsmath; for more than ten columns: "
+  out << "% " << comment_text(sheet.mechanism, Language::latex)
+      << ": A w = -w_e\n% needs amsmath; for more than ten columns: "
       << "\\setcounter{MaxMatrixCols}{" << sheet.unknowns.size() + 1 << "}\n";
+  write_renamed(out, sheet, "% ");
   for (const auto& [name, value] : sheet.closure) out << "\\[ " << name << " = " << value << " \\]\n";
   out << "\\setcounter{MaxMatrixCols}{" << sheet.unknowns.size() + 1 << "}\n\\[\n\\begin{bmatrix}\n";
   for (const auto& row : sheet.matrix) {
@@ -104,22 +116,35 @@ std::string format_latex(const EquationSheet& sheet) {
   return out.str();
 }
 
-/// What the generated programs differ in.
-struct Syntax {
-  std::string comment, terminator, declare;
-};
-
-Syntax syntax_of(Language language) {
-  if (language == Language::c) return {"//", ";", "const double "};
-  if (language == Language::python) return {"#", "", ""};
-  return {"%", ";", ""};
+/// The identifiers in a formula. The e of a number's exponent is none.
+std::set<std::string> identifiers(const std::string& formula) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; };
+  std::set<std::string> found;
+  for (std::size_t at = 0; at < formula.size();) {
+    const std::size_t start = at;
+    if (!is_letter(formula[at]) && !is_digit(formula[at])) {
+      ++at;
+      continue;
+    }
+    while (at < formula.size() && (is_letter(formula[at]) || is_digit(formula[at]))) ++at;
+    if (is_letter(formula[start])) found.insert(formula.substr(start, at - start));
+  }
+  return found;
 }
 
-/// The names a program needs before anything else: numeric parameters kept symbolic are set to their values.
-void write_definitions(std::ostream& out, const EquationSheet& sheet, const Syntax& syntax, const std::string& indent) {
-  for (const auto& [name, value] : sheet.closure) {
-    out << indent << syntax.declare << name << " = " << value << syntax.terminator << "\n";
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+/// Of definitions in the order of their evaluation those that `needed` uses, directly or through others; what they use
+/// joins `needed`.
+Lines used(const Lines& definitions, std::set<std::string>& needed) {
+  Lines result;
+  for (auto line = definitions.rbegin(); line != definitions.rend(); ++line) {
+    if (!needed.contains(line->first)) continue;
+    needed.merge(identifiers(line->second));
+    result.insert(result.begin(), *line);
   }
+  return result;
 }
 
 std::string arguments(const EquationSheet& sheet, const std::string& type) {
@@ -137,19 +162,41 @@ std::vector<const Determinant*> all_determinants(const EquationSheet& sheet) {
   return list;
 }
 
+/// The beginning of a C function's body: its parameters and the closure, as far as `formulas` need them.
+void write_c_definitions(std::ostream& out, const EquationSheet& sheet,
+                         const std::vector<const std::string*>& formulas) {
+  std::set<std::string> needed;
+  for (const std::string* formula : formulas) needed.merge(identifiers(*formula));
+  const Lines closure = used(sheet.closure, needed);
+  for (const std::string& coordinate : sheet.coordinates)
+    if (!needed.contains(coordinate)) out << "  (void)" << coordinate << ";\n";
+  if (needed.contains("pi")) out << "  const double pi = 3.14159265358979323846;\n";
+  for (const Lines& lines : {used(sheet.parameters, needed), closure})
+    for (const auto& [name, value] : lines) out << "  const double " << name << " = " << value << ";\n";
+}
+
 std::string format_c(const EquationSheet& sheet) {
   const std::string n = std::to_string(sheet.unknowns.size());
-  const Syntax syntax = syntax_of(Language::c);
+  const std::string places = arguments(sheet, "double ");
   std::ostringstream out;
-  out << "/* " << sheet.mechanism << ": A w = -w_e. Unknowns:";
+  out << "/* " << comment_text(sheet.mechanism, Language::c) << ": A w = -w_e. Unknowns:";
   for (const std::string& unknown : sheet.unknowns) out << " " << unknown;
-  out << " */\n#include <math.h>\n\n";
-  for (const auto& [name, value] : sheet.parameters) {
-    out << "static const double " << identifier(name) << " = " << value << ";\n";
-  }
-  out << "\nvoid newton_euler(" << arguments(sheet, "double ") << ", double A[" << n << "][" << n << "], double b[" << n
-      << "]) {\n";
-  write_definitions(out, sheet, syntax, "  ");
+  out << " */\n";
+  for (const auto& [name, written] : sheet.renamed)
+    out << "/* " << comment_text(name, Language::c) << " is written " << written << " */\n";
+  out << "#include <math.h>\n\n";
+  const std::string matrix = "void newton_euler(" + places + ", double A[" + n + "][" + n + "], double b[" + n + "])";
+  const auto head = [&](const Determinant& d) {
+    return "double determinant_" + identifier(d.name) + "(" + places + ")";
+  };
+  out << matrix << ";\n";
+  for (const Determinant* d : all_determinants(sheet)) out << head(*d) << ";\n";
+  out << "\n" << matrix << " {\n";
+  std::vector<const std::string*> formulas;
+  for (const auto& row : sheet.matrix)
+    for (const std::string& entry : row) formulas.push_back(&entry);
+  for (const std::string& load : sheet.loads) formulas.push_back(&load);
+  write_c_definitions(out, sheet, formulas);
   for (std::size_t i = 0; i < sheet.matrix.size(); ++i) {
     for (std::size_t j = 0; j < sheet.matrix[i].size(); ++j) {
       out << "  A[" << i << "][" << j << "] = " << sheet.matrix[i][j] << ";\n";
@@ -158,27 +205,25 @@ std::string format_c(const EquationSheet& sheet) {
   }
   out << "}\n";
   for (const Determinant* d : all_determinants(sheet)) {
-    out << "\ndouble determinant_" << identifier(d->name) << "(" << arguments(sheet, "double ") << ") {\n";
-    write_definitions(out, sheet, syntax, "  ");
+    out << "\n" << head(*d) << " {\n";
+    write_c_definitions(out, sheet, {&d->expression});
     out << "  return " << d->expression << ";\n}\n";
   }
   return out.str();
 }
 
 std::string format_python(const EquationSheet& sheet) {
-  const Syntax syntax = syntax_of(Language::python);
   std::ostringstream out;
-  out << "# " << sheet.mechanism << ": A w = -w_e\nfrom math import cos, pi, sin, sqrt\n\n";
-  for (const auto& [name, value] : sheet.parameters) {
-    std::string expression = value;
-    for (std::size_t at = 0; (at = expression.find('^', at)) != std::string::npos; at += 2)
-      expression.replace(at, 1, "**");
-    out << identifier(name) << " = " << expression << "\n";
-  }
+  // The name stands below the second line: a comment in the first two may choose the encoding of the file.
+  out << "# Equations of a mechanism, A w = -w_e,\n# written by clearloci equations:\n# "
+      << comment_text(sheet.mechanism, Language::python) << "\n";
+  write_renamed(out, sheet, "# ");
+  out << "from math import cos, pi, sin, sqrt\n\n";
+  for (const auto& [name, value] : sheet.parameters) out << name << " = " << value << "\n";
   out << "UNKNOWNS = [";
   for (const std::string& unknown : sheet.unknowns) out << "\"" << unknown << "\", ";
   out << "]\n\n\ndef newton_euler(" << arguments(sheet, "") << "):\n    \"\"\"A and -w_e as lists.\"\"\"\n";
-  write_definitions(out, sheet, syntax, "    ");
+  for (const auto& [name, value] : sheet.closure) out << "    " << name << " = " << value << "\n";
   out << "    A = [\n";
   for (const auto& row : sheet.matrix) {
     out << "        [";
@@ -190,21 +235,23 @@ std::string format_python(const EquationSheet& sheet) {
   out << "]\n    return A, b\n";
   for (const Determinant* d : all_determinants(sheet)) {
     out << "\n\ndef determinant_" << identifier(d->name) << "(" << arguments(sheet, "") << "):\n";
-    write_definitions(out, sheet, syntax, "    ");
+    std::set<std::string> needed = identifiers(d->expression);
+    for (const auto& [name, value] : used(sheet.closure, needed)) out << "    " << name << " = " << value << "\n";
     out << "    return " << d->expression << "\n";
   }
   return out.str();
 }
 
 std::string format_matlab(const EquationSheet& sheet) {
-  const Syntax syntax = syntax_of(Language::matlab);
   std::ostringstream out;
-  out << "function [A, b, determinants] = newton_euler(" << arguments(sheet, "") << ")\n% " << sheet.mechanism
-      << ": A w = -w_e. Unknowns:";
+  out << "function [A, b, determinants] = newton_euler(" << arguments(sheet, "") << ")\n% "
+      << comment_text(sheet.mechanism, Language::matlab) << ": A w = -w_e. Unknowns:";
   for (const std::string& unknown : sheet.unknowns) out << " " << unknown;
-  out << "\n% determinants: |A|, then the numerator of every unknown\n";
-  for (const auto& [name, value] : sheet.parameters) out << identifier(name) << " = " << value << ";\n";
-  write_definitions(out, sheet, syntax, "");
+  out << "\n";
+  write_renamed(out, sheet, "% ");
+  out << "% determinants: |A|, then the numerator of every unknown\n";
+  for (const Lines* lines : {&sheet.parameters, &sheet.closure})
+    for (const auto& [name, value] : *lines) out << name << " = " << value << ";\n";
   out << "A = [\n";
   for (const auto& row : sheet.matrix) {
     for (std::size_t j = 0; j < row.size(); ++j) out << (j == 0 ? "  " : ", ") << "(" << row[j] << ")";

@@ -1,7 +1,6 @@
 #include "symbolic/formula.hpp"
 
 #include <algorithm>
-#include <regex>
 
 namespace clearloci::symbolic {
 namespace {
@@ -12,6 +11,22 @@ using core::Rational;
 std::string integer_text(const Integer& value, Language language) {
   // In C an integer literal may overflow, and 1/2 is 0.
   return language == Language::c ? value.get_str() + ".0" : value.get_str();
+}
+
+// The decimal exponent of the largest double is 308; Python reads no integer of more than 4300 digits.
+constexpr std::size_t most_digits = 300;
+
+std::size_t digits_of(const Integer& value) { return mpz_sizeinbase(value.get_mpz_t(), 10); }
+
+/// 17 significant digits and an exponent: what a double holds of a number whose numerator or denominator it does not.
+std::string decimal_text(const Rational& value) {
+  mpf_class quotient(value.get_num(), 256);
+  quotient /= mpf_class(value.get_den(), 256);
+  mp_exp_t exponent = 0;
+  std::string digits = quotient.get_str(exponent, 10, 17);
+  const bool negative = !digits.empty() && digits.front() == '-';
+  if (negative) digits.erase(0, 1);
+  return (negative ? "-0." : "0.") + digits + "e" + std::to_string(exponent);
 }
 
 std::string times(Language language) { return language == Language::latex ? " " : "*"; }
@@ -40,21 +55,15 @@ std::string sum_in_parentheses(const std::string& sum, Language language) {
 }  // namespace
 
 std::string number_text(const Rational& value, Language language) {
+  const bool program = language == Language::c || language == Language::python || language == Language::matlab;
+  if (program && std::max(digits_of(value.get_num()), digits_of(value.get_den())) > most_digits)
+    return decimal_text(value);
   if (value.get_den() == 1) return integer_text(value.get_num(), language);
   if (language == Language::latex) {
     const std::string sign = value < 0 ? "-" : "";
     return sign + "\\frac{" + Integer(abs(value.get_num())).get_str() + "}{" + value.get_den().get_str() + "}";
   }
   return integer_text(value.get_num(), language) + "/" + integer_text(value.get_den(), language);
-}
-
-std::string variable_text(const std::string& name, Language language) {
-  if (language != Language::latex) return name;
-  if (name.find('(') != std::string::npos) {
-    return std::regex_replace(name, std::regex("\\b(cos|sin)\\("), "\\$1(");
-  }
-  if (name.size() == 1) return name;
-  return name.substr(0, 1) + "_{" + name.substr(1) + "}";
 }
 
 std::string formula(const core::Polynomial& p, const std::vector<std::string>& names, Language language) {
@@ -65,7 +74,7 @@ std::string formula(const core::Polynomial& p, const std::vector<std::string>& n
     for (std::size_t i = 0; i < term.exponents.size(); ++i) {
       if (term.exponents[i] == 0) continue;
       if (!monomial.empty()) monomial += times(language);
-      monomial += power_text(variable_text(names[i], language), term.exponents[i], language);
+      monomial += power_text(names[i], term.exponents[i], language);
     }
     const bool negative = term.coefficient < 0;
     const Rational magnitude = abs(term.coefficient);

@@ -13,10 +13,7 @@ namespace clearloci::symbolic {
 /// A number: "1/2", "\frac{1}{2}", "1.0/2.0".
 std::string number_text(const core::Rational& value, Language language);
 
-/// A variable: "xB1" is "x_{B1}" in LaTeX and itself elsewhere.
-std::string variable_text(const std::string& name, Language language);
-
-/// A polynomial as a sum of terms, in the order of its terms.
+/// A polynomial as a sum of terms, in the order of its terms. `names`: of its variables, as the language writes them.
 std::string formula(const core::Polynomial& p, const std::vector<std::string>& names, Language language);
 
 /// constant * (factor)^multiplicity * ...

@@ -18,10 +18,6 @@ FormulaText formula_text(const core::Polynomial& p, const std::vector<std::strin
   return {text, factors > 1 ? Form::product : Form::atom};
 }
 
-FormulaText symbol_text(const std::string& name, Language language) {
-  return {variable_text(name, language), Form::atom};
-}
-
 std::string FormulaWriter::in_parentheses(const std::string& text) const {
   return language_ == Language::latex ? "\\left(" + text + "\\right)" : "(" + text + ")";
 }

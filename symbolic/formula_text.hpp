@@ -19,9 +19,6 @@ struct FormulaText {
 /// A polynomial as such a text.
 FormulaText formula_text(const core::Polynomial& p, const std::vector<std::string>& names, Language language);
 
-/// A variable by its name: "kB1".
-FormulaText symbol_text(const std::string& name, Language language);
-
 /// What is 0 or 1 disappears where that changes nothing.
 class FormulaWriter {
  public:
