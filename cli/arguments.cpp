@@ -55,6 +55,10 @@ void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "Folder for the files that are written")->type_name("DIR");
   command.add_flag("--quiet", arguments.quiet, "No table, no progress bar");
   command.add_flag("--json", arguments.json, "The result as JSON on standard output instead of the table");
+  command
+      .add_option("--time-limit", arguments.time_limit,
+                  "Seconds; when they are over, what is known is written, marked incomplete, and the exit status is 3")
+      ->type_name("SECONDS");
 }
 
 mechanism::Mechanism read_model(const CommonArguments& arguments) {
@@ -70,7 +74,9 @@ mechanism::Mechanism read_model(const CommonArguments& arguments) {
 
 std::filesystem::path output_folder(const CommonArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
-  return std::filesystem::path("out") / std::filesystem::path(arguments.model).stem();
+  // "...yaml" without its ending is "..", and out/.. no folder of its own.
+  const std::filesystem::path stem = std::filesystem::path(arguments.model).stem();
+  return std::filesystem::path("out") / (stem.empty() || stem == "." || stem == ".." ? "model" : stem);
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -125,7 +131,9 @@ DyadSides parse_working_mode(const std::string& text, const mechanism::Mechanism
 core::Rational parse_number(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism) {
   const std::string mend = "give a number such as 0.25 or 1/4, or an expression in the file's parameters";
   try {
-    return mechanism::value_of(mechanism::parse_expression(text, {.file = option}), mechanism);
+    core::Rational value = mechanism::value_of(mechanism::parse_expression(text, {.file = option}), mechanism);
+    if (const auto reason = mechanism::unusable(value)) refuse(option, fmt::format("'{}' {}", text, *reason), mend);
+    return value;
   } catch (const std::domain_error& error) {
     refuse(option, fmt::format("'{}': {}", text, error.what()), mend);
   } catch (const std::out_of_range& error) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -21,6 +22,8 @@ struct CommonArguments {
   std::string output = {};                  ///< folder; empty: not given
   bool quiet = false;
   bool json = false;
+  std::string time_limit = {};  ///< seconds; empty: none
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 
 void add_common_arguments(CLI::App& command, CommonArguments& arguments);
@@ -28,7 +31,7 @@ void add_common_arguments(CLI::App& command, CommonArguments& arguments);
 /// The mechanism file with its overrides.
 mechanism::Mechanism read_model(const CommonArguments& arguments);
 
-/// `-o DIR`, or ./out/<file name without its ending>.
+/// `-o DIR`, or ./out/<file name without its ending>, ./out/model where that is no name.
 std::filesystem::path output_folder(const CommonArguments& arguments);
 
 /// The words between the commas, without the blanks around them.

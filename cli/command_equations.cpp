@@ -10,9 +10,11 @@
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
+#include "cli/time_limit.hpp"
 #include "core/errors.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/wording.hpp"
 #include "symbolic/equation_sheet.hpp"
 
 namespace clearloci::cli {
@@ -78,7 +80,7 @@ Json sheet_json(const symbolic::EquationSheet& sheet) {
   for (const symbolic::Determinant& numerator : sheet.numerators)
     numerators[numerator.name] = {{"expression", numerator.expression}, {"factors", factors_json(numerator)}};
   return {{"format", 1},
-          {"mechanism", sheet.mechanism},
+          {"mechanism", report::printable(sheet.mechanism)},
           {"parameters", dictionary_json(sheet.parameters)},
           {"coordinates", sheet.coordinates},
           {"closure", dictionary_json(sheet.closure)},
@@ -91,16 +93,21 @@ Json sheet_json(const symbolic::EquationSheet& sheet) {
           {"numerators", std::move(numerators)}};
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, TimeLimit& limit) {
   std::vector<LanguageName> chosen;
   for (const std::string& word : split(arguments.languages)) chosen.push_back(find_language(word));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
+  const auto incomplete = [common = arguments.common, name = mechanism.name] {
+    write_incomplete(common, "equations.json", incomplete_body(name, "every equation was"), false);
+  };
+  limit.known(incomplete);
   const bool write = !arguments.common.output.empty();
   const std::filesystem::path folder = output_folder(arguments.common);
 
   if (arguments.common.json) {
     const std::string text = report::json_text(sheet_json(symbolic::equation_sheet(
         mechanism, {.language = Language::text, .keep_parameters = arguments.keep_parameters})));
+    limit.writing();
     if (write) report::write_atomically(folder / "equations.json", text);
     fmt::print("{}", text);
     return exit_done;
@@ -108,8 +115,10 @@ int run(const Arguments& arguments) {
   for (const LanguageName& language : chosen) {
     const std::string text = symbolic::format(symbolic::equation_sheet(
         mechanism, {.language = language.language, .keep_parameters = arguments.keep_parameters}));
+    limit.writing();
     if (write) report::write_atomically(folder / fmt::format("equations.{}", language.ending), text);
     if (!arguments.common.quiet) fmt::print("{}", text);
+    limit.known(incomplete);
   }
   return exit_done;
 }
@@ -127,7 +136,9 @@ Command add_equations_command(CLI::App& program) {
   app->footer(
       "Example: clearloci equations examples/five_bar.yaml --symbolic --language latex\n"
       "With -o the text is also written to DIR/equations.txt (.tex, .c, .py, .m, .json).");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

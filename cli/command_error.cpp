@@ -12,11 +12,13 @@
 #include "cli/commands.hpp"
 #include "cli/coordinate_errors.hpp"
 #include "cli/loci_arguments.hpp"
+#include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "cli/zone_errors.hpp"
 #include "cli/zone_search.hpp"
 #include "core/errors.hpp"
+#include "core/text.hpp"
 #include "numeric/error_map.hpp"
 #include "report/field_exports.hpp"
 #include "report/files.hpp"
@@ -120,6 +122,7 @@ Json result_json(const core::LocusMap& loci, const std::vector<ModeErrors>& mode
           {"coordinates", map.coordinates},
           {"box", {{map.lower[0], map.upper[0]}, {map.lower[1], map.upper[1]}}},
           {"grid", {map.nx, map.ny}},
+          {"complete", loci.complete},
           {"modes", std::move(all)}};
 }
 
@@ -194,8 +197,14 @@ std::vector<std::string> write_files(const std::set<std::string>& formats, const
   return names;
 }
 
+/// A map that a time limit ended before there was a tower of roots has no working modes to name; the errors have.
+core::LocusMap with_modes(const mechanism::Mechanism& mechanism, core::LocusMap loci) {
+  if (!loci.complete && loci.tower.roots.empty()) loci.tower.roots = empty_map(mechanism).tower.roots;
+  return loci;
+}
+
 /// One free coordinate: take-up and error over its range.
-int run_over_coordinate(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+int run_over_coordinate(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   constexpr const char* usual_steps = "720";
   const std::set<std::string> formats = parse_formats(arguments.formats);
   if (formats.contains("vtk"))
@@ -206,11 +215,12 @@ int run_over_coordinate(const Arguments& arguments, const mechanism::Mechanism& 
                            "leave it out: the table lists the jumps between the pieces of the range");
   const int steps = parse_steps(arguments.grid.empty() ? usual_steps : arguments.grid);
   Progress progress(arguments.common.quiet);
-  const LociRequest request = loci_request(arguments.loci, mechanism, progress);
-  const CoordinateResult result =
-      coordinate_errors(mechanism, arguments.without_loci ? empty_map(mechanism) : trace_loci(mechanism, request),
-                        requested_modes(mechanism, request), steps, !arguments.without_worst_case);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
+  const CoordinateResult result = coordinate_errors(
+      mechanism, arguments.without_loci ? empty_map(mechanism) : with_modes(mechanism, trace_loci(mechanism, request)),
+      requested_modes(mechanism, request), steps, !arguments.without_worst_case);
   const std::string json = report::json_text(coordinate_errors_json(result));
+  limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
   std::vector<std::string> names;
   const auto write = [&](const std::string& name, const std::string& bytes) {
@@ -233,30 +243,46 @@ int run_over_coordinate(const Arguments& arguments, const mechanism::Mechanism& 
     fmt::print("{}", json);
   } else if (!arguments.common.quiet) {
     print_coordinate_errors(result);
-    fmt::print("Written to {}: {}\n", folder.string(), fmt::join(names, ", "));
+    fmt::print("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
   }
   if (result.loci.complete) return exit_done;
   throw core::LimitReached("the time limit was reached; loci are missing from the pictures, the errors are whole");
 }
 
-int run(const Arguments& arguments) {
+/// Bytes that the maps hold at once: their fields, and the texts of which a file is made.
+double memory_of(int nx, int ny, const mechanism::Mechanism& mechanism, std::size_t modes,
+                 const std::set<std::string>& formats) {
+  constexpr double of_number = 8, of_text = 24;
+  const double fields = mechanism.space == mechanism::Space::spatial ? 14 : 8;
+  const double cells = static_cast<double>(nx) * ny;
+  const double text = formats.contains("csv") ? 2 * of_text * (fields + 2) : 0;  // the text grows by doubling
+  return cells * (static_cast<double>(modes) * fields * of_number + text + 4 * of_number);
+}
+
+int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  if (mechanism.coordinates.size() == 1) return run_over_coordinate(arguments, mechanism);
+  limit.known([common = arguments.common, name = mechanism.name] {
+    write_incomplete(common, "error.json", incomplete_body(name, "the errors were"));
+  });
+  if (mechanism.coordinates.size() == 1) return run_over_coordinate(arguments, mechanism, limit);
   constexpr const char* usual_grid = "400x400";
   const auto [nx, ny] = parse_grid(arguments.grid.empty() ? usual_grid : arguments.grid);
   const numeric::NumericModel model = numeric::compile(mechanism);
   Progress progress(arguments.common.quiet);
-  const LociRequest request = loci_request(arguments.loci, mechanism, progress);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
+
+  require_memory(memory_of(nx, ny, mechanism, requested_modes(mechanism, request).size(), formats), "--grid",
+                 fmt::format("{}x{}", nx, ny));
 
   std::vector<ModeErrors> modes;
   if (arguments.zones && arguments.without_loci)
     throw core::InputError({.file = "--zones"}, "zones are bounded by the loci", "leave --no-loci out");
   core::ZoneMap zones;
   if (arguments.zones) zones = find_zones(mechanism, request);
-  const core::LocusMap loci = arguments.zones          ? zones.loci
-                              : arguments.without_loci ? empty_map(mechanism)
-                                                       : trace_loci(mechanism, request);
+  const core::LocusMap loci = with_modes(mechanism, arguments.zones          ? zones.loci
+                                                    : arguments.without_loci ? empty_map(mechanism)
+                                                                             : trace_loci(mechanism, request));
   const numeric::ErrorGrid grid = {.nx = nx, .ny = ny, .worst_case = !arguments.without_worst_case};
   for (const DyadSides& sides : requested_modes(mechanism, request)) {
     progress.show(0.9, "errors");
@@ -267,6 +293,7 @@ int run(const Arguments& arguments) {
         modes.back().zones.push_back({&zone, cells_in(zone, modes.back().errors.map)});
   }
   progress.clear();
+  limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   const std::vector<std::string> names = write_files(formats, folder, loci, modes);
@@ -274,7 +301,7 @@ int run(const Arguments& arguments) {
     fmt::print("{}", report::json_text(result_json(loci, modes)));
   } else if (!arguments.common.quiet) {
     print_table(loci, modes);
-    fmt::print("Written to {}: {}\n", folder.string(), fmt::join(names, ", "));
+    fmt::print("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
   }
   if (loci.complete) return exit_done;
   throw core::LimitReached("the time limit was reached; the loci in the pictures are incomplete, the errors are not");
@@ -305,7 +332,9 @@ Command add_error_command(CLI::App& program) {
       "the take-up of every joint and the reactions are drawn over it (error.png, take-up.png, reactions.png), and "
       "the\n"
       "table lists how far the end effector jumps at each locus: clearloci error examples/four_bar.yaml");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

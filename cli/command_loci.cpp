@@ -13,6 +13,7 @@
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
+#include "core/text.hpp"
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
 #include "report/write_loci.hpp"
@@ -52,17 +53,21 @@ void check_formats(const std::set<report::FileFormat>& formats, std::size_t coor
   }
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<report::FileFormat> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   check_formats(formats, mechanism.coordinates.size());
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
+  limit.known([common = arguments.common, map = unfinished_map(mechanism, "the time limit was reached")] {
+    write_incomplete(common, "loci.json", report::loci_object(map));
+  });
   Progress progress(arguments.common.quiet);
-  LociRequest request = loci_request(arguments.loci, mechanism, progress);
+  LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   core::Certificate certificate;
   if (!arguments.certificate.empty()) request.certificate = &certificate;
   const core::LocusMap map = trace_loci(mechanism, request);
   progress.clear();
+  limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   if (request.certificate != nullptr)
@@ -75,11 +80,11 @@ int run(const Arguments& arguments) {
     fmt::print("{}\n", report::loci_table(map));
     std::vector<std::string> names;
     for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-    fmt::print("Written to {}: {}\n", folder.string(), fmt::join(names, ", "));
+    fmt::print("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
   }
   if (map.complete) return exit_done;
   throw core::LimitReached(
-      fmt::format("the time limit was reached; what is known is in {}, marked incomplete", folder.string()));
+      fmt::format("the time limit was reached; what is known is in {}, marked incomplete", core::printable(folder.string())));
 }
 
 }  // namespace
@@ -102,7 +107,9 @@ Command add_loci_command(CLI::App& program) {
       "With three free coordinates the loci are surfaces:\n"
       "  clearloci loci examples/gough_stewart.yaml --mesh-size 1/48 --export png,stl,obj,vtk\n"
       "The files go to ./out/<name of MODEL>, or to the folder of -o.");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

@@ -13,6 +13,7 @@
 #include "cli/pose_result.hpp"
 #include "cli/program.hpp"
 #include "cli/spatial_pose.hpp"
+#include "cli/time_limit.hpp"
 #include "core/errors.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/pose_error.hpp"
@@ -215,7 +216,8 @@ PoseResult solve(const Arguments& arguments, const mechanism::Mechanism& mechani
   return pose;
 }
 
-int report_pose(const Arguments& arguments, const Json& result, void (*print)(const Json&)) {
+int report_pose(const Arguments& arguments, const Json& result, void (*print)(const Json&), TimeLimit& limit) {
+  limit.writing();
   const std::string text = report::json_text(result);
   if (!arguments.common.output.empty()) report::write_atomically(output_folder(arguments.common) / "pose.json", text);
   if (arguments.common.json)
@@ -225,19 +227,23 @@ int report_pose(const Arguments& arguments, const Json& result, void (*print)(co
   return exit_done;
 }
 
-int run_spatial(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+int run_spatial(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   if (arguments.iterate)
     throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not iterated",
                            "leave --iterate out: the linear error is given");
   const std::vector<numeric::Bounded> at = with_rounding(parse_pose(arguments.at, mechanism));
-  return report_pose(arguments, spatial_pose_json(mechanism, at, sides_of(arguments, mechanism)), print_spatial_pose);
+  return report_pose(arguments, spatial_pose_json(mechanism, at, sides_of(arguments, mechanism)), print_spatial_pose,
+                     limit);
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  if (mechanism.space == mechanism::Space::spatial) return run_spatial(arguments, mechanism);
+  limit.known([common = arguments.common, name = mechanism.name] {
+    write_incomplete(common, "pose.json", incomplete_body(name, "the pose was"), false);
+  });
+  if (mechanism.space == mechanism::Space::spatial) return run_spatial(arguments, mechanism, limit);
   const numeric::NumericModel model = numeric::compile(mechanism);
-  return report_pose(arguments, pose_json(mechanism, model, solve(arguments, mechanism, model)), print_table);
+  return report_pose(arguments, pose_json(mechanism, model, solve(arguments, mechanism, model)), print_table, limit);
 }
 
 }  // namespace
@@ -258,7 +264,9 @@ Command add_pose_command(CLI::App& program) {
   app->footer(
       "Example: clearloci pose examples/five_bar.yaml --at 0.25,-0.7 --iterate\n"
       "With -o, DIR/pose.json is written.");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

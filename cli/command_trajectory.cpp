@@ -11,10 +11,13 @@
 
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
+#include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
+#include "cli/time_limit.hpp"
 #include "cli/trajectory_pictures.hpp"
 #include "core/errors.hpp"
+#include "core/text.hpp"
 #include "mechanism/trajectory.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
@@ -76,6 +79,12 @@ TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechan
   if (!arguments.min_force.empty())
     request.min_force = core::to_double(parse_positive(arguments.min_force, "--min-force", mechanism));
   request.periods = parse_periods(arguments.periods, mechanism);
+  // An instant keeps its reactions, their influence on the pose and a row of the table, as numbers and as text; a
+  // period adds a row of its own for each.
+  const double unknowns = static_cast<double>(mechanism::unknowns(mechanism).size());
+  const double instants = static_cast<double>(request.samples);
+  require_memory(instants * (1500 + 8 * 10 * unknowns), "--samples", std::to_string(request.samples));
+  require_memory(instants * 220 * static_cast<double>(request.periods.size()), "--periods", arguments.periods);
   return request;
 }
 
@@ -107,7 +116,7 @@ std::vector<std::string> write_files(const std::set<std::string>& formats, const
   return names;
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (mechanism.space == mechanism::Space::spatial)
@@ -115,11 +124,15 @@ int run(const Arguments& arguments) {
                            "the mechanism is spatial, and trajectories are those of the plane",
                            "solve single poses of it with clearloci pose");
   const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);
+  limit.known([common = arguments.common, name = mechanism.name] {
+    write_incomplete(common, "trajectory.json", incomplete_body(name, "the motion was"));
+  });
   Progress progress(arguments.common.quiet);
   progress.show(0, "dynamics");
   const TrajectoryResult result =
       follow_trajectory(mechanism, trajectory, request_of(arguments, mechanism, trajectory));
   const std::string json = report::json_text(trajectory_json(result));
+  limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
   const std::vector<std::string> names = write_files(formats, folder, result, json, progress);
   progress.clear();
@@ -127,7 +140,7 @@ int run(const Arguments& arguments) {
     fmt::print("{}", json);
   } else if (!arguments.common.quiet) {
     print_trajectory(result);
-    fmt::print("\nWritten to {}: {}\n", folder.string(), fmt::join(names, ", "));
+    fmt::print("\nWritten to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
   }
   return exit_done;
 }
@@ -158,7 +171,9 @@ Command add_trajectory_command(CLI::App& program) {
       "Example: clearloci trajectory examples/pick_and_place/manipulator.yaml examples/pick_and_place/path.yaml "
       "--periods 0.5:3:0.02\n"
       "Writes trajectory.json, trajectory.csv and pictures to ./out/<name of MODEL>, or to the folder of -o.");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

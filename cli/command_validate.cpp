@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
+#include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "report/files.hpp"
@@ -93,14 +94,21 @@ void print_table(const LociValidation& validation, const numeric::GridSpec& grid
   if (report.disputed > edges_shown) fmt::print("... --json lists more disputed edges\n");
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
+  limit.known([common = arguments.common, name = mechanism.name] {
+    write_incomplete(common, "validation.json", incomplete_body(name, "the outcome was"), false);
+  });
   Progress progress(arguments.common.quiet);
-  LociRequest request = loci_request(arguments.loci, mechanism, progress);
+  LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   const auto [nx, ny] = parse_grid(arguments.grid);
+  // At every node of one mode |A| and the numerators.
+  require_memory(static_cast<double>(nx) * ny * 8 * (2.0 + static_cast<double>(mechanism::unknowns(mechanism).size())),
+                 "--grid", arguments.grid);
   const numeric::GridSpec grid = {.nx = nx, .ny = ny};
   const LociValidation validation = validate_loci(mechanism, std::move(request), grid);
   progress.clear();
+  limit.writing();
 
   const bool write = !arguments.common.output.empty();
   if (write || arguments.common.json) {
@@ -123,7 +131,9 @@ Command add_validate_command(CLI::App& program) {
   app->footer(
       "Example: clearloci validate examples/five_bar.yaml --grid 400x400\n"
       "Exit status 1 where an edge of the grid is disputed. With -o, DIR/validation.json is written.");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

@@ -14,6 +14,7 @@
 #include "cli/progress.hpp"
 #include "cli/verification.hpp"
 #include "core/errors.hpp"
+#include "core/text.hpp"
 #include "mechanism/read_task.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
@@ -200,18 +201,22 @@ std::optional<loci::FitGoal> parse_fit(const std::string& word) {
   throw core::InputError({.file = "--fit"}, fmt::format("unknown goal '{}'", word), "choose from nearest, best");
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats);
   const std::optional<loci::FitGoal> goal = parse_fit(arguments.fit);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   const core::Task task = mechanism::read_task(arguments.task, mechanism);
+  limit.known([common = arguments.common, name = mechanism.name] {
+    write_incomplete(common, "verify.json", incomplete_body(name, "the verdict was"));
+  });
   Progress progress(arguments.common.quiet);
-  const LociRequest request = loci_request(arguments.loci, mechanism, progress);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   if (request.all_working_modes || request.working_modes.size() > 1)
     throw core::InputError({.file = "--working-mode"}, "a task is verified in one working mode",
                            "give one side for each dyad");
   const Verification result = goal ? fit_task(mechanism, task, request, *goal) : verify_task(mechanism, task, request);
   progress.clear();
+  limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   const std::vector<std::string> files = write_files(result, formats, folder);
@@ -219,7 +224,7 @@ int run(const Arguments& arguments) {
     fmt::print("{}", report::json_text(result_json(result)));
   } else if (!arguments.common.quiet) {
     print_result(result, goal.has_value());
-    fmt::print("\nWritten to {}: {}\n", folder.string(), fmt::join(files, ", "));
+    fmt::print("\nWritten to {}: {}\n", core::printable(folder.string()), fmt::join(files, ", "));
   }
   return status_of(result.verdict);
 }
@@ -248,7 +253,9 @@ Command add_verify_command(CLI::App& program) {
       "a\n"
       "witness is confirmed numerically; with 3 where it is undecided, within the time limit or by doubles at all.\n"
       "The files go to ./out/<name of MODEL>, or to the folder of -o.");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

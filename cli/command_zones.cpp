@@ -14,6 +14,7 @@
 #include "cli/progress.hpp"
 #include "cli/zone_search.hpp"
 #include "core/errors.hpp"
+#include "core/text.hpp"
 #include "report/loci_json.hpp"
 #include "report/zones.hpp"
 
@@ -40,7 +41,7 @@ std::set<std::string> parse_formats(const std::string& text) {
   return formats;
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (mechanism.coordinates.size() != 2)
@@ -49,12 +50,16 @@ int run(const Arguments& arguments) {
         fmt::format("zones are those of two free coordinates; the mechanism has {}", mechanism.coordinates.size()),
         "fix the others by numbers or parameters");
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
+  limit.known([common = arguments.common, name = mechanism.name] {
+    write_incomplete(common, "zones.json", incomplete_body(name, "the zones were"));
+  });
   Progress progress(arguments.common.quiet);
-  LociRequest request = loci_request(arguments.loci, mechanism, progress);
+  LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   core::Certificate certificate;
   if (!arguments.certificate.empty()) request.certificate = &certificate;
   const core::ZoneMap map = find_zones(mechanism, request);
   progress.clear();
+  limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   if (request.certificate != nullptr)
@@ -67,7 +72,7 @@ int run(const Arguments& arguments) {
     fmt::print("{}\n", report::zones_table(map));
     std::vector<std::string> names;
     for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-    fmt::print("Written to {}: {}\n", folder.string(), fmt::join(names, ", "));
+    fmt::print("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
   }
   return exit_done;
 }
@@ -88,7 +93,9 @@ Command add_zones_command(CLI::App& program) {
   app->footer(
       "Example: clearloci zones examples/five_bar.yaml --working-mode all\n"
       "The files go to ./out/<name of MODEL>, or to the folder of -o.");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

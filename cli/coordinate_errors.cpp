@@ -236,6 +236,7 @@ Json coordinate_errors_json(const CoordinateResult& result) {
   return {{"format", 1},
           {"mechanism", result.mechanism.name},
           {"coordinates", {result.mechanism.coordinates.front().name}},
+          {"complete", result.loci.complete},
           {"units", {is_angle(result) ? "rad" : "m"}},
           {"box", {{core::to_double(result.loci.lower[0]), core::to_double(result.loci.upper[0])}}},
           {"steps", result.steps},

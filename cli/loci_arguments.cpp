@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
 
@@ -15,6 +18,28 @@ loci::Engine parse_engine(const std::string& word) {
   if (word == "adaptive") return loci::Engine::adaptive;
   throw core::InputError({.file = "--engine"}, fmt::format("unknown engine '{}'", word),
                          "choose from automatic, exact, adaptive");
+}
+
+/// What doubles can express in the box at least: vertices are placed within some spacings of doubles at its
+/// coordinates, and a tolerance below that could never be kept.
+double finest_tolerance(const mechanism::Mechanism& mechanism) {
+  constexpr double spacings = 64 * std::numeric_limits<double>::epsilon();
+  double largest = 0;
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    if (!coordinate.angle)
+      largest =
+          std::max({largest, std::abs(core::to_double(coordinate.lower)), std::abs(core::to_double(coordinate.upper))});
+  return spacings * (largest > 0 ? largest : 1);
+}
+
+double parse_tolerance(const std::string& text, const mechanism::Mechanism& mechanism) {
+  const core::Rational tolerance = parse_positive(text, "--tolerance", mechanism);
+  const double finest = finest_tolerance(mechanism);
+  if (tolerance < core::Rational(finest))
+    throw core::InputError({.file = "--tolerance"},
+                           fmt::format("{} is finer than doubles can express in this box", text),
+                           fmt::format("give {:.2g} or more", finest));
+  return core::to_double(tolerance);
 }
 
 }  // namespace
@@ -33,10 +58,6 @@ void add_tracing_arguments(CLI::App& command, LociArguments& arguments) {
       .add_option("--engine", arguments.engine, "automatic, exact (arrangement of curves) or adaptive (subdivision)")
       ->type_name("ENGINE")
       ->capture_default_str();
-  command
-      .add_option("--time-limit", arguments.time_limit,
-                  "Seconds; when they are over, what is known is written and the exit status is 3")
-      ->type_name("SECONDS");
 }
 
 void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
@@ -61,7 +82,8 @@ void add_mesh_argument(CLI::App& command, LociArguments& arguments) {
       ->capture_default_str();
 }
 
-LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress) {
+LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress,
+                         const TimeLimit& limit) {
   LociRequest request;
   request.selection.joints = parse_joints(arguments.joints, mechanism);
   request.selection.quantities = parse_quantities(arguments.quantities);
@@ -69,20 +91,14 @@ LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechan
     request.selection.min_force = parse_positive(arguments.min_force, "--min-force", mechanism);
   if (!arguments.min_couple.empty())
     request.selection.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism);
-  request.tolerance = core::to_double(parse_positive(arguments.tolerance, "--tolerance", mechanism));
+  request.tolerance = parse_tolerance(arguments.tolerance, mechanism);
   request.mesh_size = core::to_double(parse_positive(arguments.mesh_size, "--mesh-size", mechanism));
   if (arguments.working_mode == "all")
     request.all_working_modes = true;
   else if (!arguments.working_mode.empty())
     request.working_modes = {parse_working_mode(arguments.working_mode, mechanism)};
   request.engine = parse_engine(arguments.engine);
-  if (!arguments.time_limit.empty()) {
-    const double seconds = core::to_double(parse_positive(arguments.time_limit, "--time-limit", mechanism));
-    constexpr double century = 3e9;  // beyond, the clock's ticks would overflow
-    if (seconds < century)
-      request.deadline = arguments.started + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                                 std::chrono::duration<double>(seconds));
-  }
+  request.deadline = limit.deadline();
   request.progress = [&progress](double fraction, std::string_view stage) { progress.show(fraction, stage); };
   return request;
 }

@@ -2,25 +2,24 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "cli/arguments.hpp"
 #include "cli/progress.hpp"
+#include "cli/time_limit.hpp"
 
 namespace clearloci::cli {
 
 struct LociArguments {
   std::vector<std::string> joints;
   std::string quantities = "f,M";
-  std::string min_force, min_couple, tolerance = "1e-5", mesh_size = "1/32", working_mode, time_limit;
+  std::string min_force, min_couple, tolerance = "1e-5", mesh_size = "1/32", working_mode;
   std::string engine = "automatic";
-  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 
-/// --joint, --working-mode, --engine, --time-limit.
+/// --joint, --working-mode, --engine.
 void add_tracing_arguments(CLI::App& command, LociArguments& arguments);
 
 /// --quantity, --min-force, --min-couple, --tolerance.
@@ -30,6 +29,7 @@ void add_locus_arguments(CLI::App& command, LociArguments& arguments);
 void add_mesh_argument(CLI::App& command, LociArguments& arguments);
 
 /// `progress` must outlive the request.
-LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress);
+LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress,
+                         const TimeLimit& limit);
 
 }  // namespace clearloci::cli

@@ -32,21 +32,22 @@ std::vector<core::WorkingMode> modes_to_trace(const mechanism::Mechanism& mechan
   return modes;
 }
 
+/// Two to the power of the dyads are soon more than anyone looks at, and than there is memory for.
+void check_mode_count(std::size_t dyads) {
+  constexpr std::size_t most = 12;
+  if (dyads > most)
+    throw core::InputError({.file = "--working-mode"},
+                           fmt::format("all working modes of {} dyads are more than {}", dyads, 1U << most),
+                           "name one at a time");
+}
+
 void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   const std::size_t dyads = mechanism::dyad_points(mechanism).size();
+  if (request.all_working_modes) check_mode_count(dyads);
   for (const DyadSides& sides : request.working_modes)
     if (sides.size() != dyads || std::any_of(sides.begin(), sides.end(), [](int s) { return s != 1 && s != -1; }))
       throw core::InputError({}, "a working mode needs a side for each of the " + std::to_string(dyads) + " dyads",
                              "give +1 (left) or -1 (right) for each");
-}
-
-/// The map of work that a deadline ended before there was a curve to show.
-core::LocusMap nothing_known(const mechanism::Mechanism& mechanism, const std::string& reason) {
-  core::LocusMap map = empty_map(mechanism);
-  map.tower.roots.clear();
-  map.complete = false;
-  map.notes = {reason};
-  return map;
 }
 
 /// The maps of a coordinate's pieces as one: a length is one piece, an angle one a half turn (core/angle_chart.hpp).
@@ -171,7 +172,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
     traced.problem = std::move(charts.front().problem);
   } catch (const core::LimitReached& limit) {
     (symbolic > 0 ? tracing : symbolic) = seconds_since(start);
-    map = nothing_known(mechanism, limit.what());
+    map = unfinished_map(mechanism, limit.what());
   }
   map.timing = {{"symbolic", symbolic}, {"elimination", elimination}, {"tracing", tracing}};
   return traced;
@@ -225,6 +226,7 @@ std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, co
   const DyadSides own = mechanism::working_mode(mechanism);
   if (!request.all_working_modes && !request.working_modes.empty()) return request.working_modes;
   if (!request.all_working_modes) return {own};
+  check_mode_count(own.size());
   std::vector<DyadSides> modes = {own};
   for (std::size_t pattern = 0; pattern < std::size_t{1} << own.size(); ++pattern) {
     DyadSides sides;
@@ -241,13 +243,23 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
     map.tower.coordinates.push_back(coordinate.name);
     map.lower.push_back(coordinate.lower);
     map.upper.push_back(coordinate.upper);
+    map.angles.push_back(coordinate.angle);
   }
+  if (std::none_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; })) map.angles.clear();
   for (const mechanism::PointIndex dyad : mechanism::dyad_points(mechanism)) {
     core::Root root;
     root.point = mechanism.points[static_cast<std::size_t>(dyad)].name;
     root.role = core::RootRole::working_mode;
     map.tower.roots.push_back(std::move(root));
   }
+  return map;
+}
+
+core::LocusMap unfinished_map(const mechanism::Mechanism& mechanism, const std::string& reason) {
+  core::LocusMap map = empty_map(mechanism);
+  map.tower.roots.clear();
+  map.complete = false;
+  map.notes = {reason};
   return map;
 }
 

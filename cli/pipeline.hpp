@@ -77,6 +77,9 @@ core::WorkingMode mode_of(const DyadSides& sides, const core::RootTower& tower);
 /// A map without loci: the box, the coordinates and the names of the working mode, for pictures of something else.
 core::LocusMap empty_map(const mechanism::Mechanism& mechanism);
 
+/// The map of work that a limit ended before there was a locus to show: complete = false, `reason` among its notes.
+core::LocusMap unfinished_map(const mechanism::Mechanism& mechanism, const std::string& reason);
+
 /// The scalar reactions (fx, fy, and M where actuated) of the joints that a selection means, in the file's order.
 /// `selection.joints` empty: every joint with a clearance, or all where none has one; in space then without the couples
 /// across a joint's axes, of which no clearance depends.

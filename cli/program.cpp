@@ -6,24 +6,20 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/standard_streams.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci::cli {
 namespace {
-
-/// One line on standard error, whatever the message holds.
-void complain(std::string message) {
-  std::replace_if(
-      message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  fmt::print(stderr, "clearloci: {}\n", message);
-}
 
 std::string help_call(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands()) return "see clearloci " + command->get_name() + " --help";
@@ -46,7 +42,8 @@ int parse_and_run(int argc, const char* const* argv) {
   program.require_subcommand(1);
   program.footer(
       "Example: clearloci loci examples/five_bar.yaml\n"
-      "Exit status: 0 done; 1 a check said no; 2 the input or the call is wrong; 3 a time limit was reached;\n"
+      "Exit status: 0 done; 1 a check said no; 2 the input or the call is wrong; 3 a limit of time or memory was "
+      "reached;\n"
       "70 an error of the program itself.");
   const std::vector<Command> commands = {add_loci_command(program),     add_equations_command(program),
                                          add_validate_command(program), add_pose_command(program),
@@ -69,19 +66,27 @@ int parse_and_run(int argc, const char* const* argv) {
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
+  prepare_process();
+  const auto unwritten = [] {
+    complain("standard output cannot be written; is the disk full, or the reader gone?");
+    return exit_wrong_input;
+  };
   try {
     const int status = parse_and_run(argc, argv);
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
-    complain("standard output cannot be written; is the disk full?");
-    return exit_wrong_input;
+    return flush_standard_output() ? status : unwritten();
   } catch (const core::InputError& error) {
     complain(error.what());
     return exit_wrong_input;
   } catch (const core::LimitReached& limit) {
     complain(limit.what());
-    return exit_limit_reached;
+    const int status = flush_standard_output() ? exit_limit_reached : exit_wrong_input;
+    std::_Exit(status);  // work left behind (loci/abandonable.hpp) must not meet the end of static objects
   } catch (const std::bad_alloc&) {
-    complain("internal error: out of memory");
+    complain("out of memory; choose a coarser grid, mesh or tolerance, or fewer working modes");
+    return exit_limit_reached;
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return unwritten();  // printing throws where the stream fails
+    complain(fmt::format("internal error: {}; please report it with the mechanism file", error.what()));
     return exit_internal_error;
   } catch (const std::exception& error) {
     complain(fmt::format("internal error: {}; please report it with the mechanism file", error.what()));

@@ -19,14 +19,15 @@ void Progress::show(double fraction, std::string_view stage) {
   const double part = std::clamp(fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(part * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  fmt::print(stderr, "\r\033[K[{}] {:3.0f} % {}", bar, 100 * part, stage);
+  // fputs, since print throws where the stream fails, and a bar is no reason to end.
+  std::fputs(fmt::format("\r\033[K[{}] {:3.0f} % {}", bar, 100 * part, stage).c_str(), stderr);
   std::fflush(stderr);
   visible_ = true;
 }
 
 void Progress::clear() {
   if (!visible_) return;
-  fmt::print(stderr, "\r\033[K");
+  std::fputs("\r\033[K", stderr);
   std::fflush(stderr);
   visible_ = false;
 }

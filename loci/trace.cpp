@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/errors.hpp"
+#include "loci/abandonable.hpp"
 #include "loci/exact_trace.hpp"
 #include "loci/isolated_points.hpp"
 #include "loci/points.hpp"
@@ -60,6 +61,14 @@ bool replaces(const LocusCurve& curve, const LocusProblem& problem, const SheetS
          std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
 }
 
+/// The exact engine; where there is a deadline, it is kept.
+LocusMap trace_exactly_in_time(const LocusProblem& problem, const TraceOptions& options) {
+  if (!options.deadline) return trace_exactly(problem, options);
+  // No progress: who shows it may be gone before the engine is.
+  const TraceOptions own = {.engine = options.engine, .deadline = options.deadline};
+  return within(*options.deadline, [problem, own] { return trace_exactly(problem, own); });
+}
+
 /// The exact engine on what the adaptive one left open: shares that have a curve in common go together. Takes those
 /// out of `shares` that it settled.
 void settle_exactly(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares,
@@ -92,7 +101,7 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
     const core::WorkingMode& mode = problem.modes[static_cast<std::size_t>(share.mode)];
     if (std::find(rest.modes.begin(), rest.modes.end(), mode) == rest.modes.end()) rest.modes.push_back(mode);
   }
-  LocusMap exact = trace_exactly(rest, options);
+  LocusMap exact = trace_exactly_in_time(rest, options);
   if (!exact.complete) throw core::LimitReached("the time limit was reached");
   for (LocusCurve& curve : exact.curves) {
     if (std::any_of(open.begin(), open.end(), [&](const SheetShare& share) { return replaces(curve, problem, share); }))
@@ -161,7 +170,7 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
     if (coordinates == 1)
       add_points_of_one_coordinate(problem, options, map);
     else if (options.engine == Engine::exact)
-      map = trace_exactly(problem, options);
+      map = trace_exactly_in_time(problem, options);
     else
       trace_adaptively(problem, options, map);
     const std::function<bool()> stop = [&] {

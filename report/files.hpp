@@ -11,4 +11,8 @@ namespace clearloci::report {
 /// Throws core::InputError, naming the path and the system's reason, where that is not possible.
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// Removes the temporary names of every write under way in this process, for a process that ends in the middle of one.
+/// May be called from a signal handler.
+void remove_temporaries();
+
 }  // namespace clearloci::report

@@ -136,7 +136,8 @@ Scale scale_of(const core::LocusMap& map, std::size_t i, double points) {
   const double low = core::to_double(map.lower[i]), high = core::to_double(map.upper[i]);
   const double apart = 30 / points * (high - low);
   const std::string name = printable(map.tower.coordinates[i]);
-  if (map.angles[i]) return {angle_ticks(low / degree, high / degree, apart / degree), degree, name + " (deg)"};
+  if (!map.angles.empty() && map.angles[i])
+    return {angle_ticks(low / degree, high / degree, apart / degree), degree, name + " (deg)"};
   return {ticks(low, high, apart), 1, name + " (m)"};
 }
 

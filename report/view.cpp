@@ -235,6 +235,7 @@ core::Point2 View::page(const Point3& place) const {
 double View::nearness(const Point3& place) const { return dot(space(place), toward); }
 
 View view_of(const core::LocusMap& map, double azimuth, double elevation) {
+  const auto is_angle = [&](std::size_t i) { return !map.angles.empty() && map.angles[i]; };
   View view;
   Point3 extent{};
   double longest = 0;
@@ -242,11 +243,11 @@ View view_of(const core::LocusMap& map, double azimuth, double elevation) {
     const double low = core::to_double(map.lower[i]), high = core::to_double(map.upper[i]);
     view.centre[i] = 0.5 * (low + high);
     extent[i] = high - low;
-    if (!map.angles[i]) longest = std::max(longest, extent[i]);
+    if (!is_angle(i)) longest = std::max(longest, extent[i]);
   }
   constexpr double flattest = 0.45;  // of a box's side to its longest: a thin box still shows what is in it
   for (std::size_t i = 0; i < 3; ++i) {
-    if (map.angles[i] || longest == 0)
+    if (is_angle(i) || longest == 0)
       view.scale[i] = 1 / extent[i];
     else
       view.scale[i] = std::max(1 / longest, flattest / extent[i]);
