@@ -37,6 +37,7 @@ struct PoseResult {
   DyadSides sides;
   numeric::Posture posture;
   numeric::Accuracy accuracy;
+  bool singular = false;  ///< |A| cannot be told from zero
   std::optional<numeric::ActualPose> actual;  ///< if asked for
 };
 
@@ -101,6 +102,9 @@ Json pose_json(const mechanism::Mechanism& mechanism, const numeric::NumericMode
                  {"take_up", take_up_json(model, accuracy.take_up)},
                  {"pose_error", accuracy.undefined.empty() ? error_json(accuracy.error) : Json(nullptr)},
                  {"undefined_take_up", accuracy.undefined},
+                 {"vanishing", report::vanishing_array(numeric::lost_reactions(
+                                   model, numeric::joint_clearances(mechanism), accuracy.take_up))},
+                 {"singular", pose.singular},
                  {"worst_case",
                   {{"dalpha", number_json(worst.dalpha)},
                    {"dx", number_json(worst.dx)},
@@ -136,8 +140,7 @@ void print_accuracy(const Json& pose) {
   }
   fmt::print("\n{:<18}{:>16}{:>18}{:>18}\n", "pose error", "dx [m]", "dy [m]", "dalpha [rad]");
   if (pose["pose_error"].is_null())
-    fmt::print("undefined: contact is lost at {}\n",
-               fmt::join(pose["undefined_take_up"].get<std::vector<std::string>>(), ", "));
+    fmt::print("undefined: {}\n", undefined_words(pose));
   else
     fmt::print("{}", error_row("linear", pose["pose_error"]));
   if (pose.contains("iterated")) {
@@ -208,6 +211,8 @@ PoseResult solve(const Arguments& arguments, const mechanism::Mechanism& mechani
   pose.posture = numeric::posture(model, pose.at, pose.sides);
   if (pose.posture.unreachable) throw out_of_reach(mechanism, *pose.posture.unreachable);
   pose.accuracy = numeric::pose_accuracy(model, pose.posture, numeric::vanishing_unknowns(model, at, pose.sides));
+  const numeric::Bounded determinant = numeric::bounded_numerators(model, at, pose.sides).determinant;
+  pose.singular = !(std::abs(determinant.value) > determinant.error);
   if (!arguments.iterate) return pose;
   pose.actual = numeric::actual_pose(model, pose.posture, pose.accuracy);
   if (!pose.actual->converged)

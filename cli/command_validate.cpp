@@ -52,6 +52,14 @@ Json report_json(const LociValidation& validation, const numeric::GridSpec& grid
                      {"reaction", reaction_json(edge.reaction)},
                      {"sign_change", edge.sign_change},
                      {"crossings", edge.crossings}});
+  Json arcs = Json::array();
+  for (const numeric::DisputedArc& arc : report.disputed_arcs)
+    arcs.push_back({{"curve", arc.curve},
+                    {"at", arc.at},
+                    {"working_mode", report::mode_object(validation.map.tower, arc.mode)},
+                    {"reaction", reaction_json(arc.reaction)},
+                    {"claimed", arc.claimed},
+                    {"unbounded", arc.unbounded}});
   return {{"format", 1},
           {"mechanism", validation.map.mechanism},
           {"grid", {grid.nx, grid.ny}},
@@ -61,7 +69,10 @@ Json report_json(const LociValidation& validation, const numeric::GridSpec& grid
           {"undecided", report.undecided},
           {"outside", report.outside},
           {"reactions", std::move(tallies)},
-          {"disputed_edges", std::move(edges)}};
+          {"disputed_edges", std::move(edges)},
+          {"arcs_held", report.arcs_held},
+          {"arcs_undecided", report.arcs_undecided},
+          {"disputed_arcs", std::move(arcs)}};
 }
 
 void print_table(const LociValidation& validation, const numeric::GridSpec& grid) {
@@ -91,7 +102,16 @@ void print_table(const LociValidation& validation, const numeric::GridSpec& grid
                edge.sign_change ? "changes sign" : "keeps its sign", edge.from[0], edge.from[1], edge.to[0], edge.to[1],
                edge.crossings, words.empty() ? "" : "; ", words);
   }
-  if (report.disputed > edges_shown) fmt::print("... --json lists more disputed edges\n");
+  if (report.disputed_edges.size() > edges_shown) fmt::print("... --json lists more disputed edges\n");
+  fmt::print("{} reactions along arcs held, {} disputed, {} undecided\n", report.arcs_held, report.disputed_arcs.size(),
+             report.arcs_undecided);
+  for (std::size_t i = 0; i < report.disputed_arcs.size() && i < edges_shown; ++i) {
+    const numeric::DisputedArc& arc = report.disputed_arcs[i];
+    const std::string words = report::mode_words(validation.map.tower, arc.mode);
+    const char* what = arc.unbounded ? "grows without bound" : arc.claimed ? "does not vanish" : "vanishes unnamed";
+    fmt::print("disputed: {} {} along {} near ({}, {}){}{}\n", reaction_name(arc.reaction), what, arc.curve, arc.at[0],
+               arc.at[1], words.empty() ? "" : "; ", words);
+  }
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {

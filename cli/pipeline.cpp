@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "loci/chart_maps.hpp"
 #include "loci/surfaces.hpp"
+#include "mechanism/guide.hpp"
 #include "numeric/sketch.hpp"
 
 namespace clearloci {
@@ -316,6 +317,8 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
          every ? mechanism::reaction_components(mechanism, joint) : mechanism::force_components(mechanism, joint))
       reactions.push_back({joint.name, quantity});
     if (joint.actuated) reactions.push_back({joint.name, mechanism::actuator_quantity(joint)});
+    if (mechanism::has_guide_ends(mechanism, joint))
+      for (const auto& [end, sign] : mechanism::guide_end_signs) reactions.push_back({joint.name, end});
   }
   return reactions;
 }

@@ -12,6 +12,23 @@ std::string number_text(const Json& value) {
   return value.is_null() ? std::string("unbounded") : fmt::format("{:.9g}", value.get<double>() + 0.0);  // no -0
 }
 
+std::string undefined_words(const Json& pose) {
+  if (pose["singular"].get<bool>()) return "|A| = 0 here: the reactions are unbounded or have no limit";
+  const std::vector<std::pair<std::string, std::string>> wordings = {{"f", "contact is lost at "},
+                                                                     {"end_ahead", "the end ahead lifts at "},
+                                                                     {"end_behind", "the end behind lifts at "},
+                                                                     {"M", "M = 0 at "},
+                                                                     {"F", "F = 0 at "}};
+  std::string words;
+  for (const auto& [quantity, start] : wordings) {
+    std::string joints;
+    for (const Json& one : pose["vanishing"])
+      if (one["quantity"] == quantity) joints += (joints.empty() ? "" : ", ") + one["joint"].get<std::string>();
+    if (!joints.empty()) words += (words.empty() ? "" : "; ") + start + joints;
+  }
+  return words;
+}
+
 Json mode_json(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
   const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(mechanism);
   Json mode = Json::object();

@@ -15,6 +15,10 @@ std::string number_text(const nlohmann::ordered_json& value);
 /// {"B1": "right", ...}
 nlohmann::ordered_json mode_json(const mechanism::Mechanism& mechanism, const DyadSides& sides);
 
+/// Why no pose error is defined: "contact is lost at A1, B1; M = 0 at A1", from the list `vanishing` of a pose; or that
+/// it is a direct singularity.
+std::string undefined_words(const nlohmann::ordered_json& pose);
+
 /// A pose at which a point cannot be placed.
 core::InputError out_of_reach(const mechanism::Mechanism& mechanism, mechanism::PointIndex point);
 

@@ -10,6 +10,7 @@
 #include "cli/columns.hpp"
 #include "cli/pose_result.hpp"
 #include "numeric/spatial.hpp"
+#include "report/loci_json.hpp"
 
 namespace clearloci::cli {
 namespace {
@@ -78,8 +79,7 @@ void print_accuracy(const Json& pose) {
     fmt::print("\n");
   };
   if (pose["pose_error"].is_null())
-    fmt::print("undefined: contact is lost at {}\n",
-               fmt::join(pose["undefined_take_up"].get<std::vector<std::string>>(), ", "));
+    fmt::print("undefined: {}\n", undefined_words(pose));
   else
     row("linear", pose["pose_error"]);
   row("worst, any load", pose["worst_case"]);
@@ -95,8 +95,16 @@ Json spatial_pose_json(const mechanism::Mechanism& mechanism, const std::vector<
   for (const numeric::Bounded& value : at) pose.push_back(value.value);
   if (const auto unreachable = numeric::spatial_posture(mechanism, pose, sides).unreachable)
     throw out_of_reach(mechanism, *unreachable);
+  const numeric::NumericModel model = numeric::compile(mechanism);
   const numeric::SpatialAccuracy accuracy =
-      numeric::spatial_accuracy(mechanism, pose, numeric::lost_contacts(numeric::compile(mechanism), sides, at), sides);
+      numeric::spatial_accuracy(mechanism, pose, numeric::lost_contacts(model, sides, at), sides);
+  const numeric::Bounded determinant = numeric::bounded_numerators(model, at, sides).determinant;
+  std::vector<core::Vanishing> lost;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
+    const mechanism::Joint& joint = mechanism.joints[j];
+    if (accuracy.take_up[j].force_vanishes) lost.push_back({joint.name, core::Quantity::f});
+    if (accuracy.take_up[j].actuator_vanishes) lost.push_back({joint.name, mechanism::actuator_quantity(joint)});
+  }
   const numeric::SpatialPosture& posture = accuracy.posture;
   Json points = Json::object(), reactions = Json::object();
   for (std::size_t i = 0; i < mechanism.points.size(); ++i)
@@ -118,6 +126,8 @@ Json spatial_pose_json(const mechanism::Mechanism& mechanism, const std::vector<
       {"take_up", take_up_json(mechanism, accuracy)},
       {"pose_error", accuracy.undefined.empty() ? error_json(accuracy.error.dp, accuracy.error.dalpha) : Json(nullptr)},
       {"undefined_take_up", accuracy.undefined},
+      {"vanishing", report::vanishing_array(lost)},
+      {"singular", !(std::abs(determinant.value) > determinant.error)},
       {"worst_case", std::move(worst)}};
 }
 

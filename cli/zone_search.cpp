@@ -6,7 +6,10 @@
 
 #include "core/errors.hpp"
 #include "loci/zones.hpp"
+#include "mechanism/guide.hpp"
+#include "numeric/line_witness.hpp"
 #include "numeric/reactions.hpp"
+#include "numeric/take_up.hpp"
 
 namespace clearloci {
 namespace {
@@ -20,6 +23,8 @@ int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 :
 void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request, core::ZoneMap& map) {
   const numeric::NumericModel model = numeric::compile(mechanism);
   const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request.selection);
+  const std::vector<numeric::JointColumns> columns_of_joints = numeric::joint_columns(model);
+  const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
   for (core::Zone& zone : map.zones) {
     const std::vector<int> sides = numeric::dyad_signs(model, map.loci.tower, zone.mode);
     const numeric::BoundedNumerators at = numeric::bounded_numerators(model, zone.sample, sides);
@@ -29,8 +34,10 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
       const mechanism::Unknown& unknown = model.unknowns[k];
       const std::string& joint = mechanism.joints[static_cast<std::size_t>(unknown.joint)].name;
       const core::Quantity q = unknown.quantity;
+      // A guide whose ends are known is told of by these.
       const bool guide =
-          mechanism.space == mechanism::Space::planar && (q == core::Quantity::N || q == core::Quantity::T);
+          mechanism.space == mechanism::Space::planar && (q == core::Quantity::N || q == core::Quantity::T) &&
+          !mechanism::has_guide_ends(mechanism, mechanism.joints[static_cast<std::size_t>(unknown.joint)]);
       const bool component = !guide && q != core::Quantity::M && q != core::Quantity::F;
       const bool chosen = std::any_of(wanted.begin(), wanted.end(), [&](const numeric::TracedReaction& reaction) {
         return reaction.joint == joint && reaction.quantity == q;
@@ -38,6 +45,15 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
       if (!component && chosen)
         zone.signs.emplace_back(core::Vanishing{joint, q, 1}, sign(at.values[k]) * zone.assembly_mode);
     }
+    for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+      for (const auto& [end, side] : mechanism::guide_end_signs)
+        if (std::find(wanted.begin(), wanted.end(), numeric::TracedReaction{mechanism.joints[j].name, end}) !=
+            wanted.end()) {
+          const numeric::WitnessColumns columns = {columns_of_joints[j].normal, columns_of_joints[j].tilt, -1,
+                                                   side / clearances[j].half_length};
+          zone.signs.emplace_back(core::Vanishing{mechanism.joints[j].name, end, 1},
+                                  sign(numeric::components(at, columns).front()) * zone.assembly_mode);
+        }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/angle_chart.hpp"
@@ -13,7 +14,9 @@
 
 namespace clearloci::core {
 
-/// A reaction that vanishes on a factor. `multiplicity`: how often the factor divides its numerator.
+/// A reaction that vanishes on a factor. `multiplicity`: how often the factor divides its numerator beyond what it
+/// divides |A|; on a traced curve the order p - q to which the reaction vanishes (method.md section 10). Where that is
+/// even the reaction vanishes without a change of sign.
 struct Vanishing {
   std::string joint;
   Quantity quantity = Quantity::f;
@@ -39,6 +42,15 @@ struct LocusFactor {
   /// Its implicit polynomials were wanted but would be too large to be of use: `implicit` is empty, and the curves are
   /// to be traced on the sheets.
   bool implicit_too_heavy = false;
+
+  // Of a direct singularity, w = N / |A|:
+  int multiplicity = 1;              ///< how often it divides |A|
+  std::vector<Vanishing> cancelled;  ///< numerators that it divides too, and how often w is without it for that
+  /// Every reaction may stay finite on some curve of it. False is certain: some reaction grows without bound on all.
+  bool may_be_idle = false;
+  /// Of a margin: what its equation was multiplied by to be a polynomial, and how often. Where that vanishes too, orders
+  /// of vanishing decide.
+  std::vector<std::pair<Polynomial, int>> cleared;
 };
 
 /// Everything needed to trace: no mechanism any more, only curves. Where a coordinate is an angle, the variable of the
@@ -57,6 +69,7 @@ struct LocusProblem {
   /// Of every joint in that order: the components that vanish together where f does. Empty: fx and fy of each.
   std::vector<std::vector<Quantity>> force_components;
   std::vector<Vanishing> always_zero;  ///< components that vanish in every pose
+  std::vector<Vanishing> reactions;    ///< every other scalar reaction of the mechanism
   double tolerance = 1e-5;             ///< chord deviation, m
 };
 

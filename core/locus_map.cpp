@@ -18,6 +18,8 @@ std::string to_string(LocusKind kind) {
       return "direct-singularity";
     case LocusKind::workspace_boundary:
       return "workspace-boundary";
+    case LocusKind::no_limit:
+      return "no-limit";
   }
   return {};
 }

@@ -17,7 +17,9 @@ using Point2 = std::array<double, 2>;
 using Polyline = std::vector<Point2>;
 
 /// Gravest first; a curve takes the gravest kind of what vanishes on it.
-enum class LocusKind { contact_loss, backlash, component, margin, direct_singularity, workspace_boundary };
+/// `no_limit`, of points only: the named reactions have no limit there, for it depends on the way along which the pose
+/// is approached.
+enum class LocusKind { contact_loss, backlash, component, margin, direct_singularity, workspace_boundary, no_limit };
 
 /// "contact-loss", "backlash", ... as written in loci.json.
 std::string to_string(LocusKind kind);
@@ -97,6 +99,8 @@ struct LocusCurve {
   ClosedForm closed_form;
   WorkingMode mode;
   bool certified = false;
+  /// Of a direct singularity: some reaction grows without bound there. False: under this load all stay finite.
+  bool excited = true;
   std::vector<Arc> arcs;
 };
 
@@ -125,6 +129,7 @@ struct LocusSurface {
   /// Smallest cells of the search in which the surface may touch itself or its parts are too close to be told apart:
   /// where there are such, the triangles may join there what is apart.
   int undecided = 0;
+  bool excited = true;  ///< as of a curve
 };
 
 struct IsolatedPoint {
@@ -135,6 +140,7 @@ struct IsolatedPoint {
   bool certified = false;
   std::string factor = {};  ///< what vanishes there and why, where a single coordinate is free; else empty
   std::string cause = {};
+  bool excited = true;  ///< as of a curve, where a single coordinate is free
 };
 
 /// One free coordinate: a piece of its range in which the mode's posture exists.

@@ -34,6 +34,10 @@ std::string to_string(Quantity quantity) {
       return "m1";
     case Quantity::m2:
       return "m2";
+    case Quantity::end_ahead:
+      return "end_ahead";
+    case Quantity::end_behind:
+      return "end_behind";
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #include "loci/edge_labels.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace clearloci::loci {
 namespace {
@@ -40,7 +41,7 @@ LocusKind gravest_kind(const std::vector<Vanishing>& vanishing) {
   LocusKind kind = LocusKind::component;
   for (const Vanishing& v : vanishing) {
     const Quantity q = v.quantity;
-    if (q == Quantity::f || q == Quantity::N || q == Quantity::T) kind = std::min(kind, LocusKind::contact_loss);
+    if (q == Quantity::f || core::is_guide_end(q)) kind = std::min(kind, LocusKind::contact_loss);
     if (q == Quantity::M || q == Quantity::F) kind = std::min(kind, LocusKind::backlash);
   }
   return kind;
@@ -79,13 +80,14 @@ std::vector<Vanishing> wanted_vanishing(const LocusProblem& problem, const std::
     if (all_zero && most > 0) take(forces, joint, Quantity::f, least);
     // Components are named where they vanish alone, or more often than the force they belong to.
     const bool together = all_zero && least == most;
-    for (const Quantity component : {Quantity::fx, Quantity::fy, Quantity::fz, Quantity::f1, Quantity::f2, Quantity::mx,
-                                     Quantity::my, Quantity::mz, Quantity::m1, Quantity::m2}) {
+    for (const Quantity component :
+         {Quantity::N, Quantity::T, Quantity::fx, Quantity::fy, Quantity::fz, Quantity::f1, Quantity::f2, Quantity::mx,
+          Quantity::my, Quantity::mz, Quantity::m1, Quantity::m2}) {
       const int times = multiplicity(joint, component);
       const bool part = contains(components_of_f, component);
       if (times > 0 && !(part && together) && wanted(component)) take(single, joint, component, times);
     }
-    for (const Quantity quantity : {Quantity::N, Quantity::T})
+    for (const Quantity quantity : {Quantity::end_ahead, Quantity::end_behind})
       if (const int times = multiplicity(joint, quantity); times > 0) take(forces, joint, quantity, times);
     for (const Quantity quantity : {Quantity::M, Quantity::F})
       if (const int times = multiplicity(joint, quantity); times > 0) take(couples, joint, quantity, times);
@@ -109,6 +111,45 @@ EdgeLabel reaction_label(const LocusProblem& problem, const std::vector<const co
   return label;
 }
 
+EdgeLabel reaction_label(const LocusProblem& problem, const ReactionOrders& orders) {
+  EdgeLabel label;
+  for (const int f : orders.vanishes) {
+    const core::LocusFactor& factor = problem.factors[static_cast<std::size_t>(f)];
+    if (factor.role != FactorRole::reaction) continue;
+    append(label.factor, factor.expression);
+    append(label.cause, factor.cause);
+  }
+  label.vanishing = wanted_vanishing(problem, orders.vanishing);
+  label.kind = gravest_kind(label.vanishing);
+  return label;
+}
+
+namespace {
+
+/// An edge's points are in general position for all but a few polynomials: another one is tried where one of these
+/// vanishes there.
+constexpr int attempts = 4;
+
+/// The orders along an edge of the arrangement.
+ReactionOrders orders_along(const LocusProblem& problem, const core::WorkingMode& mode,
+                            const CurveArrangement& arrangement, int edge,
+                            const std::function<void(ArcOrders&)>& look) {
+  const auto curve = static_cast<std::size_t>(arrangement.edges()[static_cast<std::size_t>(edge)].curve);
+  const core::Polynomial& polynomial = arrangement.curves()[curve];
+  ReactionOrders orders;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const PointEnclosure at = arrangement.sample(edge, attempt);
+    ArcOrders arc(problem.tower, mode, polynomial, {{at.lower[0], at.upper[0]}, {at.lower[1], at.upper[1]}});
+    orders = reaction_orders(problem, arc, factors_on(problem, polynomial));
+    if (!orders.decided) continue;
+    look(arc);
+    break;
+  }
+  return orders;
+}
+
+}  // namespace
+
 std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::WorkingMode& mode,
                                     const CurveArrangement& arrangement,
                                     const std::vector<std::vector<int>>& curves_of_factor, SheetSigns& signs,
@@ -124,31 +165,41 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
       if (sign <= 0) edge.interior = false;
     }
     if (!edge.in_workspace) continue;
-    std::vector<const core::LocusFactor*> reactions;
+    std::vector<const core::LocusFactor*> vanishing, reactions;
+    bool singular = false, idle = false;
     for (std::size_t f = 0; f < problem.factors.size(); ++f) {
       const core::LocusFactor& factor = problem.factors[f];
       const auto& curves = curves_of_factor[f];
       if (std::find(curves.begin(), curves.end(), arrangement.edges()[e].curve) == curves.end()) continue;
       if (factor.role == FactorRole::construction) continue;
       if (signs.sign(sheet_of_factor[f], mode, index) != 0) continue;
-      switch (factor.role) {
-        case FactorRole::reaction:
-          reactions.push_back(&factor);
-          break;
-        case FactorRole::margin:
-          edge.labels.push_back({LocusKind::margin, factor.vanishing, factor.expression, factor.cause});
-          break;
-        case FactorRole::direct_singularity:
-          edge.labels.push_back({LocusKind::direct_singularity, {}, factor.expression, factor.cause});
-          break;
-        case FactorRole::workspace_boundary:
-          edge.labels.push_back({LocusKind::workspace_boundary, {}, factor.expression, factor.cause});
-          break;
-        case FactorRole::construction:
-          break;
-      }
+      (factor.role == FactorRole::reaction ? reactions : vanishing).push_back(&factor);
+      singular = singular || factor.role == FactorRole::direct_singularity;
+      idle = idle || factor.may_be_idle;
     }
-    EdgeLabel label = reaction_label(problem, reactions);
+    // Where |A| does not vanish every factor counts once; on the boundary orders are those in the root.
+    std::map<const core::LocusFactor*, bool> margin;
+    ReactionOrders orders;
+    const bool margins = std::any_of(vanishing.begin(), vanishing.end(), [](const core::LocusFactor* factor) {
+      return factor->role == FactorRole::margin;
+    });
+    const bool compared = (singular && (idle || margins)) || ((singular || !edge.interior) && !reactions.empty());
+    if (compared)
+      orders = orders_along(problem, mode, arrangement, index, [&](ArcOrders& arc) {
+        for (const core::LocusFactor* factor : vanishing)
+          if (factor->role == FactorRole::margin) margin[factor] = is_margin(*factor, arc).value_or(true);
+      });
+    for (const core::LocusFactor* factor : vanishing) {
+      if (factor->role == FactorRole::margin && !(margin.contains(factor) && !margin.at(factor)))
+        edge.labels.push_back({LocusKind::margin, factor->vanishing, factor->expression, factor->cause});
+      if (factor->role == FactorRole::direct_singularity)
+        edge.labels.push_back({LocusKind::direct_singularity, {}, factor->expression, factor->cause,
+                               !factor->may_be_idle || !orders.decided || orders.excited});
+      if (factor->role == FactorRole::workspace_boundary)
+        edge.labels.push_back({LocusKind::workspace_boundary, {}, factor->expression, factor->cause});
+    }
+    EdgeLabel label = compared && orders.decided ? reaction_label(problem, orders) : reaction_label(problem, reactions);
+    label.proven = !compared || orders.decided;
     if (!label.vanishing.empty()) edge.labels.push_back(std::move(label));
   }
   return result;

@@ -8,6 +8,7 @@
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
+#include "loci/reaction_orders.hpp"
 #include "loci/sheet_sign.hpp"
 
 namespace clearloci::loci {
@@ -18,6 +19,8 @@ struct EdgeLabel {
   std::vector<core::Vanishing> vanishing;
   std::string factor;
   std::string cause;
+  bool excited = true;  ///< LocusCurve::excited
+  bool proven = true;   ///< orders of vanishing were compared wherever that matters
 
   bool operator==(const EdgeLabel&) const = default;
 };
@@ -38,6 +41,9 @@ core::LocusKind gravest_kind(const std::vector<core::Vanishing>& vanishing);
 
 /// What vanishes where all of the given reaction factors do; nothing is vanishing where none of it is wanted.
 EdgeLabel reaction_label(const core::LocusProblem& problem, const std::vector<const core::LocusFactor*>& factors);
+
+/// The same along an arc on which orders of vanishing were compared, from the reaction factors that vanish there.
+EdgeLabel reaction_label(const core::LocusProblem& problem, const ReactionOrders& orders);
 
 /// For every edge, in one mode. `curve_of`: arrangement curve of each factor's implicit polynomials.
 std::vector<EdgeInMode> label_edges(const core::LocusProblem& problem, const core::WorkingMode& mode,

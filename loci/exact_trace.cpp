@@ -228,7 +228,8 @@ class ExactTrace {
       curve.implicit = arrangement_.curves()[static_cast<std::size_t>(group.curve)];
       curve.closed_form = forms_[static_cast<std::size_t>(group.curve)];
       curve.mode = mode;
-      curve.certified = true;
+      curve.certified = group.label.proven;
+      curve.excited = group.label.excited;
       const bool ends_on_singularities = curve.kind < LocusKind::direct_singularity;
       const VertexMarks own = without_boundary_of(group.curve, marks, edges);
       for (const EdgeWalk& walk : join_edges(arrangement_, group.edges, own, ends_on_singularities)) {

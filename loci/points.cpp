@@ -112,10 +112,35 @@ std::vector<RealRoot> candidates(const LocusProblem& problem) {
   return roots;
 }
 
+/// How polynomials in the coordinate vanish towards a root: to the order of the first derivative that does not.
+CoordinateGerm germs_at(RealRoot& root) {
+  return [&root](const Polynomial& p, int side) -> std::optional<Germ> {
+    Polynomial derivative = core::with_variables(p, 1);
+    Germ germ;
+    for (int direction = 1; !derivative.is_zero(); direction *= side) {
+      germ.sign = direction * sgn(derivative.terms.front().coefficient) * sign_at(univariate(derivative), root);
+      if (germ.sign != 0) break;
+      germ.order += 1;
+      derivative = core::derivative(derivative, 0);
+    }
+    return germ;
+  };
+}
+
 /// What vanishes at one point of a mode.
-std::vector<EdgeLabel> labels_at(const LocusProblem& problem, Place& place) {
+std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::WorkingMode& mode, RealRoot& root,
+                                 Place& place) {
   std::vector<EdgeLabel> labels;
-  std::vector<const LocusFactor*> reactions;
+  std::vector<int> compared;
+  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+    const LocusFactor& factor = problem.factors[f];
+    const bool counts = factor.role == FactorRole::reaction || factor.role == FactorRole::direct_singularity;
+    if (counts && place.sign(factor.sheet) == 0) compared.push_back(static_cast<int>(f));
+  }
+  ArcOrders point(problem.tower, mode, germs_at(root), {{root.lower, root.upper}});
+  const ReactionOrders orders = compared.empty() ? ReactionOrders{} : reaction_orders(problem, point, compared);
+  // The end of the range and of the reach at once: no side to come from.
+  core::ensure(compared.empty() || orders.decided || point.sides().empty(), "orders at a point are always decided");
   const auto context = [&](LocusKind kind, const LocusFactor& factor) {
     for (EdgeLabel& label : labels)
       if (label.kind == kind && kind != LocusKind::margin) {
@@ -125,16 +150,18 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, Place& place) {
       }
     const std::vector<core::Vanishing> held =
         kind == LocusKind::margin ? factor.vanishing : std::vector<core::Vanishing>{};
-    labels.push_back({kind, held, factor.expression, factor.cause});
+    const bool excited = kind != LocusKind::direct_singularity || !orders.decided || orders.excited;
+    labels.push_back({kind, held, factor.expression, factor.cause, excited});
   };
   for (const LocusFactor& factor : problem.factors) {
-    if (factor.role == FactorRole::construction || place.sign(factor.sheet) != 0) continue;
-    if (factor.role == FactorRole::reaction) reactions.push_back(&factor);
-    if (factor.role == FactorRole::margin) context(LocusKind::margin, factor);
+    const bool looked_at = factor.role == FactorRole::construction || factor.role == FactorRole::reaction;
+    if (looked_at || place.sign(factor.sheet) != 0) continue;
+    if (factor.role == FactorRole::margin && is_margin(factor, point).value_or(true))
+      context(LocusKind::margin, factor);
     if (factor.role == FactorRole::direct_singularity) context(LocusKind::direct_singularity, factor);
     if (factor.role == FactorRole::workspace_boundary) context(LocusKind::workspace_boundary, factor);
   }
-  EdgeLabel label = reaction_label(problem, reactions);
+  EdgeLabel label = reaction_label(problem, orders);
   if (!label.vanishing.empty()) labels.insert(labels.begin(), std::move(label));
   return labels;
 }
@@ -170,7 +197,7 @@ void add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::v
     const bool undefined = std::any_of(problem.tower.denominators.begin(), problem.tower.denominators.end(),
                                        [&](const Polynomial& denominator) { return place.sign(denominator) == 0; });
     if (undefined) continue;
-    for (EdgeLabel& label : labels_at(problem, place)) {
+    for (EdgeLabel& label : labels_at(problem, mode, root, place)) {
       core::IsolatedPoint point;
       point.kind = label.kind;
       point.vanishing = std::move(label.vanishing);
@@ -179,6 +206,7 @@ void add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::v
       point.certified = true;
       point.factor = std::move(label.factor);
       point.cause = std::move(label.cause);
+      point.excited = label.excited;
       map.isolated_points.push_back(std::move(point));
     }
   }

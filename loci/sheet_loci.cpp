@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "loci/edge_labels.hpp"
@@ -109,8 +111,31 @@ bool is_singular(const LocusProblem& problem, const core::WorkingMode& mode, con
   });
 }
 
+/// An exact point of a curve next to one of an arc of it.
+std::optional<CurvePoint> point_of(const LocusProblem& problem, const core::Polynomial& curve, const Point2& at) {
+  const double reach = on_curve * std::max(core::to_double(problem.upper[0] - problem.lower[0]),
+                                           core::to_double(problem.upper[1] - problem.lower[1]));
+  return curve_point(curve, at, reach);
+}
+
+/// Whether a factor vanishes all along every arc of a trace of another.
+bool vanishes_along_all(const LocusProblem& problem, const core::WorkingMode& mode, const LocusFactor& own,
+                        const sheet::SheetTrace& trace, const core::Polynomial& sheet) {
+  return std::all_of(trace.arcs.begin(), trace.arcs.end(), [&](const TracedArc& traced) {
+    const core::Polynomial& curve = own.implicit[static_cast<std::size_t>(traced.colour)];
+    const std::optional<CurvePoint> point = point_of(problem, curve, traced.inner);
+    if (!point) return false;
+    ArcOrders arc(problem.tower, mode, curve, *point);
+    if (!arc.decided()) return false;
+    return std::all_of(arc.sides().begin(), arc.sides().end(), [&](int side) {
+      const std::optional<Germ> germ = arc.germ(sheet, side);
+      return germ && (germ->is_zero() || germ->order > 0);
+    });
+  });
+}
+
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
-                              const std::vector<sheet::Cutter>& cutters, sheet::SheetTraceOptions options) {
+                              sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
   for (const core::Polynomial& p : factor.implicit) {
     options.closed_form.push_back(is_line_or_circle(core::recognise_closed_form(p)));
@@ -122,9 +147,29 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
     corner.singular = is_singular(problem, mode, corner);
     options.special.push_back(std::move(corner));
   }
+  std::vector<sheet::Cutter> cutters;
+  std::vector<const LocusFactor*> shared;
   const bool cut = factor.role == FactorRole::reaction || factor.role == FactorRole::margin;
-  return sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, {factor.sheet, factor.line},
-                            cut ? cutters : std::vector<sheet::Cutter>{}, options);
+  for (const LocusFactor& other : problem.factors) {
+    if (!cut || other.role != FactorRole::direct_singularity) continue;
+    if (shares_curve(factor, other))
+      shared.push_back(&other);
+    else
+      cutters.push_back({{other.sheet, other.line}, core::ArcEnd::direct_singularity});
+  }
+  const auto trace = [&] {
+    return sheet::trace_sheet(problem.tower, mode, problem.lower, problem.upper, {factor.sheet, factor.line}, cutters,
+                              options);
+  };
+  sheet::SheetTrace traced = trace();
+  // Where |A| vanishes all along an arc it does not cut it. Where it does so in another mode only, it may.
+  const bool along = std::all_of(shared.begin(), shared.end(), [&](const LocusFactor* other) {
+    return vanishes_along_all(problem, mode, factor, traced, other->sheet);
+  });
+  if (along) return traced;
+  for (const LocusFactor* other : shared)
+    cutters.push_back({{other->sheet, other->line}, core::ArcEnd::direct_singularity});
+  return trace();
 }
 
 /// Whether a sheet polynomial vanishes along an arc that lies on a factor of its norm: where it does not, it is zero at
@@ -246,34 +291,100 @@ class Gathering {
     }
   }
 
+  /// Orders along an arc, exactly. Undecided where no point of it lends itself, or the arc's own factor is not among
+  /// what vanishes there.
+  ReactionOrders orders_along(const SheetShare& share, const TracedArc& traced, const core::Polynomial& implicit,
+                              const std::function<void(ArcOrders&)>& look) const {
+    const core::Polyline& points = traced.arc.points;
+    ReactionOrders orders;
+    orders.decided = false;
+    for (const Point2& at : {traced.inner, points[points.size() / 3], points[2 * points.size() / 3]}) {
+      const std::optional<CurvePoint> point = point_of(problem_, implicit, at);
+      if (!point) continue;
+      ArcOrders arc(problem_.tower, mode(share), implicit, *point);
+      orders = reaction_orders(problem_, arc, factors_on(problem_, implicit));
+      const FactorRole role = factor(share).role;
+      const bool own_too = role != FactorRole::reaction && role != FactorRole::direct_singularity;
+      orders.decided = orders.decided && (own_too || std::find(orders.vanishes.begin(), orders.vanishes.end(),
+                                                               share.factor) != orders.vanishes.end());
+      if (!orders.decided) continue;
+      look(arc);
+      break;
+    }
+    return orders;
+  }
+
+  /// What vanishes along an arc; nothing where the arc is among those of a factor before, or is none of a margin.
+  std::optional<EdgeLabel> label_along(const SheetShare& share, const TracedArc& traced,
+                                       const core::Polynomial& implicit) const {
+    const LocusFactor& own = factor(share);
+    const auto plain = [&](const std::vector<int>& together, bool proven) {
+      EdgeLabel label = label_of(problem_, together);
+      label.proven = proven;
+      return label;
+    };
+    if (own.implicit.empty() || own.role == FactorRole::workspace_boundary) return plain({share.factor}, true);
+    std::vector<const SheetShare*> others;
+    for (const SheetShare* other : shares_) {
+      const auto& list = factor(*other).implicit;
+      if (other != &share && own.role == FactorRole::reaction && factor(*other).role == FactorRole::reaction &&
+          std::find(list.begin(), list.end(), implicit) != list.end())
+        others.push_back(other);
+    }
+    const bool compare = own.role == FactorRole::direct_singularity ? own.may_be_idle
+                         : own.role == FactorRole::margin           ? !own.cleared.empty()
+                                                                    : true;
+    if ((others.empty() && !needs_orders(problem_, implicit)) || !compare) return plain({share.factor}, true);
+
+    std::optional<bool> margin = true;
+    const ReactionOrders orders = orders_along(share, traced, implicit, [&](ArcOrders& arc) {
+      if (own.role == FactorRole::margin) margin = is_margin(own, arc);
+    });
+    if (own.role == FactorRole::margin) {
+      if (margin && !*margin) return std::nullopt;
+      return plain({share.factor}, orders.decided && margin);
+    }
+    if (own.role == FactorRole::direct_singularity) {
+      EdgeLabel label = plain({share.factor}, true);
+      label.excited = !orders.decided || orders.excited;
+      return label;
+    }
+    const auto vanishes = [&](const SheetShare& other) {
+      if (orders.decided)
+        return std::find(orders.vanishes.begin(), orders.vanishes.end(), other.factor) != orders.vanishes.end();
+      return VanishesAlong(problem_, mode(share), factor(other).sheet)(traced);
+    };
+    std::vector<int> together = {share.factor};
+    bool proven = true;
+    for (const SheetShare* other : others) {
+      if (!vanishes(*other)) continue;
+      if (other->factor < share.factor) return std::nullopt;
+      together.push_back(other->factor);
+      proven = proven && other->traced.certified;
+    }
+    EdgeLabel label = orders.decided ? reaction_label(problem_, orders) : plain(together, false);
+    label.proven = label.proven && proven;
+    return label;
+  }
+
   void take(const SheetShare& share, const TracedArc& traced) {
     const LocusFactor& own = factor(share);
     const core::Polynomial implicit =
         own.implicit.empty() ? core::Polynomial{2, {}} : own.implicit[static_cast<std::size_t>(traced.colour)];
-    std::vector<int> together = {share.factor};
-    bool certified = share.traced.certified;
-    if (own.role == FactorRole::reaction && !own.implicit.empty()) {
-      for (const SheetShare* other : shares_) {
-        if (other == &share || factor(*other).role != FactorRole::reaction) continue;
-        const auto& list = factor(*other).implicit;
-        if (std::find(list.begin(), list.end(), implicit) == list.end()) continue;
-        if (!VanishesAlong(problem_, mode(share), factor(*other).sheet)(traced)) continue;
-        if (other->factor < share.factor) return;  // it is among the other's arcs
-        together.push_back(other->factor);
-        certified = certified && other->traced.certified;
-      }
-    }
-    const EdgeLabel label = label_of(problem_, together);
-    if (own.role == FactorRole::reaction && label.vanishing.empty()) return;
+    std::optional<EdgeLabel> label = label_along(share, traced, implicit);
+    if (!label || (own.role == FactorRole::reaction && label->vanishing.empty())) return;
+    const bool certified = share.traced.certified && label->proven;
+    label->proven = true;
     auto curve = std::find_if(curves_.begin(), curves_.end(), [&](const LocusCurve& c) {
-      return c.implicit == implicit && EdgeLabel{c.kind, c.vanishing, c.factor, c.cause} == label;
+      return c.implicit == implicit && EdgeLabel{c.kind, c.vanishing, c.factor, c.cause, c.excited} == *label;
     });
     if (curve == curves_.end()) {
       curve = curves_.insert(curve, LocusCurve{});
-      curve->kind = label.kind;
-      curve->vanishing = label.vanishing;
-      curve->factor = label.factor;
-      curve->cause = label.cause;
+      curve->kind = label->kind;
+      curve->vanishing = label->vanishing;
+      curve->factor = label->factor;
+      curve->cause = label->cause;
+      curve->excited = label->excited;
       curve->implicit = implicit;
       if (!implicit.is_zero()) curve->closed_form = core::recognise_closed_form(implicit);
       curve->mode = mode(share);
@@ -292,10 +403,6 @@ class Gathering {
 }  // namespace
 
 std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const TraceOptions& options) {
-  std::vector<sheet::Cutter> cutters;
-  for (const LocusFactor& factor : problem.factors)
-    if (factor.role == FactorRole::direct_singularity)
-      cutters.push_back({{factor.sheet, factor.line}, core::ArcEnd::direct_singularity});
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
   sheet_options.certificate = options.certificate != nullptr;
@@ -335,7 +442,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
         sheet::SheetTraceOptions own = sheet_options;
         own.special = special[mode];
         share.traced = trace_share(problem, problem.factors[static_cast<std::size_t>(share.factor)],
-                                   problem.modes[mode], cutters, std::move(own));
+                                   problem.modes[mode], std::move(own));
         const std::lock_guard lock(mutex);
         if (options.progress)
           options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");

@@ -105,7 +105,7 @@ bool is_wanted(const LocusProblem& problem, const std::vector<Whole>& wholes, co
   const LocusFactor& factor = *whole.factor;
   if (factor.implicit.empty() && !factor.implicit_too_heavy) return false;
   if (factor.role != FactorRole::reaction) return true;
-  if (!reaction_label(problem, {&factor}).vanishing.empty()) return true;
+  if (!reaction_label(problem, std::vector{&factor}).vanishing.empty()) return true;
   std::vector<const LocusFactor*> together = {&factor};
   for (const Whole& other : wholes)
     if (&other != &whole && other.factor->role == FactorRole::reaction && shares_surface(factor, *other.factor))
@@ -285,7 +285,7 @@ class ModeSurfaces {
                                                                                      : LocusKind::direct_singularity);
     if (factor.role == FactorRole::reaction || factor.role == FactorRole::margin) {
       what.clear();
-      for (const core::Vanishing& v : reaction_label(problem_, {&factor}).vanishing)
+      for (const core::Vanishing& v : reaction_label(problem_, std::vector{&factor}).vanishing)
         what += (what.empty() ? "" : ", ") + core::to_string(v.quantity) + "_" + v.joint;
       if (what.empty()) what = factor.cause;
     }

@@ -93,7 +93,14 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
   for (std::size_t f = 0; f < problem.factors.size(); ++f) {
     const bool own = std::any_of(open.begin(), open.end(),
                                  [&](const SheetShare& share) { return share.factor == static_cast<int>(f); });
-    if (!own && !is_context(problem.factors[f])) continue;
+    if (!own && !is_context(problem.factors[f])) {
+      // Its curves are settled; its orders along those that are not may still count.
+      if (problem.factors[f].role != FactorRole::reaction) continue;
+      rest.factors.push_back(problem.factors[f]);
+      rest.factors.back().implicit.clear();
+      rest.factors.back().implicit_too_heavy = false;
+      continue;
+    }
     if (highest_degree(problem.factors[f]) > bearable_degree || problem.factors[f].implicit_too_heavy) return;
     rest.factors.push_back(problem.factors[f]);
   }

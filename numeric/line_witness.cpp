@@ -5,12 +5,17 @@
 
 namespace clearloci::numeric {
 
+std::array<Bounded, 3> components(const BoundedNumerators& numerators, const WitnessColumns& columns) {
+  const auto value = [&](int column) {
+    return column < 0 ? Bounded(0.0) : numerators.values[static_cast<std::size_t>(column)];
+  };
+  if (columns.lever != 0) return {value(columns.first) + Bounded(columns.lever) * value(columns.second), 0.0, 0.0};
+  return {value(columns.first), value(columns.second), value(columns.third)};
+}
+
 bool is_decided(const BoundedNumerators& numerators, const WitnessColumns& columns) {
-  for (const int column : {columns.first, columns.second, columns.third}) {
-    if (column < 0) continue;
-    const Bounded& n = numerators.values[static_cast<std::size_t>(column)];
+  for (const Bounded& n : components(numerators, columns))
     if (std::abs(n.value) > n.error) return true;
-  }
   return false;
 }
 
@@ -44,13 +49,12 @@ bool LineWitness::decided(const WitnessColumns& columns, double position) {
 }
 
 ForceNumerators LineWitness::force(const WitnessColumns& columns, double position) {
-  const BoundedNumerators& n = at(position);
-  const auto value = [&](int column) { return column < 0 ? 0.0 : n.values[static_cast<std::size_t>(column)].value; };
-  return {value(columns.first), value(columns.second), value(columns.third)};
+  const std::array<Bounded, 3> n = components(at(position), columns);
+  return {n[0].value, n[1].value, n[2].value};
 }
 
 Parity LineWitness::sign_changes(const WitnessColumns& columns, double a, double b) {
-  if (columns.second < 0) return (force(columns, a)[0] > 0) == (force(columns, b)[0] > 0) ? Parity::even : Parity::odd;
+  if (columns.single()) return (force(columns, a)[0] > 0) == (force(columns, b)[0] > 0) ? Parity::even : Parity::odd;
   constexpr int pieces = 16;  // a turn that cancels a flip over the whole stretch does not do so over each piece
   int odd = 0;
   double from = a;
@@ -66,7 +70,7 @@ Parity LineWitness::sign_changes(const WitnessColumns& columns, double a, double
 }
 
 bool LineWitness::cancels(const WitnessColumns& columns, double a, double b) {
-  if (columns.second >= 0) return false;
+  if (!columns.single()) return false;
   constexpr int pieces = 16;  // factors of |A| may vanish side by side
   bool odd = false;
   double from = a;
@@ -107,7 +111,7 @@ bool LineWitness::cancels_between(const WitnessColumns& columns, double a, doubl
     const double before = std::max(least, place - radius), after = std::min(most, place + radius);
     if (determinant_sign(before) * determinant_sign(after) >= 0) continue;
     if (!decided(columns, before) || !decided(columns, after)) continue;
-    return (force(columns, before)[0] > 0) != (force(columns, after)[0] > 0);
+    return (force(columns, before)[0] > 0) != (force(columns, after)[0] > 0) || !decided(columns, place);
   }
   return !decided(columns, place);
 }

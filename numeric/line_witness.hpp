@@ -10,15 +10,22 @@
 
 namespace clearloci::numeric {
 
-/// Columns of the unknowns that vanish together: one for fx, fy, M; the two, or in space three, components for f.
+/// Columns of the unknowns that vanish together: one for fx, fy, M; the two, or in space three, components for f. Of an
+/// end of a guide: those of N and T, which make up the one number N + lever T.
 struct WitnessColumns {
   int first = -1;
-  int second = -1;  ///< -1: a single component
-  int third = -1;   ///< -1: none, in the plane
+  int second = -1;   ///< -1: a single component
+  int third = -1;    ///< -1: none, in the plane
+  double lever = 0;  ///< +-1/h, 1/m; 0: of anything but a guide's end
+
+  bool single() const { return second < 0 || lever != 0; }
 };
 
 /// The numerators of such columns; 0 for those that there are not.
 using ForceNumerators = std::array<double, 3>;
+
+/// They with their bounds; two zeros behind a single one.
+std::array<Bounded, 3> components(const BoundedNumerators& numerators, const WitnessColumns& columns);
 
 /// Cosine of the angle between two forces' numerators; NaN where one is zero.
 double turn_cosine(const ForceNumerators& p, const ForceNumerators& q);
@@ -56,7 +63,8 @@ class LineWitness {
   Parity sign_changes(const WitnessColumns& columns, double a, double b);
 
   /// Whether there is an odd number of places between a and b at which |A| and the numerator change sign together:
-  /// there the reaction, their quotient, stays finite and is no zero. For a single component.
+  /// there the reaction, their quotient, stays finite and is no zero; or |A| does and the numerator vanishes without doing
+  /// so: there the quotient changes sign. For a single component.
   bool cancels(const WitnessColumns& columns, double a, double b);
 
  private:

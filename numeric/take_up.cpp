@@ -81,8 +81,9 @@ std::vector<TakeUp> take_up(const NumericModel& model, const std::vector<JointCl
       const auto ends = guide_ends(reactions(normal), reactions(tilt), h);
       // Beyond what rounding leaves of a sum that is zero.
       const double noise = 1e-12 * (std::abs(reactions(normal)) + std::abs(reactions(tilt)) / h);
-      t.guide_vanishes =
-          (vanishes(normal) && vanishes(tilt)) || !(std::abs(ends[0]) > noise) || !(std::abs(ends[1]) > noise);
+      const bool nothing = vanishes(normal) && vanishes(tilt);
+      for (std::size_t end : {0u, 1u}) t.end_vanishes[end] = nothing || !(std::abs(ends[end]) > noise);
+      t.guide_vanishes = t.end_vanishes[0] || t.end_vanishes[1];
       if (!t.guide_vanishes) {
         const double far = -std::copysign(g, ends[0]), near = -std::copysign(g, ends[1]);
         t.normal = (far + near) / 2;
@@ -94,14 +95,27 @@ std::vector<TakeUp> take_up(const NumericModel& model, const std::vector<JointCl
   return result;
 }
 
+std::vector<core::Vanishing> lost_reactions(const NumericModel& model, const std::vector<JointClearance>& clearances,
+                                            const std::vector<TakeUp>& take_up) {
+  using core::Quantity;
+  std::vector<core::Vanishing> lost;
+  for (std::size_t j = 0; j < take_up.size(); ++j) {
+    const TakeUp& t = take_up[j];
+    const mechanism::Joint& joint = model.mechanism.joints[j];
+    if (t.force_vanishes && clearances[j].radial > 0) lost.push_back({joint.name, Quantity::f});
+    if (t.end_vanishes[0]) lost.push_back({joint.name, Quantity::end_ahead});
+    if (t.end_vanishes[1]) lost.push_back({joint.name, Quantity::end_behind});
+    if (t.couple_vanishes && clearances[j].angular > 0)
+      lost.push_back({joint.name, mechanism::actuator_quantity(joint)});
+  }
+  return lost;
+}
+
 std::vector<std::string> undefined_take_up(const NumericModel& model, const std::vector<JointClearance>& clearances,
                                            const std::vector<TakeUp>& take_up) {
   std::vector<std::string> names;
-  for (std::size_t j = 0; j < take_up.size(); ++j) {
-    const bool force = take_up[j].force_vanishes && clearances[j].radial > 0;
-    const bool couple = take_up[j].couple_vanishes && clearances[j].angular > 0;
-    if (force || couple || take_up[j].guide_vanishes) names.push_back(model.mechanism.joints[j].name);
-  }
+  for (const core::Vanishing& lost : lost_reactions(model, clearances, take_up))
+    if (names.empty() || names.back() != lost.joint) names.push_back(lost.joint);
   return names;
 }
 

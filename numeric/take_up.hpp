@@ -9,10 +9,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/locus_factor.hpp"
 #include "numeric/reactions.hpp"
 
 namespace clearloci::numeric {
@@ -52,6 +54,7 @@ struct TakeUp {
   bool couple_vanishes = false;
   double normal = 0, tilt = 0;  ///< of a prismatic joint, m and rad
   bool guide_vanishes = false;  ///< one of its ends is pressed to neither side
+  std::array<bool, 2> end_vanishes{};  ///< which: ahead, behind
 
   bool operator==(const TakeUp&) const = default;
 };
@@ -64,6 +67,10 @@ std::vector<bool> vanishing_unknowns(const NumericModel& model, std::span<const 
 /// `reactions`: in the order of the unknowns; `vanishing`: as above, or empty: those that are exactly zero.
 std::vector<TakeUp> take_up(const NumericModel& model, const std::vector<JointClearance>& clearances,
                             const Eigen::VectorXd& reactions, const std::vector<bool>& vanishing = {});
+
+/// Reactions of joints that leave the take-up of their clearances undefined: f, M or F, an end of a guide.
+std::vector<core::Vanishing> lost_reactions(const NumericModel& model, const std::vector<JointClearance>& clearances,
+                                            const std::vector<TakeUp>& take_up);
 
 /// Names of the joints whose take-up is undefined though they have a clearance.
 std::vector<std::string> undefined_take_up(const NumericModel& model, const std::vector<JointClearance>& clearances,

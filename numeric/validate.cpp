@@ -10,9 +10,11 @@
 #include <optional>
 
 #include "core/errors.hpp"
+#include "numeric/arc_witness.hpp"
 #include "numeric/edge_judge.hpp"
 #include "numeric/grid_passages.hpp"
 #include "numeric/reactions.hpp"
+#include "numeric/take_up.hpp"
 
 namespace clearloci::numeric {
 
@@ -81,6 +83,14 @@ WitnessColumns columns_of(const NumericModel& model, const TracedReaction& react
                            "joint " + reaction.joint + " has no reaction " + core::to_string(reaction.quantity),
                            "name a joint of the mechanism, and M only where it is actuated");
   };
+  if (core::is_guide_end(reaction.quantity)) {
+    const double h = joint_clearances(model.mechanism)[static_cast<std::size_t>(joint)].half_length;
+    if (!(h > 0))
+      throw core::InputError({model.mechanism.file, 0, 0}, "the ends of the guide " + reaction.joint + " are not known",
+                             "give its clearance a half_length");
+    const double lever = (reaction.quantity == Quantity::end_ahead ? 1 : -1) / h;
+    return {column(Quantity::N), column(Quantity::T), -1, lever};
+  }
   if (reaction.quantity != Quantity::f) return {column(reaction.quantity)};
   if (model.mechanism.space == mechanism::Space::planar) return {column(Quantity::fx), column(Quantity::fy)};
   return {column(Quantity::fx), column(Quantity::fy), column(Quantity::fz)};
@@ -113,7 +123,13 @@ class ModeValidation {
  public:
   ModeValidation(const NumericModel& model, const LocusMap& map, const Grid& grid, const WorkingMode& mode,
                  const std::vector<TracedReaction>& traced, double reach, double diagonal)
-      : model_(model), grid_(grid), mode_(mode), signs_(dyad_signs(model, map.tower, mode)), reach_(reach) {
+      : model_(model),
+        map_(map),
+        grid_(grid),
+        mode_(mode),
+        signs_(dyad_signs(model, map.tower, mode)),
+        reach_(reach),
+        diagonal_(diagonal) {
     smallest_ = flip_resolution * diagonal;
     for (const auto& reaction : traced)
       reactions_.push_back({reaction, columns_of(model, reaction), force_parts(model, reaction), {}});
@@ -140,6 +156,7 @@ class ModeValidation {
       tallies[static_cast<std::size_t>(line)] = line < rows ? judge_line(true, line) : judge_line(false, line - rows);
     });
     merge(tallies, report, listed);
+    judge_arcs(report);
   }
 
  private:
@@ -192,6 +209,8 @@ class ModeValidation {
     if (!nodes.first_reachable || !nodes.second_reachable) return nodes;
     // One component: the cosine is a sign. Two: in between, the turn has to be followed.
     const auto force = [&](int a, int b) {
+      if (columns.lever != 0)
+        return ForceNumerators{numerator(columns.first, a, b) + columns.lever * numerator(columns.second, a, b), 0, 0};
       return ForceNumerators{numerator(columns.first, a, b), numerator(columns.second, a, b),
                              numerator(columns.third, a, b)};
     };
@@ -243,11 +262,89 @@ class ModeValidation {
     }
   }
 
+  /// What the reactions do beside every arc, against what the map says of them there.
+  void judge_arcs(ValidationReport& report) const {
+    for (std::size_t c = 0; c < map_.curves.size(); ++c) {
+      const LocusCurve& curve = map_.curves[c];
+      if (curve.mode != mode_ || curve.kind == LocusKind::margin) continue;
+      for (const core::Arc& arc : curve.arcs) {
+        const std::vector<Approach> ways = approaches(model_, signs_, arc, diagonal_);
+        if (ways.empty()) continue;
+        const bool context =
+            curve.kind == LocusKind::direct_singularity || curve.kind == LocusKind::workspace_boundary;
+        for (std::size_t r = 0; r < reactions_.size(); ++r)
+          if (!zero_[r]) judge_arc(c, ways, reactions_[r], context, report);
+        if (curve.kind == LocusKind::direct_singularity && !curve.excited) judge_idle(c, ways, report);
+      }
+    }
+  }
+
+  struct Tally {
+    std::size_t zero = 0, other = 0, unbounded = 0;
+  };
+  static Tally tally_of(const std::vector<Approach>& ways, const WitnessColumns& columns) {
+    Tally tally;
+    for (const Approach& way : ways) {
+      const std::optional<Tendency> found = tendency(way, columns);
+      if (!found) continue;
+      ++(*found == Tendency::zero ? tally.zero : tally.other);
+      if (*found == Tendency::unbounded) ++tally.unbounded;
+    }
+    return tally;
+  }
+
+  /// A claim is disputed where most of the ways say otherwise: some may end near a zero of another curve.
+  void judge_arc(std::size_t c, const std::vector<Approach>& ways, const CheckedReaction& checked, bool context,
+                 ValidationReport& report) const {
+    const bool claimed = checked.weights[c] != 0;
+    if (!claimed && !context) return;
+    const Tally tally = tally_of(ways, checked.columns);
+    const auto most = [&](std::size_t count) { return 2 * count > ways.size(); };
+    const auto dispute = [&](const core::Point2& at) {
+      ++report.disputed;
+      report.disputed_arcs.push_back({map_.curves[c].id, at, mode_, checked.reaction, claimed, false});
+    };
+    if (claimed && most(tally.other)) return dispute(ways.front().towards);
+    if (claimed) ++(most(tally.zero) ? report.arcs_held : report.arcs_undecided);
+    if (claimed || !most(tally.zero)) return;
+    // Another curve of the map may run along here and say so.
+    const core::Point2& at = ways.front().towards;
+    for (std::size_t k = 0; k < map_.curves.size(); ++k)
+      if (checked.weights[k] != 0 && passes_near(map_.curves[k], at, 2 * reach_)) return;
+    dispute(at);
+  }
+
+  /// A direct singularity at which the map has every reaction stay finite.
+  void judge_idle(std::size_t c, const std::vector<Approach>& ways, ValidationReport& report) const {
+    for (std::size_t k = 0; k < model_.unknowns.size(); ++k) {
+      const Tally tally = tally_of(ways, {static_cast<int>(k)});
+      if (2 * tally.unbounded <= ways.size()) continue;
+      const mechanism::Unknown& unknown = model_.unknowns[k];
+      const std::string& joint = model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)].name;
+      ++report.disputed;
+      report.disputed_arcs.push_back(
+          {map_.curves[c].id, ways.front().towards, mode_, {joint, unknown.quantity}, true, true});
+    }
+  }
+
+  static bool passes_near(const LocusCurve& curve, const core::Point2& at, double reach) {
+    for (const core::Arc& arc : curve.arcs)
+      for (std::size_t i = 1; i < arc.points.size(); ++i) {
+        const core::Point2 &a = arc.points[i - 1], &b = arc.points[i];
+        const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+        const double t =
+            length2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
+        if (std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]) <= reach) return true;
+      }
+    return false;
+  }
+
   const NumericModel& model_;
+  const LocusMap& map_;
   Grid grid_;
   WorkingMode mode_;
   std::vector<int> signs_;
-  double reach_;
+  double reach_, diagonal_;
   double smallest_ = 0;
   std::vector<CheckedReaction> reactions_;
   std::vector<int> boundary_;

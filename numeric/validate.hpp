@@ -1,6 +1,8 @@
 // The witness against the traced loci: on every cell edge of a grid, the numerator N_q = w_q |A| of a reaction changes
 // sign exactly if an odd number of arcs of that reaction cross the edge. N_q is continuous through direct singularities
 // (w_q is not), so they need no care; the workspace boundary does, for there is no mechanism beyond it.
+// And along every arc, approached from the sides: what the map has vanish there tends to zero, and along direct
+// singularities and the boundary, which no edge need cross, nothing else does (arc_witness.hpp).
 #pragma once
 
 #include <cstddef>
@@ -48,10 +50,22 @@ struct DisputedEdge {
   bool sign_change = false;
 };
 
+/// An arc of which the map says another thing than the reactions beside it do.
+struct DisputedArc {
+  std::string curve;  ///< its id
+  core::Point2 at{};  ///< one of the arc's points that were approached
+  core::WorkingMode mode;
+  TracedReaction reaction;
+  bool claimed = false;      ///< the map has the reaction vanish there; or, with `unbounded`, says that none is unbounded
+  bool unbounded = false;    ///< the reaction grows without bound there
+};
+
 struct ValidationReport {
   std::vector<ReactionTally> tallies;  ///< by mode, then reaction
   std::size_t held = 0, disputed = 0, undecided = 0, outside = 0;
   std::vector<DisputedEdge> disputed_edges;
+  std::size_t arcs_held = 0, arcs_undecided = 0;  ///< claims of a reaction's vanishing along an arc, one by one
+  std::vector<DisputedArc> disputed_arcs;         ///< all of them; counted in `disputed` too
 };
 
 /// The reactions that some contact-loss, backlash or component curve of the map names, in order of first appearance.

@@ -25,6 +25,7 @@ Json arc_feature(const core::LocusMap& map, const core::LocusCurve& curve, std::
                      {"arc", index + 1},
                      {"kind", core::to_string(curve.kind)},
                      {"vanishing", vanishing_array(curve.vanishing)},
+                     {"excited", curve.excited},
                      {"factor", printable(curve.factor)},
                      {"cause", printable(curve.cause)},
                      {"mode", mode_object(map.tower, curve.mode)},

@@ -61,6 +61,7 @@ std::string reason_words(const core::LocusCurve& curve) {
 
 std::string what_words(const core::LocusCurve& curve) {
   const std::string what = printable(vanishing_words(curve.kind, curve.vanishing));
+  if (!curve.excited) return kind_words(curve.kind) + ", not excited by this load";
   return what.empty() || !is_reaction(curve.kind) ? kind_words(curve.kind) : what;
 }
 
@@ -68,13 +69,14 @@ void add_curve(Groups& groups, const core::LocusCurve& curve) {
   const bool reaction = is_reaction(curve.kind);
   const std::string reason = !reaction ? "" : curve.cause.empty() ? curve.factor : curve.cause;
   const auto same = [&](const CurveGroup& group) {
-    return group.kind == curve.kind &&
+    return group.kind == curve.kind && group.excited == curve.excited &&
            (!reaction || (group.reason == reason && same_reactions(group.vanishing, curve.vanishing)));
   };
   auto group = std::find_if(groups.curves.begin(), groups.curves.end(), same);
   if (group == groups.curves.end()) {
     CurveGroup fresh;
     fresh.kind = curve.kind;
+    fresh.excited = curve.excited;
     fresh.reason = reason;
     fresh.what = what_words(curve);
     if (reaction) {
@@ -111,7 +113,7 @@ void choose_strokes(Groups& groups) {
     within_kind = previous != nullptr && previous->kind == group.kind ? within_kind + 1 : 0;
     previous = &group;
     if (group.kind == core::LocusKind::direct_singularity) {
-      group.stroke = {{0, 0, 0}, 1.3, {8, 2.5, 1.5, 2.5}, false};
+      group.stroke = {{0, 0, 0}, group.excited ? 1.3 : 0.7, {8, 2.5, 1.5, 2.5}, false};
     } else if (group.kind == core::LocusKind::workspace_boundary) {
       group.stroke = {{0.35, 0.35, 0.35}, 0.9, {}, false};
     } else {

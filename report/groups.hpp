@@ -35,6 +35,7 @@ Colour palette_colour(int number);
 /// workspace boundary.
 struct CurveGroup {
   core::LocusKind kind = core::LocusKind::contact_loss;
+  bool excited = true;  ///< LocusCurve::excited
   std::vector<core::Vanishing> vanishing;
   std::string reason;  ///< the cause, or the factor where it has no reading
   std::string what;    ///< for the legend: what happens there

@@ -89,6 +89,7 @@ Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
   body["closed_form"] = closed_form_object(curve.closed_form);
   body["working_mode"] = mode_object(map.tower, curve.mode);
   body["certified"] = curve.certified;
+  if (curve.kind == core::LocusKind::direct_singularity) body["excited"] = curve.excited;
   body["arcs"] = Json::array();
   for (const auto& arc : curve.arcs) body["arcs"].push_back(arc_object(arc));
   return body;
@@ -127,6 +128,7 @@ Json isolated_point_object(const core::LocusMap& map, const core::IsolatedPoint&
     body["factor"] = printable(point.factor);
     body["cause"] = printable(point.cause);
   }
+  if (point.kind == core::LocusKind::direct_singularity && point.at.size() == 1) body["excited"] = point.excited;
   body["at"] = point.at;
   body["certified"] = point.certified;
   body["working_mode"] = mode_object(map.tower, point.mode);

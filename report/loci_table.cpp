@@ -14,6 +14,9 @@ namespace {
 
 constexpr int table_width = 120;
 
+/// Of a direct singularity.
+constexpr const char* not_excited = "not excited by this load";
+
 struct Column {
   std::string heading;
   int widest = 0;  ///< cells are wrapped to this
@@ -79,13 +82,15 @@ std::string format_rows(const std::vector<Column>& heading, const std::vector<Ro
   return out;
 }
 
-/// "f: A1, B1, P; M: A1".
+/// "f: A1, B1, P; M: A1, A2 (no change of sign)".
 std::string what_vanishes(const std::vector<core::Vanishing>& vanishing) {
   std::string text;
   for (const auto quantity : core::all_quantities) {
     std::string joints;
     for (const auto& one : vanishing) {
-      if (one.quantity == quantity) joints += (joints.empty() ? "" : ", ") + printable(one.joint);
+      if (one.quantity != quantity) continue;
+      joints += (joints.empty() ? "" : ", ") + printable(one.joint);
+      if (one.multiplicity % 2 == 0) joints += " (no change of sign)";
     }
     if (!joints.empty()) text += (text.empty() ? "" : "; ") + core::to_string(quantity) + ": " + joints;
   }
@@ -95,7 +100,7 @@ std::string what_vanishes(const std::vector<core::Vanishing>& vanishing) {
 /// What vanishes, and on a line of its own where.
 std::string where(const core::LocusCurve& curve) {
   const std::string what = what_vanishes(curve.vanishing);
-  const std::string start = what.empty() ? "" : what + "\n";
+  const std::string start = (what.empty() ? "" : what + "\n") + (curve.excited ? "" : std::string(not_excited) + "\n");
   if (!curve.cause.empty()) return start + printable(curve.cause);
   constexpr int readable = 60;  // a longer factor would fill the screen; `equations` prints it whole
   if (columns(curve.factor) <= readable) return start + printable(curve.factor);
@@ -216,7 +221,7 @@ std::string single_coordinate_rows(const core::LocusMap& map, const core::Workin
     constexpr int readable = 60;
     std::string why = point.cause.empty() ? point.factor : point.cause;
     if (columns(why) > 2 * readable) why = "factor without a short form";
-    const std::string what = what_vanishes(point.vanishing);
+    const std::string what = what_vanishes(point.vanishing) + (point.excited ? "" : not_excited);
     rows.push_back({"p" + std::to_string(i + 1), kind_words(point.kind),
                     what + (what.empty() ? "" : "\n") + printable(why), place(map, point.at.front())});
     if (is_angle(map)) rows.back().push_back(fmt::format("{:.11f}", point.at.front()));

@@ -94,6 +94,8 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
   const bool margin = kind == core::LocusKind::margin;
   const std::vector<std::pair<core::Quantity, std::string>> wordings = {
       {core::Quantity::f, margin ? "contact force at its minimum" : "contact lost"},
+      {core::Quantity::end_ahead, margin ? "end ahead at its minimum" : "end ahead lifts"},
+      {core::Quantity::end_behind, margin ? "end behind at its minimum" : "end behind lifts"},
       {core::Quantity::N, margin ? "normal force at its minimum" : "normal force zero"},
       {core::Quantity::T, "couple zero"},
       {core::Quantity::M, margin ? "couple at its minimum" : "backlash"},
@@ -104,6 +106,9 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
       {core::Quantity::mx, "mx = 0"},
       {core::Quantity::my, "my = 0"},
       {core::Quantity::mz, "mz = 0"}};
+  if (kind == core::LocusKind::no_limit) {
+    return vanishing.empty() ? "no limit" : "no limit: " + reaction_names(vanishing);
+  }
   std::vector<std::string> parts;
   for (const auto& [quantity, words] : wordings) {
     const auto joints = joints_of(vanishing, quantity);

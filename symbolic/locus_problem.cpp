@@ -1,6 +1,7 @@
 #include "symbolic/locus_problem.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <map>
 
@@ -10,8 +11,10 @@
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/family.hpp"
+#include "symbolic/guide_ends.hpp"
 #include "symbolic/margins.hpp"
 #include "symbolic/reactions.hpp"
+#include "symbolic/shared_curves.hpp"
 #include "symbolic/straight_lines.hpp"
 
 namespace clearloci::symbolic {
@@ -42,8 +45,8 @@ std::vector<std::string> selected_joints(const Mechanism& m, const Selection& se
   return with_clearance.empty() ? known : with_clearance;
 }
 
-/// Where contact losses are wanted, so are the zeros of the normal force and the couple of a prismatic joint, at which
-/// its contact changes; where backlash is, so is that of an actuator along its axis.
+/// Where contact losses are wanted, so are those of either end of a prismatic joint's contact; where backlash is, so is
+/// that of an actuator along its axis.
 std::vector<Quantity> expanded(const Mechanism& m, std::vector<Quantity> wanted) {
   const auto add = [&wanted](Quantity quantity) {
     if (std::find(wanted.begin(), wanted.end(), quantity) == wanted.end()) wanted.push_back(quantity);
@@ -51,8 +54,8 @@ std::vector<Quantity> expanded(const Mechanism& m, std::vector<Quantity> wanted)
   const std::vector<Quantity> named = wanted;
   for (const Quantity quantity : named) {
     if (quantity == Quantity::f && m.space == mechanism::Space::planar) {
-      add(Quantity::N);
-      add(Quantity::T);
+      add(Quantity::end_ahead);
+      add(Quantity::end_behind);
     }
     if (quantity == Quantity::M) add(Quantity::F);
   }
@@ -65,6 +68,17 @@ struct SharedFactor {
   std::vector<Vanishing> vanishing;
   bool wanted_curve = false;  ///< its curves are to be traced
   bool wanted_point = false;  ///< it takes part in an isolated contact loss
+  bool wanted_order = false;  ///< its order tells what a reaction does where |A| vanishes too
+};
+
+/// A factor of |A| over the tower.
+struct DeterminantPart {
+  const PolyFactor* natural = nullptr;
+  SheetFactor sheet;
+  int multiplicity = 1;              ///< in |A|
+  bool alone = true;                 ///< the natural factor is this, once, but for denominators
+  std::vector<Vanishing> cancelled;  ///< LocusFactor::cancelled
+  bool may_be_idle = false;
 };
 
 /// `pieces`: one an angle, in the order of the coordinates.
@@ -111,7 +125,10 @@ class Derivation {
         elimination_(geometry_),
         causes_(geometry_),
         reactions_(reactions(geometry_, determinants_)),
+        guides_(guides(geometry_, elimination_, reactions_)),
         lines_(geometry_) {
+    for (const Guide& guide : guides_)
+      for (Reaction& end : end_reactions(guide, determinants_.determinant)) reactions_.push_back(std::move(end));
     result_.problem.tower = lines_.tower();
     result_.problem.joints = selected_joints(m, selection);
     result_.problem.quantities = expanded(m, selection.quantities);
@@ -119,6 +136,10 @@ class Derivation {
     for (const mechanism::Joint& joint : m.joints) {
       result_.problem.joint_order.push_back(joint.name);
       result_.problem.force_components.push_back(mechanism::force_components(m, joint));
+      // A guide whose ends are not known loses its contact where it bears nothing at all.
+      const bool guide = m.space == mechanism::Space::planar && joint.type == mechanism::JointType::prismatic;
+      if (guide && numerator(reactions_, joint.name, Quantity::end_ahead) == nullptr)
+        result_.problem.force_components.back() = mechanism::reaction_components(m, joint);
     }
     auto piece = pieces.begin();
     for (const auto& coordinate : m.coordinates) {
@@ -135,7 +156,10 @@ class Derivation {
     mark_wanted();
     result_.symbolic_seconds = seconds_since(start);
     const auto elimination_start = Clock::now();
+    take_determinant_apart();
+    mark_orders();
     add_reactions();
+    add_moving_guides();
     if (selection_.min_force || selection_.min_couple) add_margins();
     add_direct_singularities();
     add_boundaries();
@@ -169,7 +193,7 @@ class Derivation {
     return mechanism_.points[static_cast<std::size_t>(point)].name;
   }
 
-  /// How often a factor divides |A|: there the reaction w = N / |A| does not vanish.
+  /// How often a factor divides |A|: so often it is divided out of w = N / |A|.
   int in_determinant(const Poly& natural) const { return determinants_.determinant.multiplicity(natural); }
 
   bool vanishes_everywhere(const FactoredPoly& p) const {
@@ -199,9 +223,12 @@ class Derivation {
         result_.problem.always_zero.push_back({joint, reaction.quantity});
         continue;
       }
+      result_.problem.reactions.push_back({joint, reaction.quantity});
       for (const PolyFactor& factor : numerator.factors) {
-        const int multiplicity = factor.multiplicity - in_determinant(factor.poly);
-        if (multiplicity <= 0) continue;
+        const int shared = std::min(factor.multiplicity, in_determinant(factor.poly));
+        if (shared > 0) cancelled_.push_back({factor.poly, {joint, reaction.quantity, shared}});
+        const int multiplicity = factor.multiplicity - shared;
+        if (multiplicity == 0) continue;
         auto known = std::find_if(factors_.begin(), factors_.end(),
                                   [&](const SharedFactor& f) { return f.natural == factor.poly; });
         if (known == factors_.end()) known = factors_.insert(known, {factor.poly, {}});
@@ -310,55 +337,127 @@ class Derivation {
 
   std::string text(const Poly& p) const { return core::to_string(p.plain(), geometry_.ring().names()); }
 
-  /// Whether a factor over the tower is one of |A|: where both vanish the reaction stays finite and is no zero.
-  bool divides_determinant(const Poly& sheet) {
-    if (determinant_sheets_.empty()) {
-      for (const PolyFactor& factor : determinants_.determinant.factors)
-        for (const SheetFactor& part : elimination_.sheet_factors(elimination_.over_tower(factor.poly), false))
-          determinant_sheets_.push_back(part.sheet);
+  void take_determinant_apart() {
+    for (const PolyFactor& factor : determinants_.determinant.factors) {
+      std::vector<SheetFactor> sheets = elimination_.sheet_factors(elimination_.over_tower(factor.poly), true);
+      const bool alone = sheets.size() == 1 && sheets.front().multiplicity == 1;
+      for (SheetFactor& sheet : sheets) {
+        const int times = sheet.multiplicity;
+        DeterminantPart part{&factor, std::move(sheet), factor.multiplicity * times, alone, {}};
+        for (const auto& [natural, vanishing] : cancelled_)
+          if (natural == factor.poly)
+            part.cancelled.push_back({vanishing.joint, vanishing.quantity, vanishing.multiplicity * times});
+        determinant_parts_.push_back(std::move(part));
+      }
     }
-    return std::find(determinant_sheets_.begin(), determinant_sheets_.end(), sheet) != determinant_sheets_.end();
+  }
+
+  /// What a reaction does on a curve of |A| = 0 is told by the orders of its factors there (method.md section 10): those
+  /// that may vanish on such a curve are wanted, of the reactions asked for; and of all of them where it may be that
+  /// none grows without bound.
+  void mark_orders() {
+    SharedCurves shared(geometry_);
+    for (DeterminantPart& part : determinant_parts_) {
+      if (part.sheet.too_heavy) continue;
+      std::vector<std::size_t> involved;
+      for (std::size_t i = 0; i < factors_.size(); ++i)
+        if (shared.may_vanish_along(part.sheet.implicit, part.sheet.sheet, factors_[i].natural)) involved.push_back(i);
+      const auto among = [](const std::vector<Vanishing>& list, const Vanishing& reaction) {
+        return std::any_of(list.begin(), list.end(), [&](const Vanishing& v) {
+          return v.joint == reaction.joint && v.quantity == reaction.quantity;
+        });
+      };
+      const auto is_finite_perhaps = [&](const Vanishing& reaction) {
+        return among(part.cancelled, reaction) || std::any_of(involved.begin(), involved.end(), [&](std::size_t i) {
+                 return among(factors_[i].vanishing, reaction);
+               });
+      };
+      const auto& all = result_.problem.reactions;
+      part.may_be_idle = std::all_of(all.begin(), all.end(), [&](const Vanishing& reaction) {
+        return core::is_guide_end(reaction.quantity) || is_finite_perhaps(reaction);  // ends are made of N and T
+      });
+      for (const std::size_t i : involved) {
+        const auto& own = factors_[i].vanishing;
+        factors_[i].wanted_order =
+            factors_[i].wanted_order || part.may_be_idle || std::any_of(own.begin(), own.end(), [&](const Vanishing& v) {
+              return selected(v.joint) && is_asked_for(v.joint, v.quantity);
+            });
+      }
+    }
+  }
+
+  /// Takes what divides |A| too out of what vanishes on a factor over the tower: reactions are quotients.
+  std::vector<Vanishing> without_determinant(const Poly& sheet, std::vector<Vanishing> vanishing) {
+    for (DeterminantPart& part : determinant_parts_) {
+      if (!(part.sheet.sheet == sheet)) continue;
+      for (Vanishing& v : vanishing) {
+        auto known = std::find_if(part.cancelled.begin(), part.cancelled.end(), [&](const Vanishing& own) {
+          return own.joint == v.joint && own.quantity == v.quantity;
+        });
+        if (known == part.cancelled.end()) known = part.cancelled.insert(known, {v.joint, v.quantity, 0});
+        const int shared = std::min(v.multiplicity, part.multiplicity - known->multiplicity);
+        known->multiplicity += shared;
+        v.multiplicity -= shared;
+        if (known->multiplicity == 0) part.cancelled.erase(known);
+      }
+    }
+    std::erase_if(vanishing, [](const Vanishing& v) { return v.multiplicity == 0; });
+    return vanishing;
   }
 
   /// `natural`: the polynomial that gave the sheet; null where there is none.
-  void add(FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit, LocusFactor common,
-           bool without_determinant = false) {
+  void add(FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit, LocusFactor common) {
     common.role = role;
     const std::vector<int> variables = geometry_.tower_variables();
-    const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
     const std::vector<SheetFactor> parts = elimination_.sheet_factors(sheet, with_implicit);
     // Where the sheet splits, the natural form has the zeros of all parts.
     if (natural != nullptr && parts.size() == 1 && parts.front().multiplicity == 1) common.line = lines_.of(*natural);
     for (const SheetFactor& part : parts) {
-      if (without_determinant && divides_determinant(part.sheet)) continue;
       LocusFactor factor = common;
-      factor.sheet = core::scaled_for_doubles(part.sheet.plain(variables));
       for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
-      for (const Poly& curve : part.implicit) factor.implicit.push_back(curve.plain(free));
-      factor.implicit_too_heavy = part.too_heavy;
+      if (role == FactorRole::reaction) {
+        factor.vanishing = without_determinant(part.sheet, std::move(factor.vanishing));
+        if (factor.vanishing.empty()) continue;
+      }
+      factor.sheet = core::scaled_for_doubles(part.sheet.plain(variables));
+      put_implicit(part, factor);
       result_.problem.factors.push_back(std::move(factor));
     }
   }
 
+  void put_implicit(const SheetFactor& part, LocusFactor& factor) const {
+    const std::vector<int> variables = geometry_.tower_variables();
+    const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
+    for (const Poly& curve : part.implicit) factor.implicit.push_back(curve.plain(free));
+    factor.implicit_too_heavy = factor.implicit_too_heavy || part.too_heavy;
+  }
+
   void add_reactions() {
     for (const SharedFactor& shared : factors_) {
-      if (!shared.wanted_curve && !shared.wanted_point) continue;
+      if (!shared.wanted_curve && !shared.wanted_point && !shared.wanted_order) continue;
       LocusFactor factor;
       factor.expression = text(shared.natural);
       factor.cause = causes_.of(shared.natural);
       factor.vanishing = shared.vanishing;
-      // A natural factor of |A| has been counted against it already.
       add(FactorRole::reaction, &shared.natural, sheet_of(static_cast<std::size_t>(&shared - factors_.data())),
-          shared.wanted_curve, factor, in_determinant(shared.natural) == 0);
+          shared.wanted_curve, factor);
     }
   }
 
   void add_direct_singularities() {
-    for (const PolyFactor& part : determinants_.determinant.factors) {
+    const std::vector<int> variables = geometry_.tower_variables();
+    for (const DeterminantPart& part : determinant_parts_) {
       LocusFactor factor;
-      factor.expression = text(part.poly);
-      factor.cause = causes_.of(part.poly);
-      add(FactorRole::direct_singularity, &part.poly, elimination_.over_tower(part.poly), true, factor);
+      factor.role = FactorRole::direct_singularity;
+      factor.expression = text(part.natural->poly);
+      factor.cause = causes_.of(part.natural->poly);
+      factor.sheet = core::scaled_for_doubles(part.sheet.sheet.plain(variables));
+      put_implicit(part.sheet, factor);
+      if (part.alone) factor.line = lines_.of(part.natural->poly);
+      factor.multiplicity = part.multiplicity;
+      factor.cancelled = part.cancelled;
+      factor.may_be_idle = part.may_be_idle;
+      result_.problem.factors.push_back(std::move(factor));
     }
   }
 
@@ -394,6 +493,15 @@ class Derivation {
   bool add_senses(const TwoSenses& senses, const Poly& squared, LocusFactor common) {
     const std::vector<SheetFactor> parts = elimination_.sheet_factors(squared, true);
     if (parts.size() != 1 || parts.front().multiplicity != 1) return false;
+    common.role = FactorRole::margin;
+    for (auto& [sheet, times] : common.cleared) times /= 2;  // unsquared
+    return add_both_senses(senses, parts, {common, common});
+  }
+
+  /// The factors size |w| - bound and size |w| + bound over one more root, |w|. `parts`: of the product of the two. False:
+  /// |w| is constant, or a side is zero.
+  bool add_both_senses(const TwoSenses& senses, const std::vector<SheetFactor>& parts,
+                       std::array<LocusFactor, 2> factors) {
     const Poly t = Poly::variable(geometry_.ring(), geometry_.auxiliary());
     const auto parts_of = [&](const Poly& natural) {
       return elimination_.over_tower(natural).coefficients(geometry_.auxiliary());
@@ -423,13 +531,9 @@ class Derivation {
     if (known == more_roots_.end())
       more_roots_.push_back({"s" + std::to_string(result_.problem.tower.roots.size() + more_roots_.size() + 1), "",
                              core::RootRole::length, square});
-    common.role = FactorRole::margin;
-    for (const Poly& curve : parts.front().implicit)
-      common.implicit.push_back(
-          curve.plain(std::vector<int>(variables.begin(), variables.begin() + geometry_.coordinates())));
-    common.implicit_too_heavy = parts.front().too_heavy;
     for (const int sense : {1, -1}) {
-      LocusFactor factor = common;
+      LocusFactor& factor = factors[sense > 0 ? 0 : 1];
+      for (const SheetFactor& part : parts) put_implicit(part, factor);
       const core::Polynomial root = core::variable_polynomial(index + 1, index);
       const auto widened = [&](const Poly& p) { return core::with_variables(p.plain(variables), index + 1); };
       factor.sheet = core::scaled_for_doubles(sense > 0 ? widened(left) * root - widened(right)
@@ -439,6 +543,90 @@ class Derivation {
       result_.problem.factors.push_back(std::move(factor));
     }
     return true;
+  }
+
+  /// Both senses of size |w| = +-bound, or a note where they are not two curves.
+  void add_ends(const TwoSenses& senses, std::array<LocusFactor, 2> ends, const std::string& joint) {
+    const Poly squared =
+        elimination_.over_tower(senses.size * senses.size * senses.square - senses.bound * senses.bound);
+    if (squared.is_zero() || !add_both_senses(senses, elimination_.sheet_factors(squared, true), std::move(ends)))
+      result_.notes.push_back("where the ends of the guide " + joint + " lift is not traced in full");
+  }
+
+  /// The ends of guides along axes of changing length: h N |u| = T behind, h N |u| = -T ahead.
+  void add_moving_guides() {
+    for (const Guide& guide : guides_) {
+      if (guide.is_polynomial() || !selected(guide.joint)) continue;
+      if (!wanted(Quantity::end_ahead) && !wanted(Quantity::end_behind)) continue;
+      std::array<LocusFactor, 2> ends;
+      for (const bool ahead : {false, true}) {
+        LocusFactor& end = ends[ahead ? 1 : 0];
+        end.role = FactorRole::reaction;
+        end.vanishing = {{guide.joint, ahead ? Quantity::end_ahead : Quantity::end_behind, 1}};
+        end.cause = std::string("end ") + (ahead ? "ahead" : "behind") + " of guide " + guide.joint + " without load";
+      }
+      add_ends({guide.bears, guide.square, guide.turns}, std::move(ends), guide.joint);
+    }
+  }
+
+  /// Where an end bears f_min to either side: h N |u| +- T = +-2 h f_min |A|.
+  void add_guide_margins() {
+    for (const Guide& guide : guides_) {
+      if (!selected(guide.joint)) continue;
+      const Ring& ring = geometry_.ring();
+      const FactoredPoly shared = common_factors(guide.common, determinants_.determinant);
+      const Poly common = without(guide.common, shared, ring);
+      const Poly limit =
+          without(determinants_.determinant, shared, ring).scaled(2 * guide.half_length * *selection_.min_force);
+      const Poly bears = guide.bears * common, turns = guide.turns * common;
+      if (bears.is_zero() && turns.is_zero()) continue;
+      FactoredPoly below = determinants_.determinant;
+      multiply(below, shared, -1);
+      LocusFactor margin;
+      margin.role = FactorRole::margin;
+      margin.cleared = cleared_by(below, 1);
+      const auto of_end = [&](Quantity end) {
+        LocusFactor own = margin;
+        own.vanishing = {{guide.joint, end, 1}};
+        own.cause = "end of guide " + guide.joint + " at " + core::to_string(*selection_.min_force) + " N";
+        return own;
+      };
+      if (!guide.length && !bears.is_zero()) {
+        for (const Poly& bound : {turns - limit, turns + limit})
+          add_ends({bears, guide.square, bound}, {of_end(Quantity::end_behind), of_end(Quantity::end_ahead)},
+                   guide.joint);
+        continue;
+      }
+      std::vector<std::pair<Poly, LocusFactor>> curves;
+      for (const Quantity end : {Quantity::end_ahead, Quantity::end_behind})
+        for (const Poly& bound : {limit, -limit}) {
+          const Poly natural = (end_numerator(guide, end) * common - bound).primitive();
+          const auto known =
+              std::find_if(curves.begin(), curves.end(), [&](const auto& c) { return c.first == natural; });
+          if (known == curves.end())
+            curves.emplace_back(natural, of_end(end));
+          else
+            known->second.vanishing.push_back({guide.joint, end, 1});
+        }
+      for (auto& [natural, factor] : curves) {
+        factor.expression = text(natural);
+        const Poly sheet = elimination_.over_tower(natural);
+        if (sheet.is_zero())
+          result_.notes.push_back(factor.cause + " in every pose");
+        else
+          add(FactorRole::margin, &natural, sheet, true, factor);
+      }
+    }
+  }
+
+  /// The parts over the tower of what a margin's equation was multiplied by, a divisor of |A|, to a power.
+  std::vector<std::pair<core::Polynomial, int>> cleared_by(const FactoredPoly& below, int power) const {
+    std::vector<std::pair<core::Polynomial, int>> parts;
+    for (const DeterminantPart& part : determinant_parts_)
+      if (const int times = below.multiplicity(part.natural->poly); times > 0)
+        parts.emplace_back(core::scaled_for_doubles(part.sheet.sheet.plain(geometry_.tower_variables())),
+                           times * part.sheet.multiplicity * power);
+    return parts;
   }
 
   /// The roots that margins brought, into the tower and everything that is written over it.
@@ -454,7 +642,10 @@ class Derivation {
       widen(base.x);
       widen(base.y);
     }
-    for (LocusFactor& factor : problem.factors) widen(factor.sheet);
+    for (LocusFactor& factor : problem.factors) {
+      widen(factor.sheet);
+      for (auto& [sheet, times] : factor.cleared) widen(sheet);
+    }
     for (core::WorkingMode& mode : problem.modes) mode.resize(tower.roots.size(), 1);
   }
 
@@ -470,6 +661,7 @@ class Derivation {
         factor.vanishing.push_back({joint, margin.quantity, 1});
       }
       const std::string bound = core::to_string(margin.bound);
+      factor.cleared = cleared_by(margin.below, margin.power);
       factor.expression = text(margin.natural);
       factor.cause = (force ? "contact force of " : "couple of ") + names + " at " + bound + (force ? " N" : " N m");
       const Poly sheet = elimination_.over_tower(margin.natural);
@@ -478,6 +670,7 @@ class Derivation {
       else if (!margin.senses || !add_senses(*margin.senses, sheet, factor))
         add(FactorRole::margin, &margin.natural, sheet, true, factor);
     }
+    if (selection_.min_force) add_guide_margins();
   }
 
   const Mechanism& mechanism_;
@@ -487,9 +680,11 @@ class Derivation {
   Elimination elimination_;
   Causes causes_;
   std::vector<Reaction> reactions_;
+  std::vector<Guide> guides_;
   StraightLines lines_;
   std::vector<SharedFactor> factors_;
-  std::vector<Poly> determinant_sheets_;
+  std::vector<std::pair<Poly, Vanishing>> cancelled_;  ///< natural factors of |A| and a numerator, and how often
+  std::vector<DeterminantPart> determinant_parts_;
   std::map<std::pair<std::size_t, std::size_t>, bool> never_both_, may_share_;  ///< by factors
   std::map<std::size_t, Poly> sheets_, on_line_;                                ///< by factor
   std::map<std::size_t, bool> heavy_;

@@ -30,10 +30,10 @@ class Margins {
     const Poly size = without(common, shared, ring()), d = without(determinant_, shared, ring());
     // A two-force link of the plane bears (x, y) of constant length: then |f| = f_min is two linear conditions.
     if (const auto length = constant_length(square)) {
-      add(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound);
-      add(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound);
+      add(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound, {cleared(shared), 1});
+      add(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound, {cleared(shared), 1});
     } else {
-      add(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound,
+      add(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound, {cleared(shared), 2},
           size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
     }
   }
@@ -45,10 +45,10 @@ class Margins {
     const Poly c = without(*couple, shared, ring()), d = without(determinant_, shared, ring());
     const Poly axis2 = squared_axis(joint);
     if (const auto length = constant_length(axis2)) {
-      add(joint.name, Quantity::M, c - d.scaled(bound * *length), bound);
-      add(joint.name, Quantity::M, c + d.scaled(bound * *length), bound);
+      add(joint.name, Quantity::M, c - d.scaled(bound * *length), bound, {cleared(shared), 1});
+      add(joint.name, Quantity::M, c + d.scaled(bound * *length), bound, {cleared(shared), 1});
     } else {
-      add(joint.name, Quantity::M, c * c - (d * d * axis2).scaled(bound * bound), bound);
+      add(joint.name, Quantity::M, c * c - (d * d * axis2).scaled(bound * bound), bound, {cleared(shared), 2});
     }
   }
 
@@ -57,12 +57,19 @@ class Margins {
  private:
   const Ring& ring() const { return geometry_.ring(); }
 
+  /// |A| without what a numerator shares with it.
+  FactoredPoly cleared(const FactoredPoly& shared) const {
+    FactoredPoly rest = determinant_;
+    multiply(rest, shared, -1);
+    return rest;
+  }
+
   void add(const std::string& joint, Quantity quantity, const Poly& polynomial, const Rational& bound,
-           std::optional<TwoSenses> senses = std::nullopt) {
+           const std::pair<FactoredPoly, int>& below, std::optional<TwoSenses> senses = std::nullopt) {
     const Poly natural = polynomial.primitive();
     auto known = std::find_if(margins_.begin(), margins_.end(),
                               [&](const Margin& m) { return m.quantity == quantity && m.natural == natural; });
-    if (known == margins_.end()) known = margins_.insert(known, {natural, quantity, bound, {}, std::move(senses)});
+    if (known == margins_.end()) known = margins_.insert(known, {natural, quantity, bound, {}, below.first, below.second, std::move(senses)});
     if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
   }
 

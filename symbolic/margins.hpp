@@ -23,6 +23,8 @@ struct Margin {
   core::Quantity quantity = core::Quantity::f;
   core::Rational bound;
   std::vector<std::string> joints;  ///< of one chain: they bear the same force
+  FactoredPoly below;               ///< the divisor of |A| that was cleared, to `power`
+  int power = 1;
   std::optional<TwoSenses> senses = {};
 };
 

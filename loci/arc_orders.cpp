@@ -1,0 +1,174 @@
+#include "loci/arc_orders.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/errors.hpp"
+#include "loci/tower_algebra.hpp"
+#include "loci/univariate.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::Polynomial;
+using core::Rational;
+using sheet::MultiInterval;
+
+/// Halvings of a point's interval: below what MultiInterval resolves.
+constexpr int halvings = 260;
+
+MultiInterval value(const Polynomial& p, const std::vector<MultiInterval>& at) {
+  MultiInterval sum(0.0);
+  for (const core::Term& term : p.terms) {
+    MultiInterval product(term.coefficient);
+    for (std::size_t v = 0; v < term.exponents.size(); ++v)
+      for (int k = 0; k < term.exponents[v]; ++k) product = product * at[v];
+    sum = sum + product;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& divisor) {
+  core::ensure(!divisor.is_zero() && divisor.variables == p.variables, "a division by a polynomial of the same ring");
+  const core::Term& head = divisor.terms.front();
+  std::map<std::vector<int>, Rational, std::greater<>> rest;
+  for (const core::Term& term : p.terms) rest.emplace(term.exponents, term.coefficient);
+  Polynomial quotient;
+  quotient.variables = p.variables;
+  while (!rest.empty()) {
+    core::Term next{rest.begin()->first, rest.begin()->second / head.coefficient};
+    for (std::size_t v = 0; v < next.exponents.size(); ++v) {
+      next.exponents[v] -= head.exponents[v];
+      if (next.exponents[v] < 0) return std::nullopt;
+    }
+    for (const core::Term& term : divisor.terms) {
+      std::vector<int> exponents = term.exponents;
+      for (std::size_t v = 0; v < exponents.size(); ++v) exponents[v] += next.exponents[v];
+      const auto [place, fresh] = rest.try_emplace(std::move(exponents), 0);
+      place->second -= term.coefficient * next.coefficient;
+      if (place->second == 0) rest.erase(place);
+    }
+    quotient.terms.push_back(std::move(next));
+  }
+  return quotient;
+}
+
+std::optional<CurvePoint> curve_point(const Polynomial& curve, const std::array<double, 2>& near, double reach) {
+  // Along the axis that the curve runs across.
+  const std::array<double, 2> slope = {std::abs(core::evaluate(core::derivative(curve, 0), near)),
+                                       std::abs(core::evaluate(core::derivative(curve, 1), near))};
+  const std::size_t across = slope[0] > slope[1] ? 0 : 1, fixed = 1 - across;
+  const Rational level(near[fixed]), centre(near[across]), radius(reach);
+  std::map<int, Rational, std::greater<>> powers;
+  for (const core::Term& term : curve.terms) {
+    Rational coefficient = term.coefficient;
+    for (int k = 0; k < term.exponents[fixed]; ++k) coefficient *= level;
+    powers[term.exponents[across]] += coefficient;
+  }
+  Polynomial line;
+  line.variables = 1;
+  for (const auto& [exponent, coefficient] : powers)
+    if (coefficient != 0) line.terms.push_back({{exponent}, coefficient});
+  if (line.is_zero() || line.is_constant()) return std::nullopt;
+  std::vector<RealRoot> roots = real_roots(square_free_part(univariate(line)), centre - radius, centre + radius);
+  if (roots.size() != 1) return std::nullopt;
+  for (int k = 0; k < halvings; ++k) narrow(roots.front());
+  CurvePoint point(2);
+  point[fixed] = {level, level};
+  point[across] = {roots.front().lower, roots.front().upper};
+  return point;
+}
+
+ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, Polynomial curve, const CurvePoint& at)
+    : tower_(tower), mode_(std::move(mode)), curve_(std::move(curve)) {
+  place_roots(at);
+}
+
+ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, CoordinateGerm germ, const CurvePoint& at)
+    : tower_(tower), mode_(std::move(mode)), rule_(std::move(germ)) {
+  place_roots(at);
+}
+
+void ArcOrders::place_roots(const CurvePoint& at) {
+  for (const auto& [lower, upper] : at) at_.emplace_back(lower, upper);
+  const std::vector<MultiInterval> coordinates = at_;
+  for (const int side : {1, -1}) {
+    at_ = coordinates;
+    if (place_roots_on(side)) sides_.push_back(side);
+    if (!decided_) return;
+  }
+  // A root has one value on the curve whatever the side: at_ may be left from either. Where the mode reaches the curve
+  // from the side that was tried first only, its roots are placed again.
+  if (sides_ == std::vector<int>{1}) {
+    at_ = coordinates;
+    place_roots_on(1);
+  }
+  for (const int side : sides_)
+    for (const Germ& square : squares_[side]) {
+      const Rational order = square.order / 2;
+      ramification_ = std::lcm(ramification_, static_cast<int>(order.get_den().get_si()));
+    }
+}
+
+/// False: the mode does not reach the curve from this side.
+bool ArcOrders::place_roots_on(int side) {
+  std::vector<Germ>& squares = squares_[side];
+  squares.clear();
+  for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
+    const std::optional<Germ> square = germ(tower_.roots[j].square, side);
+    if (!square) decided_ = false;
+    if (!square || square->sign < 0) return false;
+    MultiInterval root(0.0);
+    if (square->order == 0 && !square->is_zero()) root = square_root(value(tower_.roots[j].square, at_));
+    at_.push_back(mode_[j] > 0 ? root : -root);
+    squares.push_back(*square);
+  }
+  return true;
+}
+
+std::optional<Germ> ArcOrders::coordinate_germ(const Polynomial& p, int side) {
+  if (rule_) return rule_(p, side);
+  Polynomial rest = core::with_variables(p, curve_.variables);
+  Germ germ;
+  while (const std::optional<Polynomial> quotient = exact_quotient(rest, curve_)) {
+    rest = *quotient;
+    germ.order += 1;
+    germ.sign = germ.sign == 0 ? side : germ.sign * side;
+  }
+  const int cofactor = value(rest, at_).sign();
+  if (cofactor == 0) return std::nullopt;
+  germ.sign = germ.order == 0 ? cofactor : germ.sign * cofactor;
+  return germ;
+}
+
+std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
+  if (p.is_zero()) return Germ{};
+  // The variables of roots that are still to be placed do not occur.
+  std::vector<MultiInterval> at = at_;
+  at.resize(std::max(at.size(), static_cast<std::size_t>(p.variables)), MultiInterval(0.0));
+  if (const int sign = value(p, at).sign(); sign != 0) return Germ{0, sign};
+  const int top = top_root(p, tower_);
+  if (top < 0) return coordinate_germ(p, side);
+  const auto [a, b] = split(p, static_cast<int>(tower_.coordinates.size()) + top);
+  const Germ& square = squares_.at(side)[static_cast<std::size_t>(top)];
+  const std::optional<Germ> plain = germ(a, side);
+  std::optional<Germ> rooted = germ(b, side);
+  if (!plain || !rooted) return std::nullopt;
+  rooted->order += square.order / 2;
+  rooted->sign *= square.is_zero() ? 0 : mode_[static_cast<std::size_t>(top)];
+  if (rooted->is_zero()) return plain;
+  if (plain->is_zero()) return rooted;
+  if (plain->order != rooted->order) return plain->order < rooted->order ? plain : rooted;
+  if (plain->sign == rooted->sign) return plain;
+  Polynomial product = conjugate_product(p, top, tower_);
+  if (product.is_zero()) return Germ{};
+  const std::optional<Germ> both = germ(core::scaled_for_doubles(product), side);
+  if (!both || both->is_zero()) return both;
+  return Germ{both->order - plain->order, both->sign * plain->sign};
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,78 @@
+// Orders of vanishing along a curve on a working mode's sheet (method.md section 10), exactly.
+//
+// Along an irreducible curve g = 0 a polynomial p in the coordinates vanishes to the order v(p) in which g divides it; a
+// root to v(s) = v(Q) / 2, so that on the workspace boundary, where Q = 0, orders count in the root. Of an element
+// N = a + b s with s = sigma sqrt(Q), on one side of the curve:
+//     v(a) != v(b s)                        -> the smaller of the two
+//     equal, and a and b s of one sign      -> v(a): nothing cancels
+//     equal, signs differ                   -> v(a^2 - b^2 Q) - v(a): the conjugate a - b s does not cancel
+// The signs are those next to the curve, and come out of the same recursion: at its bottom stand polynomials in the
+// coordinates, whose cofactor p / g^v has a sign at a point of the curve, told by intervals.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/root_tower.hpp"
+#include "loci/sheet/multi_interval.hpp"
+
+namespace clearloci::loci {
+
+/// How an element vanishes towards the curve from one side. `sign`: next to the curve; 0: it is zero there.
+struct Germ {
+  core::Rational order = 0;
+  int sign = 0;
+
+  bool is_zero() const { return sign == 0; }
+};
+
+/// An enclosed point of the curve in general position on it: coordinates, each with the ends of its interval.
+using CurvePoint = std::vector<std::pair<core::Rational, core::Rational>>;
+
+/// The germs of polynomials in the coordinates, on the sides +1 and -1 of a curve; nothing where it is not told.
+using CoordinateGerm = std::function<std::optional<Germ>(const core::Polynomial& p, int side)>;
+
+class ArcOrders {
+ public:
+  /// `curve`: irreducible, in the coordinates; side +1 is where it is positive.
+  ArcOrders(const core::RootTower& tower, core::WorkingMode mode, core::Polynomial curve, const CurvePoint& at);
+  /// At what another rule tells the germs of.
+  ArcOrders(const core::RootTower& tower, core::WorkingMode mode, CoordinateGerm germ, const CurvePoint& at);
+
+  /// Every root's germ is known on every side from which the mode reaches the curve. Required by what follows.
+  bool decided() const { return decided_; }
+  /// The sides, +1 and -1, on which the mode's workspace is.
+  const std::vector<int>& sides() const { return sides_; }
+  /// Orders times this are whole numbers: 2 on a simple boundary.
+  int ramification() const { return ramification_; }
+
+  /// Of a sheet polynomial. Nothing: not decided.
+  std::optional<Germ> germ(const core::Polynomial& p, int side);
+
+ private:
+  void place_roots(const CurvePoint& at);
+  bool place_roots_on(int side);
+  std::optional<Germ> coordinate_germ(const core::Polynomial& p, int side);
+
+  const core::RootTower& tower_;
+  core::WorkingMode mode_;
+  core::Polynomial curve_;
+  CoordinateGerm rule_;
+  std::vector<sheet::MultiInterval> at_;     ///< coordinates, then the roots placed so far
+  std::map<int, std::vector<Germ>> squares_;  ///< of every side: of the squares placed so far
+  std::vector<int> sides_;
+  int ramification_ = 1;
+  bool decided_ = true;
+};
+
+/// p / divisor, where that is a polynomial.
+std::optional<core::Polynomial> exact_quotient(const core::Polynomial& p, const core::Polynomial& divisor);
+
+/// A point of a plane curve within `reach` of a given one, enclosed so that no other point of it is on the same vertical
+/// or horizontal line there. Nothing where there is none.
+std::optional<CurvePoint> curve_point(const core::Polynomial& curve, const std::array<double, 2>& near, double reach);
+
+}  // namespace clearloci::loci

@@ -1,0 +1,18 @@
+// The contact of a planar prismatic joint: it touches its guide at two ends, `half_length` to both sides of its point.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::mechanism {
+
+/// Planar, prismatic, and its clearance says how long the contact is.
+bool has_guide_ends(const Mechanism& mechanism, const Joint& joint);
+
+/// The ends, and the sign of T/h in what each bears, (N +- T/h)/2 (core/quantity.hpp).
+inline constexpr std::array<std::pair<core::Quantity, int>, 2> guide_end_signs = {
+    std::pair{core::Quantity::end_ahead, 1}, std::pair{core::Quantity::end_behind, -1}};
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,106 @@
+#include "numeric/arc_witness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace clearloci::numeric {
+
+namespace {
+
+/// Distances from an arc, as parts of the box: vertices of arcs are within 1e-12 of it of their curves, and beyond 1e-5
+/// other zeros may be nearer than the arc.
+constexpr std::array<double, 3> distances = {1e-5, 1e-5 * approach_step, 1e-5 * approach_step * approach_step};
+
+/// Exponents of t are multiples of a half: nearer than this to one they are taken for it.
+constexpr double exponent_doubt = 0.2;
+
+/// Interior points of an arc that are on its curve: vertices, or where there are but two the chord between them, for
+/// that arc is straight. With the direction of the arc.
+struct ArcPlace {
+  core::Point2 at{}, along{};
+};
+
+std::vector<ArcPlace> places_of(const core::Arc& arc) {
+  std::vector<ArcPlace> places;
+  const auto& points = arc.points;
+  if (points.size() < 2) return places;
+  const auto along = [](const core::Point2& a, const core::Point2& b) {
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    return core::Point2{(b[0] - a[0]) / length, (b[1] - a[1]) / length};
+  };
+  // Off the middle, where symmetric designs have special poses.
+  for (const double share : {0.237, 0.419, 0.683}) {
+    if (points.size() == 2) {
+      places.push_back({{points[0][0] + share * (points[1][0] - points[0][0]),
+                         points[0][1] + share * (points[1][1] - points[0][1])},
+                        along(points[0], points[1])});
+      continue;
+    }
+    const auto last = points.size() - 2;
+    const auto i = std::clamp<std::size_t>(static_cast<std::size_t>(share * static_cast<double>(points.size())), 1, last);
+    places.push_back({points[i], along(points[i - 1], points[i + 1])});
+  }
+  return places;
+}
+
+/// Bounds of |w|.
+struct Size {
+  double least = 0, most = 0;
+};
+
+Size size_of(const BoundedNumerators& at, const WitnessColumns& columns) {
+  double least = 0, most = 0;
+  for (const Bounded& n : components(at, columns)) {
+    least = std::hypot(least, std::max(0.0, std::abs(n.value) - n.error));
+    most = std::hypot(most, std::abs(n.value) + n.error);
+  }
+  const double d = std::abs(at.determinant.value), doubt = at.determinant.error;
+  return {least / (d + doubt), d > doubt ? most / (d - doubt) : std::numeric_limits<double>::infinity()};
+}
+
+}  // namespace
+
+std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::Arc& arc,
+                                 double size) {
+  std::vector<Approach> ways;
+  for (const ArcPlace& place : places_of(arc)) {
+    for (const double side : {1.0, -1.0}) {
+      Approach way{place.at, {}};
+      for (const double distance : distances) {
+        const double t = side * distance * size;
+        const std::array pose = {place.at[0] - t * place.along[1], place.at[1] + t * place.along[0]};
+        way.at.push_back(bounded_numerators(model, pose, mode));
+      }
+      if (std::all_of(way.at.begin(), way.at.end(), [](const BoundedNumerators& n) { return n.reachable; }))
+        ways.push_back(std::move(way));
+    }
+  }
+  return ways;
+}
+
+std::optional<Tendency> tendency(const Approach& approach, const WitnessColumns& columns) {
+  // The exponent of t between two distances, from below and from above.
+  const auto exponent = [&](std::size_t from) -> std::optional<std::array<double, 2>> {
+    const Size far = size_of(approach.at[from], columns), near = size_of(approach.at[from + 1], columns);
+    if (far.most == 0 || near.most == 0 || std::isinf(far.most) || std::isinf(near.most)) return std::nullopt;
+    const double scale = std::log(approach_step);
+    return std::array{std::log(near.most / far.least) / scale, std::log(near.least / far.most) / scale};
+  };
+  std::optional<Tendency> found;
+  for (const std::size_t from : {std::size_t{1}, std::size_t{0}}) {
+    const auto e = exponent(from);
+    if (!e) return std::nullopt;
+    const auto [low, high] = *e;
+    std::optional<Tendency> here;
+    if (low > 0.5 - exponent_doubt) here = Tendency::zero;
+    if (low > -exponent_doubt && high < exponent_doubt) here = Tendency::finite;
+    if (high < -0.5 + exponent_doubt) here = Tendency::unbounded;
+    if (!here || (found && *found != *here)) return std::nullopt;
+    found = here;
+  }
+  return found;
+}
+
+}  // namespace clearloci::numeric

@@ -1,0 +1,33 @@
+// Traced arcs against reactions beside them. What a reaction w does towards an arc shows in how |w| changes with the
+// distance t from it: as t^(1/2) or faster where w tends to zero (on the workspace boundary as the root, elsewhere as t),
+// not at all where its limit is another number, as t^(-1/2) or faster where it is unbounded. The arc is approached from
+// both sides as far as the workspace is there, at a few of its points.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/locus_map.hpp"
+#include "numeric/line_witness.hpp"
+
+namespace clearloci::numeric {
+
+enum class Tendency { zero, finite, unbounded };
+
+/// One way towards an arc: poses in descending distance from it.
+struct Approach {
+  core::Point2 towards{};              ///< on the arc
+  std::vector<BoundedNumerators> at;  ///< at distances that fall by `approach_step`
+};
+
+inline constexpr double approach_step = 1e-2;
+
+/// The ways to a few points of an arc, from either side. `size`: of the box, m.
+std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::Arc& arc,
+                                 double size);
+
+/// What a reaction does along one way; nothing where rounding errors or a zero near by leave that open.
+std::optional<Tendency> tendency(const Approach& approach, const WitnessColumns& columns);
+
+}  // namespace clearloci::numeric

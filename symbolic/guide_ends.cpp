@@ -1,0 +1,73 @@
+#include "symbolic/guide_ends.hpp"
+
+#include "core/errors.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/guide.hpp"
+#include "symbolic/margins.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Quantity;
+using core::Rational;
+
+/// The squared length of a joint's axis.
+Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint) {
+  GiNaC::ex square = 0;
+  for (const GiNaC::ex& u : geometry.vector(joint.axes.at(0))) square += u * u;
+  return geometry.poly(square.expand());
+}
+
+}  // namespace
+
+Rational near_root(const Rational& square) {
+  core::ensure(square >= 0, "the root of a number that is not negative");
+  if (const std::optional<Rational> exact = rational_root(square)) return *exact;
+  // sqrt(n/d) = sqrt(n d)/d; the integer root of n d 4^bits errs by less than one.
+  constexpr unsigned bits = 128;
+  const core::Integer radicand = square.get_num() * square.get_den();
+  Rational root(sqrt(core::Integer(radicand << (2 * bits))), square.get_den() << bits);
+  root.canonicalize();
+  return root;
+}
+
+std::vector<Guide> guides(const Geometry& geometry, const Elimination& elimination,
+                          const std::vector<Reaction>& reactions) {
+  const mechanism::Mechanism& m = geometry.mechanism();
+  const Ring& ring = geometry.ring();
+  std::vector<Guide> result;
+  for (const mechanism::Joint& joint : m.joints) {
+    if (!mechanism::has_guide_ends(m, joint)) continue;
+    const FactoredPoly* normal = numerator(reactions, joint.name, Quantity::N);
+    const FactoredPoly* couple = numerator(reactions, joint.name, Quantity::T);
+    core::ensure(normal != nullptr && couple != nullptr, "a guide's normal force and couple");
+    const Rational half = mechanism::value_of(joint.clearance->half_length, m);
+    const FactoredPoly common = shared_factors({*normal, *couple});
+    const Poly square = squared_axis(geometry, joint);
+    const std::optional<Rational> constant = elimination.constant_over_tower(square);
+    result.push_back({joint.name, half, common,
+                      normal->is_zero() ? Poly(ring) : without(*normal, common, ring).scaled(half),
+                      couple->is_zero() ? Poly(ring) : without(*couple, common, ring), square,
+                      constant ? std::optional(near_root(*constant)) : std::nullopt});
+  }
+  return result;
+}
+
+Poly end_numerator(const Guide& guide, Quantity end) {
+  core::ensure(guide.is_polynomial(), "an end whose numerator is a polynomial");
+  const Poly bears = guide.bears.scaled(guide.length.value_or(1));
+  return end == Quantity::end_ahead ? bears + guide.turns : bears - guide.turns;
+}
+
+std::vector<Reaction> end_reactions(const Guide& guide, const FactoredPoly& determinant) {
+  std::vector<Reaction> ends;
+  for (const auto& [end, sign] : mechanism::guide_end_signs) {
+    FactoredPoly own{1, {}};
+    if (guide.is_polynomial()) own = factored(end_numerator(guide, end), determinant.factors);
+    multiply(own, guide.common);
+    ends.push_back({guide.joint, end, core::to_string(end) + " of " + guide.joint, std::move(own)});
+  }
+  return ends;
+}
+
+}  // namespace clearloci::symbolic
