@@ -175,10 +175,11 @@ NamedChart sweep_chart(const TrajectoryResult& result, const std::string& name, 
                  }};
   int number = 0;
   for (const numeric::LossCurve& curve : result.loss_curves) {
-    const std::string what = loss_name(result, curve.joint, curve.couple);
+    const std::string what = loss_name(result, curve.joint, curve.quantity);
+    const bool is_number = curve.quantity != core::Quantity::f;
     const std::string words =
-        curve.couple ? what + " = 0" : fmt::format("|{}| = {:.3g} N", what, result.thresholds.force);
-    panel.series.push_back({words, curve.lines, curve.couple ? number++ : 2 + curve.joint, !curve.couple});
+        is_number ? what + " = 0" : fmt::format("|{}| = {:.3g} N", what, result.thresholds.force);
+    panel.series.push_back({words, curve.lines, is_number ? number++ : 2 + curve.joint, !is_number});
   }
   chart.panels.push_back(std::move(panel));
   for (const numeric::Stage& stage : result.motion.timeline.stages) chart.marks.push_back({stage.to, stop_mark});

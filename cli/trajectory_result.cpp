@@ -92,7 +92,7 @@ Json losses_json(const TrajectoryResult& result) {
                 {"distance", loss.distance},
                 {"stage", loss.stage + 1},
                 {"joint", result.motion.model.mechanism.joints[static_cast<std::size_t>(loss.joint)].name},
-                {"quantity", loss.couple ? "M" : "f"},
+                {"quantity", core::to_string(loss.quantity)},
                 {"kind", kind_name(loss.kind)}};
     if (loss.kind == numeric::LossKind::minimum) {
       one["force"] = loss.force;
@@ -123,7 +123,7 @@ Json stages_json(const TrajectoryResult& result) {
     if (critical.joint >= 0)
       one["lost_last"] = {
           {"joint", result.motion.model.mechanism.joints[static_cast<std::size_t>(critical.joint)].name},
-          {"quantity", critical.couple ? "M" : "f"},
+          {"quantity", core::to_string(critical.quantity)},
           {"distance", critical.distance}};
     all.push_back(std::move(one));
   }
@@ -132,8 +132,8 @@ Json stages_json(const TrajectoryResult& result) {
 
 }  // namespace
 
-std::string loss_name(const TrajectoryResult& result, mechanism::JointIndex joint, bool couple) {
-  return (couple ? "M_" : "f_") + result.motion.model.mechanism.joints[static_cast<std::size_t>(joint)].name;
+std::string loss_name(const TrajectoryResult& result, mechanism::JointIndex joint, core::Quantity quantity) {
+  return core::to_string(quantity) + "_" + result.motion.model.mechanism.joints[static_cast<std::size_t>(joint)].name;
 }
 
 TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
@@ -204,12 +204,12 @@ void print_trajectory(const TrajectoryResult& result) {
                          fmt::format(" at {:.4g} m", s["lost_last"]["distance"].get<double>())
                    : "");
   }
-  fmt::print("\ncontact is lost where M = 0 or |f| falls to {:.4g} N: {} times\n", result.thresholds.force,
+  fmt::print("\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {:.4g} N: {} times\n", result.thresholds.force,
              result.losses.size());
   if (result.losses.empty()) return;
   fmt::print("{:>14}{:>14}{:>8}  {:<10}\n", "time [s]", "distance [m]", "stage", "what");
   for (const numeric::ContactLoss& loss : result.losses) {
-    std::string what = loss_name(result, loss.joint, loss.couple);
+    std::string what = loss_name(result, loss.joint, loss.quantity);
     if (loss.kind == numeric::LossKind::zero) what += " = 0";
     if (loss.kind == numeric::LossKind::minimum) what += fmt::format(" down to {:.4g} N", loss.force);
     if (loss.kind == numeric::LossKind::jump)

@@ -44,6 +44,6 @@ Columns sweep_columns(const numeric::PeriodSweep& sweep);
 void print_trajectory(const TrajectoryResult& result);
 
 /// "M_A1", "f_B1".
-std::string loss_name(const TrajectoryResult& result, mechanism::JointIndex joint, bool couple);
+std::string loss_name(const TrajectoryResult& result, mechanism::JointIndex joint, core::Quantity quantity);
 
 }  // namespace clearloci::cli

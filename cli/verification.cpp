@@ -9,6 +9,9 @@
 #include "core/errors.hpp"
 #include "loci/plane_graph.hpp"
 #include "loci/zones.hpp"
+#include "mechanism/guide.hpp"
+#include "numeric/line_witness.hpp"
+#include "numeric/take_up.hpp"
 #include "numeric/task_witness.hpp"
 #include "report/wording.hpp"
 #include "symbolic/task_conditions.hpp"
@@ -78,9 +81,17 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
         if (wanted(q) || wanted(Quantity::M) || couple) add(q, couple ? selection.min_couple : std::nullopt);
         break;
       }
+      case Quantity::end_ahead:
+      case Quantity::end_behind:
+        if (wanted(q) || wanted(Quantity::f) || selection.min_force) add(q, selection.min_force);
+        break;
       case Quantity::N:
+        // A guide whose ends are not known loses its contact where N and T vanish together.
+        if (mechanism.space == mechanism::Space::planar && !mechanism::has_guide_ends(mechanism, *joint) &&
+            wanted(Quantity::f))
+          add(Quantity::f, std::nullopt);
+        break;
       case Quantity::T:
-        if (wanted(q) || (wanted(Quantity::f) && mechanism.space == mechanism::Space::planar)) add(q, std::nullopt);
         break;
       default:
         // Once a joint, with the first component of its force.
@@ -188,6 +199,15 @@ class Verifier {
           if (unknown.quantity == demand.quantity &&
               mechanism_.joints[static_cast<std::size_t>(unknown.joint)].name == demand.joint)
             signs.push_back(sign(n.values[k]));
+          if (unknown.quantity != Quantity::N ||
+              mechanism_.joints[static_cast<std::size_t>(unknown.joint)].name != demand.joint)
+            continue;
+          const auto j = static_cast<std::size_t>(unknown.joint);
+          for (const auto& [end, side] : mechanism::guide_end_signs)
+            if (demand.quantity == end)
+              signs.push_back(sign(numeric::components(n, {static_cast<int>(k), numeric::joint_columns(model)[j].tilt, -1,
+                                                           side / numeric::joint_clearances(mechanism_)[j].half_length})
+                                       .front()));
         }
       return signs;
     };

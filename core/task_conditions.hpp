@@ -14,7 +14,7 @@ namespace clearloci::core {
 /// A reaction that must not vanish, or must keep a size.
 struct TaskDemand {
   std::string joint;
-  Quantity quantity = Quantity::f;  ///< f, N, T, M or F
+  Quantity quantity = Quantity::f;  ///< f, an end of a guide, M or F
   Rational least = 0;               ///< N or N m; 0: it must not vanish
 };
 

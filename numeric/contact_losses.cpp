@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "mechanism/guide.hpp"
+
 namespace clearloci::numeric {
 
 namespace {
@@ -19,16 +21,40 @@ struct Value {
   double value = 0, rate = 0;
 };
 
-/// What is followed along an interval: a couple, or the square of a force.
+/// A number w of a joint: the couple or axial force of its actuator, or what an end of its guide bears, twice.
+class Scalar {
+ public:
+  Scalar(const Motion& motion, mechanism::JointIndex joint, core::Quantity quantity) {
+    const JointColumns& columns = motion.columns[static_cast<std::size_t>(joint)];
+    first_ = columns.couple;
+    if (!core::is_guide_end(quantity)) return;
+    first_ = columns.normal;
+    second_ = columns.tilt;
+    lever_ = (quantity == core::Quantity::end_ahead ? 1 : -1) /
+             motion.clearances[static_cast<std::size_t>(joint)].half_length;
+  }
+
+  double of(const Eigen::VectorXd& w) const { return second_ < 0 ? w(first_) : w(first_) + lever_ * w(second_); }
+
+ private:
+  int first_ = -1, second_ = -1;
+  double lever_ = 0;
+};
+
+/// What is followed along an interval: a number, or the square of a force.
 class Watch {
  public:
-  Watch(const Motion& motion, double period, mechanism::JointIndex joint, bool couple)
-      : motion_(motion), u_(1 / (period * period)), couple_(couple) {
+  Watch(const Motion& motion, double period, mechanism::JointIndex joint, core::Quantity quantity)
+      : motion_(motion),
+        u_(1 / (period * period)),
+        is_number_(quantity != core::Quantity::f),
+        number_(motion, joint, quantity) {
     columns_ = motion.columns[static_cast<std::size_t>(joint)];
   }
 
   Value at(const Instant& i) const {
-    if (couple_) return component(i, columns_.couple);
+    if (is_number_)
+      return {number_.of(i.at_rest) + u_ * number_.of(i.inertial), number_.of(i.at_rest_rate) + u_ * number_.of(i.inertial_rate)};
     const Value x = component(i, columns_.fx), y = component(i, columns_.fy);
     return {x.value * x.value + y.value * y.value, 2 * (x.value * x.rate + y.value * y.rate)};
   }
@@ -43,7 +69,8 @@ class Watch {
 
   const Motion& motion_;
   double u_;
-  bool couple_;
+  bool is_number_;
+  Scalar number_;
   JointColumns columns_;
 };
 
@@ -68,8 +95,7 @@ class LossSearch {
   std::vector<ContactLoss> run() {
     for (std::size_t j = 0; j < motion_.columns.size(); ++j) {
       joint_ = static_cast<int>(j);
-      if (motion_.clearances[j].angular > 0 && motion_.columns[j].couple >= 0) follow(true);
-      if (motion_.clearances[j].radial > 0) follow(false);
+      for (const core::Quantity quantity : watched_quantities(motion_, j)) follow(quantity);
     }
     std::stable_sort(losses_.begin(), losses_.end(),
                      [](const ContactLoss& a, const ContactLoss& b) { return a.tau < b.tau; });
@@ -77,13 +103,14 @@ class LossSearch {
   }
 
  private:
-  void follow(bool couple) {
-    const Watch watch(motion_, period_, joint_, couple);
-    couple_ = couple;
+  void follow(core::Quantity quantity) {
+    const Watch watch(motion_, period_, joint_, quantity);
+    quantity_ = quantity;
+    const bool is_number = quantity != core::Quantity::f;
     for (std::size_t k = 0; k < samples_.size(); ++k) {
       if (motion_.timeline.intervals[k].stage >= 0) {
         for (std::size_t i = 0; i + 1 < samples_[k].size(); ++i) {
-          if (couple)
+          if (is_number)
             between(watch, k, samples_[k][i], samples_[k][i + 1]);
           else
             dip(watch, k, samples_[k][i], samples_[k][i + 1]);
@@ -92,7 +119,7 @@ class LossSearch {
       if (k + 1 < samples_.size()) across(watch, samples_[k].back(), samples_[k + 1].front());
     }
     if (motion_.timeline.trajectory.closed) across(watch, samples_.back().back(), samples_.front().front());
-    if (!couple) join_ends(watch);
+    if (!is_number) join_ends(watch);
   }
 
   /// Zeros of a couple between two samples, also two of them around an extremum.
@@ -136,7 +163,7 @@ class LossSearch {
   /// From one interval to the next everything may jump.
   void across(const Watch& watch, const Instant& before, const Instant& after) {
     bool flipped = false;
-    if (couple_) {
+    if (quantity_ != core::Quantity::f) {
       flipped = watch.at(before).value * watch.at(after).value < 0;
     } else {
       const Point2 p = watch.force(before), q = watch.force(after);
@@ -176,7 +203,7 @@ class LossSearch {
     ContactLoss loss;
     loss.kind = kind;
     loss.joint = joint_;
-    loss.couple = couple_;
+    loss.quantity = quantity_;
     loss.tau = tau;
     loss.time = tau * period_;
     loss.distance = distance_at(motion_.timeline, stretch, tau).value();
@@ -188,7 +215,7 @@ class LossSearch {
   const std::vector<std::vector<Instant>>& samples_;
   double period_, threshold_;
   mechanism::JointIndex joint_ = 0;
-  bool couple_ = false;
+  core::Quantity quantity_ = core::Quantity::f;
   std::vector<ContactLoss> losses_;
 };
 
@@ -220,7 +247,7 @@ void consider_seams(const Motion& motion, const std::vector<std::vector<Instant>
       if (!(motion.clearances[j].radial > 0)) continue;
       const double period = turn_period(before, after, motion.columns[j]);
       CriticalPeriod& stage = critical[static_cast<std::size_t>(right.stage)];
-      if (period > stage.period) stage = {period, static_cast<int>(j), false, after.tau, after.distance.value()};
+      if (period > stage.period) stage = {period, static_cast<int>(j), core::Quantity::f, after.tau, after.distance.value()};
     }
   }
 }
@@ -238,8 +265,13 @@ double peak(const std::function<double(double)>& g, double a, double b) {
 /// The largest loss_period of one joint over an interval.
 class LastLoss {
  public:
-  LastLoss(const Motion& motion, mechanism::JointIndex joint, bool couple, const LossThresholds& thresholds)
-      : motion_(motion), joint_(joint), couple_(couple), thresholds_(thresholds) {
+  LastLoss(const Motion& motion, mechanism::JointIndex joint, core::Quantity quantity, const LossThresholds& thresholds)
+      : motion_(motion),
+        joint_(joint),
+        quantity_(quantity),
+        is_number_(quantity != core::Quantity::f),
+        number_(motion, joint, quantity),
+        thresholds_(thresholds) {
     columns_ = motion.columns[static_cast<std::size_t>(joint)];
   }
 
@@ -248,8 +280,8 @@ class LastLoss {
       consider(instants[i], period_at(instants[i]), stage);
       const bool first = i == 0, last = i + 1 == instants.size();
       const double product =
-          couple_ && !first ? instants[i - 1].at_rest(columns_.couple) * instants[i].at_rest(columns_.couple) : 1;
-      if (product < 0) consider(instants[i], infinity, stage);  // M_J passes through zero at rest too
+          is_number_ && !first ? number_.of(instants[i - 1].at_rest) * number_.of(instants[i].at_rest) : 1;
+      if (product < 0) consider(instants[i], infinity, stage);  // it passes through zero at rest too
       const auto is_peak = [&](const auto& g) {
         const double here = g(instants[i]);
         return (first || here >= g(instants[i - 1])) && (last || here >= g(instants[i + 1]));
@@ -258,18 +290,18 @@ class LastLoss {
       const double here = period_at(instants[i]);
       const std::size_t interval = instants[i].interval;
       if (here > 0 && std::isfinite(here) && is_peak([&](const Instant& at) { return period_at(at); })) {
-        if (couple_)
+        if (is_number_)
           refine(interval, a, b, stage);
         else
           refine_around(interval, a, instants[i].tau, b, stage);
-      } else if (here == 0 && !couple_ && is_peak([&](const Instant& at) { return -nearest(at); })) {
+      } else if (here == 0 && !is_number_ && is_peak([&](const Instant& at) { return -nearest(at); })) {
         search_between(interval, a, b, stage);
       }
     }
   }
 
  private:
-  double period_at(const Instant& at) const { return loss_period(motion_, at, joint_, couple_, thresholds_); }
+  double period_at(const Instant& at) const { return loss_period(motion_, at, joint_, quantity_, thresholds_); }
 
   /// The least |f_s + u f_i| over u >= 0: whether some period loses contact here.
   double nearest(const Instant& at) const {
@@ -304,17 +336,31 @@ class LastLoss {
   }
 
   void consider(const Instant& at, double period, CriticalPeriod& stage) const {
-    if (period > stage.period) stage = {period, joint_, couple_, at.tau, at.distance.value()};
+    if (period > stage.period) stage = {period, joint_, quantity_, at.tau, at.distance.value()};
   }
 
   const Motion& motion_;
   mechanism::JointIndex joint_;
-  bool couple_;
+  core::Quantity quantity_;
+  bool is_number_;
+  Scalar number_;
   const LossThresholds& thresholds_;
   JointColumns columns_;
 };
 
 }  // namespace
+
+std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t joint) {
+  const JointClearance& clearance = motion.clearances[joint];
+  const JointColumns& columns = motion.columns[joint];
+  std::vector<core::Quantity> watched;
+  if (clearance.angular > 0 && columns.couple >= 0)
+    watched.push_back(mechanism::actuator_quantity(motion.model.mechanism.joints[joint]));
+  if (clearance.radial > 0) watched.push_back(core::Quantity::f);
+  if (clearance.gap > 0 && columns.normal >= 0)
+    for (const auto& [end, sign] : mechanism::guide_end_signs) watched.push_back(end);
+  return watched;
+}
 
 LossThresholds default_thresholds(const Motion& motion, const std::vector<std::vector<Instant>>& samples) {
   constexpr double part = 0.01;
@@ -331,11 +377,12 @@ std::vector<ContactLoss> contact_losses(const Motion& motion, const std::vector<
   return LossSearch(motion, samples, period, thresholds).run();
 }
 
-double loss_period(const Motion& motion, const Instant& at, mechanism::JointIndex joint, bool couple,
-                   const LossThresholds& thresholds) {
+double loss_period(const Motion& motion, const Instant& at, mechanism::JointIndex joint,
+                   core::Quantity quantity, const LossThresholds& thresholds) {
   const JointColumns& c = motion.columns[static_cast<std::size_t>(joint)];
-  if (couple) {
-    const double rest = at.at_rest(c.couple), inertial = at.inertial(c.couple);
+  if (quantity != core::Quantity::f) {
+    const Scalar number(motion, joint, quantity);
+    const double rest = number.of(at.at_rest), inertial = number.of(at.inertial);
     if (rest == 0) return infinity;
     return rest * inertial < 0 ? std::sqrt(-inertial / rest) : 0;
   }
@@ -355,11 +402,8 @@ std::vector<CriticalPeriod> critical_periods(const Motion& motion, const std::ve
   std::vector<CriticalPeriod> critical(motion.timeline.stages.size());
   consider_seams(motion, samples, critical);
   for (std::size_t j = 0; j < motion.columns.size(); ++j) {
-    for (const bool couple : {true, false}) {
-      const bool watched =
-          couple ? motion.clearances[j].angular > 0 && motion.columns[j].couple >= 0 : motion.clearances[j].radial > 0;
-      if (!watched) continue;
-      const LastLoss last(motion, static_cast<mechanism::JointIndex>(j), couple, thresholds);
+    for (const core::Quantity quantity : watched_quantities(motion, j)) {
+      const LastLoss last(motion, static_cast<mechanism::JointIndex>(j), quantity, thresholds);
       for (const auto& instants : samples) {
         const int stage = motion.timeline.intervals[instants.front().interval].stage;
         if (stage >= 0) last.search(instants, critical[static_cast<std::size_t>(stage)]);

@@ -76,16 +76,13 @@ std::vector<LossCurve> loss_curves(const Motion& motion, const std::vector<std::
                                    const LossThresholds& thresholds, double shortest, double longest) {
   std::vector<LossCurve> curves;
   for (std::size_t j = 0; j < motion.columns.size(); ++j) {
-    for (const bool couple : {true, false}) {
-      if (couple ? !(motion.clearances[j].angular > 0 && motion.columns[j].couple >= 0)
-                 : !(motion.clearances[j].radial > 0))
-        continue;
-      LossCurve curve{static_cast<int>(j), couple, {}};
+    for (const core::Quantity quantity : watched_quantities(motion, j)) {
+      LossCurve curve{static_cast<int>(j), quantity, {}};
       for (const auto& instants : samples) {
         if (motion.timeline.intervals[instants.front().interval].stage < 0) continue;
         bool on = false;
         for (const Instant& i : instants) {
-          const double period = loss_period(motion, i, curve.joint, couple, thresholds);
+          const double period = loss_period(motion, i, curve.joint, quantity, thresholds);
           const bool shown = period >= shortest && period <= longest;
           if (shown && !on) curve.lines.emplace_back();
           if (shown) curve.lines.back().push_back({i.distance.value(), period});

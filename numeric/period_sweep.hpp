@@ -25,11 +25,11 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
 /// Where, over distance and period, a joint loses contact: lines of (distance, period).
 struct LossCurve {
   mechanism::JointIndex joint = 0;
-  bool couple = false;
+  core::Quantity quantity = core::Quantity::f;
   std::vector<std::vector<Point2>> lines;
 };
 
-/// M_J = 0 for the couples, and the largest period at which |f_J| is at the threshold for the forces, within the range.
+/// w = 0 for couples, axial forces and ends of guides, and the largest period at which |f_J| is at the threshold for the forces, within the range.
 std::vector<LossCurve> loss_curves(const Motion& motion, const std::vector<std::vector<Instant>>& samples,
                                    const LossThresholds& thresholds, double shortest, double longest);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "mechanism/guide.hpp"
+#include "numeric/take_up.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -35,19 +37,29 @@ TaskWitness::TaskWitness(std::vector<const NumericModel*> loads, std::vector<int
   }
 }
 
-std::vector<int> TaskWitness::columns_of(const core::TaskDemand& demand) const {
+std::vector<Bounded> TaskWitness::parts_of(const core::TaskDemand& demand, const BoundedNumerators& numerators) const {
   const NumericModel& model = *loads_.front();
   const auto joint = std::find_if(model.mechanism.joints.begin(), model.mechanism.joints.end(),
                                   [&](const mechanism::Joint& j) { return j.name == demand.joint; });
   core::ensure(joint != model.mechanism.joints.end(), "a demand is of a joint of the mechanism");
   const int index = static_cast<int>(joint - model.mechanism.joints.begin());
   using core::Quantity;
-  std::vector<Quantity> parts = {demand.quantity};
-  if (demand.quantity == Quantity::f) parts = {Quantity::fx, Quantity::fy, Quantity::fz};
-  std::vector<int> columns;
-  for (const Quantity part : parts)
-    if (const int column = column_of(model, index, part); column >= 0) columns.push_back(column);
-  return columns;
+  const auto value = [&](Quantity quantity) {
+    return numerators.values[static_cast<std::size_t>(column_of(model, index, quantity))];
+  };
+  for (const auto& [end, sign] : mechanism::guide_end_signs) {
+    if (demand.quantity != end) continue;
+    const double h = joint_clearances(model.mechanism)[static_cast<std::size_t>(index)].half_length;
+    return {(value(Quantity::N) + value(Quantity::T) / Bounded(sign * h)) * Bounded(0.5)};
+  }
+  std::vector<Quantity> quantities = {demand.quantity};
+  if (demand.quantity == Quantity::f)
+    quantities = joint->type == mechanism::JointType::prismatic ? mechanism::reaction_components(model.mechanism, *joint)
+                                                                : std::vector{Quantity::fx, Quantity::fy, Quantity::fz};
+  std::vector<Bounded> parts;
+  for (const Quantity quantity : quantities)
+    if (column_of(model, index, quantity) >= 0) parts.push_back(value(quantity));
+  return parts;
 }
 
 bool TaskWitness::reachable_at(const Point2& at) const { return reachable(*loads_.front(), at, mode_); }
@@ -101,27 +113,26 @@ std::vector<TaskFailure> TaskWitness::some_failures(const Point2& at, bool close
 
 std::optional<TaskFailure> TaskWitness::failure_of(const core::TaskDemand& demand,
                                                    const std::vector<BoundedNumerators>& numerators) const {
-  const std::vector<int> columns = columns_of(demand);
-  const BoundedNumerators &first = numerators.front(), &last = numerators.back();
+  const BoundedNumerators& first = numerators.front();
+  const std::vector<Bounded> at_first = parts_of(demand, first), at_last = parts_of(demand, numerators.back());
   double along = 0, length2 = 0;
-  for (const int column : columns) {
-    const double a = first.values[static_cast<std::size_t>(column)].value;
-    const double way = last.values[static_cast<std::size_t>(column)].value - a;
+  for (std::size_t k = 0; k < at_first.size(); ++k) {
+    const double a = at_first[k].value;
+    const double way = at_last[k].value - a;
     along -= a * way;
     length2 += way * way;
   }
   const double nearest = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
-  const auto part = [&](int column, const Bounded& t) {
-    const auto k = static_cast<std::size_t>(column);
-    return numerators.size() == 1 ? first.values[k] : mixed(first.values[k], last.values[k], t);
+  const auto part = [&](std::size_t k, const Bounded& t) {
+    return numerators.size() == 1 ? at_first[k] : mixed(at_first[k], at_last[k], t);
   };
   TaskFailure failure;
   failure.demand = demand;
   failure.load = nearest;
   const double least_determinant = std::abs(first.determinant.value) - first.determinant.error;
   double most2 = 0, size2 = 0;
-  for (const int column : columns) {
-    const Bounded own = part(column, Bounded(nearest));
+  for (std::size_t k = 0; k < at_first.size(); ++k) {
+    const Bounded own = part(k, Bounded(nearest));
     size2 += own.value * own.value;
     most2 += std::pow(std::abs(own.value) + own.error, 2);
   }
@@ -137,8 +148,8 @@ std::optional<TaskFailure> TaskWitness::failure_of(const core::TaskDemand& deman
   double usual = 0;
   for (const BoundedNumerators& load : numerators)
     for (const Bounded& value : load.values) usual = std::max(usual, std::abs(value.value));
-  for (const int column : columns) {
-    const Bounded own = part(column, about);
+  for (std::size_t k = 0; k < at_first.size(); ++k) {
+    const Bounded own = part(k, about);
     if (!is_zero(own) || own.error > known_zero * usual) return std::nullopt;
   }
   failure.kind = TaskFailure::Kind::vanishing;

@@ -46,7 +46,8 @@ class TaskWitness {
   std::vector<TaskFailure> some_failures(const Point2& at, bool closely, std::size_t most) const;
   std::optional<TaskFailure> failure_of(const core::TaskDemand& demand,
                                         const std::vector<BoundedNumerators>& numerators) const;
-  std::vector<int> columns_of(const core::TaskDemand& demand) const;
+  /// The components of what is demanded, times |A|: two of a guide's contact as a whole, one of either end of it.
+  std::vector<Bounded> parts_of(const core::TaskDemand& demand, const BoundedNumerators& numerators) const;
   bool reachable_at(const Point2& at) const;
 
   std::vector<const NumericModel*> loads_;

@@ -65,6 +65,7 @@ std::vector<Reaction> end_reactions(const Guide& guide, const FactoredPoly& dete
     FactoredPoly own{1, {}};
     if (guide.is_polynomial()) own = factored(end_numerator(guide, end), determinant.factors);
     multiply(own, guide.common);
+    own.constant /= 2 * guide.half_length;
     ends.push_back({guide.joint, end, core::to_string(end) + " of " + guide.joint, std::move(own)});
   }
   return ends;

@@ -35,6 +35,11 @@ StraightLine StraightLines::over_roots(const Poly& sheet) {
   return builder_.line(value(core::scaled_for_doubles(sheet.plain())));
 }
 
+void StraightLines::let(int ring_variable, int root, const Poly& divisor) {
+  const int below = value(divisor.plain());
+  known_[ring_variable] = builder_.multiply(builder_.variable(root), builder_.inverse(below));
+}
+
 core::RootTower StraightLines::tower() {
   core::RootTower tower = geometry_->plain_tower();
   for (std::size_t j = 0; j < tower.roots.size(); ++j) tower.roots[j].line = square(j);

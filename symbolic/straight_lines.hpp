@@ -27,6 +27,10 @@ class StraightLines {
   /// The value of a polynomial in the coordinates and the roots.
   core::StraightLine over_roots(const Poly& sheet);
 
+  /// From now on a ring variable that occurs in no place stands for a further root over a divisor; `root` is the
+  /// tower's variable.
+  void let(int ring_variable, int root, const Poly& divisor);
+
   /// The tower, with everything in it that is known as it is computed.
   core::RootTower tower();
 

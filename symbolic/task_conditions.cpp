@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <list>
+#include <map>
 
 #include "core/errors.hpp"
+#include "mechanism/guide.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
+#include "symbolic/guide_ends.hpp"
 #include "symbolic/margins.hpp"
 #include "symbolic/reactions.hpp"
 #include "symbolic/straight_lines.hpp"
@@ -27,6 +30,7 @@ class Conditions {
     for (const mechanism::Mechanism* load : loads) {
       const FactoredDeterminants determinants = load == &mechanism_ ? factored_determinants(geometry_) : under(*load);
       reactions_.push_back(reactions(geometry_, determinants));
+      for (const Guide& guide : guides(geometry_, elimination_, reactions_.back())) add_ends(guide, determinants);
       if (load == &mechanism_) determinant_ = determinants.determinant;
     }
     if (vanishes(determinant_))
@@ -42,7 +46,12 @@ class Conditions {
   void add(const TaskDemand& demand) {
     const mechanism::Joint& joint = joint_named(demand.joint);
     std::vector<Quantity> quantities = {demand.quantity};
-    if (demand.quantity == Quantity::f) quantities = mechanism::force_components(mechanism_, joint);
+    const bool guide =
+        mechanism_.space == mechanism::Space::planar && joint.type == mechanism::JointType::prismatic;
+    if (demand.quantity == Quantity::f)
+      quantities = guide ? mechanism::reaction_components(mechanism_, joint)
+                         : mechanism::force_components(mechanism_, joint);
+    if (core::is_guide_end(demand.quantity)) know_length(demand.joint);
     if (demand.least > 0 && std::find(quantities.begin(), quantities.end(), Quantity::f1) != quantities.end())
       throw core::InputError(joint.where,
                              "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
@@ -87,6 +96,51 @@ class Conditions {
   core::TaskConditions take() { return std::move(result_); }
 
  private:
+  /// What the ends of a guide bear, of the last load's reactions. Where the axis has no constant length |u| the ring's
+  /// auxiliary variable stands for it.
+  void add_ends(const Guide& guide, const FactoredDeterminants& determinants) {
+    std::vector<Reaction> ends = end_reactions(guide, determinants.determinant);
+    if (!guide.length && !guide.bears.is_zero()) {
+      const Poly bears = guide.bears * Poly::variable(geometry_.ring(), geometry_.auxiliary());
+      for (Reaction& end : ends) {
+        end.numerator =
+            factored(end.quantity == Quantity::end_ahead ? bears + guide.turns : bears - guide.turns, {});
+        multiply(end.numerator, guide.common);
+        end.numerator.constant /= 2 * guide.half_length;
+      }
+      lengths_.try_emplace(guide.joint, guide.square);
+    }
+    for (Reaction& end : ends) reactions_.back().push_back(std::move(end));
+  }
+
+  /// The auxiliary variable is the length of this guide's axis, over one more root of the tower.
+  void know_length(const std::string& joint) {
+    const auto found = lengths_.find(joint);
+    if (found == lengths_.end()) return;
+    known_.clear();  // what was written with the length of another guide
+    // Coefficients of t^0 and t^1 over the tower have one denominator; |u| = root / divisor.
+    const Poly t = Poly::variable(geometry_.ring(), geometry_.auxiliary());
+    const std::vector<Poly> length = elimination_.over_tower(found->second + t).coefficients(geometry_.auxiliary());
+    core::ensure(length.size() == 2, "a squared length over its denominator");
+    const std::vector<int> variables = geometry_.tower_variables();
+    const int before = result_.tower.variables();
+    core::Root root;
+    root.name = "s" + std::to_string(result_.tower.roots.size() + 1);
+    root.role = core::RootRole::length;
+    root.square = core::with_variables((length[0] * length[1]).plain(variables), before);
+    result_.tower.roots.push_back(std::move(root));
+    core::RootTower& tower = result_.tower;
+    const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, tower.variables()); };
+    for (core::Root& own : tower.roots) widen(own.square);
+    for (core::Polynomial& denominator : tower.denominators) widen(denominator);
+    for (core::DyadBase& base : tower.bases) {
+      widen(base.x);
+      widen(base.y);
+    }
+    lines_.let(geometry_.auxiliary(), before, length[1]);
+    lengths_.erase(found);
+  }
+
   const mechanism::Joint& joint_named(const std::string& name) const {
     const auto found = std::find_if(mechanism_.joints.begin(), mechanism_.joints.end(),
                                     [&](const mechanism::Joint& joint) { return joint.name == name; });
@@ -172,6 +226,7 @@ class Conditions {
   FactoredPoly determinant_;
   std::vector<std::vector<Reaction>> reactions_;  ///< load by load
   std::list<Known> known_;
+  std::map<std::string, Poly> lengths_;  ///< squared, of guides whose ends have not been asked for
   core::TaskConditions result_;
 };
 

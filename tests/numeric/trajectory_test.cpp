@@ -339,7 +339,7 @@ RC_GTEST_PROP(ContactLosses, AreWhereTheReactionsVanish, ()) {
         before = now;
       }
       for (const ContactLoss& loss : losses)
-        if (loss.couple && loss.kind == LossKind::zero && loss.joint == static_cast<int>(j) &&
+        if (loss.quantity == core::Quantity::M && loss.kind == LossKind::zero && loss.joint == static_cast<int>(j) &&
             loss.tau > stretch.begin && loss.tau < stretch.end)
           ++found;
       RC_ASSERT(found >= changes);
