@@ -15,7 +15,8 @@ using core::CellNode;
 using core::StraightLine;
 
 // Far beyond what the program writes; a file that asks for more is damaged.
-constexpr std::size_t most_steps = 100'000, most_digits = 4'000, most_roots = 16, most_depth = 400;
+constexpr std::size_t most_steps = 100'000, most_digits = 4'000, most_roots = 16, most_depth = 400,
+                      most_functions = 500;
 
 class Reader {
  public:
@@ -48,6 +49,7 @@ class Reader {
     for (const Json& entry : array(root, "functions"))
       c.functions.push_back(
           {role(text(entry, "role")), text(entry, "name"), program(text(entry, "program"), 2 + c.squares.size())});
+    if (c.functions.size() > most_functions) fail("too many functions");
     for (const Json& entry : array(root, "modes")) {
       core::WorkingMode mode;
       for (const Json& sign : entry) mode.push_back(integer(sign, -1, 1));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -98,6 +99,7 @@ struct CertificateFile {
   std::vector<PointClaim> points;
   std::vector<ZoneClaim> zones;
   std::optional<TaskClaim> task;
+  std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of the check; not in the file
 };
 
 /// Whether a model's text is the one of a certificate, in which bytes that are no UTF-8 were replaced.

@@ -233,9 +233,11 @@ std::string bytes_of(const std::string& path) {
 }  // namespace
 
 Verdict check_certificate_text(const std::string& model_text, const std::string& model_file,
-                               const std::string& certificate_text, const std::string& certificate_file) {
+                               const std::string& certificate_text, const std::string& certificate_file,
+                               const Deadline& deadline) {
   try {
-    const CertificateFile certificate = read_certificate(certificate_text, certificate_file);
+    CertificateFile certificate = read_certificate(certificate_text, certificate_file);
+    certificate.deadline = deadline;
     if (!same_text(model_text, certificate.model))
       throw FalseClaim("model: it is not the file that the certificate was made for");
     const mechanism::Mechanism mechanism =
@@ -248,8 +250,8 @@ Verdict check_certificate_text(const std::string& model_text, const std::string&
   }
 }
 
-Verdict check_certificate(const std::string& model, const std::string& certificate) {
-  return check_certificate_text(bytes_of(model), model, bytes_of(certificate), certificate);
+Verdict check_certificate(const std::string& model, const std::string& certificate, const Deadline& deadline) {
+  return check_certificate_text(bytes_of(model), model, bytes_of(certificate), certificate, deadline);
 }
 
 }  // namespace clearloci::check

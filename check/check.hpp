@@ -2,6 +2,8 @@
 // own. Nothing of what wrote the certificate is used here: only the reader of mechanism files and plain data.
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +18,15 @@ struct Verdict {
   std::vector<std::string> unchecked;  ///< what was not looked at, and why
 };
 
-/// `model`, `certificate`: the files. Throws core::InputError where one of them cannot be read.
-Verdict check_certificate(const std::string& model, const std::string& certificate);
+using Deadline = std::optional<std::chrono::steady_clock::time_point>;
+
+/// `model`, `certificate`: the files. Throws core::InputError where one of them cannot be read, core::LimitReached where the
+/// deadline comes first.
+Verdict check_certificate(const std::string& model, const std::string& certificate, const Deadline& deadline = {});
 
 /// The same for texts.
 Verdict check_certificate_text(const std::string& model_text, const std::string& model_file,
-                               const std::string& certificate_text, const std::string& certificate_file);
+                               const std::string& certificate_text, const std::string& certificate_file,
+                               const Deadline& deadline = {});
 
 }  // namespace clearloci::check

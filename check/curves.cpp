@@ -359,6 +359,7 @@ class SheetCheck {
       at_zero.push_back(j);
       Sheet rim(parts_of(c_, claim_.mode, at_zero), {program_, &c_.squares[static_cast<std::size_t>(j)]});
       const CommonZeros found = common_zeros(rim, cells, size_, most_cells_of_pair);
+      if (!found.complete) fail("how it meets the workspace's boundary takes too many cells");
       for (const Rectangle& cell : found.undecided)
         if (std::any_of(leaves_.begin(), leaves_.end(), [&](const Leaf& leaf) {
               return leaf.claim.kind == CellNode::Kind::graph && leaf.cell.x0 <= cell.x0 && cell.x1 <= leaf.cell.x1 &&
@@ -502,6 +503,7 @@ class SheetCheck {
     if (cells.empty()) return;
     Sheet both(parts_of(c_, claim_.mode, claim_.at_zero), {program_, &other});
     CommonZeros found = common_zeros(both, cells, size_, most_cells_of_pair);
+    if (!found.complete) fail("where another curve cuts it takes too many cells");
     // At an edge double zeros count as one point: what the curve does there is seen from the pieces on either side.
     for (const Rectangle& cell : joined(std::move(found.undecided))) {
       const Point2 at = {0.5 * (cell.x0 + cell.x1), 0.5 * (cell.y0 + cell.y1)};

@@ -76,6 +76,10 @@ class PointCheck {
 
   void check_pair(const std::string& joint, int f, int g) {
     const CommonZeros& found = zeros_of(f, g);
+    if (!found.complete) {
+      undecided_ = true;
+      verdict_.unchecked.push_back(fmt::format("isolated contact losses of {} in mode {}: too many cells", joint, mode_ + 1));
+    }
     for (const Rectangle& cell : found.undecided) {
       const Point2 at = {0.5 * (cell.x0 + cell.x1), 0.5 * (cell.y0 + cell.y1)};
       if (cell.size() < 1e-6 * size_ && (at_divisor(cell) || on_contact_loss(joint, at))) continue;

@@ -115,6 +115,8 @@ void Sheet::set_root(std::size_t j, bool lift) {
 }
 
 bool Sheet::enter(const Interval& x, const Interval& y, int lift) {
+  if (parts_.deadline && std::chrono::steady_clock::now() > *parts_.deadline)
+    throw core::LimitReached("the time limit was reached before every claim was looked at");
   values_[0] = x;
   values_[1] = y;
   local_ = {x, y};

@@ -7,7 +7,9 @@
 // bound. The local coordinates of a cell are (x, y, lifted roots).
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "check/interval.hpp"
@@ -19,7 +21,8 @@ namespace clearloci::check {
 struct SheetParts {
   const std::vector<core::StraightLine>* squares = nullptr;  ///< Q_j over (x, y, s1...s_{j-1})
   std::vector<int> signs;                                    ///< of the roots
-  std::vector<int> at_zero;                                  ///< roots that are 0 on this sheet: their Q_j = 0 is not asked for
+  std::vector<int> at_zero;  ///< roots that are 0 on this sheet: their Q_j = 0 is not asked for
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then core::LimitReached is thrown
 };
 
 class Sheet {

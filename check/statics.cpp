@@ -48,7 +48,8 @@ class Pose {
         return -argument(0);
       case Kind::power: {
         const core::Rational exponent = mechanism::value_of(e.arguments()[1], m_);
-        core::ensure(exponent.get_den() == 1 && exponent >= 0 && exponent <= 64, "a small natural power");
+        if (exponent.get_den() != 1 || exponent < 0 || exponent > 64)
+          throw core::InputError({m_.file}, "a power that check does not know", "");
         const Interval base = argument(0);
         Interval result = number(1);
         for (long i = 0; i < exponent.get_num().get_si(); ++i) result = result * base;
@@ -164,7 +165,7 @@ class Equations {
   Equations(const Mechanism& m, const Posture& posture, const Interval& x, const Interval& y)
       : m_(m), posture_(posture), pose_(m, x, y), unknowns_(mechanism::unknowns(m)) {
     rows.assign(3 * m.links.size(), std::vector<Interval>(unknowns_.size() + 1, Interval(x.bits())));
-    core::ensure(rows.size() == unknowns_.size(), "as many equations as unknowns");
+    if (rows.size() != unknowns_.size()) throw core::InputError({m_.file}, "the equations are not square", "");
     for (std::size_t k = 0; k < unknowns_.size(); ++k) write_unknown(k);
     write_loads();
   }

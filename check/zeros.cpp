@@ -12,6 +12,8 @@ constexpr double accuracy = 1e-13;
 constexpr double smallest = 1e-11;
 constexpr int most_halvings = 120;
 constexpr std::size_t most_pieces = 20'000;
+// More of them mean that the functions share a curve.
+constexpr std::size_t most_undecided = 2'000;
 
 class Segment {
  public:
@@ -142,10 +144,8 @@ class Isolation {
     for (std::size_t count = 0; !cells.empty(); ++count) {
       const Rectangle cell = cells.back();
       cells.pop_back();
-      if (count > most_) {
-        result_.undecided.push_back(cell);
-        break;
-      }
+      result_.complete = count <= most_ && result_.undecided.size() <= most_undecided;
+      if (!result_.complete) break;
       if (decided(cell)) continue;
       if (cell.size() < smallest * size_) {
         result_.undecided.push_back(cell);

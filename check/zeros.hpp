@@ -30,9 +30,10 @@ std::optional<int> sign_at(Sheet& sheet, double x, double y);
 struct CommonZeros {
   std::vector<Place> zeros;
   std::vector<Rectangle> undecided;
+  bool complete = true;  ///< false: not all cells were looked at
 };
 
-/// Common zeros of functions 0 and 1 in cells. `most`: cells looked at, beyond which the rest is undecided.
+/// Common zeros of functions 0 and 1 in cells. `most`: cells looked at, at most.
 CommonZeros common_zeros(Sheet& sheet, std::vector<Rectangle> cells, double size, std::size_t most);
 
 }  // namespace clearloci::check

@@ -16,11 +16,17 @@ namespace {
 
 struct Arguments {
   std::string model, certificate;
+  double time_limit = 0;
   bool json = false;
 };
 
 int run(const Arguments& arguments) {
-  const check::Verdict verdict = check::check_certificate(arguments.model, arguments.certificate);
+  check::Deadline deadline;
+  constexpr double century = 3e9;  // beyond, the clock's ticks would overflow
+  if (arguments.time_limit > 0 && arguments.time_limit < century)
+    deadline = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                      std::chrono::duration<double>(arguments.time_limit));
+  const check::Verdict verdict = check::check_certificate(arguments.model, arguments.certificate, deadline);
   const std::string why = report::printable(verdict.why);
   if (arguments.json) {
     fmt::print("{}", report::json_text({{"accepted", verdict.accepted},
@@ -55,6 +61,9 @@ Command add_check_command(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
   app->add_option("MODEL", arguments->model, "The mechanism file that the certificate was made for")->required();
   app->add_option("FILE", arguments->certificate, "What --certificate of loci or zones wrote")->required();
+  app->add_option("--time-limit", arguments->time_limit, "Seconds; then nothing is said, and the exit status is 3")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
   app->add_flag("--json", arguments->json, "Print the verdict as JSON");
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --certificate out/five_bar.cert\n"

@@ -201,11 +201,22 @@ std::optional<loci::FitGoal> parse_fit(const std::string& word) {
   throw core::InputError({.file = "--fit"}, fmt::format("unknown goal '{}'", word), "choose from nearest, best");
 }
 
+/// The loci of the file's load with their cells, and the task where it was verified.
+void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, const Verification& result,
+             LociRequest request) {
+  core::Certificate certificate;
+  request.certificate = &certificate;
+  const core::LocusMap map = trace_loci(mechanism, request);
+  write_certificate(arguments.certificate, "verify", arguments.common, certificate, map,
+                    {.task = result.verified() && !result.task.loads ? &result.task : nullptr});
+}
+
 int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats);
   const std::optional<loci::FitGoal> goal = parse_fit(arguments.fit);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   const core::Task task = mechanism::read_task(arguments.task, mechanism);
+  if (!arguments.certificate.empty()) require_certifiable(mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "verify.json", incomplete_body(name, "the verdict was"));
   });
@@ -215,6 +226,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     throw core::InputError({.file = "--working-mode"}, "a task is verified in one working mode",
                            "give one side for each dyad");
   const Verification result = goal ? fit_task(mechanism, task, request, *goal) : verify_task(mechanism, task, request);
+  if (!arguments.certificate.empty()) certify(arguments, mechanism, result, request);
   progress.clear();
   limit.writing();
 
@@ -247,6 +259,7 @@ Command add_verify_command(CLI::App& program) {
                   fmt::format("Pictures besides verify.json, several after commas: {}", fmt::join(known_formats, ", ")))
       ->type_name("LIST")
       ->capture_default_str();
+  add_certificate_argument(*app, arguments->certificate);
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
       "Ends with 0 where the task is verified: proven for every pose of it and every load; with 1 where it is refuted: "

@@ -29,8 +29,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
                                          "five_bar_inclined.yaml", "five_bar_isolated.yaml", "five_bar_weights.yaml",
                                          "five_bar_coupler.yaml", "prrrp.yaml", "rprpr.yaml", "three_rpr.yaml",
                                          "three_rrr.yaml"),
-                         [](const auto& info) {
-                           const std::string file = info.param;
+                         [](const auto& own) {
+                           const std::string file = own.param;
                            return file.substr(0, file.find('.'));
                          });
 
