@@ -27,7 +27,36 @@ end_effector: {link: PB2, at: P}
   return text;
 }
 
+namespace {
+
+/// Bases, lengths and now and then sides of the box are multiples of 1/4, legs often alike. The box holds some of the
+/// workspace whatever is drawn: either leg reaches from at most 1/2 to at least 1.
+FiveBarDesign five_bar_on_the_lattice(std::mt19937& random, bool with_weights) {
+  const auto in = [&random](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  const auto quarters = [&](int low, int high) { return std::to_string(in(low, high)) + "/4"; };
+  FiveBarDesign design;
+  design.a1 = {quarters(-1, 1), quarters(-1, 1)};
+  design.a2 = {quarters(2, 3), in(0, 1) == 0 ? design.a1[1] : quarters(-1, 1)};
+  for (std::string* length : {&design.proximal1, &design.distal1, &design.proximal2, &design.distal2})
+    *length = quarters(2, 4);
+  if (in(0, 1) == 0) design.distal1 = design.proximal1;
+  if (in(0, 1) == 0) design.proximal2 = design.proximal1, design.distal2 = design.distal1;
+  design.side1 = in(0, 1) == 0 ? "left" : "right";
+  design.side2 = in(0, 1) == 0 ? "left" : "right";
+  static const std::array<std::array<std::string, 2>, 5> loads = {
+      {{"0", "-100"}, {"0", "-100"}, {"100", "0"}, {"30", "-40"}, {"-50", "50"}}};
+  design.force = loads[static_cast<std::size_t>(in(0, 4))];
+  design.box = {"-7/4", "5/2", "-2", "2"};
+  const int side = in(0, 7);
+  if (side < 4) design.box[static_cast<std::size_t>(side)] = quarters(side % 2 == 0 ? -4 : 2, side % 2 == 0 ? -1 : 4);
+  if (with_weights) design.gravity = {"0", "-9.81"};
+  return design;
+}
+
+}  // namespace
+
 FiveBarDesign random_five_bar(std::mt19937& random, bool with_weights) {
+  if (random() % 2 == 0) return five_bar_on_the_lattice(random, with_weights);
   const auto in = [&random](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
   const auto quotient = [&](int low, int high, int denominator) {
     return std::to_string(in(low, high)) + "/" + std::to_string(denominator);

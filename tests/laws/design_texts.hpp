@@ -18,8 +18,9 @@ struct FiveBarDesign {
   std::string text() const;
 };
 
-/// Rational numbers with small denominators: unequal lengths, inclined base and load. Now and then degenerate on
-/// purpose: equal lengths, a load along an axis, a base of no inclination.
+/// Half of them on the lattice of quarters, with equal lengths, loads along an axis and a box that is cut on purpose;
+/// the others of rational numbers with small denominators: unequal lengths, inclined base and load, degenerate now and
+/// then.
 FiveBarDesign random_five_bar(std::mt19937& random, bool with_weights);
 
 }  // namespace clearloci::test

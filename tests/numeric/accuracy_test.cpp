@@ -8,17 +8,16 @@
 
 #include "numeric/pose_error.hpp"
 #include "tests/numeric/designs.hpp"
+#include "tests/numeric/random_five_bar.hpp"
 
 namespace clearloci::numeric {
 namespace {
 
+using test::between;
 using test::five_bar;
 using test::FiveBar;
+using test::random_five_bar;
 using test::Side;
-
-double between(double low, double high) {
-  return low + (high - low) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 100000)) / 100000;
-}
 
 struct Clearances {
   double A1, B1, P, B2, A2;  // radial
@@ -31,17 +30,6 @@ mechanism::Mechanism with(mechanism::Mechanism m, const Clearances& c) {
   };
   set(0, c.A1, c.angular1), set(1, c.B1, 0), set(2, c.P, 0), set(3, c.B2, 0), set(4, c.A2, c.angular2);
   return m;
-}
-
-FiveBar random_five_bar() {
-  FiveBar d;
-  d.base_x = between(0.2, 1.0), d.base_y = between(-0.5, 0.5);
-  d.a1 = between(0.3, 1), d.b1 = between(0.3, 1), d.a2 = between(0.3, 1), d.b2 = between(0.3, 1);
-  d.side1 = *rc::gen::arbitrary<bool>() ? Side::left : Side::right;
-  d.side2 = *rc::gen::arbitrary<bool>() ? Side::left : Side::right;
-  d.fx = between(-50, 50), d.fy = between(-50, 50), d.couple = *rc::gen::element(0.0, 3.0);
-  d.weighs = *rc::gen::arbitrary<bool>();
-  return d;
 }
 
 Clearances random_clearances() {

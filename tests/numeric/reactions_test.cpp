@@ -8,12 +8,15 @@
 #include <cmath>
 
 #include "tests/numeric/designs.hpp"
+#include "tests/numeric/random_five_bar.hpp"
 
 namespace clearloci::numeric {
 namespace {
 
+using test::between;
 using test::five_bar;
 using test::FiveBar;
+using test::random_five_bar;
 using test::Side;
 
 const std::vector<int> paper_mode = {-1, 1};  // B1 right, B2 left
@@ -169,22 +172,6 @@ struct Sample {
   std::vector<double> pose;
   std::vector<int> mode;
 };
-
-/// Over the whole range from the first try on: RapidCheck's own ranges grow with the size of the test.
-double between(double low, double high) {
-  return low + (high - low) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 100000)) / 100000;
-}
-Side side() { return *rc::gen::arbitrary<bool>() ? Side::left : Side::right; }
-
-FiveBar random_five_bar() {
-  FiveBar d;
-  d.base_x = between(0.2, 1.0), d.base_y = between(-0.5, 0.5);
-  d.a1 = between(0.3, 1), d.b1 = between(0.3, 1), d.a2 = between(0.3, 1), d.b2 = between(0.3, 1);
-  d.side1 = side(), d.side2 = side();
-  d.fx = between(-50, 50), d.fy = between(-50, 50), d.couple = *rc::gen::element(0.0, 3.0);
-  d.weighs = *rc::gen::arbitrary<bool>();
-  return d;
-}
 
 mechanism::Mechanism random_mechanism() {
   switch (*rc::gen::element(0, 1, 2)) {
