@@ -125,21 +125,18 @@ class Witness {
     return numeric::solve_reactions(model_, posture);
   }
 
-  /// The size of a reaction by the name that it has in loci.json; a force all components together.
-  double size_of(const numeric::Reactions& reactions, const core::Vanishing& what) const {
+  /// A reaction; of a force the size of all components together.
+  double value_of(const numeric::Reactions& reactions, const core::Vanishing& what) const {
     const auto value = [&](core::Quantity quantity) {
       for (std::size_t k = 0; k < model_.unknowns.size(); ++k)
         if (name_of(model_.unknowns[k].joint) == what.joint && model_.unknowns[k].quantity == quantity)
           return reactions.values[static_cast<Eigen::Index>(k)];
       return std::numeric_limits<double>::quiet_NaN();
     };
-    const std::string quantity = core::to_string(what.quantity);
-    if (quantity == "f") return std::hypot(value(core::Quantity::fx), value(core::Quantity::fy));
-    if (quantity.starts_with("end_")) {
-      const double n = value(core::Quantity::N), t = value(core::Quantity::T) / half_length(what.joint);
-      return std::abs(quantity == "end_ahead" ? n + t : n - t) / 2;
-    }
-    return std::abs(value(what.quantity));
+    if (what.quantity == core::Quantity::f) return std::hypot(value(core::Quantity::fx), value(core::Quantity::fy));
+    if (!core::is_guide_end(what.quantity)) return value(what.quantity);
+    const double n = value(core::Quantity::N), t = value(core::Quantity::T) / half_length(what.joint);
+    return (what.quantity == core::Quantity::end_ahead ? n + t : n - t) / 2;
   }
 
  private:
@@ -218,6 +215,7 @@ class Laws {
     }
     arcs_are_where_they_should_be(map_);
     claims_hold();
+    points_hold();
     nothing_is_disputed();
     if (degree_of(traced.problem) <= exact_degree) engines_agree();
     zones_partition();
@@ -373,12 +371,38 @@ class Laws {
     }
   }
 
+  /// Nor is a point said to be one of contact loss where a force stays, from whatever side it is approached.
+  void points_hold() {
+    for (const core::IsolatedPoint& point : map_.isolated_points) {
+      if (point.kind != core::LocusKind::contact_loss && point.kind != core::LocusKind::backlash) continue;
+      const std::vector<int> sides = sides_of(point.mode);
+      for (int k = 0; k < 6; ++k) {
+        const double direction = 1 + 2 * k * std::numbers::pi / 6;
+        const auto beside = [&](double by) {
+          return Point2{point.at[0] + by * size() * std::cos(direction),
+                        point.at[1] + by * size() * std::sin(direction)};
+        };
+        const auto a = witness_.at(beside(1e-4), sides), b = witness_.at(beside(1e-7), sides);
+        if (!a || !b) continue;
+        ++tally_.claims;
+        for (const core::Vanishing& what : point.vanishing) {
+          const double wa = std::abs(witness_.value_of(*a, what)), wb = std::abs(witness_.value_of(*b, what));
+          if (wb <= 0.2 * wa + 1e-6 * b->values.cwiseAbs().maxCoeff()) continue;
+          Faults::Line(faults_) << what.joint << "." << core::to_string(what.quantity) << " is " << wa << " and " << wb
+                                << " beside the point (" << point.at[0] << ", " << point.at[1] << ")";
+          break;
+        }
+      }
+    }
+  }
+
   /// Empty where everything is as the curve says.
   std::string fault_beside(const core::LocusCurve& curve, const std::vector<int>& sides, const Point2& at,
                            const Point2& before, const Point2& after) const {
     const double dx = after[0] - before[0], dy = after[1] - before[1], l = std::hypot(dx, dy);
     if (l == 0) return {};
     int alive = 0;
+    bool grows = false;
     std::ostringstream fault;
     fault.precision(10);
     for (const double side : {1.0, -1.0}) {
@@ -389,12 +413,13 @@ class Laws {
       if (b) ++alive;
       if (!a || !b) continue;
       const double scale = b->values.cwiseAbs().maxCoeff();
+      grows = grows || scale > 5 * a->values.cwiseAbs().maxCoeff();
       if (curve.kind == core::LocusKind::direct_singularity &&
           !(std::abs(b->determinant) <= 0.2 * std::abs(a->determinant)))
         fault << "|A| is " << a->determinant << " and " << b->determinant;
       for (const core::Vanishing& what : curve.vanishing) {
         if (curve.kind == core::LocusKind::margin) break;
-        const double wa = witness_.size_of(*a, what), wb = witness_.size_of(*b, what);
+        const double wa = std::abs(witness_.value_of(*a, what)), wb = std::abs(witness_.value_of(*b, what));
         // The last is what rounding may leave of a zero among reactions of that size.
         if (!(wb <= 0.2 * wa + 1e-6 * scale))
           fault << what.joint << "." << core::to_string(what.quantity) << " is " << wa << " and " << wb << " of "
@@ -405,6 +430,8 @@ class Laws {
     if (curve.kind == core::LocusKind::workspace_boundary && alive != 1)
       fault << "a boundary with a posture on " << alive << " sides";
     if (alive == 0) fault << "no posture";
+    if (curve.kind == core::LocusKind::direct_singularity && alive > 0 && curve.excited != grows)
+      fault << "reactions " << (grows ? "grow" : "stay finite");
     if (fault.str().empty()) return {};
     std::ostringstream place;
     place.precision(12);
@@ -511,13 +538,9 @@ class Laws {
         const core::Zone& zone = *around.front();
         if ((reactions->determinant > 0 ? 1 : -1) != zone.assembly_mode) fault << zone.id << ": another sign of |A|";
         for (const auto& [what, sign] : zone.signs)
-          for (std::size_t k = 0; k < witness_.model().unknowns.size(); ++k) {
-            const mechanism::Unknown& unknown = witness_.model().unknowns[k];
-            if (what.joint != mechanism_.joints[static_cast<std::size_t>(unknown.joint)].name) continue;
-            if (what.quantity != unknown.quantity || sign == 0) continue;
-            if ((reactions->values[static_cast<Eigen::Index>(k)] > 0 ? 1 : -1) != sign)
-              fault << zone.id << ": another sign of " << core::to_string(what.quantity) << " of " << what.joint;
-          }
+          if (what.quantity != core::Quantity::f && sign != 0 &&
+              (witness_.value_of(*reactions, what) > 0 ? 1 : -1) != sign)
+            fault << zone.id << ": another sign of " << core::to_string(what.quantity) << " of " << what.joint;
       }
       if (fault.str().empty() || beside_an_arc(at)) continue;
       Faults::Line(faults_) << fault.str() << " at (" << at[0] << ", " << at[1] << ")";
