@@ -31,9 +31,18 @@ struct Zone {
   bool certified = false;                        ///< the borders and how they meet are proven
 };
 
+/// How much of a mode's workspace inside the box its zones account for.
+struct ModeArea {
+  WorkingMode mode;
+  double workspace = 0;  ///< m^2
+  /// Of that: in zones that are not certified, in no zone, or in more than one. 0: the zones are proven, and cover it.
+  double in_doubt = 0;
+};
+
 struct ZoneMap {
-  LocusMap loci;            ///< what cuts; ids of borders are its curves'
-  std::vector<Zone> zones;  ///< by mode, then area, largest first
+  LocusMap loci;                     ///< what cuts; ids of borders are its curves'
+  std::vector<Zone> zones;           ///< by mode, then area, largest first
+  std::vector<ModeArea> areas = {};  ///< one a mode
 };
 
 }  // namespace clearloci::core

@@ -1,6 +1,7 @@
 #include "loci/plane_graph.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -57,7 +58,81 @@ core::Point2 clearest_point(const core::Polyline& candidates, const core::Polyli
   return best;
 }
 
+/// Every closed walk with a face on its left, of all components.
+std::vector<std::vector<HalfEdge>> walks_of(const PlaneGraph& graph) {
+  std::vector<bool> used(2 * graph.edges.size(), false);
+  std::vector<std::vector<HalfEdge>> walks;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    for (const bool reversed : {false, true}) {
+      const HalfEdge first{static_cast<int>(e), reversed};
+      if (used[index_of(first)]) continue;
+      std::vector<HalfEdge> walk;
+      HalfEdge half = first;
+      do {
+        used[index_of(half)] = true;
+        walk.push_back(half);
+        half = next(graph, half);
+      } while (!(half == first));
+      walks.push_back(std::move(walk));
+    }
+  }
+  return walks;
+}
+
 }  // namespace
+
+bool is_planar(const PlaneGraph& graph) {
+  const std::vector<int> component = components(graph);
+  std::vector<int> characteristic(graph.nodes.size(), 0);
+  std::vector<bool> met(graph.nodes.size(), false);
+  const auto of = [&](int node) -> int& {
+    return characteristic[static_cast<std::size_t>(component[static_cast<std::size_t>(node)])];
+  };
+  const auto meet = [&](int node) {
+    if (!met[static_cast<std::size_t>(node)]) ++of(node);
+    met[static_cast<std::size_t>(node)] = true;
+  };
+  for (const GraphEdge& edge : graph.edges) {
+    meet(edge.from);
+    meet(edge.to);
+    --of(edge.from);
+  }
+  for (const std::vector<HalfEdge>& walk : walks_of(graph)) ++of(tail(graph, walk.front()));
+  for (const GraphEdge& edge : graph.edges)
+    if (of(edge.from) != 2) return false;
+  return true;
+}
+
+core::Polyline points_in_face(const std::vector<core::Polyline>& rings) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const core::Polyline& ring : rings)
+    for (const core::Point2& p : ring) low = std::min(low, p[1]), high = std::max(high, p[1]);
+  // Heights at no round shares: designs are symmetric, and what is special lies amid their faces.
+  constexpr std::array<double, 7> shares = {0.4713, 0.3271, 0.6397, 0.1709, 0.8233, 0.0617, 0.9361};
+  constexpr double off_middle = 0.0391;
+  std::vector<std::pair<double, core::Point2>> found;  // room, point
+  for (const double share : shares) {
+    const double y = low + share * (high - low);
+    std::vector<double> crossings;
+    for (const core::Polyline& ring : rings)
+      for (std::size_t i = 1; i < ring.size(); ++i) {
+        const core::Point2 &a = ring[i - 1], &b = ring[i];
+        if ((a[1] > y) != (b[1] > y)) crossings.push_back(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]));
+      }
+    std::sort(crossings.begin(), crossings.end());
+    double most = 0, at = 0;
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+      if (crossings[i + 1] - crossings[i] > most) {
+        most = crossings[i + 1] - crossings[i];
+        at = crossings[i] + (0.5 + off_middle) * most;
+      }
+    if (most > 0) found.push_back({std::min(most, std::min(share, 1 - share) * (high - low)), {at, y}});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  core::Polyline points;
+  for (const auto& [room, point] : found) points.push_back(point);
+  return points;
+}
 
 int head(const PlaneGraph& graph, HalfEdge half) {
   const GraphEdge& edge = graph.edges[static_cast<std::size_t>(half.edge)];
@@ -104,24 +179,14 @@ std::vector<GraphFace> faces_of(const PlaneGraph& graph) {
     int component = 0;
   };
   const std::vector<int> component = components(graph);
-  std::vector<bool> used(2 * graph.edges.size(), false);
   std::vector<Walk> outer, inner;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    for (const bool reversed : {false, true}) {
-      const HalfEdge first{static_cast<int>(e), reversed};
-      if (used[index_of(first)]) continue;
-      Walk walk;
-      HalfEdge half = first;
-      do {
-        used[index_of(half)] = true;
-        walk.halves.push_back(half);
-        half = next(graph, half);
-      } while (!(half == first));
-      walk.ring = ring_of(graph, walk.halves);
-      walk.area = signed_area(walk.ring);
-      walk.component = component[static_cast<std::size_t>(tail(graph, first))];
-      outer.push_back(std::move(walk));
-    }
+  for (std::vector<HalfEdge>& halves : walks_of(graph)) {
+    Walk walk;
+    walk.ring = ring_of(graph, halves);
+    walk.area = signed_area(walk.ring);
+    walk.component = component[static_cast<std::size_t>(tail(graph, halves.front()))];
+    walk.halves = std::move(halves);
+    outer.push_back(std::move(walk));
   }
   // Every component has one walk around its outside: the one of least signed area.
   for (const Walk& walk : outer) {

@@ -37,6 +37,14 @@ struct GraphFace {
 /// Every face, the unbounded one last.
 std::vector<GraphFace> faces_of(const PlaneGraph& graph);
 
+/// Euler's formula holds for every component, vertices - edges + faces = 2: the orders around the nodes fit together in
+/// the plane. Where they do not, some order is wrong.
+bool is_planar(const PlaneGraph& graph);
+
+/// Points inside a face given by its rings (the even-odd rule), the ones with most room beside them first; none where
+/// the face is thinner than doubles tell.
+core::Polyline points_in_face(const std::vector<core::Polyline>& rings);
+
 /// The points along a walk, the first repeated at the end.
 core::Polyline ring_of(const PlaneGraph& graph, const std::vector<HalfEdge>& walk);
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "loci/arc_check.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/plane_curve.hpp"
 #include "loci/sheet/apex.hpp"
@@ -134,11 +135,62 @@ bool vanishes_along_all(const LocusProblem& problem, const core::WorkingMode& mo
   });
 }
 
+double length_of(const core::Polyline& line) {
+  double sum = 0;
+  for (std::size_t i = 1; i < line.size(); ++i)
+    sum += std::hypot(line[i][0] - line[i - 1][0], line[i][1] - line[i - 1][1]);
+  return sum;
+}
+
+/// The vertices of lines and circles from their closed forms; other arcs have theirs.
+core::Arc finished(const TracedArc& traced, const core::ClosedForm& form, double tolerance) {
+  core::Arc arc = traced.arc;
+  if (std::holds_alternative<core::LineForm>(form)) {
+    arc.points = {arc.points.front(), arc.points.back()};
+    arc.length = length_of(arc.points);
+  }
+  if (const auto* circle = std::get_if<core::CircleForm>(&form)) {
+    const Point2 centre = {core::to_double(circle->centre[0]), core::to_double(circle->centre[1])};
+    const double radius = std::sqrt(core::to_double(circle->radius_squared));
+    const auto on_circle = [&](const Point2& p) -> Point2 {
+      const double distance = std::hypot(p[0] - centre[0], p[1] - centre[1]);
+      return {centre[0] + radius * (p[0] - centre[0]) / distance, centre[1] + radius * (p[1] - centre[1]) / distance};
+    };
+    const Point2 start = on_circle(arc.points.front());
+    const Point2 end = arc.closed ? start : on_circle(arc.points.back());
+    arc.points = circle_arc(centre, radius, start, traced.inner, end, arc.closed, tolerance);
+    arc.length = 0;
+    for (std::size_t i = 1; i < arc.points.size(); ++i) {
+      const double chord = std::hypot(arc.points[i][0] - arc.points[i - 1][0], arc.points[i][1] - arc.points[i - 1][1]);
+      arc.length += 2 * radius * std::asin(std::min(1.0, chord / (2 * radius)));
+    }
+  }
+  return arc;
+}
+
+/// Finishes the arcs from their closed forms and holds each against its curve, mode and box. What fails is left to the
+/// exact engine.
+void finish(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
+            const std::vector<core::ClosedForm>& forms, sheet::SheetTrace& trace) {
+  ArcCheck check(problem, factor, mode);
+  std::erase_if(trace.arcs, [&](TracedArc& traced) {
+    const auto colour = static_cast<std::size_t>(traced.colour);
+    if (colour < forms.size()) traced.arc = finished(traced, forms[colour], problem.tolerance);
+    const std::optional<ArcFault> fault = check(traced.arc);
+    if (!fault) return false;
+    trace.certified = false;
+    trace.undecided.push_back({fault->at[0], fault->at[0], fault->at[1], fault->at[1]});
+    return true;
+  });
+}
+
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
                               sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
+  std::vector<core::ClosedForm> forms;
   for (const core::Polynomial& p : factor.implicit) {
-    options.closed_form.push_back(is_line_or_circle(core::recognise_closed_form(p)));
+    forms.push_back(core::recognise_closed_form(p));
+    options.closed_form.push_back(is_line_or_circle(forms.back()));
     options.along_side.push_back(side_along(problem, p));
     if (factor.implicit.size() > 1) curves.emplace_back(p);
   }
@@ -166,10 +218,13 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
   const bool along = std::all_of(shared.begin(), shared.end(), [&](const LocusFactor* other) {
     return vanishes_along_all(problem, mode, factor, traced, other->sheet);
   });
-  if (along) return traced;
-  for (const LocusFactor* other : shared)
-    cutters.push_back({{other->sheet, other->line}, core::ArcEnd::direct_singularity});
-  return trace();
+  if (!along) {
+    for (const LocusFactor* other : shared)
+      cutters.push_back({{other->sheet, other->line}, core::ArcEnd::direct_singularity});
+    traced = trace();
+  }
+  finish(problem, factor, mode, forms, traced);
+  return traced;
 }
 
 /// Whether a sheet polynomial vanishes along an arc that lies on a factor of its norm: where it does not, it is zero at
@@ -206,39 +261,6 @@ class VanishesAlong {
   sheet::SheetProgram::Registers<double> registers_;
   double size_;
 };
-
-double length_of(const core::Polyline& line) {
-  double sum = 0;
-  for (std::size_t i = 1; i < line.size(); ++i)
-    sum += std::hypot(line[i][0] - line[i - 1][0], line[i][1] - line[i - 1][1]);
-  return sum;
-}
-
-/// The vertices of lines and circles from their closed forms; other arcs have theirs.
-core::Arc finished(const TracedArc& traced, const core::ClosedForm& form, double tolerance) {
-  core::Arc arc = traced.arc;
-  if (std::holds_alternative<core::LineForm>(form)) {
-    arc.points = {arc.points.front(), arc.points.back()};
-    arc.length = length_of(arc.points);
-  }
-  if (const auto* circle = std::get_if<core::CircleForm>(&form)) {
-    const Point2 centre = {core::to_double(circle->centre[0]), core::to_double(circle->centre[1])};
-    const double radius = std::sqrt(core::to_double(circle->radius_squared));
-    const auto on_circle = [&](const Point2& p) -> Point2 {
-      const double distance = std::hypot(p[0] - centre[0], p[1] - centre[1]);
-      return {centre[0] + radius * (p[0] - centre[0]) / distance, centre[1] + radius * (p[1] - centre[1]) / distance};
-    };
-    const Point2 start = on_circle(arc.points.front());
-    const Point2 end = arc.closed ? start : on_circle(arc.points.back());
-    arc.points = circle_arc(centre, radius, start, traced.inner, end, arc.closed, tolerance);
-    arc.length = 0;
-    for (std::size_t i = 1; i < arc.points.size(); ++i) {
-      const double chord = std::hypot(arc.points[i][0] - arc.points[i - 1][0], arc.points[i][1] - arc.points[i - 1][1]);
-      arc.length += 2 * radius * std::asin(std::min(1.0, chord / (2 * radius)));
-    }
-  }
-  return arc;
-}
 
 /// Collects the arcs of one mode into curves.
 class Gathering {
@@ -391,7 +413,7 @@ class Gathering {
       curve->certified = true;
     }
     curve->certified = curve->certified && certified;
-    curve->arcs.push_back(finished(traced, curve->closed_form, problem_.tolerance));
+    curve->arcs.push_back(traced.arc);
   }
 
   const LocusProblem& problem_;

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "loci/abandonable.hpp"
+#include "loci/arc_check.hpp"
 #include "loci/exact_trace.hpp"
 #include "loci/isolated_points.hpp"
 #include "loci/points.hpp"
@@ -149,7 +150,8 @@ void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, 
   }
   if (options.certificate != nullptr) certify(problem, shares, *options.certificate);
   add_sheet_loci(problem, shares, map);
-  for (const core::WorkingMode& mode : problem.modes) map.workspace.push_back(workspace_region(problem, mode, map));
+  for (const core::WorkingMode& mode : problem.modes)
+    map.workspace.push_back({mode, workspace_faces(problem, mode, map).rings});
 }
 
 /// Gravest kinds first, then as the polynomials order them; ids follow.
@@ -180,6 +182,7 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
       map = trace_exactly_in_time(problem, options);
     else
       trace_adaptively(problem, options, map);
+    if (coordinates == 2) withhold_wrong_arcs(problem, map);
     const std::function<bool()> stop = [&] {
       return options.deadline && std::chrono::steady_clock::now() > *options.deadline;
     };

@@ -1,12 +1,18 @@
-// The workspace of a mode as rings, made of the boundary's arcs and the sides of the box between them. For pictures.
+// The workspace of a mode as rings: the faces into which its boundary and the sides of the box cut the box.
 #pragma once
 
+#include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
 
 namespace clearloci::loci {
 
+struct WorkspaceFaces {
+  std::vector<core::Polyline> rings;  ///< to be filled by the even-odd rule
+  double area = 0;                    ///< curved sides counted in
+};
+
 /// From the boundary curves that the map has of the mode.
-core::WorkspaceRegion workspace_region(const core::LocusProblem& problem, const core::WorkingMode& mode,
-                                       const core::LocusMap& map);
+WorkspaceFaces workspace_faces(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                               const core::LocusMap& map);
 
 }  // namespace clearloci::loci

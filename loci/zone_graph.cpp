@@ -90,6 +90,7 @@ class Builder {
     for (std::size_t n = 0; n < result_.graph.nodes.size(); ++n) cut_at(static_cast<int>(n));
     for (Strand& strand : strands_) split(strand);
     order_edges();
+    if (!is_planar(result_.graph)) doubt("the order of curves around a crossing is not clear");
     check_separation();
     return std::move(result_);
   }

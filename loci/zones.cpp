@@ -9,7 +9,8 @@
 #include "loci/edge_area.hpp"
 #include "loci/inscribed_circle.hpp"
 #include "loci/largest_circle.hpp"
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/workspace_area.hpp"
+#include "loci/workspace_rings.hpp"
 #include "loci/zone_graph.hpp"
 
 namespace clearloci::loci {
@@ -21,35 +22,11 @@ using core::Point2;
 using core::Polyline;
 using core::Zone;
 
-/// Every Q_j > 0 there, proven.
-class Workspace {
- public:
-  Workspace(const core::RootTower& tower, const core::WorkingMode& mode)
-      : program_(tower, squares(tower)), sign_(program_, mode), roots_(static_cast<int>(tower.roots.size())) {}
-
-  bool holds(const Point2& at) {
-    for (int j = 0; j < roots_; ++j) {
-      const auto sign = sign_(at[0], at[1], j);
-      if (!sign || *sign <= 0) return false;
-    }
-    return true;
-  }
-
- private:
-  static std::vector<core::Polynomial> squares(const core::RootTower& tower) {
-    std::vector<core::Polynomial> list;
-    for (const core::Root& root : tower.roots) list.push_back(root.square);
-    return list;
-  }
-  sheet::SheetProgram program_;
-  sheet::PointSign sign_;
-  int roots_;
-};
-
 class ModeZones {
  public:
   ModeZones(const core::LocusProblem& problem, const LocusMap& map, const core::WorkingMode& mode)
-      : map_(map),
+      : problem_(problem),
+        map_(map),
         mode_(mode),
         workspace_(problem.tower, mode),
         projections_(problem, map),
@@ -77,6 +54,7 @@ class ModeZones {
       if (auto zone = describe(measured(face.walks))) found.push_back(std::move(*zone));
     }
     std::stable_sort(found.begin(), found.end(), [](const Zone& a, const Zone& b) { return a.area > b.area; });
+    account_for(found, map);
     for (Zone& zone : found) map.zones.push_back(std::move(zone));
     for (const std::string& note : cut_.notes) map.loci.notes.push_back("zones: " + note);
   }
@@ -88,6 +66,30 @@ class ModeZones {
     std::vector<Polyline> holes;
     double area = 0, error = 0;  // m^2
   };
+
+  /// Holds the zones against the workspace, found without them and without any locus: what they do not cover, or cover
+  /// twice, and what is not certified is in doubt.
+  void account_for(std::vector<Zone>& found, core::ZoneMap& map) {
+    core::ModeArea account;
+    account.mode = mode_;
+    account.workspace = workspace_faces(problem_, mode_, map_).area;
+    const AreaBounds bounds = workspace_area(problem_, mode_);
+    if (account.workspace < (1 - area_slack) * bounds.least || account.workspace > (1 + area_slack) * bounds.most)
+      account.workspace = bounds.most;  // the boundary has gaps: what is certain is only what enclosures tell
+    double covered = 0;
+    for (const Zone& zone : found) covered += zone.area;
+    const double amiss = std::abs(account.workspace - covered);
+    if (amiss > area_slack * account.workspace) {
+      account.in_doubt = amiss;
+      cut_.certified = false;
+      cut_.notes.push_back("the zones found have " + std::to_string(covered) + " m^2 of a workspace of " +
+                           std::to_string(account.workspace) + " m^2");
+      for (Zone& zone : found) zone.certified = false;
+    }
+    for (const Zone& zone : found) account.in_doubt += zone.certified ? 0 : zone.area;
+    account.in_doubt = std::min(account.in_doubt, std::max(account.workspace, covered));
+    map.areas.push_back(std::move(account));
+  }
 
   Polyline isolated() const {
     Polyline list;
@@ -176,10 +178,15 @@ class ModeZones {
       return inside_ring(zone.outer, at) && std::none_of(zone.holes.begin(), zone.holes.end(),
                                                          [&](const Polyline& hole) { return inside_ring(hole, at); });
     };
+    std::vector<Polyline> rings = zone.holes;
+    rings.push_back(zone.outer);
+    const Polyline inner = points_in_face(rings);
+    if (!workspace_.holds_one_of(inner)) return std::nullopt;
     const std::optional<Circle> circle = largest_circle(face.walks, zone, inside);
-    if (!circle) return std::nullopt;
-    zone.inscribed = *circle;
+    zone.inscribed = circle ? *circle : Circle{inner.front(), 0};
     zone.sample = zone.inscribed.centre;
+    // The ends of a leg may meet amid the circle, where the mechanism is not defined.
+    if (!workspace_.holds(zone.sample).value_or(false)) zone.sample = inner.front();
     zone.borders = borders(face.walks);
     for (const int i : points_) {
       if (inside(place(i))) zone.isolated_points.push_back(i);
@@ -206,7 +213,7 @@ class ModeZones {
     return list;
   }
 
-  /// None where the face lies outside the workspace.
+  /// None where the face is too thin for one.
   template <typename Inside>
   std::optional<Circle> largest_circle(const GraphFace& face, const Zone& zone, const Inside& inside) {
     std::vector<Obstacle> borders;
@@ -230,7 +237,6 @@ class ModeZones {
         return std::hypot(other.centre[0] - circle.centre[0], other.centre[1] - circle.centre[1]) < 0.2 * other.radius;
       });
       if (!another || !inside(circle.centre)) continue;
-      if (candidates.empty() && !workspace_.holds(circle.centre)) return std::nullopt;
       candidates.push_back(circle);
       if (candidates.size() == most_candidates) break;
     }
@@ -265,13 +271,15 @@ class ModeZones {
   }
 
   static constexpr double area_accuracy = 1e-7;  ///< relative; a tenth of what is promised, since it is an estimate
+  static constexpr double area_slack = 1e-5;     ///< relative: what the boundary's curved sides may hide of an area
   static constexpr int most_refinements = 8;
   static constexpr double most_sites = 4000;  ///< on a zone's border
   static constexpr std::size_t most_candidates = 3;
 
+  const core::LocusProblem& problem_;
   const LocusMap& map_;
   core::WorkingMode mode_;
-  Workspace workspace_;
+  ModeWorkspace workspace_;
   CurveProjections projections_;
   ZoneGraph cut_;
   std::vector<int> points_;

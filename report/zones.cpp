@@ -82,9 +82,12 @@ Json zone_object(const core::ZoneMap& map, const core::Zone& zone) {
 
 std::vector<core::WorkingMode> modes_of_zones(const core::ZoneMap& map) {
   std::vector<core::WorkingMode> modes;
-  for (const core::Zone& zone : map.zones) {
-    if (std::find(modes.begin(), modes.end(), zone.mode) == modes.end()) modes.push_back(zone.mode);
-  }
+  const auto add = [&](const core::WorkingMode& mode) {
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+  };
+  for (const core::Zone& zone : map.zones) add(zone.mode);
+  for (const core::ModeArea& area : map.areas)
+    if (area.in_doubt > 0) add(area.mode);
   return modes;
 }
 
@@ -110,6 +113,11 @@ Json zones_object(const core::ZoneMap& map) {
     root[key] = loci[key];
   root["zones"] = Json::array();
   for (const core::Zone& zone : map.zones) root["zones"].push_back(zone_object(map, zone));
+  root["areas"] = Json::array();
+  for (const core::ModeArea& area : map.areas)
+    root["areas"].push_back({{"working_mode", mode_object(map.loci.tower, area.mode)},
+                             {"workspace", area.workspace},
+                             {"in_doubt", area.in_doubt}});
   root["notes"] = loci["notes"];
   root["timing"] = loci["timing"];
   return root;
@@ -156,8 +164,13 @@ std::string zones_table(const core::ZoneMap& map) {
                          sign_words(zone.assembly_mode), signs, zone.area, circle, border_words(map, zone));
     }
     out += fmt::format("{:<6} {:<4} {:<18} {:>14.9f}\n", "all", "", "", total);
+    for (const core::ModeArea& area : map.areas) {
+      if (area.mode != mode || area.in_doubt == 0) continue;
+      out += fmt::format("{:<6} {:<4} {:<18} {:>14.9f}  of a workspace of {:.9f}: not certified, or in no zone\n",
+                         "doubt", "", "", area.in_doubt, area.workspace);
+    }
   }
-  if (map.zones.empty()) out += "\nno zones: the mechanism reaches nothing in the box\n";
+  if (modes_of_zones(map).empty()) out += "\nno zones: the mechanism reaches nothing in the box\n";
   const bool doubtful = std::any_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return !z.certified; });
   if (doubtful) out += "\n*: not certified\n";
   for (const std::string& note : map.loci.notes) out += printable(note) + "\n";

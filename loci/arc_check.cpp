@@ -1,0 +1,158 @@
+#include "loci/arc_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+namespace clearloci::loci {
+namespace {
+
+using core::FactorRole;
+using core::LocusFactor;
+using core::LocusKind;
+using sheet::Interval;
+
+// What vertices are held to, relative to the box, and in spacings of the doubles that say where they are.
+constexpr double vertex_accuracy = 1e-12;
+constexpr double spacings = 4;
+
+/// The factor first, then every |A|, then the denominators.
+std::vector<sheet::SheetFunction> functions(const core::LocusProblem& problem, const LocusFactor& factor) {
+  std::vector<sheet::SheetFunction> list = {{factor.sheet, factor.line}};
+  for (const LocusFactor& other : problem.factors)
+    if (other.role == FactorRole::direct_singularity) list.push_back({other.sheet, other.line});
+  for (const core::Polynomial& denominator : problem.tower.denominators) list.push_back({denominator, {}});
+  return list;
+}
+
+bool plays_part_of(const LocusFactor& factor, LocusKind kind) {
+  switch (kind) {
+    case LocusKind::margin:
+      return factor.role == FactorRole::margin;
+    case LocusKind::direct_singularity:
+      return factor.role == FactorRole::direct_singularity;
+    case LocusKind::workspace_boundary:
+      return factor.role == FactorRole::workspace_boundary;
+    default:
+      return factor.role == FactorRole::reaction;
+  }
+}
+
+bool owns(const LocusFactor& factor, const core::LocusCurve& curve) {
+  if (!plays_part_of(factor, curve.kind)) return false;
+  if (curve.implicit.is_zero()) return factor.implicit.empty();
+  return std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
+}
+
+}  // namespace
+
+ArcCheck::ArcCheck(const core::LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode)
+    : problem_(problem),
+      mode_(mode),
+      program_(problem.tower, functions(problem, factor)),
+      registers_(program_.registers<Interval>()) {
+  double largest = 0, size = 0;
+  for (std::size_t c = 0; c < 2; ++c) {
+    lower_[c] = core::to_double(problem.lower[c]);
+    upper_[c] = core::to_double(problem.upper[c]);
+    size = std::max(size, upper_[c] - lower_[c]);
+    largest = std::max({largest, std::abs(lower_[c]), std::abs(upper_[c])});
+  }
+  reach_ = std::max(vertex_accuracy * size, spacings * std::numeric_limits<double>::epsilon() * largest);
+  const int denominators = static_cast<int>(problem.tower.denominators.size());
+  for (int f = 1; f < program_.functions(); ++f)
+    (f < program_.functions() - denominators ? singularities_ : undefined_).push_back(f);
+}
+
+std::optional<std::string> ArcCheck::fault_at(const core::Point2& at, core::ArcEnd end) {
+  bool on_side = false;
+  for (std::size_t c = 0; c < 2; ++c) {
+    if (!(at[c] >= lower_[c] - reach_ && at[c] <= upper_[c] + reach_)) return "a vertex outside the box";
+    on_side = on_side || at[c] <= lower_[c] + reach_ || at[c] >= upper_[c] - reach_;
+  }
+  for (const int v : {0, 1}) {
+    const double x = at[static_cast<std::size_t>(v)];
+    registers_.set(v, Interval(x - reach_, x + reach_));
+  }
+  bool on_boundary = false;
+  for (int j = 0; j < program_.roots(); ++j) {
+    registers_.run_square(j);
+    const Interval& square = registers_.square(j);
+    if (square.upper() < 0) return "a vertex outside the workspace";
+    on_boundary = on_boundary || square.lower() <= 0;
+    const Interval root = square_root(square);
+    registers_.set(2 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
+  }
+  registers_.run_values();
+  if (!registers_.value(0).contains_zero()) return "a vertex off its curve, or in another mode";
+  const auto one_vanishes = [&](const std::vector<int>& list) {
+    return std::any_of(list.begin(), list.end(), [&](int f) { return registers_.value(f).contains_zero(); });
+  };
+  switch (end) {
+    case core::ArcEnd::box:
+      if (!on_side) return "an end on no side of the box";
+      break;
+    case core::ArcEnd::boundary:
+      // Where a leg's ends meet the sheet ends in a point.
+      if (!on_boundary && !one_vanishes(undefined_)) return "an end away from the workspace boundary";
+      break;
+    case core::ArcEnd::direct_singularity:
+      if (!one_vanishes(singularities_)) return "an end away from the direct singularities";
+      break;
+    default:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<ArcFault> ArcCheck::operator()(const core::Arc& arc) {
+  if (arc.points.size() < 2) return ArcFault{"an arc without vertices", {}};
+  const core::Point2 &first = arc.points.front(), &last = arc.points.back();
+  const bool same = first == last, no_ends = arc.ends[0] == core::ArcEnd::none && arc.ends[1] == core::ArcEnd::none;
+  if (arc.closed && !(same && no_ends)) return ArcFault{"a closed arc with ends", first};
+  // A loop may lead from a crossing back to it; at a side of the box an arc that comes back to where it left is a
+  // point.
+  if (!arc.closed && (no_ends || (same && (arc.points.size() < 4 || arc.ends[0] == core::ArcEnd::box))))
+    return ArcFault{"an arc of one point", first};
+  double chords = 0;
+  for (std::size_t i = 0; i < arc.points.size(); ++i) {
+    if (i > 0) chords += std::hypot(arc.points[i][0] - arc.points[i - 1][0], arc.points[i][1] - arc.points[i - 1][1]);
+    core::ArcEnd end = core::ArcEnd::none;
+    if (i == 0) end = arc.ends[0];
+    if (i + 1 == arc.points.size()) end = arc.ends[1];
+    if (auto what = fault_at(arc.points[i], end)) return ArcFault{std::move(*what), arc.points[i]};
+  }
+  // A chord that strays by the tolerance hides less than twice that of a curve that does not turn back.
+  const double hidden = 2 * problem_.tolerance * static_cast<double>(arc.points.size());
+  if (!(arc.length >= chords * (1 - 1e-9) - reach_ && arc.length <= chords + hidden + reach_))
+    return ArcFault{"a length that is not that of its chords", first};
+  return std::nullopt;
+}
+
+void withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map) {
+  for (core::LocusCurve& curve : map.curves) {
+    std::deque<ArcCheck> checks;
+    for (const LocusFactor& factor : problem.factors)
+      if (owns(factor, curve)) checks.emplace_back(problem, factor, curve.mode);
+    if (checks.empty()) continue;
+    std::erase_if(curve.arcs, [&](const core::Arc& arc) {
+      std::optional<ArcFault> fault;
+      const bool held = std::any_of(checks.begin(), checks.end(), [&](ArcCheck& check) {
+        std::optional<ArcFault> found = check(arc);
+        const bool none = !found;
+        if (!fault) fault = std::move(found);
+        return none;
+      });
+      if (held) return false;
+      curve.certified = false;
+      map.notes.push_back("an arc of " + (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
+                          " failed its last check and is withheld: " + fault->what + " near (" +
+                          std::to_string(fault->at[0]) + ", " + std::to_string(fault->at[1]) + ")");
+      return true;
+    });
+  }
+  std::erase_if(map.curves, [](const core::LocusCurve& curve) { return curve.arcs.empty(); });
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,45 @@
+// The last look at an arc before it is handed out, by none of the reasoning that made it: enclosures around each of its
+// vertices refute what is not in the box, not on the curve or not in the mode. Always armed.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/locus_factor.hpp"
+#include "core/locus_map.hpp"
+#include "loci/sheet/sheet_program.hpp"
+
+namespace clearloci::loci {
+
+struct ArcFault {
+  std::string what;  ///< "a vertex outside the box"
+  core::Point2 at{};
+};
+
+/// Holds arcs against one factor in one mode.
+class ArcCheck {
+ public:
+  ArcCheck(const core::LocusProblem& problem, const core::LocusFactor& factor, const core::WorkingMode& mode);
+  ArcCheck(const ArcCheck&) = delete;
+  ArcCheck& operator=(const ArcCheck&) = delete;
+
+  /// What is proven to be wrong with the arc; none: nothing. Vertices may be off by 1e-12 of the box or four spacings
+  /// of doubles, whichever is larger.
+  std::optional<ArcFault> operator()(const core::Arc& arc);
+
+ private:
+  std::optional<std::string> fault_at(const core::Point2& at, core::ArcEnd end);
+
+  const core::LocusProblem& problem_;
+  core::WorkingMode mode_;
+  sheet::SheetProgram program_;
+  sheet::SheetProgram::Registers<sheet::Interval> registers_;
+  std::array<double, 2> lower_{}, upper_{};
+  double reach_ = 0;
+  std::vector<int> singularities_, undefined_;  ///< functions of the program: every |A|, every denominator
+};
+
+/// Withholds arcs of the map that are proven to be wrong: their curves are not certified then, and a note says so.
+void withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map);
+
+}  // namespace clearloci::loci
