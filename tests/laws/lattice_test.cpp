@@ -511,6 +511,13 @@ class Laws {
       for (const core::Zone& zone : zones.zones) total += zone.mode == region.mode ? zone.area : 0;
       if (certified && std::abs(total - sampled) > doubt)
         Faults::Line(faults_) << what << " of " << total << " m^2, sampled " << sampled << " +- " << doubt;
+      for (const core::ModeArea& account : zones.areas) {
+        if (account.mode != region.mode) continue;
+        if (std::abs(account.workspace - sampled) > doubt)
+          Faults::Line(faults_) << "a workspace of " << account.workspace << " m^2, sampled " << sampled << " +- " << doubt;
+        if (certified && account.in_doubt > 0)
+          Faults::Line(faults_) << what << ", yet " << account.in_doubt << " m^2 in doubt";
+      }
       if (certified) one_zone_a_pose(zones, region.mode, sides);
     }
   }
