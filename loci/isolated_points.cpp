@@ -89,6 +89,20 @@ bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode,
          });
 }
 
+/// Whether an arc of a reaction ends on a direct singularity at a point: then its end says that there is no limit.
+bool ends_on_singularity(const LocusMap& map, const WorkingMode& mode, const core::Point2& at, double same) {
+  for (const core::LocusCurve& curve : map.curves) {
+    if (curve.mode != mode) continue;
+    for (const core::Arc& arc : curve.arcs)
+      for (const std::size_t end : {0u, 1u}) {
+        const core::Point2& p = end == 0 ? arc.points.front() : arc.points.back();
+        if (arc.ends[end] == core::ArcEnd::direct_singularity && std::hypot(p[0] - at[0], p[1] - at[1]) <= same)
+          return true;
+      }
+  }
+  return false;
+}
+
 /// Joins a joint to a point already found, or adds the point.
 void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
   for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
@@ -170,8 +184,17 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
           add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
                     1e-9 * size);
         };
+        // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
+        const auto add_without_limit = [&](const core::Point2& at) {
+          if (!ends_on_singularity(map, mode, at, 1e-7 * size))
+            add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
+                      1e-9 * size);
+        };
         for (const sheet::SheetZero& zero : found.zeros) {
-          if (!on_direct_singularity(problem, mode, zero)) add({zero.x, zero.y}, true);
+          if (!on_direct_singularity(problem, mode, zero))
+            add({zero.x, zero.y}, true);
+          else
+            add_without_limit({zero.x, zero.y});
         }
         if (stop && stop()) {
           map.complete = false;

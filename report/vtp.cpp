@@ -118,7 +118,7 @@ void append_cell_data(std::string& out, const Cells& cells) {
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
-  for (int kind = 0; kind <= static_cast<int>(core::LocusKind::workspace_boundary); ++kind) {
+  for (int kind = 0; kind <= static_cast<int>(core::LocusKind::no_limit); ++kind) {
     names.push_back(core::to_string(static_cast<core::LocusKind>(kind)));
   }
   return names;

@@ -117,6 +117,8 @@ Wrench unit_wrench(const Geometry& geometry, const mechanism::Joint& joint, Quan
     case Quantity::m2:
       return couple(across(geometry, axis(0)).vectors[quantity == Quantity::m1 ? 0 : 1]);
     case Quantity::f:
+    case Quantity::end_ahead:
+    case Quantity::end_behind:
       break;
   }
   core::ensure(false, "an unknown of a joint");

@@ -90,7 +90,7 @@ TEST(ArcOrders, AreRightAtIrrationalPoints) {
   ASSERT_TRUE(at.has_value());
   ArcOrders arc(tower, {1}, plane(2) * x * x + y * y - plane({1, 2}), *at);
   // On the ellipse s^2 = 1/2 + x^2.
-  EXPECT_EQ(order(arc, S * S - X * X - ring({1, 2}), 1), Rational(1));
+  EXPECT_EQ(order(arc, Circle - X * X - ring({1, 2}), 1), Rational(1));
   EXPECT_EQ(order(arc, ring(2) * X * X + Y * Y - ring({1, 2}), -1), Rational(1));
   EXPECT_EQ(order(arc, S - X, 1), Rational(0));
 }
