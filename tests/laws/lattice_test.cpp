@@ -665,7 +665,9 @@ TEST_P(LeaningDesigns, KeepTheLaws) {
   total() += tally;
   std::cout << test::to_string(GetParam()) << ": " << tally << "\nso far " << total() << std::endl;
   // Else the laws would have been about nothing.
-  if (tally.refused + tally.late < tally.tried) EXPECT_GT(tally.edges, 0);
+  if (tally.refused + tally.late < tally.tried) {
+    EXPECT_GT(tally.edges, 0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, LeaningDesigns, testing::ValuesIn(test::all_families),

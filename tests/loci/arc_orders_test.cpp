@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "loci/reaction_orders.hpp"
 #include "tests/loci/sheet_cases.hpp"
 
