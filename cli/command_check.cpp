@@ -8,6 +8,7 @@
 #include "check/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
+#include "cli/time_limit.hpp"
 #include "report/loci_json.hpp"
 #include "report/wording.hpp"
 
@@ -15,20 +16,19 @@ namespace clearloci::cli {
 namespace {
 
 struct Arguments {
-  std::string model, certificate;
-  double time_limit = 0;
-  bool json = false;
+  CommonArguments common;  ///< of which the model, the limit and --json are asked for here
+  std::string certificate;
 };
 
-int run(const Arguments& arguments) {
-  check::Deadline deadline;
-  constexpr double century = 3e9;  // beyond, the clock's ticks would overflow
-  if (arguments.time_limit > 0 && arguments.time_limit < century)
-    deadline = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                                      std::chrono::duration<double>(arguments.time_limit));
-  const check::Verdict verdict = check::check_certificate(arguments.model, arguments.certificate, deadline);
+int run(const Arguments& arguments, TimeLimit& limit) {
+  limit.known([json = arguments.common.json] {
+    if (json) fmt::print("{}", report::json_text({{"accepted", false}, {"complete", false}}));
+  });
+  const check::Verdict verdict =
+      check::check_certificate(arguments.common.model, arguments.certificate, limit.deadline());
+  limit.writing();
   const std::string why = report::printable(verdict.why);
-  if (arguments.json) {
+  if (arguments.common.json) {
     fmt::print("{}", report::json_text({{"accepted", verdict.accepted},
                                         {"why", why},
                                         {"cells", verdict.cells},
@@ -59,17 +59,19 @@ int run(const Arguments& arguments) {
 Command add_check_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("check", "Verify a certificate from the model, by means of its own");
   const auto arguments = std::make_shared<Arguments>();
-  app->add_option("MODEL", arguments->model, "The mechanism file that the certificate was made for")->required();
+  app->add_option("MODEL", arguments->common.model, "The mechanism file that the certificate was made for")->required();
   app->add_option("FILE", arguments->certificate, "What --certificate of loci or zones wrote")->required();
-  app->add_option("--time-limit", arguments->time_limit, "Seconds; then nothing is said, and the exit status is 3")
-      ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
-  app->add_flag("--json", arguments->json, "Print the verdict as JSON");
+  app->add_option("--time-limit", arguments->common.time_limit,
+                  "Seconds; then nothing is said, and the exit status is 3")
+      ->type_name("SECONDS");
+  app->add_flag("--json", arguments->common.json, "Print the verdict as JSON");
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --certificate out/five_bar.cert\n"
       "         clearloci check examples/five_bar.yaml out/five_bar.cert\n"
       "Ends with 0 where every claim was shown, with 1 where one was not, with 2 where a file cannot be read.");
-  return {app, [arguments] { return run(*arguments); }};
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
 }
 
 }  // namespace clearloci::cli

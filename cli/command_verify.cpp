@@ -218,7 +218,10 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   const core::Task task = mechanism::read_task(arguments.task, mechanism);
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
-    write_incomplete(common, "verify.json", incomplete_body(name, "the verdict was"));
+    Json body = incomplete_body(name, "the verdict was");
+    body["verdict"] = to_string(loci::TaskVerdict::undecided);
+    body["verified"] = false;
+    write_incomplete(common, "verify.json", body);
   });
   Progress progress(arguments.common.quiet);
   const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
