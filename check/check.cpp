@@ -136,7 +136,7 @@ class Check {
 
   template <class Need>
   void need_reactions(int mode, const Orders& orders, const Need& need) const {
-    const std::vector<mechanism::Unknown> unknowns = mechanism::unknowns(m_);
+    const std::vector<mechanism::Unknown> unknowns = borne(m_);
     for (const std::string& joint : c_.joints) {
       const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
       const std::vector<Quantity> parts = mechanism::force_components(m_, *own);

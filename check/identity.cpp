@@ -99,12 +99,14 @@ class Fit {
     orders.same_zeros = same_zeros();
     const std::size_t first = system_.columns;
     orders.determinant = exponents(first, "the direct singularity |A|");
-    const std::vector<mechanism::Unknown> unknowns = mechanism::unknowns(m_);
+    const std::vector<mechanism::Unknown> unknowns = borne(m_);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       if (always_zero_[k])
         orders.reactions.emplace_back();
       else
-        orders.reactions.emplace_back(exponents(first + 1 + k, mechanism::unknown_name(m_, unknowns[k])));
+        orders.reactions.emplace_back(exponents(
+            first + 1 + k, core::to_string(unknowns[k].quantity) + "_" +
+                               m_.joints[static_cast<std::size_t>(unknowns[k].joint)].name));
     }
     return orders;
   }

@@ -38,7 +38,7 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
     if (!step.is_finite()) return std::nullopt;
     place[static_cast<std::size_t>(axis)] = middle_of(place[static_cast<std::size_t>(axis)] - step);
   }
-  const std::vector<mechanism::Unknown> unknowns = mechanism::unknowns(m);
+  const std::vector<mechanism::Unknown> unknowns = borne(m);
   const Sides sides = sides_of(c, sheet.mode);
   const auto beside = [&](int direction, int power) -> std::optional<Solution> {
     std::array<Interval, 2> there = place;

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/guide.hpp"
 
 namespace clearloci::check {
 namespace {
@@ -172,6 +173,12 @@ class Equations {
 
   std::vector<std::vector<Interval>> rows;
 
+  /// |u|^2 of a joint's axis as it is written.
+  Interval squared_axis(const mechanism::Joint& joint) const {
+    const Vector u = pose_.vector(joint.axes.at(0), posture_.points);
+    return u[0] * u[0] + u[1] * u[1];
+  }
+
  private:
   using Wrench = std::array<Interval, 3>;
 
@@ -247,7 +254,8 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
 }
 
 std::optional<Solution> solve(const Mechanism& m, const Posture& posture, const Interval& x, const Interval& y) {
-  auto rows = Equations(m, posture, x, y).rows;
+  const Equations equations(m, posture, x, y);
+  auto rows = equations.rows;
   const std::size_t n = rows.size();
   Solution solution{{}, Interval(1.0, x.bits())};
   for (std::size_t k = 0; k < n; ++k) {
@@ -276,7 +284,31 @@ std::optional<Solution> solve(const Mechanism& m, const Posture& posture, const 
     for (std::size_t j = k + 1; j < n; ++j) sum = sum - rows[k][j] * solution.reactions[j];
     solution.reactions[k] = sum / rows[k][k];
   }
+  const std::vector<mechanism::Unknown> unknowns = mechanism::unknowns(m);
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(unknowns[k].joint)];
+    if (unknowns[k].quantity != Quantity::N || !mechanism::has_guide_ends(m, joint)) continue;
+    // The equations' N is the normal force over |u|, which is but a factor where no couple is borne at all.
+    const bool turns = solution.reactions[k + 1].sign() != 0;
+    const std::optional<core::Rational> written = mechanism::written_length(m, joint.axes.at(0));
+    const Interval length = written ? Interval(*written, x.bits()) : root_of(equations.squared_axis(joint));
+    const Interval normal = turns ? solution.reactions[k] * length : solution.reactions[k];
+    const Interval turn = solution.reactions[k + 1] / Interval(mechanism::value_of(joint.clearance->half_length, m), x.bits());
+    const Interval half(core::Rational(1, 2), x.bits());
+    solution.reactions[k] = (normal + turn) * half;
+    solution.reactions[k + 1] = (normal - turn) * half;
+  }
   return solution;
+}
+
+std::vector<mechanism::Unknown> borne(const mechanism::Mechanism& m) {
+  std::vector<mechanism::Unknown> list = mechanism::unknowns(m);
+  for (mechanism::Unknown& unknown : list) {
+    if (!mechanism::has_guide_ends(m, m.joints[static_cast<std::size_t>(unknown.joint)])) continue;
+    if (unknown.quantity == Quantity::N) unknown.quantity = Quantity::end_ahead;
+    if (unknown.quantity == Quantity::T) unknown.quantity = Quantity::end_behind;
+  }
+  return list;
 }
 
 }  // namespace clearloci::check

@@ -27,8 +27,12 @@ struct Posture {
 /// None: some Q is negative for certain, or a divisor may be zero.
 std::optional<Posture> posture(const mechanism::Mechanism& m, const Sides& sides, const Interval& x, const Interval& y);
 
+/// What joints bear: the unknowns of the equations, in their order, but for guides whose ends are known: these bear
+/// (N + T/h)/2 ahead and (N - T/h)/2 behind (docs/method.md section 5), in the places of N and T.
+std::vector<mechanism::Unknown> borne(const mechanism::Mechanism& m);
+
 struct Solution {
-  std::vector<Interval> reactions;  ///< in the order of mechanism::unknowns
+  std::vector<Interval> reactions;  ///< in the order of borne()
   Interval determinant;             ///< |A|
 };
 

@@ -1,5 +1,8 @@
 #include "mechanism/guide.hpp"
 
+#include <stdexcept>
+
+#include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 
 namespace clearloci::mechanism {
@@ -7,6 +10,31 @@ namespace clearloci::mechanism {
 bool has_guide_ends(const Mechanism& mechanism, const Joint& joint) {
   return mechanism.space == Space::planar && joint.type == JointType::prismatic && joint.clearance &&
          core::to_double(value_of(joint.clearance->half_length, mechanism)) > 0;
+}
+
+Rational near_root(const Rational& square) {
+  core::ensure(square >= 0, "the root of a number that is not negative");
+  if (const std::optional<Rational> exact = core::square_root(square)) return *exact;
+  // sqrt(n/d) = sqrt(n d)/d; the integer root of n d 4^bits errs by less than one.
+  constexpr unsigned bits = 128;
+  const core::Integer radicand = square.get_num() * square.get_den();
+  Rational root(sqrt(core::Integer(radicand << (2 * bits))), core::Integer(square.get_den() << bits));
+  root.canonicalize();
+  return root;
+}
+
+std::optional<Rational> written_length(const Mechanism& mechanism, const VectorExpression& axis) {
+  if (axis.kind != VectorExpression::Kind::components) return std::nullopt;
+  Rational square = 0;
+  try {
+    for (const Expression& number : axis.numbers) {
+      const Rational value = value_of(number, mechanism);
+      square += value * value;
+    }
+  } catch (const std::out_of_range&) {
+    return std::nullopt;  // of the free coordinates
+  }
+  return near_root(square);
 }
 
 }  // namespace clearloci::mechanism

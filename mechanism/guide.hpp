@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "mechanism/mechanism.hpp"
@@ -14,5 +15,12 @@ bool has_guide_ends(const Mechanism& mechanism, const Joint& joint);
 /// The ends, and the sign of T/h in what each bears, (N +- T/h)/2 (core/quantity.hpp).
 inline constexpr std::array<std::pair<core::Quantity, int>, 2> guide_end_signs = {
     std::pair{core::Quantity::end_ahead, 1}, std::pair{core::Quantity::end_behind, -1}};
+
+/// A rational within 1e-30 of the root of a rational, relative to it; exact where the root is rational. Required: not
+/// negative. What stands for the length of an axis that is constant, as rationals do for irrational numbers.
+Rational near_root(const Rational& square);
+
+/// The length of an axis that is written in numbers, so replaced; nothing for others.
+std::optional<Rational> written_length(const Mechanism& mechanism, const VectorExpression& axis);
 
 }  // namespace clearloci::mechanism

@@ -3,7 +3,6 @@
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/guide.hpp"
-#include "symbolic/margins.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -19,17 +18,6 @@ Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint) {
 }
 
 }  // namespace
-
-Rational near_root(const Rational& square) {
-  core::ensure(square >= 0, "the root of a number that is not negative");
-  if (const std::optional<Rational> exact = rational_root(square)) return *exact;
-  // sqrt(n/d) = sqrt(n d)/d; the integer root of n d 4^bits errs by less than one.
-  constexpr unsigned bits = 128;
-  const core::Integer radicand = square.get_num() * square.get_den();
-  Rational root(sqrt(core::Integer(radicand << (2 * bits))), square.get_den() << bits);
-  root.canonicalize();
-  return root;
-}
 
 std::vector<Guide> guides(const Geometry& geometry, const Elimination& elimination,
                           const std::vector<Reaction>& reactions) {
@@ -48,7 +36,7 @@ std::vector<Guide> guides(const Geometry& geometry, const Elimination& eliminati
     result.push_back({joint.name, half, common,
                       normal->is_zero() ? Poly(ring) : without(*normal, common, ring).scaled(half),
                       couple->is_zero() ? Poly(ring) : without(*couple, common, ring), square,
-                      constant ? std::optional(near_root(*constant)) : std::nullopt});
+                      constant ? std::optional(mechanism::near_root(*constant)) : std::nullopt});
   }
   return result;
 }

@@ -38,8 +38,4 @@ Poly end_numerator(const Guide& guide, core::Quantity end);
 /// Of both ends, what is known to be a factor of them: all, or where the axis changes its length what N and T share.
 std::vector<Reaction> end_reactions(const Guide& guide, const FactoredPoly& determinant);
 
-/// A rational within 1e-30 of the root of a rational, relative to it; exact where the root is rational. Required: not
-/// negative.
-core::Rational near_root(const core::Rational& square);
-
 }  // namespace clearloci::symbolic

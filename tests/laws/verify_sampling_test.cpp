@@ -15,6 +15,7 @@
 #include "loci/task_region.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/reactions.hpp"
+#include "numeric/take_up.hpp"
 #include "tests/laws/task_designs.hpp"
 
 namespace clearloci {
@@ -23,6 +24,28 @@ namespace {
 using core::Point2;
 using core::Quantity;
 using loci::TaskVerdict;
+
+/// Ends of a guide: N + T/h and N - T/h, twice what they bear.
+struct GuideEnds {
+  Eigen::Index normal = 0, tilt = 0;
+  double half_length = 0;
+  std::string joint;
+
+  std::array<double, 2> of(const Eigen::VectorXd& w) const {
+    return {w(normal) + w(tilt) / half_length, w(normal) - w(tilt) / half_length};
+  }
+};
+
+std::vector<GuideEnds> guides_of(const numeric::NumericModel& model) {
+  std::vector<GuideEnds> guides;
+  const auto clearances = numeric::joint_clearances(model.mechanism);
+  for (std::size_t j = 0; j < clearances.size(); ++j)
+    if (clearances[j].half_length > 0)
+      guides.push_back({numeric::column_of(model, static_cast<int>(j), Quantity::N),
+                        numeric::column_of(model, static_cast<int>(j), Quantity::T), clearances[j].half_length,
+                        model.mechanism.joints[j].name});
+  return guides;
+}
 
 /// Reactions at poses and loads by LU of all equations: nothing that verify uses.
 class Oracle {
@@ -66,6 +89,9 @@ class Oracle {
     return -1;
   }
   double size(const Eigen::VectorXd& w, const core::Vanishing& reaction) const {
+    for (const GuideEnds& guide : guides_of(model()))
+      if (guide.joint == reaction.joint && core::is_guide_end(reaction.quantity))
+        return std::abs(guide.of(w)[reaction.quantity == Quantity::end_ahead ? 0 : 1]) / 2;
     if (reaction.quantity != Quantity::f) return std::abs(w(column(reaction.joint, reaction.quantity)));
     return std::hypot(w(column(reaction.joint, Quantity::fx)), w(column(reaction.joint, Quantity::fy)));
   }
@@ -83,7 +109,7 @@ class Oracle {
   std::vector<numeric::NumericModel> models_;
 };
 
-bool guided(Quantity q) { return q == Quantity::M || q == Quantity::F || q == Quantity::N || q == Quantity::T; }
+bool is_actuators(Quantity q) { return q == Quantity::M || q == Quantity::F; }
 
 /// Columns of reactions that are zero whatever the pose and the load: not asked for.
 std::vector<bool> never_loaded(const std::vector<Oracle::Solved>& samples) {
@@ -140,11 +166,19 @@ void expect_no_contradiction(std::mt19937& random, const Oracle& oracle, const c
   for (std::size_t i = 0; i < solved.size(); ++i) {
     SCOPED_TRACE(fmt::format("at {:.17g}, {:.17g}", places[i][0], places[i][1]));
     EXPECT_GT(solved[i].determinant * solved.front().determinant, 0);
+    for (const GuideEnds& guide : guides_of(oracle.model())) {
+      if (zero[static_cast<std::size_t>(guide.normal)] && zero[static_cast<std::size_t>(guide.tilt)]) continue;
+      for (const auto& load : solved[i].ends)
+        for (const std::size_t end : {0u, 1u}) {
+          EXPECT_GT(guide.of(load)[end] * guide.of(solved.front().ends.front())[end], 0) << "end of " << guide.joint;
+          EXPECT_GE(std::abs(guide.of(load)[end]) / 2, force * (1 - 1e-9)) << "end of " << guide.joint;
+        }
+    }
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const auto c = static_cast<Eigen::Index>(k);
       const Quantity q = unknowns[k].quantity;
       const std::string name = oracle.model().mechanism.joints[static_cast<std::size_t>(unknowns[k].joint)].name;
-      if (guided(q) && !zero[k])
+      if (is_actuators(q) && !zero[k])
         for (const auto& end : solved[i].ends) {
           EXPECT_GT(end(c) * solved.front().ends.front()(c), 0) << core::to_string(q) << " " << name;
           const double least = q == Quantity::M ? couple * (1 - 1e-9) : 0.0;
