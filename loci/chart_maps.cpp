@@ -209,7 +209,7 @@ class Joining {
 
 bool is_same(const LocusCurve& a, const LocusCurve& b) {
   return a.kind == b.kind && a.vanishing == b.vanishing && a.factor == b.factor && a.cause == b.cause &&
-         a.mode == b.mode;
+         a.mode == b.mode && a.excited == b.excited;
 }
 
 }  // namespace

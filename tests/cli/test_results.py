@@ -7,7 +7,7 @@ import re
 import unittest
 
 import four_bar
-from program import FIVE_BAR, FOUR_BAR, PICK_AND_PLACE, InOwnFolder
+from program import FIVE_BAR, FOUR_BAR, PICK_AND_PLACE, SOURCE, InOwnFolder
 
 
 def without_timing(text):
@@ -177,6 +177,17 @@ class PoseError(InOwnFolder):
         for key, value in linear.items():
             self.assertAlmostEqual(iterated["pose_error"][key] - value, iterated["beyond_linear"][key], delta=1e-15)
 
+    def test_undefined_where_a_couple_alone_vanishes(self):
+        # The pins bear 12 N; only the couple of the motor at A is zero.
+        model = SOURCE / "tests" / "corpus" / "loci" / "scara.yaml"
+        pose = json.loads(self.run_program("pose", model, "--at", "0,0.06", "--json").stdout)
+        self.assertEqual(pose["vanishing"], [{"joint": "A", "quantity": "M"}])
+        self.assertIsNone(pose["pose_error"])
+        self.assertIsNotNone(pose["take_up"]["A"]["beta"])
+        process = self.run_program("pose", model, "--at", "0,0.06")
+        self.assertIn("undefined: M = 0 at A\n", process.stdout)
+        self.assertNotIn("contact is lost", process.stdout)
+
     def test_undefined_on_a_locus(self):
         # PB2 is vertical here: leg 1 bears nothing.
         pose = self.pose("0.8,-0.1")
@@ -184,7 +195,10 @@ class PoseError(InOwnFolder):
         self.assertIsNone(pose["pose_error"])
         self.assertIsNone(pose["take_up"]["P"]["beta"])
         process = self.run_program("pose", FIVE_BAR, "--at", "0.8,-0.1")
-        self.assertIn("contact is lost at A1, B1, P", process.stdout)
+        self.assertIn("contact is lost at A1, B1, P; M = 0 at A1", process.stdout)
+        lost = [(one["joint"], one["quantity"]) for one in pose["vanishing"]]
+        self.assertEqual(lost, [("A1", "f"), ("A1", "M"), ("B1", "f"), ("P", "f")])
+        self.assertFalse(pose["singular"])
         process = self.run_program("pose", FIVE_BAR, "--at", "0.8,-0.1", "--iterate", status=2)
         self.assertIn("undefined", process.stderr)
 
