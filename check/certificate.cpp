@@ -141,7 +141,8 @@ class Reader {
   }
   core::LocusKind kind(const std::string& name) const {
     using enum core::LocusKind;
-    for (const core::LocusKind k : {contact_loss, backlash, component, margin, direct_singularity, workspace_boundary})
+    for (const core::LocusKind k : {contact_loss, backlash, component, margin, direct_singularity, workspace_boundary,
+                                    no_limit})
       if (core::to_string(k) == name) return k;
     fail("an unknown kind of locus");
   }

@@ -117,7 +117,6 @@ class Check {
         need(f, FactorRole::direct_singularity, "|A|");
       }
     need_reactions(mode, orders, need);
-    const std::vector<int> singular_list(singular.begin(), singular.end());
     for (int s = 0; s < static_cast<int>(c_.sheets.size()); ++s) {
       const SheetCells& sheet = c_.sheets[static_cast<std::size_t>(s)];
       if (sheet.mode != mode) continue;
@@ -128,7 +127,11 @@ class Check {
           if (arc.curve->mode == mode && arc.curve->kind == core::LocusKind::margin) arc.sheet = s;
         continue;
       }
-      check_chains(s, check_sheet(c_, s, singular_list, arcs_, tally_), claimed[same(sheet.function)]);
+      // |A| does not cut a curve that is its own.
+      std::vector<int> cutters;
+      std::copy_if(singular.begin(), singular.end(), std::back_inserter(cutters),
+                   [&](int f) { return f != same(sheet.function); });
+      check_chains(s, check_sheet(c_, s, cutters, arcs_, tally_), claimed[same(sheet.function)]);
     }
     check_points(m_, c_, mode, orders, verdict_);
     if (c_.task && c_.task->mode == mode) check_task(m_, c_, orders, verdict_);
@@ -136,7 +139,7 @@ class Check {
 
   template <class Need>
   void need_reactions(int mode, const Orders& orders, const Need& need) const {
-    const std::vector<mechanism::Unknown> unknowns = borne(m_);
+    const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
     for (const std::string& joint : c_.joints) {
       const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
       const std::vector<Quantity> parts = mechanism::force_components(m_, *own);

@@ -99,14 +99,13 @@ class Fit {
     orders.same_zeros = same_zeros();
     const std::size_t first = system_.columns;
     orders.determinant = exponents(first, "the direct singularity |A|");
-    const std::vector<mechanism::Unknown> unknowns = borne(m_);
+    const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
-      if (always_zero_[k])
+      if (always_zero_[k] || !is_wanted(unknowns[k]))
         orders.reactions.emplace_back();
       else
-        orders.reactions.emplace_back(exponents(
-            first + 1 + k, core::to_string(unknowns[k].quantity) + "_" +
-                               m_.joints[static_cast<std::size_t>(unknowns[k].joint)].name));
+        orders.reactions.emplace_back(exponents(first + 1 + k, core::to_string(unknowns[k].quantity) + "_" +
+                                                          m_.joints[static_cast<std::size_t>(unknowns[k].joint)].name));
     }
     return orders;
   }
@@ -125,7 +124,7 @@ class Fit {
     for (const core::StraightLine& variable : variables) programs.push_back(&variable);
     Sheet sheet(parts_of(c_, mode_), programs, identity_bits);
     const Sides sides = sides_of(c_, mode_);
-    const std::size_t unknowns = mechanism::unknowns(m_).size();
+    const std::size_t unknowns = reactions_of(m_).size();
     always_zero_.assign(unknowns, true);
     std::vector<std::vector<bool>> zero;
     Scatter scatter;
@@ -156,6 +155,17 @@ class Fit {
       if (system_.rows.size() == system_.columns + spare_poses) return true;
     }
     return false;
+  }
+
+  /// Wanted by itself or as a part of f.
+  bool is_wanted(const mechanism::Unknown& unknown) const {
+    const mechanism::Joint& joint = m_.joints[static_cast<std::size_t>(unknown.joint)];
+    const auto among = [](const auto& list, const auto& value) {
+      return std::find(list.begin(), list.end(), value) != list.end();
+    };
+    return among(c_.joints, joint.name) &&
+           (among(c_.quantities, unknown.quantity) || (among(c_.quantities, core::Quantity::f) &&
+                                                       among(mechanism::force_components(m_, joint), unknown.quantity)));
   }
 
   /// Twice the exponents of the functions.

@@ -24,7 +24,7 @@ struct Orders {
   /// Of every function: itself, or the earlier one that it is a power of, times model divisors; -1: it is neither that nor
   /// independent of the earlier ones.
   std::vector<int> same_zeros;
-  /// By unknown and function, twice the exponent of the reaction; none for one that is 0 in every pose.
+  /// By unknown and function, twice the exponent of the reaction; none for one that is 0 in every pose, or not wanted.
   std::vector<std::optional<std::vector<int>>> reactions;
   std::vector<int> determinant;
 };

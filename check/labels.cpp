@@ -38,7 +38,7 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
     if (!step.is_finite()) return std::nullopt;
     place[static_cast<std::size_t>(axis)] = middle_of(place[static_cast<std::size_t>(axis)] - step);
   }
-  const std::vector<mechanism::Unknown> unknowns = borne(m);
+  const std::vector<mechanism::Unknown> unknowns = reactions_of(m);
   const Sides sides = sides_of(c, sheet.mode);
   const auto beside = [&](int direction, int power) -> std::optional<Solution> {
     std::array<Interval, 2> there = place;
@@ -74,17 +74,18 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
         if (std::find(parts.begin(), parts.end(), quantity) != parts.end()) {
           least = std::min(least, order[k]);
           borne = borne || order[k] != HUGE_VAL;
-        } else if (order[k] > 0.25 && order[k] != HUGE_VAL) {
+        } else if (quantity != Quantity::N && quantity != Quantity::T && order[k] > 0.25 && order[k] != HUGE_VAL) {
           label.insert({joint.name, quantity});
           any = any || wanted(joint.name, quantity);
         }
       }
       for (std::size_t k = 0; k < unknowns.size(); ++k) {
         if (unknowns[k].joint != static_cast<int>(j) || order[k] == HUGE_VAL || order[k] <= 0.25) continue;
-        if (std::find(parts.begin(), parts.end(), unknowns[k].quantity) == parts.end()) continue;
+        const bool guide = unknowns[k].quantity == Quantity::N || unknowns[k].quantity == Quantity::T;
+        if (!guide && std::find(parts.begin(), parts.end(), unknowns[k].quantity) == parts.end()) continue;
         const bool component =
             std::find(c.quantities.begin(), c.quantities.end(), unknowns[k].quantity) != c.quantities.end();
-        if (!component || (least > 0.25 && order[k] < least + 0.25)) continue;
+        if (!component || (!guide && least > 0.25 && order[k] < least + 0.25)) continue;
         label.insert({joint.name, unknowns[k].quantity});
         any = any || wanted(joint.name, unknowns[k].quantity);
       }

@@ -49,7 +49,7 @@ class PointCheck {
  private:
   void check_joint(const std::string& joint) {
     const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
-    const std::vector<mechanism::Unknown> unknowns = borne(m_);
+    const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
     std::vector<const std::vector<int>*> components;
     for (std::size_t k = 0; k < unknowns.size(); ++k)
       if (unknowns[k].joint == own - m_.joints.begin() && orders_.reactions[k] &&

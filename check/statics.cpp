@@ -173,12 +173,6 @@ class Equations {
 
   std::vector<std::vector<Interval>> rows;
 
-  /// |u|^2 of a joint's axis as it is written.
-  Interval squared_axis(const mechanism::Joint& joint) const {
-    const Vector u = pose_.vector(joint.axes.at(0), posture_.points);
-    return u[0] * u[0] + u[1] * u[1];
-  }
-
  private:
   using Wrench = std::array<Interval, 3>;
 
@@ -244,6 +238,27 @@ class Equations {
   std::vector<mechanism::Unknown> unknowns_;
 };
 
+/// (N + T/h)/2 and (N - T/h)/2. The unknown N is the normal force over the length of the axis.
+void add_guide_ends(const Mechanism& m, const Posture& posture, const Interval& x, const Interval& y,
+                    Solution& solution) {
+  const Pose pose(m, x, y);
+  const std::vector<mechanism::Unknown> unknowns = mechanism::unknowns(m);
+  for (std::size_t j = 0; j < m.joints.size(); ++j) {
+    const mechanism::Joint& joint = m.joints[j];
+    if (!mechanism::has_guide_ends(m, joint)) continue;
+    const Interval length = root_of(square_of(pose.vector(joint.axes.at(0), posture.points)));
+    const Interval h = pose.value(joint.clearance->half_length);
+    Interval normal = pose.number(0), tilt = pose.number(0);
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
+      if (unknowns[k].joint != static_cast<int>(j)) continue;
+      if (unknowns[k].quantity == Quantity::N) normal = solution.reactions[k] * length;
+      if (unknowns[k].quantity == Quantity::T) tilt = solution.reactions[k] / h;
+    }
+    for (const auto& [end, sign] : mechanism::guide_end_signs)
+      solution.reactions.push_back(pose.number(0.5) * (sign > 0 ? normal + tilt : normal - tilt));
+  }
+}
+
 }  // namespace
 
 std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Interval& x, const Interval& y) {
@@ -253,9 +268,16 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
   return std::move(closure.result);
 }
 
+std::vector<mechanism::Unknown> reactions_of(const Mechanism& m) {
+  std::vector<mechanism::Unknown> list = mechanism::unknowns(m);
+  for (std::size_t j = 0; j < m.joints.size(); ++j)
+    if (mechanism::has_guide_ends(m, m.joints[j]))
+      for (const auto& [end, sign] : mechanism::guide_end_signs) list.push_back({static_cast<int>(j), end});
+  return list;
+}
+
 std::optional<Solution> solve(const Mechanism& m, const Posture& posture, const Interval& x, const Interval& y) {
-  const Equations equations(m, posture, x, y);
-  auto rows = equations.rows;
+  auto rows = Equations(m, posture, x, y).rows;
   const std::size_t n = rows.size();
   Solution solution{{}, Interval(1.0, x.bits())};
   for (std::size_t k = 0; k < n; ++k) {
@@ -284,31 +306,8 @@ std::optional<Solution> solve(const Mechanism& m, const Posture& posture, const 
     for (std::size_t j = k + 1; j < n; ++j) sum = sum - rows[k][j] * solution.reactions[j];
     solution.reactions[k] = sum / rows[k][k];
   }
-  const std::vector<mechanism::Unknown> unknowns = mechanism::unknowns(m);
-  for (std::size_t k = 0; k + 1 < n; ++k) {
-    const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(unknowns[k].joint)];
-    if (unknowns[k].quantity != Quantity::N || !mechanism::has_guide_ends(m, joint)) continue;
-    // The equations' N is the normal force over |u|, which is but a factor where no couple is borne at all.
-    const bool turns = solution.reactions[k + 1].sign() != 0;
-    const std::optional<core::Rational> written = mechanism::written_length(m, joint.axes.at(0));
-    const Interval length = written ? Interval(*written, x.bits()) : root_of(equations.squared_axis(joint));
-    const Interval normal = turns ? solution.reactions[k] * length : solution.reactions[k];
-    const Interval turn = solution.reactions[k + 1] / Interval(mechanism::value_of(joint.clearance->half_length, m), x.bits());
-    const Interval half(core::Rational(1, 2), x.bits());
-    solution.reactions[k] = (normal + turn) * half;
-    solution.reactions[k + 1] = (normal - turn) * half;
-  }
+  add_guide_ends(m, posture, x, y, solution);
   return solution;
-}
-
-std::vector<mechanism::Unknown> borne(const mechanism::Mechanism& m) {
-  std::vector<mechanism::Unknown> list = mechanism::unknowns(m);
-  for (mechanism::Unknown& unknown : list) {
-    if (!mechanism::has_guide_ends(m, m.joints[static_cast<std::size_t>(unknown.joint)])) continue;
-    if (unknown.quantity == Quantity::N) unknown.quantity = Quantity::end_ahead;
-    if (unknown.quantity == Quantity::T) unknown.quantity = Quantity::end_behind;
-  }
-  return list;
 }
 
 }  // namespace clearloci::check

@@ -27,12 +27,11 @@ struct Posture {
 /// None: some Q is negative for certain, or a divisor may be zero.
 std::optional<Posture> posture(const mechanism::Mechanism& m, const Sides& sides, const Interval& x, const Interval& y);
 
-/// What joints bear: the unknowns of the equations, in their order, but for guides whose ends are known: these bear
-/// (N + T/h)/2 ahead and (N - T/h)/2 behind (docs/method.md section 5), in the places of N and T.
-std::vector<mechanism::Unknown> borne(const mechanism::Mechanism& m);
+/// What may vanish: the unknowns of A w = -w_e, and behind them what the two ends of each guide's contact bear.
+std::vector<mechanism::Unknown> reactions_of(const mechanism::Mechanism& m);
 
 struct Solution {
-  std::vector<Interval> reactions;  ///< in the order of borne()
+  std::vector<Interval> reactions;  ///< in the order of reactions_of
   Interval determinant;             ///< |A|
 };
 

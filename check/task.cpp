@@ -105,7 +105,7 @@ class TaskCheck {
     for (int f = 0; f < functions; ++f)
       if (orders_.determinant[static_cast<std::size_t>(f)] != 0) regular.push_back(f);
     conditions_.push_back({regular});
-    const std::vector<mechanism::Unknown> unknowns = borne(m_);
+    const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
     const auto wanted = [&](Quantity q) {
       return std::find(c_.quantities.begin(), c_.quantities.end(), q) != c_.quantities.end();
     };

@@ -53,7 +53,7 @@ void check_zone(const mechanism::Mechanism& m, const CertificateFile& c, const Z
   const auto solved = here ? solve(m, *here, x, y) : std::nullopt;
   if (!solved) fail("its sample is no pose of the mode");
   if (solved->determinant.sign() != zone.assembly_mode) fail("|A| has another sign at its sample");
-  const std::vector<mechanism::Unknown> unknowns = borne(m);
+  const std::vector<mechanism::Unknown> unknowns = reactions_of(m);
   for (const auto& [reaction, sign] : zone.signs) {
     bool known = false;
     for (std::size_t k = 0; k < unknowns.size(); ++k) {

@@ -169,6 +169,10 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
     check_deadline();
     map = trace_charts(mechanism, request, charts);
     tracing = seconds_since(start);
+    if (request.certificate != nullptr) {
+      auto& factors = request.certificate->problem.factors;
+      factors.insert(factors.end(), charts.front().rest.begin(), charts.front().rest.end());
+    }
     map.notes.insert(map.notes.begin(), charts.front().notes.begin(), charts.front().notes.end());
     traced.problem = std::move(charts.front().problem);
   } catch (const core::LimitReached& limit) {

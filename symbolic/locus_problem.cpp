@@ -434,8 +434,17 @@ class Derivation {
 
   void add_reactions() {
     for (const SharedFactor& shared : factors_) {
-      if (!shared.wanted_curve && !shared.wanted_point && !shared.wanted_order) continue;
       LocusFactor factor;
+      if (!shared.wanted_curve && !shared.wanted_point && !shared.wanted_order) {
+        const bool asked_for = std::any_of(shared.vanishing.begin(), shared.vanishing.end(), [&](const Vanishing& v) {
+          return selected(v.joint) && is_asked_for(v.joint, v.quantity);
+        });
+        if (!asked_for || result_.problem.tower.coordinates.size() != 2) continue;
+        factor.expression = text(shared.natural);
+        factor.line = lines_.of(shared.natural);
+        result_.rest.push_back(std::move(factor));
+        continue;
+      }
       factor.expression = text(shared.natural);
       factor.cause = causes_.of(shared.natural);
       factor.vanishing = shared.vanishing;

@@ -23,6 +23,9 @@ struct Selection {
 struct DerivedProblem {
   core::LocusProblem problem;
   std::vector<std::string> notes;  ///< reactions that vanish in every pose, and the like
+  /// Factors of wanted numerators on which nothing wanted vanishes, as they are computed: with them a certificate makes
+  /// up every numerator. Over two coordinates only.
+  std::vector<core::LocusFactor> rest;
   double symbolic_seconds = 0;     ///< matrix, numerators, factors
   double elimination_seconds = 0;  ///< roots eliminated, factored
 };
