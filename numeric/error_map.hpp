@@ -14,7 +14,7 @@ struct ErrorGrid {
   int nx = 400, ny = 400;
   int threads = 0;                    ///< 0: as many as the machine has
   bool worst_case = true;             ///< also the worst case over all take-ups
-  double worst_case_accuracy = 1e-4;  ///< relative, of the largest |Δp|
+  double worst_case_accuracy = 1e-9;  ///< relative: how far the bound of |Δp| may be above the true value
 };
 
 struct ErrorMap {
@@ -41,6 +41,6 @@ struct ErrorSamples {
 
 /// `poses`: pose after pose, one value a free coordinate. `under_load`: dx, dy, dalpha are wanted too.
 ErrorSamples error_samples(const NumericModel& model, std::span<const double> poses, std::span<const int> mode,
-                           bool under_load, bool worst_case, double worst_case_accuracy = 1e-4);
+                           bool under_load, bool worst_case, double worst_case_accuracy = 1e-9);
 
 }  // namespace clearloci::numeric

@@ -28,17 +28,17 @@ using Influence = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 PoseError pose_error(const Influence& H, const Eigen::VectorXd& clearance_displacements);
 
 /// The largest |dα|, |dx|, |dy| and |Δp| over all take-ups: every pin anywhere in its clearance circle, every actuator
-/// anywhere in its play. The bound of a designer who does not know the loads.
+/// anywhere in its play. The bound of a designer who does not know the loads: rounded up, so that none exceeds it.
 struct WorstCase {
   double dalpha = 0;      ///< rad
   double dx = 0, dy = 0;  ///< m
-  double dp = 0;          ///< m, within `accuracy` below the true value
+  double dp = 0;          ///< m, at most `accuracy` above the true value
 };
 
 /// Componentwise in closed form: |dx| <= Σ ρ_J |(H_x,fxJ, H_x,fyJ)| + Σ δ_J |H_x,MJ|, and so on. |Δp| is the largest
-/// value of the support function h(n) = Σ ρ_J |Hᵀn|_fJ + Σ δ_J |Hᵀn|_MJ over unit vectors n, found by branch and bound:
-/// h is sublinear, so on directions between n1 and n2 it is at most that of the corner where the two support lines
-/// meet. `accuracy`: relative, of dp. Infinite where H is (a direct singularity).
+/// value of the support function h(n) = Σ ρ_J |Hᵀn|_fJ + Σ δ_J |Hᵀn|_MJ over unit vectors n, bounded from
+/// above by branch and bound: h is sublinear, so on directions between n1 and n2 it is at most that of the corner where
+/// the two support lines meet. `accuracy`: relative, of dp. Infinite where H is (a direct singularity).
 WorstCase worst_case(const Influence& H, const std::vector<JointColumns>& columns,
                      const std::vector<JointClearance>& clearances, double accuracy = 1e-9);
 

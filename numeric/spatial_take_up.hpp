@@ -75,14 +75,15 @@ SpatialPoseError pose_error(const std::vector<JointInfluence>& influence, const 
 struct SpatialWorstCase {
   Eigen::Vector3d dalpha = Eigen::Vector3d::Zero(),
                   dp = Eigen::Vector3d::Zero();  ///< of each component, in closed form
-  double distance = 0;                           ///< of |Δp|, m, within `accuracy` below the true value
+  double distance = 0;                           ///< of |Δp|, m: a bound, at most `accuracy` above the true value
   double rotation = 0;                           ///< of |Δα|, rad, likewise
 };
 
-/// |Δp| is the largest value of the support function h(n) = Σ_J ρ_J |H_Jᵀ n| over unit vectors n, found by branch and
-/// bound over spherical triangles: h is sublinear, so inside one it is at most the linear function with its values at
-/// the corners. Infinite where the influence is. `accuracy`: relative. Without `rotation` that one stays 0.
+/// |Δp| is the largest value of the support function h(n) = Σ_J ρ_J |H_Jᵀ n| over unit vectors n, bounded from above
+/// by branch and bound over spherical triangles: h is sublinear, so inside one it is at most the linear function with
+/// its values at the corners. Infinite where the influence is. `accuracy`: relative. Without `rotation` that one stays
+/// 0.
 SpatialWorstCase worst_case(const std::vector<SpatialJoint>& joints, const std::vector<JointInfluence>& influence,
-                            double accuracy = 1e-6, bool rotation = true);
+                            double accuracy = 1e-9, bool rotation = true);
 
 }  // namespace clearloci::numeric
