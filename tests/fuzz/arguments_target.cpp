@@ -4,8 +4,6 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
-#include "cli/loci_arguments.hpp"
-#include "cli/progress.hpp"
 #include "tests/fuzz/property.hpp"
 #include "tests/fuzz/sample_mechanisms.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -30,23 +28,24 @@ Call call_of(std::string_view bytes) {
   return call;
 }
 
-/// What one call may ask for, each by the reader that the commands use.
+/// What a call may ask for, besides what is common to all commands.
 struct Values {
   cli::CommonArguments common;
-  cli::LociArguments loci;
-  std::string at, grid, steps;
+  std::vector<std::string> joints;
+  std::string at = "0", grid = "2x2", steps = "2", quantities = "f", working_mode = "left", positive = "1";
 };
 
 /// From words to values. False where the call asks for help instead.
 bool parse(const Call& call, Values& values) {
   CLI::App command("one of the commands", "clearloci");
   cli::add_common_arguments(command, values.common);
-  cli::add_tracing_arguments(command, values.loci);
-  cli::add_locus_arguments(command, values.loci);
-  cli::add_mesh_argument(command, values.loci);
+  command.add_option("--joint", values.joints)->allow_extra_args(false);
   command.add_option("--at", values.at);
   command.add_option("--grid", values.grid);
   command.add_option("--steps", values.steps);
+  command.add_option("--quantity", values.quantities);
+  command.add_option("--working-mode", values.working_mode);
+  command.add_option("--tolerance,--mesh-size,--min-force,--min-couple,--period", values.positive);
   std::vector<const char*> words = {"clearloci", call.model.c_str()};
   for (const std::string& word : call.words) words.push_back(word.c_str());
   try {
@@ -59,20 +58,18 @@ bool parse(const Call& call, Values& values) {
   return true;
 }
 
-bool is_above_zero(double value) { return std::isfinite(value) && value > 0; }
-
 void check_values(const Values& values, const mechanism::Mechanism& mechanism) {
-  const auto request = value_or_complaint([&] {
-    cli::Progress progress(true);
-    return cli::loci_request(values.loci, mechanism, progress);
-  });
-  if (request) {
-    require(is_above_zero(request->tolerance), "a tolerance is finite and above zero");
-    require(is_above_zero(request->mesh_size), "a mesh size is finite and above zero");
-    for (const auto& least : {request->selection.min_force, request->selection.min_couple})
-      require(!least || is_above_zero(core::to_double(*least)), "a least effort is finite and above zero");
-    for (const DyadSides& sides : request->working_modes)
-      require(sides.size() == dyad_points(mechanism).size(), "a side for every dyad");
+  const auto joints = value_or_complaint([&] { return cli::parse_joints(values.joints, mechanism); });
+  if (joints) require(joints->size() <= mechanism.joints.size(), "each joint once");
+  const auto quantities = value_or_complaint([&] { return cli::parse_quantities(values.quantities); });
+  if (quantities) require(!quantities->empty(), "a quantity or more");
+  const auto sides = value_or_complaint([&] { return cli::parse_working_mode(values.working_mode, mechanism); });
+  if (sides) require(sides->size() == dyad_points(mechanism).size(), "a side for every dyad");
+  const auto positive =
+      value_or_complaint([&] { return cli::parse_positive(values.positive, "--tolerance", mechanism); });
+  if (positive) {
+    const double value = core::to_double(*positive);
+    require(std::isfinite(value) && value > 0, "a positive number is finite and above zero in double precision");
   }
   const auto pose = value_or_complaint([&] { return cli::parse_pose(values.at, mechanism); });
   if (pose) {

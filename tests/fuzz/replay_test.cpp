@@ -78,6 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Targets, Fuzz,
                                          Target{"task", task_target, {"examples/tasks"}},
                                          Target{"trajectory", trajectory_target, {"examples/pick_and_place"}},
                                          Target{"expression", expression_target, {}},
+                                         Target{"certificate", certificate_target, {}},
                                          Target{"arguments", arguments_target, {}}),
                          [](const auto& target) { return std::string(target.param.name); });
 

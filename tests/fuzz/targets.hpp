@@ -18,6 +18,9 @@ void trajectory_target(std::string_view bytes);
 /// An expression: printed and read again it is the same, in words and in value.
 void expression_target(std::string_view bytes);
 
+/// A certificate: read, and what it names is there. Whether its claims hold is not asked.
+void certificate_target(std::string_view bytes);
+
 /// A call of a command that traces loci: one word a line, the first one the number of a mechanism.
 void arguments_target(std::string_view bytes);
 

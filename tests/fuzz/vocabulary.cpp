@@ -228,17 +228,81 @@ Vocabulary arguments_vocabulary() {
   return all;
 }
 
+Vocabulary certificate_vocabulary() {
+  Vocabulary all;
+  all.numbers = {"0",
+                 "1",
+                 "-1",
+                 "2",
+                 "17",
+                 "1e5",
+                 "1e308",
+                 "1e400",
+                 "-0.0",
+                 "4294967296",
+                 "9223372036854775808",
+                 "1/0",
+                 "1/3",
+                 "0x1p-1",
+                 "0x1p+2000",
+                 "-0x1.8p+0",
+                 "0.5",
+                 "null",
+                 "true",
+                 "\"\"",
+                 "[]",
+                 "{}"};
+  all.words = {"format",      "version",
+               "command",     "model",
+               "text",        "set",
+               "coordinates", "box",
+               "tolerance",   "joints",
+               "quantities",  "roots",
+               "point",       "role",
+               "length",      "square",
+               "functions",   "name",
+               "program",     "modes",
+               "sheets",      "mode",
+               "function",    "at_zero",
+               "domain",      "cells",
+               "open",        "curves",
+               "kind",        "vanishing",
+               "certified",   "arcs",
+               "closed",      "ends",
+               "points",      "zones",
+               "id",          "assembly_mode",
+               "signs",       "area",
+               "outer",       "holes",
+               "sample",      "reaction",
+               "margin",      "construction",
+               "true",        "false",
+               "null",        "f",
+               "M",           "fx",
+               "v0",          "v1",
+               "c1",          "i0",
+               "g0",          "x"};
+  all.groups = {"[]", "{}", "[0, 0]", "[[0, 0], [1, 1]]", "[\"0\", \"1\"]", "[1, -1]", "[[\"A1\", \"f\"]]"};
+  all.lines = {"\"open\": [{\"mode\": 0, \"function\": 0}],",
+               "\"zones\": [],",
+               "\"modes\": [[1]],",
+               "\"cells\": \"x:0x1p-1 . g0:2\",",
+               "\"program\": \"v0 v1 +0,1 c1/2 *2,3 i4\",",
+               "\"box\": [],"};
+  return all;
+}
+
 }  // namespace
 
 const Vocabulary& vocabulary_of(const std::string& target) {
   static const Vocabulary mechanism = mechanism_vocabulary(), task = task_vocabulary(),
                           trajectory = trajectory_vocabulary(), expression = expression_vocabulary(),
-                          arguments = arguments_vocabulary();
+                          arguments = arguments_vocabulary(), certificate = certificate_vocabulary();
   if (target == "mechanism") return mechanism;
   if (target == "task") return task;
   if (target == "trajectory") return trajectory;
   if (target == "expression") return expression;
   if (target == "arguments") return arguments;
+  if (target == "certificate") return certificate;
   throw std::logic_error("no vocabulary for " + target);
 }
 
