@@ -9,6 +9,7 @@
 #include "loci/edge_labels.hpp"
 #include "loci/isolated_points.hpp"
 #include "loci/plane_curve.hpp"
+#include "loci/sheet/star.hpp"
 #include "loci/vertex_placement.hpp"
 
 namespace clearloci::loci {
@@ -51,7 +52,8 @@ class ExactTrace {
         arrangement_(list_.curves, {problem.lower[0], problem.lower[1]}, {problem.upper[0], problem.upper[1]},
                      [&options] { return options.deadline && std::chrono::steady_clock::now() > *options.deadline; }),
         signs_(problem.tower, arrangement_),
-        lines_(arrangement_.edges().size()) {
+        lines_(arrangement_.edges().size()),
+        cones_(sheet::cones(problem.tower)) {
     for (const core::LocusFactor& factor : problem.factors) {
       // Factors that only take part in isolated points have no curve here and need no signs.
       sheets_.push_back(factor.implicit.empty() ? -1 : signs_.add(factor.sheet));
@@ -147,9 +149,9 @@ class ExactTrace {
         if (label.kind == LocusKind::direct_singularity) mark(marks.direct_singularity);
       }
     }
-    // Where the closure is undefined (a squared distance vanishes) the sheet ends in a point.
+    // Where the ends of a leg of equal lengths meet the sheet ends in a point.
     for (const ArrangementPoint& point : arrangement_.isolated_points()) {
-      if (!owned_by(point.curve, FactorRole::construction)) continue;
+      if (!owned_by(point.curve, FactorRole::construction) || !is_cone(point.at)) continue;
       for (std::size_t v = 0; v < count; ++v) {
         if (std::hypot(arrangement_.vertices()[v].at[0] - point.at[0], arrangement_.vertices()[v].at[1] - point.at[1]) <
             1e-14 * scale()) {
@@ -158,6 +160,13 @@ class ExactTrace {
       }
     }
     return marks;
+  }
+
+  /// A root vanishes in the point where a construction is undefined.
+  bool is_cone(const Point2& at) const {
+    return std::any_of(cones_.begin(), cones_.end(), [&](const sheet::Star& cone) {
+      return std::hypot(core::to_double(cone.x) - at[0], core::to_double(cone.y) - at[1]) < 1e-14 * scale();
+    });
   }
 
   /// A curve does not end on the boundary that it is itself.
@@ -276,6 +285,7 @@ class ExactTrace {
   std::vector<core::ClosedForm> forms_;
   std::vector<Polyline> lines_;
   std::map<int, PlaneCurve> plane_curves_;
+  std::vector<sheet::Star> cones_;
   LocusMap map_;
 };
 

@@ -247,7 +247,7 @@ class Tracer {
       for (const std::vector<Interval>& zero : found.enclosures)
         if (!cut_stretch(graph_, static_cast<int>(p), zero, crossing_of(cut))) open.push_back({zero[0], zero[1]});
       for (const Cell& cell : clusters(std::move(open)))
-        if (!at_star(patch.chart, cell) && !at_end(patch.chart.to_plane(cell)) &&
+        if (!at_star(patch.chart, cell) && !at_end(patch.chart.to_plane(cell), cut) &&
             !touch(static_cast<int>(p), cell, cut))
           graph_.undecided.push_back(patch.chart.to_plane(cell));
     }
@@ -310,15 +310,20 @@ class Tracer {
     return std::abs(here.value(0).middle()) <= at_rounding * size_ * slope;
   }
 
-  /// The place is, to rounding, an end of the curve anyway: cutting there again would say nothing.
-  bool at_end(const Cell& place) const {
+  /// The place is, to rounding, an end of the curve anyway: cutting there again would say nothing. Where a branch that
+  /// reaches the boundary meets a cutter, it ends at both, and the graver one names the end.
+  bool at_end(const Cell& place, const Cut& cut) {
     const double width = same_place * size_;
     if (place.x.width() > width || place.y.width() > width) return false;
-    return std::any_of(graph_.crossings.begin(), graph_.crossings.end(), [&](const Crossing& crossing) {
-      if (crossing.kind == Crossing::Kind::seam || crossing.kind == Crossing::Kind::node) return false;
-      return std::abs(crossing.at[0] - place.x.middle()) <= width &&
-             std::abs(crossing.at[1] - place.y.middle()) <= width;
-    });
+    bool found = false;
+    for (Crossing& crossing : graph_.crossings) {
+      if (crossing.kind == Crossing::Kind::seam || crossing.kind == Crossing::Kind::node) continue;
+      if (std::abs(crossing.at[0] - place.x.middle()) > width || std::abs(crossing.at[1] - place.y.middle()) > width)
+        continue;
+      found = true;
+      if (!cut.keep && crossing.kind == Crossing::Kind::rim) crossing.label = cut.label;
+    }
+    return found;
   }
 
   /// The cutter has roots that the curve does not: search the curve's cells on the sheet of both.
@@ -343,7 +348,8 @@ class Tracer {
     }
     for (const Cell& cell : clusters(std::move(open))) {
       const bool small = std::max(cell.x.width(), cell.y.width()) <= widest_touch * size_;
-      if (!at_end(cell) && !(cut.keep && small && cut_at(cell, crossing_of(cut)))) graph_.undecided.push_back(cell);
+      if (!at_end(cell, cut) && !(cut.keep && small && cut_at(cell, crossing_of(cut))))
+        graph_.undecided.push_back(cell);
     }
   }
 

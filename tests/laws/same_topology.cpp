@@ -40,6 +40,20 @@ bool same_place(const Point2& a, const Point2& b, double size) {
   return std::hypot(a[0] - b[0], a[1] - b[1]) <= 1e-8 * size;
 }
 
+bool on_side(const LocusMap& map, const Point2& at) {
+  for (std::size_t i = 0; i < 2; ++i)
+    for (const core::Rational& side : {map.lower[i], map.upper[i]})
+      if (std::abs(at[i] - core::to_double(side)) <= 1e-12 * size_of(map)) return true;
+  return false;
+}
+
+/// The arc with its ends on sides of the box named after the box.
+Arc named_by_place(const LocusMap& map, Arc arc) {
+  if (!arc.closed && on_side(map, arc.points.front())) arc.ends[0] = core::ArcEnd::box;
+  if (!arc.closed && on_side(map, arc.points.back())) arc.ends[1] = core::ArcEnd::box;
+  return arc;
+}
+
 bool same_arc(const Arc& a, const Arc& b, double size, double tolerance) {
   if (a.closed != b.closed) return false;
   if (std::abs(a.length - b.length) > 0.01 * a.length + 10 * tolerance) return false;
@@ -57,8 +71,11 @@ bool same_curve(const LocusCurve& a, const LocusCurve& b) {
          a.cause == b.cause && a.vanishing == b.vanishing;
 }
 
-void compare_arcs(const LocusMap& map, const LocusCurve& a, const LocusCurve& b, std::vector<std::string>& found) {
+void compare_arcs(const LocusMap& map, LocusCurve a, LocusCurve b, EndsOnSides ends, std::vector<std::string>& found) {
   const double size = size_of(map);
+  if (ends == EndsOnSides::by_place)
+    for (LocusCurve* curve : {&a, &b})
+      for (Arc& arc : curve->arcs) arc = named_by_place(map, arc);
   std::vector<bool> matched(b.arcs.size(), false);
   for (const Arc& arc : a.arcs) {
     std::size_t k = 0;
@@ -74,7 +91,7 @@ void compare_arcs(const LocusMap& map, const LocusCurve& a, const LocusCurve& b,
 
 }  // namespace
 
-std::vector<std::string> differences(const LocusMap& a, const LocusMap& b) {
+std::vector<std::string> differences(const LocusMap& a, const LocusMap& b, EndsOnSides ends) {
   std::vector<std::string> found;
   std::vector<bool> matched(b.curves.size(), false);
   for (const LocusCurve& curve : a.curves) {
@@ -82,7 +99,7 @@ std::vector<std::string> differences(const LocusMap& a, const LocusMap& b) {
     while (k < b.curves.size() && (matched[k] || !same_curve(curve, b.curves[k]))) ++k;
     if (k < b.curves.size()) {
       matched[k] = true;
-      compare_arcs(a, curve, b.curves[k], found);
+      compare_arcs(a, curve, b.curves[k], ends, found);
     } else {
       found.push_back("only first: " + name(a, curve));
       for (const Arc& arc : curve.arcs) found.push_back("    " + describe(arc));
