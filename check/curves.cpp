@@ -26,6 +26,7 @@ constexpr std::size_t most_cells_of_pair = 400'000;
 struct Leaf {
   Rectangle cell;
   CellNode claim;
+  int origin = 0;  ///< the cell of the certificate that it is, or a part of
 };
 
 struct Node {
@@ -46,6 +47,7 @@ struct Junction {
   int root = -1;    ///< of a rim: its root is 0 there
   int region = -1;  ///< of an open cell
   ArcEnd label = ArcEnd::none;
+  bool inside = false;  ///< a seam between parts of one cell of the certificate
 
   Point2 at() const { return {place.x.middle(), place.y.middle()}; }
 };
@@ -108,11 +110,17 @@ class SheetCheck {
         tally_(tally) {
     for (std::size_t i = 0; i < 4; ++i) box_[i] = c.box[i].get_d();
     size_ = std::max(box_[1] - box_[0], box_[3] - box_[2]);
+    variables_ = {0, 1};
+    for (int j = 0; j < static_cast<int>(c.squares.size()); ++j)
+      if (sheet_.uses(j)) variables_.push_back(2 + j);
   }
 
   std::vector<Chain> run(std::vector<KnownArc>& arcs) {
     plant();
-    for (const Leaf& leaf : leaves_) check_leaf(leaf);
+    for (const Leaf& leaf : leaves_) origins_.push_back(leaf);
+    const std::size_t planted = nodes_.size();
+    for (std::size_t n = 0; n < planted; ++n)
+      if (nodes_[n].leaf >= 0) check_leaf(n);
     join_open_leaves();
     ends_.resize(leaves_.size());
     meet_seams(0);
@@ -180,7 +188,7 @@ class SheetCheck {
         open.push_back({index, 0});
       } else {
         node.leaf = static_cast<int>(leaves_.size());
-        leaves_.push_back({node.cell, claim});
+        leaves_.push_back({node.cell, claim, node.leaf});
       }
       nodes_.push_back(node);
       if (parent >= 0) nodes_[static_cast<std::size_t>(parent)].child[side] = index;
@@ -207,22 +215,6 @@ class SheetCheck {
     return {Rectangle{cell.x0, cell.x1, cell.y0, y}, Rectangle{cell.x0, cell.x1, y, cell.y1}};
   }
 
-  /// The slope across the graph has one sign over the cell, where the function may be zero; 0: not shown.
-  int slope_sign(const Rectangle& cell, int across, int cuts) {
-    if (!sheet_.enter(range(cell.x0, cell.x1), range(cell.y0, cell.y1))) return 0;
-    if (!sheet_.is_inner()) return 0;
-    sheet_.differentiate();
-    if (const int sign = sheet_.lifted().empty() ? sheet_.slope(0, across).sign() : 0; sign != 0) return sign;
-    if (cuts == 0) return 0;
-    int all = 0;
-    for (const Rectangle& half : halves(cell)) {
-      const int own = slope_sign(half, across, cuts - 1);
-      if (own == 0 || (all != 0 && own != all)) return 0;
-      all = own;
-    }
-    return all;
-  }
-
   bool is_graph(const Leaf& leaf) {
     const Rectangle& cell = leaf.cell;
     const int variable = leaf.claim.axis;
@@ -233,11 +225,26 @@ class SheetCheck {
     int c = variable;
     for (std::size_t l = 0; l < sheet_.lifted().size(); ++l)
       if (sheet_.lifted()[l] == root) c = 2 + static_cast<int>(l);
-    if (sheet_.tangent(0, c).sign() != 0) return true;
-    return root < 0 && slope_sign(cell, 1 - variable, most_cuts) != 0;
+    return sheet_.tangent(0, c).sign() != 0;
   }
 
-  void check_leaf(const Leaf& leaf) {
+  /// A cell that is shown to be free or one graph over some variable, which may be another than was said.
+  bool is_some_graph(Leaf& leaf) {
+    if (is_free(leaf.cell, 0)) {
+      leaf.claim.kind = CellNode::Kind::free;
+      return true;
+    }
+    for (const int variable : variables_) {
+      leaf.claim.axis = variable;
+      if (is_graph(leaf)) return true;
+    }
+    return false;
+  }
+
+  /// Looks at a leaf; one that is not shown to be what it claims is cut, and its parts are looked at in its stead.
+  void check_leaf(std::size_t node) {
+    const int index = nodes_[node].leaf;
+    const Leaf leaf = leaves_[static_cast<std::size_t>(index)];
     const double area = (leaf.cell.x1 - leaf.cell.x0) * (leaf.cell.y1 - leaf.cell.y0);
     tally_.area += area;
     switch (leaf.claim.kind) {
@@ -246,13 +253,43 @@ class SheetCheck {
         ++tally_.cells;
         break;
       case CellNode::Kind::graph:
-        if (!is_graph(leaf)) fail("it is not shown to be one graph in " + describe(leaf.cell));
+        if (leaf.claim.axis >= 2 && !sheet_.uses(leaf.claim.axis - 2)) fail("its cells name a root that it does not hold");
+        if (!is_graph(leaf)) cut_leaf(node, most_cuts);
         ++tally_.cells;
         ++tally_.graphs;
         break;
       default:
         tally_.open_area += area;
     }
+  }
+
+  void cut_leaf(std::size_t node, int cuts) {
+    const int index = nodes_[node].leaf;
+    const Leaf whole = leaves_[static_cast<std::size_t>(index)];
+    if (cuts == 0) fail("it is not shown to be one graph in " + describe(origins_[static_cast<std::size_t>(whole.origin)].cell));
+    // Off the middle, since curves of symmetric designs like to cross it.
+    const Rectangle& cell = whole.cell;
+    const int axis = cell.x1 - cell.x0 >= cell.y1 - cell.y0 ? 0 : 1;
+    const double at = axis == 0 ? cell.x0 + 0.47 * (cell.x1 - cell.x0) : cell.y0 + 0.47 * (cell.y1 - cell.y0);
+    for (const int side : {0, 1}) {
+      Leaf part = whole;
+      (axis == 0 ? (side == 0 ? part.cell.x1 : part.cell.x0) : (side == 0 ? part.cell.y1 : part.cell.y0)) = at;
+      const bool shown = is_some_graph(part);
+      Node child{part.cell};
+      // The lower half takes the leaf's place in the list.
+      child.leaf = side == 0 ? index : static_cast<int>(leaves_.size());
+      if (side == 0)
+        leaves_[static_cast<std::size_t>(index)] = part;
+      else
+        leaves_.push_back(part);
+      const int made = static_cast<int>(nodes_.size());
+      nodes_.push_back(child);
+      nodes_[node].child[side] = made;
+      if (!shown) cut_leaf(static_cast<std::size_t>(made), cuts - 1);
+    }
+    nodes_[node].axis = axis;
+    nodes_[node].at = at;
+    nodes_[node].leaf = -1;
   }
 
   CellNode::Kind kind(int leaf) const { return leaves_[static_cast<std::size_t>(leaf)].claim.kind; }
@@ -305,6 +342,7 @@ class SheetCheck {
       Junction junction{Junction::Kind::seam, place};
       for (const int leaf : {a.leaf, b.leaf})
         if (kind(leaf) == Kind::open) junction = {Junction::Kind::open, place, -1, leaf};
+      junction.inside = leaves_[static_cast<std::size_t>(a.leaf)].origin == leaves_[static_cast<std::size_t>(b.leaf)].origin;
       const int number = add_junction(junction);
       for (const int leaf : {a.leaf, b.leaf})
         if (kind(leaf) == Kind::graph) attach(leaf, number);
@@ -406,12 +444,13 @@ class SheetCheck {
   }
 
   void pair() {
+    std::vector<int> counted(origins_.size(), 0);
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
       const Leaf& leaf = leaves_[l];
       std::vector<End>& ends = ends_[l];
       if (leaf.claim.kind != CellNode::Kind::graph) continue;
-      if (static_cast<int>(ends.size()) != leaf.claim.ends)
-        fail(fmt::format("it has {} ends in {}, said to be {}", ends.size(), describe(leaf.cell), leaf.claim.ends));
+      for (const End& end : ends)
+        if (!junctions_[static_cast<std::size_t>(end.junction)].inside) ++counted[static_cast<std::size_t>(leaf.origin)];
       std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.key.middle() < b.key.middle(); });
       if (ends.size() % 2 != 0) fail("it has an odd number of ends in " + describe(leaf.cell));
       for (std::size_t i = 0; i + 1 < ends.size(); ++i)
@@ -419,6 +458,10 @@ class SheetCheck {
       for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
         pieces_.push_back({static_cast<int>(l), {ends[i], ends[i + 1]}});
     }
+    for (std::size_t o = 0; o < origins_.size(); ++o)
+      if (origins_[o].claim.kind == CellNode::Kind::graph && counted[o] != origins_[o].claim.ends)
+        fail(fmt::format("it has {} ends in {}, said to be {}", counted[o], describe(origins_[o].cell),
+                         origins_[o].claim.ends));
   }
 
   bool near_end(const Point2& at) const {
@@ -896,6 +939,8 @@ class SheetCheck {
   double size_ = 0;
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
+  std::vector<Leaf> origins_;   // as the certificate has them
+  std::vector<int> variables_;  // 0, 1 and those of the function's roots
   std::vector<int> parent_;
   std::vector<Junction> junctions_;
   std::vector<std::vector<End>> ends_;

@@ -53,7 +53,19 @@ Sheet::Sheet(const SheetParts& parts, const std::vector<const StraightLine*>& fu
   stage_end_.push_back(steps_.size());
   scratch_ = values_;
   depends_.assign(values_.size(), 0);
-  slopes_.assign(values_.size(), {});
+  const std::size_t variables = 2 + roots;
+  partials_.assign(values_.size(), {});
+  for (std::size_t v = 0; v < variables; ++v) {
+    partials_[v].assign(variables, Interval(bits_));
+    partials_[v][v] = Interval(1.0, bits_);
+    depends_[v] = 1u << v;
+    if (v >= 2 && is_zero_[v - 2]) depends_[v] = 0;
+  }
+  for (const Step& step : steps_) {
+    partials_[step.result].assign(variables, Interval(bits_));
+    depends_[step.result] = depends_[step.first] | depends_[step.second];
+  }
+  square_partials_.assign(roots, {});
 }
 
 std::size_t Sheet::append(const StraightLine& line) {
@@ -162,45 +174,39 @@ bool Sheet::is_inner() const {
   return true;
 }
 
-Interval Sheet::slope_of(std::size_t value, int c) const {
-  return (depends_[value] >> c & 1u) != 0 ? slopes_[value][static_cast<std::size_t>(c)] : Interval(bits_);
-}
-
 void Sheet::run_slopes(std::size_t begin, std::size_t end) {
-  const auto n = static_cast<std::size_t>(dimension());
+  const std::size_t variables = 2 + used_.size();
   Interval product(bits_);
   for (std::size_t i = begin; i < end; ++i) {
     const auto& [operation, a, b, r] = steps_[i];
-    depends_[r] = depends_[a] | depends_[b];
-    if (slopes_[r].size() < n) slopes_[r].assign(n, Interval(bits_));
-    for (std::size_t c = 0; c < n; ++c) {
-      const bool in_a = (depends_[a] >> c & 1u) != 0, in_b = (depends_[b] >> c & 1u) != 0;
+    for (std::size_t v = 0; v < variables; ++v) {
+      const bool in_a = (depends_[a] >> v & 1u) != 0, in_b = (depends_[b] >> v & 1u) != 0;
       if (!in_a && !in_b) continue;
-      mpfi_ptr slope = slopes_[r][c].get();
+      mpfi_ptr slope = partials_[r][v].get();
       switch (operation) {
         case Operation::add:
         case Operation::subtract:
           if (in_a)
-            mpfi_set(slope, slopes_[a][c].get());
+            mpfi_set(slope, partials_[a][v].get());
           else
             mpfi_set_ui(slope, 0);
-          if (in_b && operation == Operation::add) mpfi_add(slope, slope, slopes_[b][c].get());
-          if (in_b && operation == Operation::subtract) mpfi_sub(slope, slope, slopes_[b][c].get());
+          if (in_b && operation == Operation::add) mpfi_add(slope, slope, partials_[b][v].get());
+          if (in_b && operation == Operation::subtract) mpfi_sub(slope, slope, partials_[b][v].get());
           break;
         case Operation::multiply:
           if (a == b) {
-            mpfi_mul(slope, slopes_[a][c].get(), values_[a].get());
+            mpfi_mul(slope, partials_[a][v].get(), values_[a].get());
             mpfi_mul_2ui(slope, slope, 1);
             break;
           }
           mpfi_set_ui(slope, 0);
-          if (in_a) mpfi_mul(slope, slopes_[a][c].get(), values_[b].get());
-          if (in_b) mpfi_mul(product.get(), values_[a].get(), slopes_[b][c].get());
+          if (in_a) mpfi_mul(slope, partials_[a][v].get(), values_[b].get());
+          if (in_b) mpfi_mul(product.get(), values_[a].get(), partials_[b][v].get());
           if (in_b) mpfi_add(slope, slope, product.get());
           break;
         case Operation::inverse:
           mpfi_sqr(product.get(), values_[r].get());
-          mpfi_mul(slope, slopes_[a][c].get(), product.get());
+          mpfi_mul(slope, partials_[a][v].get(), product.get());
           mpfi_neg(slope, slope);
           break;
         case Operation::constant:
@@ -211,46 +217,47 @@ void Sheet::run_slopes(std::size_t begin, std::size_t end) {
   }
 }
 
-void Sheet::differentiate() {
-  const auto n = static_cast<std::size_t>(dimension());
-  const auto basis = [&](std::size_t variable, std::size_t c) {
-    slopes_[variable].assign(n, Interval(bits_));
-    slopes_[variable][c] = Interval(1.0, bits_);
-    depends_[variable] = 1u << c;
+/// Roots that are not lifted are functions of what comes before them.
+std::vector<Interval> Sheet::along_local(std::vector<Interval> partials) const {
+  const auto is_lifted = [&](std::size_t j) {
+    return std::find(lifted_.begin(), lifted_.end(), static_cast<int>(j)) != lifted_.end();
   };
-  basis(0, 0);
-  basis(1, 1);
-  bonds_.clear();
-  std::size_t begin = 0;
-  for (std::size_t j = 0; j < used_.size(); ++j) {
-    depends_[2 + j] = 0;
-    if (!used_[j]) continue;
-    run_slopes(begin, stage_end_[j]);
-    begin = stage_end_[j];
-    const std::size_t square = square_results_[j];
-    const auto lifted = std::find(lifted_.begin(), lifted_.end(), static_cast<int>(j));
-    if (lifted != lifted_.end()) {
-      const auto own = 2 + static_cast<std::size_t>(lifted - lifted_.begin());
-      basis(2 + j, own);
-      bonds_.emplace_back();
-      for (std::size_t c = 0; c < n; ++c) {
-        bonds_.back().push_back(-slope_of(square, static_cast<int>(c)));
-        if (c == own) bonds_.back()[c] = bonds_.back()[c] + Interval(2.0, bits_) * values_[2 + j];
-      }
-      continue;
-    }
-    const Interval half = Interval(0.5, bits_) / values_[2 + j];
-    depends_[2 + j] = depends_[square];
-    slopes_[2 + j].assign(n, Interval(bits_));
-    for (std::size_t c = 0; c < n; ++c)
-      if ((depends_[square] >> c & 1u) != 0) slopes_[2 + j][c] = slopes_[square][c] * half;
+  for (std::size_t j = used_.size(); j-- > 0;) {
+    if (!used_[j] || is_lifted(j)) continue;
+    const Interval factor = partials[2 + j] * (Interval(0.5, bits_) / values_[2 + j]);
+    for (std::size_t v = 0; v < 2 + j; ++v)
+      if ((depends_[square_results_[j]] >> v & 1u) != 0) partials[v] = partials[v] + factor * square_partials_[j][v];
   }
-  run_slopes(begin, stage_end_.back());
+  std::vector<Interval> slopes = {partials[0], partials[1]};
+  for (const int j : lifted_) slopes.push_back(partials[2 + static_cast<std::size_t>(j)]);
+  return slopes;
+}
+
+void Sheet::differentiate() {
+  run_slopes(0, steps_.size());
+  const std::size_t variables = 2 + used_.size();
+  const auto partials_of = [&](std::size_t value) {
+    std::vector<Interval> partials;
+    for (std::size_t v = 0; v < variables; ++v)
+      partials.push_back((depends_[value] >> v & 1u) != 0 ? partials_[value][v] : Interval(bits_));
+    return partials;
+  };
+  for (std::size_t j = 0; j < used_.size(); ++j)
+    if (used_[j]) square_partials_[j] = partials_of(square_results_[j]);
+  projected_.clear();
+  for (const std::size_t result : results_) projected_.push_back(along_local(partials_of(result)));
+  bonds_.clear();
+  for (const int lifted : lifted_) {
+    const auto j = static_cast<std::size_t>(lifted);
+    std::vector<Interval> partials;
+    for (const Interval& partial : square_partials_[j]) partials.push_back(-partial);
+    partials[2 + j] = partials[2 + j] + Interval(2.0, bits_) * values_[2 + j];
+    bonds_.push_back(along_local(std::move(partials)));
+  }
 
   for (std::size_t v = 0; v < 2; ++v) scratch_[v] = middle(static_cast<int>(v));
   middle_bonds_.clear();
-  begin = 0;
-  std::size_t next = 0;
+  std::size_t begin = 0, next = 0;
   for (std::size_t j = 0; j < used_.size(); ++j) {
     if (!used_[j]) continue;
     run(begin, stage_end_[j], scratch_);

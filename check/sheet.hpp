@@ -47,7 +47,9 @@ class Sheet {
 
   /// Slopes over the cell and values at its middle; wanted by what follows.
   void differentiate();
-  Interval slope(int f, int c) const { return slope_of(results_[static_cast<std::size_t>(f)], c); }
+  const Interval& slope(int f, int c) const {
+    return projected_[static_cast<std::size_t>(f)][static_cast<std::size_t>(c)];
+  }
   /// Of G_l, the l-th lifted root's.
   const Interval& bond(int l, int c) const { return bonds_[static_cast<std::size_t>(l)][static_cast<std::size_t>(c)]; }
   const Interval& at_middle(int f) const { return middle_values_[static_cast<std::size_t>(f)]; }
@@ -68,7 +70,7 @@ class Sheet {
   void run_slopes(std::size_t begin, std::size_t end);
   std::size_t append(const core::StraightLine& line);
   void set_root(std::size_t j, bool lift);
-  Interval slope_of(std::size_t value, int c) const;
+  std::vector<Interval> along_local(std::vector<Interval> partials) const;
 
   SheetParts parts_;
   mpfr_prec_t bits_;
@@ -77,8 +79,9 @@ class Sheet {
   std::vector<std::size_t> square_results_, results_;
   std::vector<bool> used_, is_zero_;
   std::vector<Interval> values_, scratch_, squares_;
-  std::vector<std::vector<Interval>> slopes_, bonds_;
-  std::vector<std::uint32_t> depends_;  // bit c: the slope along c is not 0
+  std::vector<std::vector<Interval>> partials_;  // by every variable, roots like coordinates
+  std::vector<std::uint32_t> depends_;           // bit v: the partial by v is not 0
+  std::vector<std::vector<Interval>> square_partials_, projected_, bonds_;
   std::vector<int> lifted_;
   std::vector<Interval> local_, middle_values_, middle_bonds_;
 };
