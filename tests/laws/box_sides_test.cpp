@@ -46,7 +46,9 @@ TEST_P(BoxSides, ArcsStayInTheBoxAndZonesCoverTheWorkspace) {
     zones += zone.area;
   }
   EXPECT_NEAR(zones, known.area, known.doubt);
-  if (known.zones != 0) EXPECT_EQ(map.zones.size(), known.zones);
+  if (known.zones != 0) {
+    EXPECT_EQ(map.zones.size(), known.zones);
+  }
   ASSERT_EQ(map.areas.size(), 1u);
   EXPECT_NEAR(map.areas[0].workspace, zones, 1e-5 * zones);
   EXPECT_EQ(map.areas[0].in_doubt, 0);
