@@ -399,6 +399,21 @@ class Laws {
     }
   }
 
+  /// Of the dyads and sliders the one nearest to stretched out or folded: half the way to where its apex would be in
+  /// the other working mode.
+  double least_height(const Point2& at, const std::vector<int>& sides) const {
+    const numeric::Posture here = numeric::posture(witness_.model(), at, sides);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      std::vector<int> other = sides;
+      other[i] = -other[i];
+      const auto apex = static_cast<std::size_t>(witness_.model().dyads[i]);
+      const Point2 p = here.points[apex], q = numeric::posture(witness_.model(), at, other).points[apex];
+      least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1]) / 2);
+    }
+    return least;
+  }
+
   /// Empty where everything is as the curve says.
   std::string fault_beside(const core::LocusCurve& curve, const std::vector<int>& sides, const Point2& at,
                            const Point2& before, const Point2& after) const {
@@ -430,7 +445,10 @@ class Laws {
       }
       if (!fault.str().empty()) break;
     }
-    if (curve.kind == core::LocusKind::workspace_boundary && alive != 1)
+    const auto beside = [&](double by) { return Point2{at[0] - by * size() * dy / l, at[1] + by * size() * dx / l}; };
+    // Where roots depend on one another a leg may be stretched out and the mechanism goes on: a fold.
+    if (curve.kind == core::LocusKind::workspace_boundary && alive != 1 &&
+        !(alive == 2 && least_height(beside(1e-8), sides) <= 0.2 * least_height(beside(1e-5), sides)))
       fault << "a boundary with a posture on " << alive << " sides";
     if (alive == 0) fault << "no posture";
     if (curve.kind == core::LocusKind::direct_singularity && alive > 0 && curve.excited != grows)
