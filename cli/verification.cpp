@@ -242,7 +242,7 @@ class Verifier {
   loci::TaskProof prove(const loci::TaskRegion& region, double margin, const numeric::TaskWitness& judge,
                         std::optional<TaskWitness>& witness) const {
     return loci::prove_task(conditions_, mode_, region, margin, refuted_at(region, judge, witness),
-                            {cells_of_the_task, request_.deadline});
+                            {.most_cells = cells_of_the_task, .deadline = request_.deadline});
   }
 
   bool refuted_by_loci(const loci::TaskRegion& region, double margin, const numeric::TaskWitness& judge,
@@ -345,8 +345,8 @@ class Verifier {
     double limit = wanted;
     for (const mechanism::Coordinate& coordinate : mechanism_.coordinates)
       limit += core::to_double(coordinate.upper - coordinate.lower);
-    const loci::TaskClearance clearance =
-        loci::proven_clearance(conditions_, mode_, region, wanted, limit, {cells_of_a_margin, request_.deadline});
+    const loci::TaskClearance clearance = loci::proven_clearance(
+        conditions_, mode_, region, wanted, limit, {.most_cells = cells_of_a_margin, .deadline = request_.deadline});
     result.margin = clearance.margin;
     if (!clearance.at) return;
     NearestOfTask nearest;

@@ -100,7 +100,9 @@ class Refutation {
   /// enough.
   bool refuted_at(const Point2& at, bool closely) const {
     const double distance = region_.signed_distance(at);
-    const double rounding = 0x1p-50 * std::max({std::abs(at[0]), std::abs(at[1]), 1e-3});
+    const double rounding =
+        0x1p-50 * std::max({std::abs(at[0]), std::abs(at[1]), std::abs(region_.lower()[0]),
+                            std::abs(region_.lower()[1]), std::abs(region_.upper()[0]), std::abs(region_.upper()[1])});
     return (distance <= rounding || distance < margin_ - hair_) && witness_(at, closely);
   }
 
@@ -199,19 +201,23 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
       proof.upper[c] = first ? upper[c] : std::max(proof.upper[c], upper[c]);
     }
   };
+  int proven = 0;
   while (!open.empty()) {
     const Cell cell = open.front();
     if (region.distance(cell.x, cell.y) > reach) {
       open.pop_front();
       continue;
     }
-    proof.out_of_cells = proof.cells >= effort.most_cells;
+    proof.out_of_cells = proof.cells >= (proven == 0 ? effort.most_cells_in_vain : effort.most_cells);
     proof.out_of_time = out_of_time(effort, proof.cells);
     if (proof.out_of_cells || proof.out_of_time) break;
     open.pop_front();
     ++proof.cells;
     const TaskCell::State state = judge.enter(cell.x, cell.y);
-    if (state == TaskCell::State::proven) continue;
+    if (state == TaskCell::State::proven) {
+      ++proven;
+      continue;
+    }
     if (refutation.by_cell(cell, state, judge.unmet())) {
       proof.verdict = TaskVerdict::refuted;
       return proof;

@@ -35,6 +35,7 @@ struct TaskProof {
 
 struct TaskEffort {
   int most_cells = 400'000;
+  int most_cells_in_vain = 20'000;  ///< while none at all is proven: nothing can be, where |A| vanishes in every pose
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
 };
 

@@ -11,7 +11,8 @@
 namespace clearloci::numeric {
 namespace {
 
-/// A pose stands for those within so many spacings of doubles: bisections end, and decimals are rounded, that close.
+/// A pose stands for those within so many spacings of doubles, at the task's largest coordinate: bisections end, and
+/// decimals are rounded, that close.
 constexpr double spacings = 4;
 /// What cannot be told from zero counts as zero only where it is known so well, relative to what is usual.
 constexpr double known_zero = 1e-10;
@@ -31,6 +32,7 @@ TaskWitness::TaskWitness(std::vector<const NumericModel*> loads, std::vector<int
                          std::vector<core::TaskDemand> demands, std::span<const Point2> usual)
     : loads_(std::move(loads)), mode_(std::move(mode)), demands_(std::move(demands)) {
   for (const Point2& at : usual) {
+    extent_ = std::max({extent_, std::abs(at[0]), std::abs(at[1])});
     const BoundedNumerators n = bounded_numerators(*loads_.front(), at, mode_);
     if (n.reachable && std::isfinite(n.determinant.value))
       usual_determinant_ = std::max(usual_determinant_, std::abs(n.determinant.value));
@@ -76,11 +78,12 @@ std::vector<TaskFailure> TaskWitness::failures(const Point2& at, bool closely) c
 std::vector<TaskFailure> TaskWitness::some_failures(const Point2& at, bool closely, std::size_t most) const {
   using Kind = TaskFailure::Kind;
   const auto alone = [](Kind kind) { return std::vector{TaskFailure{kind, {}, 0, 0}}; };
+  const double extent = std::max({extent_, std::abs(at[0]), std::abs(at[1])});
   const auto around = [&](double many) {
     std::array<Point2, 8> list{};
     constexpr std::array<std::array<int, 2>, 8> ways = {
         {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
-    const double step = many * spacing(std::max({std::abs(at[0]), std::abs(at[1]), 1e-3}));
+    const double step = many * spacing(extent);
     for (std::size_t i = 0; i < list.size(); ++i) list[i] = {at[0] + step * ways[i][0], at[1] + step * ways[i][1]};
     return list;
   };
@@ -94,7 +97,7 @@ std::vector<TaskFailure> TaskWitness::some_failures(const Point2& at, bool close
     if (!std::all_of(near.begin(), near.end(), reached)) return alone(Kind::boundary);
   }
   std::vector<Bounded> pose;
-  for (const double value : at) pose.emplace_back(value, spacings * spacing(value));
+  for (const double value : at) pose.emplace_back(value, spacings * spacing(extent));
   std::vector<BoundedNumerators> numerators;
   for (const NumericModel* load : loads_) numerators.push_back(bounded_numerators(*load, pose, mode_));
   if (!numerators.front().reachable) return {};

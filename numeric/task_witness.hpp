@@ -31,7 +31,8 @@ struct TaskFailure {
 class TaskWitness {
  public:
   /// `loads`: the mechanism under the one load, or under the first and the last; must outlive the witness. `demands`:
-  /// without those of reactions that are zero whatever the pose. `usual`: poses that say how large |A| is.
+  /// without those of reactions that are zero whatever the pose. `usual`: poses that say how large |A| is, and
+  /// coordinates.
   TaskWitness(std::vector<const NumericModel*> loads, std::vector<int> mode, std::vector<core::TaskDemand> demands,
               std::span<const Point2> usual);
 
@@ -53,7 +54,7 @@ class TaskWitness {
   std::vector<const NumericModel*> loads_;
   std::vector<int> mode_;
   std::vector<core::TaskDemand> demands_;
-  double usual_determinant_ = 0;
+  double usual_determinant_ = 0, extent_ = 0;  ///< extent: the largest coordinate of the usual poses
 };
 
 }  // namespace clearloci::numeric
