@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "cli/pipeline.hpp"
+#include "cli/verification.hpp"
+#include "cli/zone_search.hpp"
 #include "tests/laws/design_texts.hpp"
 
 namespace clearloci {
@@ -126,6 +128,135 @@ TEST(Transformations, AScaleScalesTheLoci) {
   const auto back = [](const Point2& p) { return Point2{p[0] / 2, p[1] / 2}; };
   expect_same(summary(loci_of(base()), same), summary(loci_of(scaled), back));
 }
+
+/// x -> scale R x + (dx, dy), R the turn with cos = 3/5, sin = 4/5 or none; lengths of text are rationals.
+struct Change {
+  std::string name;
+  core::Rational scale = 1;
+  std::array<core::Rational, 2> by{};
+  bool turned = false, mirrored = false;
+
+  std::array<core::Rational, 2> vector(std::array<core::Rational, 2> v) const {
+    if (mirrored) v[0] = -v[0];
+    if (!turned) return v;
+    const core::Rational c(3, 5), s(4, 5);
+    return {c * v[0] - s * v[1], s * v[0] + c * v[1]};
+  }
+  std::array<core::Rational, 2> place(const std::array<core::Rational, 2>& p) const {
+    const auto v = vector(p);
+    return {scale * v[0] + by[0], scale * v[1] + by[1]};
+  }
+  Point2 back(const Point2& p) const {
+    const double k = core::to_double(scale), x = (p[0] - core::to_double(by[0])) / k,
+                 y = (p[1] - core::to_double(by[1])) / k;
+    const Point2 v = turned ? Point2{0.6 * x + 0.8 * y, -0.8 * x + 0.6 * y} : Point2{x, y};
+    return {mirrored ? -v[0] : v[0], v[1]};
+  }
+};
+
+core::Rational rational(const std::string& text) {
+  core::Rational value(text);
+  value.canonicalize();
+  return value;
+}
+
+using Place = std::array<core::Rational, 2>;
+
+Place place_of(const std::array<std::string, 2>& text) { return {rational(text[0]), rational(text[1])}; }
+std::array<std::string, 2> text_of(const Place& p) { return {core::to_string(p[0]), core::to_string(p[1])}; }
+
+test::FiveBarDesign changed(const test::FiveBarDesign& design, const Change& change) {
+  test::FiveBarDesign d = design;
+  d.a1 = text_of(change.place(place_of(design.a1)));
+  d.a2 = text_of(change.place(place_of(design.a2)));
+  for (std::string* length : {&d.proximal1, &d.distal1, &d.proximal2, &d.distal2})
+    *length = core::to_string(core::Rational(rational(*length) * change.scale));
+  d.force = text_of(change.vector(place_of(design.force)));
+  // A square box about the origin holds all of the workspace, turned or not.
+  d.box = {core::to_string(core::Rational(change.by[0] - 2 * change.scale)),
+           core::to_string(core::Rational(change.by[0] + 2 * change.scale)),
+           core::to_string(core::Rational(change.by[1] - 2 * change.scale)),
+           core::to_string(core::Rational(change.by[1] + 2 * change.scale))};
+  if (change.mirrored)
+    for (std::string* side : {&d.side1, &d.side2}) *side = *side == "left" ? "right" : "left";
+  return d;
+}
+
+class Changes : public testing::TestWithParam<Change> {
+ protected:
+  static mechanism::Mechanism parsed(const test::FiveBarDesign& design) {
+    return mechanism::parse_mechanism(design.text(), "design.yaml");
+  }
+  LociRequest request(bool moved) const {
+    LociRequest result;
+    result.tolerance = 1e-5 * (moved ? core::to_double(GetParam().scale) : 1);
+    return result;
+  }
+};
+
+TEST_P(Changes, MoveTheLociAlong) {
+  const Change& change = GetParam();
+  const core::LocusMap a = trace_loci(parsed(base()), request(false)),
+                       b = trace_loci(parsed(changed(base(), change)), request(true));
+  expect_same(summary(a, same), summary(b, [&](const Point2& p) { return change.back(p); }));
+  EXPECT_TRUE(std::all_of(b.curves.begin(), b.curves.end(), [](const auto& curve) { return curve.certified; }));
+  // On the curve to the spacing of doubles at the coordinates: the implicit polynomials are those of the user's own.
+  for (const core::LocusCurve& curve : b.curves) {
+    const double size = core::to_double(change.scale);
+    const core::Polynomial dx = core::derivative(curve.implicit, 0), dy = core::derivative(curve.implicit, 1);
+    for (const core::Arc& arc : curve.arcs)
+      for (std::size_t i = 0; i < arc.points.size(); i += 16) {
+        const std::vector<core::Rational> at = {arc.points[i][0], arc.points[i][1]};
+        const double slope =
+            std::hypot(core::to_double(core::evaluate(dx, at)), core::to_double(core::evaluate(dy, at)));
+        if (slope == 0) continue;  // the vertex is a double point
+        const double farthest = std::max(std::abs(arc.points[i][0]), std::abs(arc.points[i][1]));
+        const double spacing = std::nextafter(farthest, INFINITY) - farthest;
+        const double off = std::abs(core::to_double(core::evaluate(curve.implicit, at))) / slope;
+        EXPECT_LE(off, std::max(1e-10 * size, 4 * spacing)) << curve.id << " at vertex " << i;
+      }
+  }
+}
+
+TEST_P(Changes, MoveTheZonesAlong) {
+  const Change& change = GetParam();
+  const core::ZoneMap a = find_zones(parsed(base()), request(false)),
+                      b = find_zones(parsed(changed(base(), change)), request(true));
+  ASSERT_EQ(a.zones.size(), b.zones.size());
+  const double k = core::to_double(change.scale);
+  for (std::size_t i = 0; i < a.zones.size(); ++i) {
+    EXPECT_NEAR(a.zones[i].area, b.zones[i].area / (k * k), 2e-5) << i;
+    EXPECT_EQ(a.zones[i].certified, b.zones[i].certified);
+    EXPECT_NEAR(a.zones[i].inscribed.radius, b.zones[i].inscribed.radius / k, 1e-4);
+  }
+}
+
+TEST_P(Changes, MoveTheVerdictsAlong) {
+  const Change& change = GetParam();
+  const core::ZoneMap zones = find_zones(parsed(base()), request(false));
+  const core::Zone& zone = zones.zones.front();
+  const Place centre = {core::Rational(zone.sample[0]), core::Rational(zone.sample[1])};
+  for (const double part : {0.8, 1.2}) {
+    const core::Rational radius(part * zone.inscribed.radius);
+    core::Task task, moved;
+    task.shape = core::TaskCircle{centre, radius};
+    moved.shape = core::TaskCircle{change.place(centre), radius * change.scale};
+    const Verification a = verify_task(parsed(base()), task, request(false)),
+                       b = verify_task(parsed(changed(base(), change)), moved, request(true));
+    EXPECT_EQ(a.verified, part < 1);
+    EXPECT_EQ(b.verified, a.verified);
+    EXPECT_NEAR(a.margin, b.margin / core::to_double(change.scale), 1e-3 * zone.inscribed.radius);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Transformations, Changes,
+    testing::Values(
+        Change{.name = "Far", .by = {1000000, -1000000}}, Change{.name = "Large", .scale = 1000000},
+        Change{.name = "Small", .scale = core::Rational(1, 1000000)}, Change{.name = "Turned", .turned = true},
+        Change{.name = "Mirrored", .mirrored = true},
+        Change{.name = "All", .scale = core::Rational(1, 1000), .by = {1000, 500}, .turned = true, .mirrored = true}),
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace clearloci
