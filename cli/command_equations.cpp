@@ -10,6 +10,7 @@
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
+#include "cli/singular_modes.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
 #include "report/files.hpp"
@@ -97,6 +98,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   std::vector<LanguageName> chosen;
   for (const std::string& word : split(arguments.languages)) chosen.push_back(find_language(word));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
+  require_regular(mechanism, mechanism::working_mode(mechanism));
   const auto incomplete = [common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "equations.json", incomplete_body(name, "every equation was"), false);
   };

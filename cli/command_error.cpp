@@ -15,6 +15,7 @@
 #include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
+#include "cli/singular_modes.hpp"
 #include "cli/zone_errors.hpp"
 #include "cli/zone_search.hpp"
 #include "core/errors.hpp"
@@ -216,9 +217,11 @@ int run_over_coordinate(const Arguments& arguments, const mechanism::Mechanism& 
   const int steps = parse_steps(arguments.grid.empty() ? usual_steps : arguments.grid);
   Progress progress(arguments.common.quiet);
   const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
-  const CoordinateResult result = coordinate_errors(
-      mechanism, arguments.without_loci ? empty_map(mechanism) : with_modes(mechanism, trace_loci(mechanism, request)),
-      requested_modes(mechanism, request), steps, !arguments.without_worst_case);
+  core::LocusMap loci =
+      arguments.without_loci ? empty_map(mechanism) : with_modes(mechanism, trace_loci(mechanism, request));
+  const std::vector<DyadSides> modes = regular_modes(mechanism, requested_modes(mechanism, request), loci.notes);
+  const CoordinateResult result =
+      coordinate_errors(mechanism, std::move(loci), modes, steps, !arguments.without_worst_case);
   const std::string json = report::json_text(coordinate_errors_json(result));
   limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
@@ -280,11 +283,11 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     throw core::InputError({.file = "--zones"}, "zones are bounded by the loci", "leave --no-loci out");
   core::ZoneMap zones;
   if (arguments.zones) zones = find_zones(mechanism, request);
-  const core::LocusMap loci = with_modes(mechanism, arguments.zones          ? zones.loci
-                                                    : arguments.without_loci ? empty_map(mechanism)
-                                                                             : trace_loci(mechanism, request));
+  core::LocusMap loci = with_modes(mechanism, arguments.zones          ? zones.loci
+                                              : arguments.without_loci ? empty_map(mechanism)
+                                                                       : trace_loci(mechanism, request));
   const numeric::ErrorGrid grid = {.nx = nx, .ny = ny, .worst_case = !arguments.without_worst_case};
-  for (const DyadSides& sides : requested_modes(mechanism, request)) {
+  for (const DyadSides& sides : regular_modes(mechanism, requested_modes(mechanism, request), loci.notes)) {
     progress.show(0.9, "errors");
     modes.push_back(
         {loci.tower.roots.empty() ? sides : mode_of(sides, loci.tower), numeric::error_map(model, sides, grid), {}});

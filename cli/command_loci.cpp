@@ -83,8 +83,8 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     fmt::print("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
   }
   if (map.complete) return exit_done;
-  throw core::LimitReached(
-      fmt::format("the time limit was reached; what is known is in {}, marked incomplete", core::printable(folder.string())));
+  throw core::LimitReached(fmt::format("the time limit was reached; what is known is in {}, marked incomplete",
+                                       core::printable(folder.string())));
 }
 
 }  // namespace

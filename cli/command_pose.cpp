@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/pose_result.hpp"
 #include "cli/program.hpp"
+#include "cli/singular_modes.hpp"
 #include "cli/spatial_pose.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
@@ -37,7 +38,7 @@ struct PoseResult {
   DyadSides sides;
   numeric::Posture posture;
   numeric::Accuracy accuracy;
-  bool singular = false;  ///< |A| cannot be told from zero
+  bool singular = false;                      ///< |A| cannot be told from zero
   std::optional<numeric::ActualPose> actual;  ///< if asked for
 };
 
@@ -208,6 +209,7 @@ PoseResult solve(const Arguments& arguments, const mechanism::Mechanism& mechani
   const std::vector<numeric::Bounded> at = with_rounding(parse_pose(arguments.at, mechanism));
   for (const numeric::Bounded& value : at) pose.at.push_back(value.value);
   pose.sides = sides_of(arguments, mechanism);
+  require_regular(mechanism, pose.sides);
   pose.posture = numeric::posture(model, pose.at, pose.sides);
   if (pose.posture.unreachable) throw out_of_reach(mechanism, *pose.posture.unreachable);
   pose.accuracy = numeric::pose_accuracy(model, pose.posture, numeric::vanishing_unknowns(model, at, pose.sides));
@@ -237,8 +239,9 @@ int run_spatial(const Arguments& arguments, const mechanism::Mechanism& mechanis
     throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not iterated",
                            "leave --iterate out: the linear error is given");
   const std::vector<numeric::Bounded> at = with_rounding(parse_pose(arguments.at, mechanism));
-  return report_pose(arguments, spatial_pose_json(mechanism, at, sides_of(arguments, mechanism)), print_spatial_pose,
-                     limit);
+  const DyadSides sides = sides_of(arguments, mechanism);
+  require_regular(mechanism, sides);
+  return report_pose(arguments, spatial_pose_json(mechanism, at, sides), print_spatial_pose, limit);
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {

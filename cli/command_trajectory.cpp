@@ -14,6 +14,7 @@
 #include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
+#include "cli/singular_modes.hpp"
 #include "cli/time_limit.hpp"
 #include "cli/trajectory_pictures.hpp"
 #include "core/errors.hpp"
@@ -129,8 +130,9 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   });
   Progress progress(arguments.common.quiet);
   progress.show(0, "dynamics");
-  const TrajectoryResult result =
-      follow_trajectory(mechanism, trajectory, request_of(arguments, mechanism, trajectory));
+  const auto request = request_of(arguments, mechanism, trajectory);
+  require_regular(mechanism, request.mode);
+  const TrajectoryResult result = follow_trajectory(mechanism, trajectory, request);
   const std::string json = report::json_text(trajectory_json(result));
   limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);

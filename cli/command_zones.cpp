@@ -63,8 +63,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
   const std::filesystem::path folder = output_folder(arguments.common);
   if (request.certificate != nullptr)
-    write_certificate(arguments.certificate, "zones", arguments.common, certificate, map.loci,
-                      {.zones = &map.zones});
+    write_certificate(arguments.certificate, "zones", arguments.common, certificate, map.loci, {.zones = &map.zones});
   const std::vector<std::filesystem::path> files = report::write_zones(map, folder, formats);
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::zones_object(map)));

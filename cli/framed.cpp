@@ -136,6 +136,10 @@ std::optional<Framed> framed(const mechanism::Mechanism& mechanism) {
   return Framed{std::move(frame), std::move(*inside)};
 }
 
+std::optional<Framed> framed(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  return request.certificate != nullptr ? std::nullopt : framed(mechanism);
+}
+
 LociRequest in_frame(LociRequest request, const Frame& frame) {
   request.tolerance /= frame.scale_value();
   if (request.selection.min_couple) *request.selection.min_couple /= frame.scale;
@@ -182,6 +186,10 @@ core::LocusMap from_frame(core::LocusMap map, const mechanism::Mechanism& mechan
 core::ZoneMap from_frame(core::ZoneMap map, const mechanism::Mechanism& mechanism, const Frame& frame) {
   const Outward outward(mechanism, frame);
   map.loci = from_frame(std::move(map.loci), mechanism, frame);
+  for (core::ModeArea& area : map.areas) {
+    area.workspace = outward.size(outward.size(area.workspace));
+    area.in_doubt = outward.size(outward.size(area.in_doubt));
+  }
   for (core::Zone& zone : map.zones) {
     zone.area = outward.size(outward.size(zone.area));
     outward.move(zone.outer);
@@ -206,7 +214,14 @@ Verification from_frame(Verification result, const core::Task& task, const mecha
     result.nearest->at = outward.place(result.nearest->at);
     result.nearest->distance = outward.size(result.nearest->distance);
   }
-  if (result.witness) result.witness->at = outward.place(result.witness->at);
+  if (result.witness) {
+    result.witness->at = outward.place(result.witness->at);
+    result.witness->distance = outward.size(result.witness->distance);
+  }
+  if (result.open) {
+    result.open->lower = outward.place(result.open->lower);
+    result.open->upper = outward.place(result.open->upper);
+  }
   result.map = from_frame(std::move(result.map), mechanism, frame);
   for (std::string& note : result.notes) note = outward.note(note);
   return result;
@@ -219,6 +234,7 @@ numeric::ValidationReport from_frame(numeric::ValidationReport report, const mec
     edge.from = outward.place(edge.from);
     edge.to = outward.place(edge.to);
   }
+  for (numeric::DisputedArc& arc : report.disputed_arcs) arc.at = outward.place(arc.at);
   return report;
 }
 

@@ -20,6 +20,8 @@ struct Framed {
 
 /// Nothing where the mechanism needs no other frame than its own.
 std::optional<Framed> framed(const mechanism::Mechanism& mechanism);
+/// The same, and nothing where a certificate is asked for: it speaks of the mechanism of the file.
+std::optional<Framed> framed(const mechanism::Mechanism& mechanism, const LociRequest& request);
 
 LociRequest in_frame(LociRequest request, const mechanism::Frame& frame);
 core::Task in_frame(core::Task task, const mechanism::Frame& frame);

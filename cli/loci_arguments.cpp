@@ -69,9 +69,10 @@ void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
       ->type_name("N");
   command.add_option("--min-couple", arguments.min_couple, "Also the curves on which a couple has this value")
       ->type_name("NM");
-  command.add_option("--tolerance", arguments.tolerance, "Largest distance of a chord from its curve, m")
-      ->type_name("M")
-      ->capture_default_str();
+  command
+      .add_option("--tolerance", arguments.tolerance,
+                  "Largest distance of a chord from its curve, m (default: 1e-5, of a mechanism of some metres)")
+      ->type_name("M");
 }
 
 void add_mesh_argument(CLI::App& command, LociArguments& arguments) {
@@ -91,7 +92,8 @@ LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechan
     request.selection.min_force = parse_positive(arguments.min_force, "--min-force", mechanism);
   if (!arguments.min_couple.empty())
     request.selection.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism);
-  request.tolerance = parse_tolerance(arguments.tolerance, mechanism);
+  request.tolerance = arguments.tolerance.empty() ? 1e-5 * mechanism::frame_of(mechanism).scale_value()
+                                                  : parse_tolerance(arguments.tolerance, mechanism);
   request.mesh_size = core::to_double(parse_positive(arguments.mesh_size, "--mesh-size", mechanism));
   if (arguments.working_mode == "all")
     request.all_working_modes = true;

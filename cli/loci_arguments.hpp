@@ -15,7 +15,7 @@ namespace clearloci::cli {
 struct LociArguments {
   std::vector<std::string> joints;
   std::string quantities = "f,M";
-  std::string min_force, min_couple, tolerance = "1e-5", mesh_size = "1/32", working_mode;
+  std::string min_force, min_couple, tolerance, mesh_size = "1/32", working_mode;
   std::string engine = "automatic";
 };
 

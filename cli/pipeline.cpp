@@ -9,9 +9,11 @@
 #include <string>
 #include <utility>
 
+#include "cli/framed.hpp"
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
 #include "loci/chart_maps.hpp"
+#include "loci/sheet_maps.hpp"
 #include "loci/surfaces.hpp"
 #include "mechanism/guide.hpp"
 #include "numeric/sketch.hpp"
@@ -23,14 +25,18 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::vector<core::WorkingMode> modes_to_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                                              const core::RootTower& tower) {
-  if (request.all_working_modes)
-    return core::all_working_modes(tower, mode_of(mechanism::working_mode(mechanism), tower));
-  if (request.working_modes.empty()) return {mode_of(mechanism::working_mode(mechanism), tower)};
-  std::vector<core::WorkingMode> modes;
-  for (const DyadSides& sides : request.working_modes) modes.push_back(mode_of(sides, tower));
-  return modes;
+/// Every combination in the order of core::all_working_modes: the last side changes fastest.
+std::vector<DyadSides> sides_to_trace(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  const DyadSides own = mechanism::working_mode(mechanism);
+  if (!request.all_working_modes)
+    return request.working_modes.empty() ? std::vector<DyadSides>{own} : request.working_modes;
+  std::vector<DyadSides> all;
+  for (std::size_t count = 0; count < std::size_t{1} << own.size(); ++count) {
+    all.push_back(own);
+    for (std::size_t j = 0; j < own.size(); ++j)
+      if ((count >> j & 1) != 0) all.back()[own.size() - 1 - j] *= -1;
+  }
+  return all;
 }
 
 /// Two to the power of the dyads are soon more than anyone looks at, and than there is memory for.
@@ -51,9 +57,10 @@ void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& reque
                              "give +1 (left) or -1 (right) for each");
 }
 
-/// The maps of a coordinate's pieces as one: a length is one piece, an angle one a half turn (core/angle_chart.hpp).
+/// The maps of a coordinate's pieces as one: a length is one piece, an angle one a half turn (core/angle_chart.hpp). A
+/// piece may have several, of the sides of a fold.
 core::LocusMap join_charts(const mechanism::Mechanism& mechanism, const std::vector<symbolic::DerivedProblem>& charts,
-                           const std::vector<core::LocusMap>& maps) {
+                           const std::vector<core::LocusMap>& maps, const std::vector<core::WorkingMode>& modes) {
   constexpr double same_angle = 1e-12;  // rad: two charts round the angle at which they meet differently
   core::LocusMap joined = maps.front();
   joined.isolated_points.clear();
@@ -63,9 +70,9 @@ core::LocusMap join_charts(const mechanism::Mechanism& mechanism, const std::vec
   joined.lower = {coordinate.lower};
   joined.upper = {coordinate.upper};
   if (coordinate.angle) joined.angles = {true};
-  for (const core::WorkingMode& mode : charts.front().problem.modes) {
+  for (const core::WorkingMode& mode : modes) {
     std::vector<core::IsolatedPoint> points;
-    std::vector<core::ReachableInterval> reachable;
+    std::vector<core::ReachableInterval> own;
     for (std::size_t i = 0; i < maps.size(); ++i) {
       const auto& chart = charts[i].problem.charts;
       const auto value = [&](double t) {
@@ -86,11 +93,18 @@ core::LocusMap join_charts(const mechanism::Mechanism& mechanism, const std::vec
         if (interval.mode != mode) continue;
         interval.from = value(interval.from);
         interval.to = value(interval.to);
-        if (i > 0 && !reachable.empty() && std::abs(reachable.back().to - interval.from) < same_angle)
-          reachable.back().to = interval.to;
-        else
-          reachable.push_back(std::move(interval));
+        own.push_back(std::move(interval));
       }
+    }
+    std::stable_sort(points.begin(), points.end(),
+                     [](const core::IsolatedPoint& a, const core::IsolatedPoint& b) { return a.at[0] < b.at[0]; });
+    std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+    std::vector<core::ReachableInterval> reachable;
+    for (core::ReachableInterval& interval : own) {
+      if (maps.size() > 1 && !reachable.empty() && std::abs(reachable.back().to - interval.from) < same_angle)
+        reachable.back().to = interval.to;
+      else
+        reachable.push_back(std::move(interval));
     }
     joined.isolated_points.insert(joined.isolated_points.end(), points.begin(), points.end());
     joined.reachable.insert(joined.reachable.end(), reachable.begin(), reachable.end());
@@ -111,31 +125,75 @@ void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map
   }
 }
 
-/// Of the charts of one mechanism together.
-core::LocusMap trace_charts(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                            const std::vector<symbolic::DerivedProblem>& charts) {
-  const loci::TraceOptions options{
-      .engine = request.engine,
-      .progress = request.progress,
-      .deadline = request.deadline,
-      .certificate = request.certificate};
+/// Surfaces of one choice of sheets in every piece of the coordinates' ranges: the sheets of a piece need not be those
+/// of another one, but together they are all.
+core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symbolic::DerivedProblem>& derived,
+                              const loci::TraceOptions& options) {
+  std::vector<std::vector<const core::LocusProblem*>> sheets;  // one a piece each
+  for (const symbolic::DerivedProblem& problem : derived) {
+    std::size_t own = 0;
+    while (own < sheets.size() && sheets[own].size() > static_cast<std::size_t>(problem.piece)) ++own;
+    if (own == sheets.size()) sheets.emplace_back();
+    sheets[own].push_back(&problem.problem);
+  }
+  std::optional<core::LocusMap> joined;
+  for (const auto& charts : sheets) {
+    core::LocusMap map = loci::trace_surfaces(charts, {.trace = options, .mesh_size = request.mesh_size});
+    if (sheets.size() > 1) loci::drop_own_roots(map);
+    if (!joined)
+      joined = std::move(map);
+    else
+      loci::append_sheets(*joined, std::move(map));
+  }
+  int number = 0;
+  for (core::LocusSurface& surface : joined->surfaces) surface.id = "s" + std::to_string(++number);
+  return std::move(*joined);
+}
+
+/// Of the pieces and sheets of one mechanism together. `parts`: those of a single piece, where there are several.
+core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                            std::vector<symbolic::DerivedProblem>& derived, const std::vector<DyadSides>& sides,
+                            std::vector<TracedSheet>& parts) {
+  const loci::TraceOptions options{.engine = request.engine,
+                                   .progress = request.progress,
+                                   .deadline = request.deadline,
+                                   .certificate = request.certificate};
+  if (options.certificate != nullptr)
+    for (const core::Root& root : derived.front().problem.tower.roots)
+      if (root.square.is_constant() || root.name == core::fold_name)
+        throw core::InputError({mechanism.file}, "the roots that place the points depend on one another",
+                               "such a mechanism has no certificate: leave --certificate out");
+  std::vector<core::WorkingMode> modes;
+  for (const DyadSides& own : sides) modes.push_back(mode_of(own, derived.front().problem.tower));
   if (mechanism.coordinates.size() == 3) {
-    std::vector<const core::LocusProblem*> problems;
-    for (const symbolic::DerivedProblem& derived : charts) problems.push_back(&derived.problem);
-    core::LocusMap map = loci::trace_surfaces(problems, {.trace = options, .mesh_size = request.mesh_size});
+    core::LocusMap map = trace_surfaces(request, derived, options);
     name_coordinates(mechanism, map);
     return map;
   }
   std::vector<core::LocusMap> maps;
   std::vector<const core::LocusProblem*> problems;
-  for (const symbolic::DerivedProblem& derived : charts) {
+  for (const symbolic::DerivedProblem& one : derived) {
     if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
-    maps.push_back(loci::trace(derived.problem, options));
-    problems.push_back(&derived.problem);
+    maps.push_back(loci::trace(one.problem, options));
+    problems.push_back(&one.problem);
   }
-  if (mechanism.coordinates.size() == 1) return join_charts(mechanism, charts, maps);
-  if (problems.front()->charts.empty()) return std::move(maps.front());
-  core::LocusMap map = loci::join_charts(problems, std::move(maps), request.tolerance);
+  const bool sheets = std::any_of(derived.begin(), derived.end(),
+                                  [&](const auto& one) { return &one != &derived.front() && one.piece == 0; });
+  const bool lengths = mechanism.coordinates.size() == 2 && problems.front()->charts.empty();
+  if (lengths && sheets)
+    for (std::size_t i = 0; i < maps.size(); ++i) parts.push_back({derived[i].problem, maps[i]});
+  if (lengths) return loci::join_sheets(problems, std::move(maps), modes);
+  if (problems.size() > 1) {
+    // Sides of a fold have a root of their own each.
+    std::size_t kept = modes.front().size();
+    for (core::LocusMap& map : maps) {
+      loci::drop_own_roots(map);
+      kept = map.tower.roots.size();
+    }
+    for (core::WorkingMode& mode : modes) mode.resize(kept, 1);
+  }
+  if (mechanism.coordinates.size() == 1) return join_charts(mechanism, derived, maps, modes);
+  core::LocusMap map = loci::join_charts(problems, std::move(maps), modes, request.tolerance);
   name_coordinates(mechanism, map);
   return map;
 }
@@ -154,30 +212,34 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
   try {
     if (request.progress) request.progress(0, "equations");
     check_deadline();
-    std::vector<symbolic::DerivedProblem> charts = family != nullptr
-                                                       ? family->problems(mechanism, request.selection)
-                                                       : symbolic::locus_problems(mechanism, request.selection);
-    for (symbolic::DerivedProblem& derived : charts) {
-      symbolic += derived.symbolic_seconds;
-      elimination += derived.elimination_seconds;
-      derived.problem.tolerance =
-          derived.problem.charts.empty() ? request.tolerance : loci::chart_tolerance(request.tolerance);
-      derived.problem.modes = modes_to_trace(mechanism, request, derived.problem.tower);
+    symbolic::Selection selection = request.selection;
+    selection.working_modes = sides_to_trace(mechanism, request);
+    std::vector<symbolic::DerivedProblem> derived =
+        family != nullptr ? family->problems(mechanism, selection) : symbolic::locus_problems(mechanism, selection);
+    for (symbolic::DerivedProblem& one : derived) {
+      symbolic += one.symbolic_seconds;
+      elimination += one.elimination_seconds;
+      one.problem.tolerance = one.problem.charts.empty() ? request.tolerance : loci::chart_tolerance(request.tolerance);
     }
 
     start = Clock::now();
     check_deadline();
-    map = trace_charts(mechanism, request, charts);
+    map = trace_pieces(mechanism, request, derived, selection.working_modes, traced.sheets);
     tracing = seconds_since(start);
     if (request.certificate != nullptr) {
       auto& factors = request.certificate->problem.factors;
-      factors.insert(factors.end(), charts.front().rest.begin(), charts.front().rest.end());
+      factors.insert(factors.end(), derived.front().rest.begin(), derived.front().rest.end());
     }
-    map.notes.insert(map.notes.begin(), charts.front().notes.begin(), charts.front().notes.end());
-    traced.problem = std::move(charts.front().problem);
+    std::vector<std::string> notes;
+    for (const symbolic::DerivedProblem& one : derived)
+      for (const std::string& note : one.notes)
+        if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    map.notes.insert(map.notes.begin(), notes.begin(), notes.end());
+    traced.problem = std::move(derived.front().problem);
   } catch (const core::LimitReached& limit) {
     (symbolic > 0 ? tracing : symbolic) = seconds_since(start);
     map = unfinished_map(mechanism, limit.what());
+    traced.sheets.clear();
   }
   map.timing = {{"symbolic", symbolic}, {"elimination", elimination}, {"tracing", tracing}};
   return traced;
@@ -281,6 +343,8 @@ void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t leas
 }
 
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  if (const std::optional<Framed> own = framed(mechanism, request))
+    return from_frame(trace_member(own->mechanism, in_frame(request, own->frame), nullptr).map, mechanism, own->frame);
   return trace_member(mechanism, request, nullptr).map;
 }
 
@@ -302,6 +366,7 @@ mechanism::Mechanism Loci::mechanism(const std::vector<mechanism::Override>& val
 }
 
 core::LocusMap Loci::trace(const mechanism::Mechanism& member, const LociRequest& request) const {
+  if (framed(member, request)) return trace_loci(member, request);
   return trace_member(member, request, &family_).map;
 }
 
@@ -330,6 +395,11 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
 LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                              const numeric::GridSpec& grid) {
   require_coordinates(mechanism, 2, 2, "loci are held against a grid");
+  if (const std::optional<Framed> own = framed(mechanism, request)) {
+    LociValidation inside = validate_loci(own->mechanism, in_frame(std::move(request), own->frame), grid);
+    return {from_frame(std::move(inside.map), mechanism, own->frame),
+            from_frame(std::move(inside.report), mechanism, own->frame)};
+  }
   const std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request.selection);
   std::vector<core::Quantity>& quantities = request.selection.quantities = {core::Quantity::f};
   for (const numeric::TracedReaction& reaction : reactions)

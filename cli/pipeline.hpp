@@ -39,10 +39,18 @@ struct LociRequest {
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
 
 /// The loci together with the problem that they solve, for work that goes on from there. The problem is empty where
-/// the deadline came first.
+/// the deadline came first. Coordinates are those of the mechanism itself, however far from the origin: callers put it
+/// into its frame first (cli/framed.hpp).
+struct TracedSheet {
+  core::LocusProblem problem;
+  core::LocusMap map;
+};
+/// `sheets`: where roots of the tower depend on one another (symbolic/locus_problem.hpp) there are several problems
+/// over two lengths, and `map` is theirs together; `problem` is then the first. Else empty.
 struct TracedProblem {
   core::LocusProblem problem;
   core::LocusMap map;
+  std::vector<TracedSheet> sheets = {};
 };
 TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
 

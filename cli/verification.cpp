@@ -6,8 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "cli/framed.hpp"
+#include "cli/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "loci/plane_graph.hpp"
+#include "loci/sheet_maps.hpp"
 #include "loci/zones.hpp"
 #include "mechanism/guide.hpp"
 #include "numeric/line_witness.hpp"
@@ -108,6 +111,20 @@ const char* unit_of(const TaskDemand& demand) {
   return demand.quantity == Quantity::M || demand.quantity == Quantity::T ? "N m" : "N";
 }
 
+/// Where roots depend on one another: the sheet that holds the task. A fold that the task meets bounds it.
+TracedProblem on_sheet_of(const Task& task, TracedProblem traced) {
+  if (traced.sheets.empty()) return traced;
+  const core::Polyline samples = loci::TaskRegion(task.shape).samples();
+  const auto holds = [&](const TracedSheet& sheet) {
+    return std::any_of(samples.begin(), samples.end(), [&](const Point2& at) {
+      return loci::is_on_sheet(sheet.problem.tower, sheet.problem.modes.front(), at);
+    });
+  };
+  auto own = std::find_if(traced.sheets.begin(), traced.sheets.end(), holds);
+  if (own == traced.sheets.end()) own = traced.sheets.begin();
+  return {std::move(own->problem), std::move(own->map)};
+}
+
 class Verifier {
  public:
   Verifier(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request)
@@ -173,7 +190,7 @@ class Verifier {
     if (traced_ || !notes_.empty()) return;
     std::vector<TracedProblem> all;
     for (const LoadCase& one : cases_) {
-      all.push_back(trace_problem(one.mechanism, request_));
+      all.push_back(on_sheet_of(task_, trace_problem(one.mechanism, request_)));
       if (all.back().map.complete) continue;
       notes_.emplace_back("the loci could not be traced within the time limit");
       return;
@@ -205,9 +222,10 @@ class Verifier {
           const auto j = static_cast<std::size_t>(unknown.joint);
           for (const auto& [end, side] : mechanism::guide_end_signs)
             if (demand.quantity == end)
-              signs.push_back(sign(numeric::components(n, {static_cast<int>(k), numeric::joint_columns(model)[j].tilt, -1,
-                                                           side / numeric::joint_clearances(mechanism_)[j].half_length})
-                                       .front()));
+              signs.push_back(
+                  sign(numeric::components(n, {static_cast<int>(k), numeric::joint_columns(model)[j].tilt, -1,
+                                               side / numeric::joint_clearances(mechanism_)[j].half_length})
+                           .front()));
         }
       return signs;
     };
@@ -259,6 +277,9 @@ class Verifier {
     return loci::refuted_near(conditions_, mode_, region, margin, refuted_at(region, judge, witness), suspects);
   }
 
+  /// Of lengths in m and couples in N m, where the mechanism is seen in a frame.
+  double unit() const { return request_.selection.frame ? request_.selection.frame->scale_value() : 1.0; }
+
   TaskWitness described(const Point2& at, const std::vector<TaskFailure>& failures, double distance) const {
     TaskWitness witness;
     witness.at = at;
@@ -283,14 +304,19 @@ class Verifier {
             report::reaction_names(witness.vanishing) + (witness.vanishing.size() > 1 ? " vanish" : " vanishes");
         break;
       }
-      case Kind::too_small:
+      case Kind::too_small: {
         for (const TaskFailure& failure : failures)
           if (failure.kind == Kind::too_small && failure.load == first.load)
             witness.too_small.push_back({failure.demand.joint, failure.demand.quantity, 1});
-        witness.size = first.size;
-        witness.reason = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(first.demand), first.size,
-                                     unit_of(first.demand), core::to_string(first.demand.least));
+        const bool couple = std::string(unit_of(first.demand)) == "N m";
+        witness.size = (couple ? unit() : 1.0) * first.size;
+        const core::Rational least = couple && request_.selection.frame
+                                         ? core::Rational(first.demand.least * request_.selection.frame->scale)
+                                         : first.demand.least;
+        witness.reason = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(first.demand), *witness.size,
+                                     unit_of(first.demand), core::to_string(least));
         break;
+      }
     }
     const bool of_a_load = first.kind == Kind::vanishing || first.kind == Kind::too_small;
     if (task_.loads && of_a_load) {
@@ -302,7 +328,7 @@ class Verifier {
       witness.reason += fmt::format(" under the load ({:.9g}, {:.9g}) N", load[0], load[1]);
     }
     if (witness.distance > 1e-12)
-      witness.reason += fmt::format("; {:.6g} m from the task, within its margin", witness.distance);
+      witness.reason += fmt::format("; {:.6g} m from the task, within its margin", unit() * witness.distance);
     return witness;
   }
 
@@ -387,7 +413,7 @@ void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verifi
   result.notes = verifier.notes();
   std::optional<TracedProblem> traced;
   if (result.task.loads && result.notes.empty())
-    traced = trace_problem(mechanism, verifier.request());
+    traced = on_sheet_of(result.task, trace_problem(mechanism, verifier.request()));
   else if (verifier.traced())
     traced = verifier.traced()->front();
   if (traced && traced->map.complete) {
@@ -419,6 +445,10 @@ std::string to_string(TaskVerdict verdict) {
 }
 
 Verification verify_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request) {
+  if (const std::optional<Framed> own = framed(mechanism, request))
+    return from_frame(verify_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame)), task,
+                      mechanism, own->frame);
+  require_regular(mechanism, requested_modes(mechanism, request).front());
   Verifier verifier(mechanism, task, request);
   Verification result = verifier.verify(task);
   add_zones(mechanism, verifier, result);
@@ -426,11 +456,19 @@ Verification verify_task(const mechanism::Mechanism& mechanism, const Task& task
 }
 
 Verification decide_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request) {
+  if (const std::optional<Framed> own = framed(mechanism, request))
+    return from_frame(decide_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame)), task,
+                      mechanism, own->frame);
+  require_regular(mechanism, requested_modes(mechanism, request).front());
   return Verifier(mechanism, task, request).decide(task);
 }
 
 Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request,
                       loci::FitGoal goal) {
+  if (const std::optional<Framed> own = framed(mechanism, request))
+    return from_frame(fit_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame), goal), task,
+                      mechanism, own->frame);
+  require_regular(mechanism, requested_modes(mechanism, request).front());
   Verifier verifier(mechanism, task, request);
   const auto moved = [&](const Point2& by) {
     Task other = task;

@@ -4,7 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "cli/framed.hpp"
 #include "core/errors.hpp"
+#include "loci/sheet_maps.hpp"
 #include "loci/zones.hpp"
 #include "mechanism/guide.hpp"
 #include "numeric/line_witness.hpp"
@@ -57,6 +59,53 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
   }
 }
 
+/// Where the loci are those of several sheets, zones lie on one sheet each; a curve's name is that of the joined map.
+core::ZoneMap zones_of(TracedProblem traced) {
+  if (traced.sheets.empty()) return loci::zones(traced.problem, std::move(traced.map));
+  core::ZoneMap joined;
+  for (TracedSheet& sheet : traced.sheets) {
+    core::ZoneMap own = loci::zones(sheet.problem, std::move(sheet.map));
+    const std::vector<core::LocusCurve> curves = own.loci.curves;
+    loci::drop_own_roots(own.loci);
+    for (core::Zone& zone : own.zones) {
+      for (core::ZoneBorder& border : zone.borders) {
+        const auto curve =
+            std::find_if(curves.begin(), curves.end(), [&](const auto& c) { return c.id == border.curve; });
+        if (curve == curves.end()) continue;
+        const std::size_t place = static_cast<std::size_t>(curve - curves.begin());
+        border.curve = loci::name_in(traced.map, own.loci.curves[place]);
+      }
+      for (int& point : zone.isolated_points)
+        point = loci::place_in(traced.map, own.loci.isolated_points[static_cast<std::size_t>(point)]);
+      std::erase(zone.isolated_points, -1);
+      zone.mode.resize(traced.map.tower.roots.size(), 1);
+      joined.zones.push_back(std::move(zone));
+    }
+    for (core::ModeArea& area : own.areas) {
+      area.mode.resize(traced.map.tower.roots.size(), 1);
+      const auto known = std::find_if(joined.areas.begin(), joined.areas.end(),
+                                      [&](const core::ModeArea& other) { return other.mode == area.mode; });
+      if (known == joined.areas.end()) {
+        joined.areas.push_back(area);
+        continue;
+      }
+      known->workspace += area.workspace;
+      known->in_doubt += area.in_doubt;
+    }
+  }
+  joined.loci = std::move(traced.map);
+  std::vector<core::WorkingMode> modes;
+  for (const core::WorkspaceRegion& region : joined.loci.workspace) modes.push_back(region.mode);
+  const auto key = [&](const core::Zone& zone) {
+    return std::pair(std::find(modes.begin(), modes.end(), zone.mode) - modes.begin(), -zone.area);
+  };
+  std::stable_sort(joined.zones.begin(), joined.zones.end(),
+                   [&](const core::Zone& a, const core::Zone& b) { return key(a) < key(b); });
+  int number = 0;
+  for (core::Zone& zone : joined.zones) zone.id = "z" + std::to_string(++number);
+  return joined;
+}
+
 }  // namespace
 
 core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request) {
@@ -66,13 +115,15 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
           {mechanism.file},
           "zones lie in the plane of two lengths, and the free coordinate '" + coordinate.name + "' is an angle",
           "make it a parameter and vary it with --set; 'loci' and 'validate' take angles");
+  if (const std::optional<Framed> own = framed(mechanism, request))
+    return from_frame(find_zones(own->mechanism, in_frame(request, own->frame)), mechanism, own->frame);
   constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
   LociRequest finer = request;
   for (int attempt = 1;; ++attempt) {
     TracedProblem traced = trace_problem(mechanism, finer);
     if (!traced.map.complete) throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
-    core::ZoneMap map = loci::zones(traced.problem, std::move(traced.map));
+    core::ZoneMap map = zones_of(std::move(traced));
     const bool certified = std::all_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return z.certified; });
     if (!certified && attempt < attempts) {
       finer.tolerance /= 16;

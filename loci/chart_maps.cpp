@@ -216,7 +216,8 @@ bool is_same(const LocusCurve& a, const LocusCurve& b) {
 
 double chart_tolerance(double tolerance) { return tolerance / 4; }
 
-LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector<LocusMap> maps, double tolerance) {
+LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector<LocusMap> maps,
+                     const std::vector<core::WorkingMode>& modes, double tolerance) {
   core::ensure(!charts.empty() && charts.size() == maps.size(), "a map for each chart");
   core::ensure(charts.front()->charts.size() == 2, "two free coordinates, some of them angles");
   const Seams seams = seams_of(charts);
@@ -247,6 +248,7 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
       }
       const auto index = static_cast<std::size_t>(known - joined.curves.begin());
       charts_with[index].insert(m);
+      if (!(known->implicit == curve.implicit)) charts_with[index].insert(maps.size());  // of no single polynomial
       known->certified = known->certified && curve.certified;
       for (const Arc& arc : curve.arcs) {
         Arc unrolled = own.arc(static_cast<int>(c), arc);
@@ -283,7 +285,6 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
     }
   }
   const auto rank = [&](const LocusCurve& curve) {
-    const auto& modes = charts.front()->modes;
     return std::pair(std::find(modes.begin(), modes.end(), curve.mode) - modes.begin(), curve.kind);
   };
   std::stable_sort(joined.curves.begin(), joined.curves.end(),

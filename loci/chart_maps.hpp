@@ -12,11 +12,11 @@ namespace clearloci::loci {
 /// twice as much as its t, and chords are cut where the angle bends.
 double chart_tolerance(double tolerance);
 
-/// `charts`: the problems of one mechanism, one for every choice of charts of its angles, of a single mode list;
+/// `charts`: the problems of one mechanism, one or more for every choice of charts of its angles, together of `modes`;
 /// `maps`: theirs. Coordinates of the result are lengths in m and angles in rad; curves run on over the seams of the
 /// charts and keep their polynomial where they are in one chart only. Box and names of the coordinates are left to the
 /// caller.
 core::LocusMap join_charts(const std::vector<const core::LocusProblem*>& charts, std::vector<core::LocusMap> maps,
-                           double tolerance);
+                           const std::vector<core::WorkingMode>& modes, double tolerance);
 
 }  // namespace clearloci::loci

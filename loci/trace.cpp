@@ -1,7 +1,6 @@
 #include "loci/trace.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "core/errors.hpp"
 #include "loci/abandonable.hpp"
@@ -10,6 +9,7 @@
 #include "loci/isolated_points.hpp"
 #include "loci/points.hpp"
 #include "loci/sheet_loci.hpp"
+#include "loci/sheet_maps.hpp"
 #include "loci/workspace_rings.hpp"
 
 namespace clearloci::loci {
@@ -152,21 +152,6 @@ void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, 
   add_sheet_loci(problem, shares, map);
   for (const core::WorkingMode& mode : problem.modes)
     map.workspace.push_back({mode, workspace_faces(problem, mode, map).rings});
-}
-
-/// Gravest kinds first, then as the polynomials order them; ids follow.
-void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
-  const auto mode_index = [&](const core::WorkingMode& mode) {
-    return std::find(modes.begin(), modes.end(), mode) - modes.begin();
-  };
-  const auto key = [&](const LocusCurve& curve) {
-    return std::tuple(mode_index(curve.mode), curve.kind, core::total_degree(curve.implicit), curve.factor,
-                      core::to_string(curve.implicit, map.tower.coordinates));
-  };
-  std::stable_sort(map.curves.begin(), map.curves.end(),
-                   [&](const LocusCurve& a, const LocusCurve& b) { return key(a) < key(b); });
-  int number = 0;
-  for (LocusCurve& curve : map.curves) curve.id = "c" + std::to_string(++number);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <iomanip>
+#include <memory>
 #include <sstream>
 
 #include "core/locus_map.hpp"
@@ -15,6 +16,7 @@
 #include "symbolic/expression_text.hpp"
 #include "symbolic/formula.hpp"
 #include "symbolic/formula_text.hpp"
+#include "symbolic/sheets.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -33,6 +35,11 @@ class SheetWriter {
         causes_(geometry_),
         names_(options.language) {
     name_symbols();
+    if (!geometry_.has_dependent_roots()) return;
+    for (SheetGeometry& sheet : sheet_geometries(m, geometry_.charts(), all_modes(m))) {
+      sheets_.push_back(std::make_unique<const Geometry>(std::move(sheet.geometry)));
+      eliminations_.push_back(std::make_unique<const Elimination>(*sheets_.back()));
+    }
   }
 
   EquationSheet write() {
@@ -137,20 +144,43 @@ class SheetWriter {
                                     [&](const Implicit& entry) { return entry.natural == natural; });
     if (known != implicit_.end()) return *known;
     std::vector<ImplicitPolynomial> list;
-    const Poly sheet = elimination_.over_tower(natural);
-    const bool too_heavy = !sheet.is_zero() && elimination_.is_too_heavy(sheet);
-    if (!sheet.is_zero() && !too_heavy) {
-      for (const Poly& curve : elimination_.implicit_factors(sheet)) {
+    bool too_heavy = false;
+    const auto add = [&](const Elimination& elimination, const Poly& sheet) {
+      if (sheet.is_zero()) return;
+      if (elimination.is_too_heavy(sheet)) {
+        too_heavy = true;
+        return;
+      }
+      for (const Poly& curve : elimination.implicit_factors(sheet)) {
+        const std::string words = text(curve);
+        if (std::any_of(list.begin(), list.end(), [&](const auto& own) { return own.polynomial == words; })) continue;
         int degree = 0;
         for (const core::Term& term : curve.plain().terms) {
           int own = 0;
           for (int i = 0; i < geometry_.coordinates(); ++i) own += term.exponents[static_cast<std::size_t>(i)];
           degree = std::max(degree, own);
         }
-        list.push_back({text(curve), degree, closed_form(curve, degree)});
+        list.push_back({words, degree, closed_form(curve, degree)});
       }
-    }
+    };
+    if (sheets_.empty()) add(elimination_, elimination_.over_tower(natural));
+    for (std::size_t i = 0; i < sheets_.size(); ++i)
+      add(*eliminations_[i], eliminations_[i]->over_tower(in_ring(natural, sheets_[i]->ring())));
     return implicit_.emplace_back(Implicit{natural, std::move(list), too_heavy});
+  }
+
+  /// The same polynomial in another ring of the same variables.
+  static Poly in_ring(const Poly& p, const Ring& ring) {
+    const core::Polynomial plain = p.plain();
+    Poly sum(ring);
+    for (const core::Term& term : plain.terms) {
+      Poly product(ring, term.coefficient);
+      for (std::size_t v = 0; v < term.exponents.size(); ++v)
+        if (term.exponents[v] > 0)
+          product *= Poly::variable(ring, static_cast<int>(v)).pow(static_cast<unsigned>(term.exponents[v]));
+      sum += product;
+    }
+    return sum;
   }
 
   /// Coefficient of x^i y^j, a polynomial in the parameters.
@@ -329,6 +359,9 @@ class SheetWriter {
   FactoredDeterminants determinants_;
   Elimination elimination_;
   Causes causes_;
+  /// Where roots depend on one another: the sheets of all modes, which together have the zeros; else none.
+  std::vector<std::unique_ptr<const Geometry>> sheets_;
+  std::vector<std::unique_ptr<const Elimination>> eliminations_;
   CodeNames names_;
   std::vector<std::string> symbols_;  ///< of the ring's variables, as the language writes them
   std::deque<Implicit> implicit_;     ///< references to its elements stay valid

@@ -79,8 +79,9 @@ struct NotPolynomial {
 
 }  // namespace
 
-Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts charts)
-    : mechanism_(&mechanism), keep_parameters_(keep_parameters), charts_(std::move(charts)) {
+Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts charts, SheetChoice sheet)
+    : mechanism_(&mechanism), keep_parameters_(keep_parameters), charts_(std::move(charts)), sheet_(std::move(sheet)) {
+  if (sheet_.sides.empty()) sheet_.sides = mechanism::working_mode(mechanism);
   charts_.resize(mechanism.coordinates.size());
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     if (!mechanism.coordinates[i].angle)

@@ -46,6 +46,23 @@ struct TowerRoot {
   Poly square;
   Poly scale = Poly(square.ring(), 1);
   Poly scale_divisor = Poly(square.ring(), 1);
+  /// Of a root that depends on earlier ones (dependent_roots.hpp): the root itself over the tower. Its `variable` then
+  /// stands for the root of the number `square`, and occurs nowhere if that is 1.
+  std::optional<Poly> value = {};
+};
+
+/// Where a root that depends on earlier ones is e = f times roots, and f takes both signs: |f| is f on one side of
+/// f = 0 and -f on the other. There the leg is stretched or folded, but the mechanism goes on.
+struct Fold {
+  std::size_t root = 0;  ///< by its place in Geometry::roots
+  Poly where;            ///< f over the tower, with the sign that it has on the side chosen: positive there
+};
+
+/// Of the sheets of a tower with dependent roots the one on which the points are placed.
+struct SheetChoice {
+  std::vector<int> sides;   ///< one a dyad or slider, as mechanism::working_mode; empty: the file's
+  std::vector<int> halves;  ///< one a fold, in the order in which they are met: the sign of its f; +1 beyond
+  bool all_sheets = false;  ///< dependent roots stay as they are: for enclosures, which ask for no field
 };
 
 /// A point that has symbols of its own in natural coordinates (xB1, yB1).
@@ -73,7 +90,8 @@ class Geometry {
   /// With `keep_parameters` the parameters, and irrational expressions in them, stay symbols; otherwise their exact
   /// values are put in. An angle is written in the t of its chart (core/angle_chart.hpp); without `charts`, of the half
   /// turn about 0. Throws core::InputError where a point is no polynomial in the free coordinates.
-  Geometry(const mechanism::Mechanism& mechanism, bool keep_parameters, Charts charts = {});
+  /// Roots that depend on earlier ones are replaced where no parameters are kept, on the sheet that is chosen.
+  Geometry(const mechanism::Mechanism& mechanism, bool keep_parameters, Charts charts = {}, SheetChoice sheet = {});
 
   const mechanism::Mechanism& mechanism() const { return *mechanism_; }
   const Ring& ring() const { return *ring_; }
@@ -84,6 +102,10 @@ class Geometry {
   const TowerPoint& tower(mechanism::PointIndex point) const { return tower_[index(point)]; }
   const std::vector<ConstructedPoint>& constructed() const { return constructed_; }
   const std::vector<TowerRoot>& roots() const { return roots_; }
+  const std::vector<Fold>& folds() const { return folds_; }
+  bool has_dependent_roots() const { return !sign_choices_.empty(); }
+  /// Whether the points are placed alike on the sheets of another working mode, but for the signs of the roots.
+  bool same_for(const std::vector<int>& sides) const;
   /// The numerators of the squared distances divided by, reduced.
   const std::vector<Poly>& denominators() const { return denominators_; }
   /// Numerators of the ways from one end of a dyad to the other, over positive denominators.
@@ -141,10 +163,18 @@ class Geometry {
   TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const Poly& length_numerator,
                                const Poly& length_denominator) const;
   void construct(mechanism::PointIndex point);
-  /// A root whose `scale / scale_divisor` is far from 1 over the box is given another unit, so that
-  /// floating point finds all variables of a tower of one size. Returns the root times its `scale_divisor`, that is,
-  /// the true root times its `scale`.
+  /// Returns the root times its `scale_divisor`, that is, the true root times its `scale`.
   Poly add_root(TowerRoot root);
+  /// A root whose `scale / scale_divisor` is far from 1 over the box is given another unit, so that floating point
+  /// finds all variables of a tower of one size.
+  void give_unit(TowerRoot& root) const;
+  /// The root over the tower, where it depends on earlier ones; `square` of the root becomes a number.
+  std::optional<Poly> depend(TowerRoot& root);
+  /// Sign of an element on the sheet chosen, roots taken as positive; cuts the sheet where it takes both.
+  /// `root`: the place of the one that is replaced. `odd_roots`: take the signs that the mode gives them.
+  int sign_on_sheet(Poly element, std::size_t root, std::vector<std::size_t>& odd_roots);
+  /// +1 or -1 of a root in a working mode; +1 of lengths.
+  int side_of(std::size_t root, const std::vector<int>& sides) const;
   int next_root() const;
   /// Three numerators of a vector over a positive denominator: its direction. z = 0 in the plane.
   std::array<Poly, 3> direction(const mechanism::VectorExpression& vector) const;
@@ -180,7 +210,11 @@ class Geometry {
   std::vector<Poly> positive_;  ///< known to be nowhere negative on the sheets, in the order of their appearance
   Charts charts_;
   std::vector<Substitution> angles_;
-  int first_root_ = 0;                        ///< ring variable
+  int first_root_ = 0;  ///< ring variable
+  SheetChoice sheet_;
+  std::vector<Fold> folds_;
+  /// Of every dependent root the roots, itself among them, whose signs together it was placed with.
+  std::vector<std::vector<std::size_t>> sign_choices_;
   std::vector<std::vector<double>> samples_;  ///< poses over the box with the roots so far, by ring variable
 };
 

@@ -1,7 +1,5 @@
 // Where the points of a mechanism are over the tower (method.md section 1).
 #include <algorithm>
-#include <cmath>
-#include <span>
 
 #include "mechanism/evaluate.hpp"
 #include "symbolic/geometry.hpp"
@@ -56,9 +54,11 @@ void Geometry::add_denominator(const Poly& squared_length) {
   denominators_.push_back(squared_length);
   for (const TowerRoot& root : roots_)
     if (squared_length.depends_on(root.variable)) return add_positive(squared_length);
-  // Over the coordinates alone no factor of what is nowhere negative changes its sign.
+  // Over the coordinates alone no factor of what is nowhere negative changes its sign, but where it is there twice: the
+  // squared distance of two points of one line.
   Rational constant;
-  for (const PolyFactor& factor : squared_length.factors(constant)) add_positive(factor.poly);
+  for (const PolyFactor& factor : squared_length.factors(constant))
+    add_positive(factor.multiplicity % 2 == 0 ? factor.poly * factor.poly : factor.poly);
 }
 
 void Geometry::add_positive(const Poly& divisor) {
@@ -122,42 +122,6 @@ void Geometry::construct(PointIndex point) {
       std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
   natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own->x))), GiNaC::ex(symbol(ring_->name(own->y))),
                             own->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(own->z)))};
-}
-
-int Geometry::next_root() const { return first_root_ + static_cast<int>(roots_.size()); }
-
-Poly Geometry::add_root(TowerRoot root) {
-  const auto value = [](const Poly& p, const std::vector<double>& at) {
-    return core::evaluate(p.plain(), std::span<const double>(at));
-  };
-  constexpr int far = 8;  // powers of two
-  std::vector<double> sizes;
-  for (const std::vector<double>& at : samples_)
-    if (const double size = value(root.scale, at) / value(root.scale_divisor, at); std::isfinite(size) && size > 0)
-      sizes.push_back(size);
-  if (!keep_parameters_ && !sizes.empty()) {
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-    const int exponent = std::ilogb(sizes[sizes.size() / 2]);
-    if (std::abs(exponent) > far) {
-      Rational unit = 1;
-      if (exponent > 0)
-        unit >>= static_cast<unsigned>(exponent);
-      else
-        unit <<= static_cast<unsigned>(-exponent);
-      root.square = root.square.scaled(unit * unit);
-      root.scale_divisor = root.scale_divisor.scaled(1 / unit);
-    }
-  }
-  const std::vector<int> mode = mechanism::working_mode(*mechanism_);
-  const auto place = static_cast<std::size_t>(
-      std::count_if(roots_.begin(), roots_.end(), [](const TowerRoot& r) { return r.role == RootRole::working_mode; }));
-  const int sign = root.role == RootRole::working_mode ? mode[place] : 1;
-  for (std::vector<double>& at : samples_)
-    at[static_cast<std::size_t>(root.variable)] = sign * std::sqrt(value(root.square, at));
-  std::erase_if(samples_, [&](const auto& at) { return std::isnan(at[static_cast<std::size_t>(root.variable)]); });
-  Poly times_divisor = Poly::variable(*ring_, root.variable) * root.scale_divisor;
-  roots_.push_back(std::move(root));
-  return times_divisor;
 }
 
 void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {

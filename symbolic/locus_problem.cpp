@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "core/fold.hpp"
 #include "symbolic/angle_range.hpp"
 #include "symbolic/causes.hpp"
 #include "symbolic/determinants.hpp"
@@ -15,6 +16,8 @@
 #include "symbolic/margins.hpp"
 #include "symbolic/reactions.hpp"
 #include "symbolic/shared_curves.hpp"
+#include "symbolic/sheets.hpp"
+#include "symbolic/singular_modes.hpp"
 #include "symbolic/straight_lines.hpp"
 
 namespace clearloci::symbolic {
@@ -117,10 +120,11 @@ class Derivation {
  public:
   /// `family`: of which the mechanism is a member; may be null.
   Derivation(const Mechanism& m, const Selection& selection, const std::vector<ChartRange>& pieces,
-             const Family* family)
+             const Family* family, SheetGeometry sheet)
       : mechanism_(m),
         selection_(selection),
-        geometry_(m, false, charts_of(m, pieces)),
+        modes_(std::move(sheet.modes)),
+        geometry_(std::move(sheet.geometry)),
         determinants_(determinants_of(geometry_, family)),
         elimination_(geometry_),
         causes_(geometry_),
@@ -132,7 +136,7 @@ class Derivation {
     result_.problem.tower = lines_.tower();
     result_.problem.joints = selected_joints(m, selection);
     result_.problem.quantities = expanded(m, selection.quantities);
-    result_.problem.modes = {file_mode()};
+    for (const Sides& sides : modes_) result_.problem.modes.push_back(mode_of(sides));
     for (const mechanism::Joint& joint : m.joints) {
       result_.problem.joint_order.push_back(joint.name);
       result_.problem.force_components.push_back(mechanism::force_components(m, joint));
@@ -149,6 +153,29 @@ class Derivation {
     }
     if (!pieces.empty()) result_.problem.charts = geometry_.charts();
   }
+
+  /// What makes |A| vanish in every pose of the modes; nothing where it does not.
+  std::optional<std::string> singular() const {
+    return vanishing_factor(determinants_.determinant, geometry_, elimination_, causes_);
+  }
+
+  /// "B1 right, B2 right where x > 0".
+  std::string words(const Sides& sides) const {
+    std::string list = mode_words(mechanism_, sides);
+    for (std::size_t k = 0; k < geometry_.folds().size(); ++k)
+      list += (k == 0 ? " where " : " and ") + text(geometry_.folds()[k].where) + " > 0";
+    return list;
+  }
+  const std::vector<Sides>& modes() const { return modes_; }
+  DerivedProblem without_modes() const {
+    DerivedProblem empty;
+    empty.problem.tower = result_.problem.tower;
+    empty.problem.charts = result_.problem.charts;
+    empty.problem.lower = result_.problem.lower;
+    empty.problem.upper = result_.problem.upper;
+    return empty;
+  }
+  bool has_dependent_roots() const { return geometry_.has_dependent_roots(); }
 
   DerivedProblem run() {
     const auto start = Clock::now();
@@ -169,9 +196,8 @@ class Derivation {
   }
 
  private:
-  core::WorkingMode file_mode() const {
+  core::WorkingMode mode_of(const Sides& sides) const {
     core::WorkingMode mode;
-    const std::vector<int> sides = mechanism::working_mode(mechanism_);
     std::size_t next = 0;
     for (const TowerRoot& root : geometry_.roots()) {
       mode.push_back(root.role == core::RootRole::working_mode ? sides[next++] : 1);
@@ -209,10 +235,6 @@ class Derivation {
   }
 
   void collect_factors() {
-    if (vanishes_everywhere(determinants_.determinant)) {
-      throw core::InputError({mechanism_.file}, "the equations are singular in every pose: |A| = 0 on the closure",
-                             "check the lengths, the joints and which of them are actuated");
-    }
     for (const Reaction& reaction : reactions_) {
       const std::string& joint = reaction.joint;
       const FactoredPoly& numerator = reaction.numerator;
@@ -335,7 +357,33 @@ class Derivation {
     return on_line_.emplace(factor, elimination_.norm_on_line(sheet_of(factor))).first->second;
   }
 
-  std::string text(const Poly& p) const { return core::to_string(p.plain(), geometry_.ring().names()); }
+  std::string text(const Poly& p) const {
+    const bool primitive = selection_.frame && p.primitive() == p;
+    Poly outside = p;
+    if (selection_.frame) {
+      const mechanism::Frame& frame = *selection_.frame;
+      for (int i = 0; i < geometry_.coordinates(); ++i)
+        if (!geometry_.charts()[static_cast<std::size_t>(i)])
+          outside = shifted(outside, i, frame.from[static_cast<std::size_t>(i)], frame.scale);
+      for (const ConstructedPoint& point : geometry_.constructed()) {
+        outside = shifted(outside, point.x, frame.origin[0], frame.scale);
+        outside = shifted(outside, point.y, frame.origin[1], frame.scale);
+        if (point.z >= 0) outside = shifted(outside, point.z, frame.origin[2], frame.scale);
+      }
+      if (primitive) outside = outside.primitive();
+    }
+    return core::to_string(outside.plain(), geometry_.ring().names());
+  }
+
+  /// p with (v - from) / scale in the place of v.
+  static Poly shifted(const Poly& p, int variable, const core::Rational& from, const core::Rational& scale) {
+    const std::vector<Poly> powers = p.coefficients(variable);
+    if (powers.size() <= 1) return p;
+    const Poly way = (Poly::variable(p.ring(), variable) - Poly(p.ring(), from)).scaled(1 / scale);
+    Poly sum(p.ring());
+    for (auto power = powers.rbegin(); power != powers.rend(); ++power) sum = sum * way + *power;
+    return sum;
+  }
 
   void take_determinant_apart() {
     for (const PolyFactor& factor : determinants_.determinant.factors) {
@@ -352,9 +400,9 @@ class Derivation {
     }
   }
 
-  /// What a reaction does on a curve of |A| = 0 is told by the orders of its factors there (method.md section 10): those
-  /// that may vanish on such a curve are wanted, of the reactions asked for; and of all of them where it may be that
-  /// none grows without bound.
+  /// What a reaction does on a curve of |A| = 0 is told by the orders of its factors there (method.md section 10):
+  /// those that may vanish on such a curve are wanted, of the reactions asked for; and of all of them where it may be
+  /// that none grows without bound.
   void mark_orders() {
     SharedCurves shared(geometry_);
     for (DeterminantPart& part : determinant_parts_) {
@@ -378,10 +426,10 @@ class Derivation {
       });
       for (const std::size_t i : involved) {
         const auto& own = factors_[i].vanishing;
-        factors_[i].wanted_order =
-            factors_[i].wanted_order || part.may_be_idle || std::any_of(own.begin(), own.end(), [&](const Vanishing& v) {
-              return selected(v.joint) && is_asked_for(v.joint, v.quantity);
-            });
+        factors_[i].wanted_order = factors_[i].wanted_order || part.may_be_idle ||
+                                   std::any_of(own.begin(), own.end(), [&](const Vanishing& v) {
+                                     return selected(v.joint) && is_asked_for(v.joint, v.quantity);
+                                   });
       }
     }
   }
@@ -470,23 +518,38 @@ class Derivation {
     }
   }
 
-  void add_boundaries() {
-    for (const TowerRoot& root : geometry_.roots()) {
-      if (root.role != core::RootRole::working_mode) continue;
-      LocusFactor factor;
-      const auto& form = mechanism_.points[static_cast<std::size_t>(root.point)].form;
-      if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) {
-        factor.expression = text(causes_.stretched(root.point, *dyad));
-        factor.cause = causes_.stretched_wording(root.point, *dyad);
-      } else {
-        const auto& slider = std::get<mechanism::SliderPoint>(form);
-        const Poly across = causes_.perpendicular(slider.from, root.point, slider.along);
-        factor.expression = text(across);
-        factor.cause = "line " + point_name(slider.from) + "-" + point_name(root.point) +
-                       " perpendicular to the path of " + point_name(root.point);
-      }
-      add(FactorRole::workspace_boundary, nullptr, root.square, true, factor);
+  /// What is said of the places where the root of a point is zero.
+  LocusFactor stretched(const TowerRoot& root) const {
+    LocusFactor factor;
+    const auto& form = mechanism_.points[static_cast<std::size_t>(root.point)].form;
+    if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) {
+      factor.expression = text(causes_.stretched(root.point, *dyad));
+      factor.cause = causes_.stretched_wording(root.point, *dyad);
+    } else {
+      const auto& slider = std::get<mechanism::SliderPoint>(form);
+      const Poly across = causes_.perpendicular(slider.from, root.point, slider.along);
+      factor.expression = text(across);
+      factor.cause = "line " + point_name(slider.from) + "-" + point_name(root.point) +
+                     " perpendicular to the path of " + point_name(root.point);
     }
+    return factor;
+  }
+
+  /// A side of a fold ends where its square root does: f >= 0 there.
+  void add_fold(const Fold& fold) {
+    const TowerRoot& root = geometry_.roots()[fold.root];
+    LocusFactor factor = root.role == core::RootRole::working_mode ? stretched(root) : LocusFactor{};
+    if (root.role != core::RootRole::working_mode) factor.expression = text(fold.where);
+    add(FactorRole::workspace_boundary, nullptr, fold.where, true, factor);
+    more_roots_.push_back({core::fold_name, "", core::RootRole::length,
+                           core::scaled_for_doubles(fold.where.plain(geometry_.tower_variables()))});
+  }
+
+  void add_boundaries() {
+    for (const TowerRoot& root : geometry_.roots())
+      if (root.role == core::RootRole::working_mode && !root.value)
+        add(FactorRole::workspace_boundary, nullptr, root.square, true, stretched(root));
+    for (const Fold& fold : geometry_.folds()) add_fold(fold);
     const std::vector<int> variables = geometry_.tower_variables();
     const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
     for (const Poly& denominator : elimination_.denominator_factors()) {
@@ -507,8 +570,8 @@ class Derivation {
     return add_both_senses(senses, parts, {common, common});
   }
 
-  /// The factors size |w| - bound and size |w| + bound over one more root, |w|. `parts`: of the product of the two. False:
-  /// |w| is constant, or a side is zero.
+  /// The factors size |w| - bound and size |w| + bound over one more root, |w|. `parts`: of the product of the two.
+  /// False: |w| is constant, or a side is zero.
   bool add_both_senses(const TwoSenses& senses, const std::vector<SheetFactor>& parts,
                        std::array<LocusFactor, 2> factors) {
     const Poly t = Poly::variable(geometry_.ring(), geometry_.auxiliary());
@@ -669,7 +732,8 @@ class Derivation {
         names += joint;
         factor.vanishing.push_back({joint, margin.quantity, 1});
       }
-      const std::string bound = core::to_string(margin.bound);
+      const core::Rational unit = selection_.frame && !force ? selection_.frame->scale : core::Rational(1);
+      const std::string bound = core::to_string(core::Rational(margin.bound * unit));
       factor.cleared = cleared_by(margin.below, margin.power);
       factor.expression = text(margin.natural);
       factor.cause = (force ? "contact force of " : "couple of ") + names + " at " + bound + (force ? " N" : " N m");
@@ -684,6 +748,7 @@ class Derivation {
 
   const Mechanism& mechanism_;
   const Selection& selection_;
+  std::vector<Sides> modes_;
   Geometry geometry_;
   FactoredDeterminants determinants_;
   Elimination elimination_;
@@ -701,14 +766,55 @@ class Derivation {
   DerivedProblem result_;
 };
 
-std::vector<DerivedProblem> problems_of(const Mechanism& mechanism, const Selection& selection, const Family* family) {
+/// The problems of one choice of charts.
+struct Piece {
   std::vector<DerivedProblem> problems;
-  for (const std::vector<ChartRange>& pieces : all_pieces(mechanism)) {
-    const auto start = Clock::now();
-    Derivation derivation(mechanism, selection, pieces, family);
+  DerivedProblem without_modes;      ///< in their place where none is left
+  std::vector<std::string> refused;  ///< sheets on which |A| vanishes everywhere, and why
+};
+
+Piece problems_of(const Mechanism& mechanism, const Selection& selection, const std::vector<ChartRange>& charts,
+                  const Family* family, const std::vector<Sides>& modes) {
+  auto start = Clock::now();
+  Piece piece;
+  for (SheetGeometry& sheet : sheet_geometries(mechanism, charts_of(mechanism, charts), modes)) {
+    Derivation derivation(mechanism, selection, charts, family, std::move(sheet));
+    if (const std::optional<std::string> why = derivation.singular()) {
+      if (!derivation.has_dependent_roots())
+        throw core::InputError({mechanism.file}, "the equations are singular in every pose: |A| = 0 on the closure",
+                               "check the lengths, the joints and which of them are actuated");
+      for (const Sides& sides : derivation.modes())
+        piece.refused.push_back("the working mode " + derivation.words(sides) +
+                                " is singular in every pose: |A| = 0, for " + *why);
+      piece.without_modes = derivation.without_modes();
+      continue;
+    }
     const double preparation = seconds_since(start);
-    problems.push_back(derivation.run());
-    problems.back().symbolic_seconds += preparation;
+    piece.problems.push_back(derivation.run());
+    piece.problems.back().symbolic_seconds += preparation;
+    start = Clock::now();
+  }
+  return piece;
+}
+
+std::vector<DerivedProblem> problems_of(const Mechanism& mechanism, const Selection& selection, const Family* family) {
+  std::vector<Sides> modes = selection.working_modes;
+  if (modes.empty()) modes.push_back(mechanism::working_mode(mechanism));
+  std::vector<Piece> pieces;
+  for (const std::vector<ChartRange>& charts : all_pieces(mechanism))
+    pieces.push_back(problems_of(mechanism, selection, charts, family, modes));
+  if (std::all_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.problems.empty(); }))
+    throw core::InputError({mechanism.file}, pieces.front().refused.front(),
+                           "choose another working mode, or change the lengths, the joints or which are actuated");
+  std::vector<DerivedProblem> problems;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    std::vector<DerivedProblem>& own = pieces[i].problems;
+    if (own.empty()) own.push_back(std::move(pieces[i].without_modes));
+    for (const std::string& note : pieces[i].refused) own.front().notes.push_back(note + "; left out");
+    for (DerivedProblem& problem : own) {
+      problem.piece = static_cast<int>(i);
+      problems.push_back(std::move(problem));
+    }
   }
   return problems;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/locus_factor.hpp"
+#include "mechanism/frame.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci::symbolic {
@@ -18,6 +19,10 @@ struct Selection {
   std::vector<core::Quantity> quantities = {core::Quantity::f, core::Quantity::M};
   std::optional<core::Rational> min_force;   ///< N: adds the margin curves |f_J| = min_force
   std::optional<core::Rational> min_couple;  ///< N m: adds the margin curves |M_J| = min_couple
+  /// Signs of the dyads and sliders, +1 left or ahead, in the order of mechanism::dyad_points; empty: the file's mode.
+  std::vector<std::vector<int>> working_modes = {};
+  /// The frame that the mechanism is seen in: expressions are printed in the coordinates outside it.
+  std::optional<mechanism::Frame> frame = {};
 };
 
 struct DerivedProblem {
@@ -28,6 +33,7 @@ struct DerivedProblem {
   std::vector<core::LocusFactor> rest;
   double symbolic_seconds = 0;     ///< matrix, numerators, factors
   double elimination_seconds = 0;  ///< roots eliminated, factored
+  int piece = 0;                   ///< of the coordinates' ranges: problems with the same charts have the same
 };
 
 /// The factors of every wanted numerator, of |A| and of every Qj, over the root tower, with their implicit
@@ -36,6 +42,11 @@ struct DerivedProblem {
 ///
 /// Every angle among the coordinates is cut into charts (core/angle_chart.hpp): one problem for each choice of charts,
 /// in the order of the angles; a single problem where no coordinate is an angle.
+///
+/// Where roots of the tower depend on one another (method.md section 10), as of two equal legs on one base point, the
+/// modes are not alike: there is one problem for each kind of them, and for each side of every fold, r = 0 in s = |r|.
+/// Their towers have a root more for every fold, whose square is positive on its side. Modes in which |A| vanishes in
+/// every pose are left out with a note; core::InputError where no mode is left.
 std::vector<DerivedProblem> locus_problems(const mechanism::Mechanism& mechanism, const Selection& selection);
 
 /// The same for the members of a family of designs that differ in the values of parameters: what does not depend on

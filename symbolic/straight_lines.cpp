@@ -53,7 +53,8 @@ core::RootTower StraightLines::tower() {
 
 StraightLine StraightLines::square(std::size_t root) {
   const std::optional<Dyad> known = dyad(geometry_->roots()[root].point);
-  if (!known || geometry_->roots()[root].role != core::RootRole::working_mode) return {};
+  const TowerRoot& own = geometry_->roots()[root];
+  if (!known || own.role != core::RootRole::working_mode || own.value) return {};
   const int scale = builder_.power(known->scale, 2);
   const Rational &a = known->from_length, &b = known->to_length;
   if (known->axis) {
@@ -177,7 +178,8 @@ StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& po
   const auto& form =
       std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
   const Place a = natural_place(form.from);
-  const int s = builder_.multiply(known_.at(root->variable), builder_.inverse(known->scale));
+  const int own = root->value ? value(root->value->plain()) : known_.at(root->variable);
+  const int s = builder_.multiply(own, builder_.inverse(known->scale));
   if (known->axis) {
     const Place step = elbow(*known, s);
     return {builder_.add(a[0], step[0]), builder_.add(a[1], step[1]), builder_.add(a[2], step[2])};

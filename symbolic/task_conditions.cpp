@@ -24,7 +24,7 @@ using core::TaskDemand;
 class Conditions {
  public:
   explicit Conditions(const std::vector<const mechanism::Mechanism*>& loads)
-      : mechanism_(*loads.front()), geometry_(mechanism_, false), elimination_(geometry_), lines_(geometry_) {
+      : mechanism_(*loads.front()), geometry_(mechanism_, false, {}, {.all_sheets = true}), elimination_(geometry_), lines_(geometry_) {
     result_.loads = loads.size();
     result_.tower = lines_.tower();
     for (const mechanism::Mechanism* load : loads) {

@@ -1,0 +1,54 @@
+#include "cli/singular_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mechanism/posture_sample.hpp"
+#include "numeric/reactions.hpp"
+#include "symbolic/singular_modes.hpp"
+
+namespace clearloci {
+namespace {
+
+std::optional<std::string> complaint(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
+  constexpr std::size_t poses = 256;
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  for (const std::vector<double>& pose : mechanism::spread_poses(mechanism, poses)) {
+    const numeric::BoundedNumerators at = numeric::bounded_numerators(model, pose, sides);
+    if (at.reachable && std::abs(at.determinant.value) > at.determinant.error) return std::nullopt;
+  }
+  const std::optional<std::string> why = symbolic::why_singular(mechanism, sides);
+  if (!why) return std::nullopt;
+  const std::string words = symbolic::mode_words(mechanism, sides);
+  return (words.empty() ? "the mechanism" : "the working mode " + words) + " is singular in every pose: |A| = 0, for " +
+         *why;
+}
+
+constexpr const char* mend = "choose another working mode, or change the lengths, the joints or which are actuated";
+
+}  // namespace
+
+void require_regular(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
+  if (const auto what = complaint(mechanism, sides)) throw core::InputError({mechanism.file}, *what, mend);
+}
+
+std::vector<DyadSides> regular_modes(const mechanism::Mechanism& mechanism, const std::vector<DyadSides>& modes,
+                                     std::vector<std::string>& notes) {
+  std::vector<DyadSides> regular;
+  std::optional<std::string> last;
+  for (const DyadSides& sides : modes) {
+    const std::optional<std::string> what = complaint(mechanism, sides);
+    if (!what) {
+      regular.push_back(sides);
+      continue;
+    }
+    last = what;
+    const std::string note = *what + "; left out";
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  }
+  if (regular.empty()) throw core::InputError({mechanism.file}, last.value_or("there is no working mode"), mend);
+  return regular;
+}
+
+}  // namespace clearloci

@@ -1,0 +1,36 @@
+#include "symbolic/singular_modes.hpp"
+
+#include "core/errors.hpp"
+#include "symbolic/determinants.hpp"
+#include "symbolic/sheets.hpp"
+
+namespace clearloci::symbolic {
+
+std::optional<std::string> why_singular(const mechanism::Mechanism& mechanism, const std::vector<int>& sides) {
+  std::optional<std::string> why;
+  for (const Charts& charts : all_charts(mechanism)) {
+    for (const SheetGeometry& sheet : sheet_geometries(mechanism, charts, {sides})) {
+      FactoredPoly determinant;
+      try {
+        determinant = factored_determinants(sheet.geometry).determinant;
+      } catch (const core::InputError& singular) {
+        return singular.what();
+      }
+      const Elimination elimination(sheet.geometry);
+      why = vanishing_factor(determinant, sheet.geometry, elimination, Causes(sheet.geometry));
+      if (!why) return std::nullopt;
+    }
+  }
+  return why;
+}
+
+std::string mode_words(const mechanism::Mechanism& mechanism, const std::vector<int>& sides) {
+  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(mechanism);
+  std::string list;
+  for (std::size_t j = 0; j < points.size(); ++j)
+    list += (j == 0 ? "" : ", ") + mechanism.points[static_cast<std::size_t>(points[j])].name + " " +
+            mechanism::side_name(mechanism, points[j], sides[j]);
+  return list;
+}
+
+}  // namespace clearloci::symbolic

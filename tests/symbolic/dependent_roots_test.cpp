@@ -1,0 +1,111 @@
+// Roots that depend on earlier ones (method.md section 10), and the modes that are singular in every pose for it.
+#include "symbolic/dependent_roots.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mechanism/read.hpp"
+#include "symbolic/geometry.hpp"
+#include "symbolic/locus_problem.hpp"
+#include "symbolic/singular_modes.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+mechanism::Mechanism corpus(const std::string& name) {
+  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/modes/" + name + ".yaml");
+}
+
+/// x, y and the roots s of 1 - x^2 and t of 4 + y s.
+class SquareClasses : public testing::Test {
+ protected:
+  SquareClasses() {
+    roots.push_back({0, 2, core::RootRole::working_mode, one - x * x});
+    roots.push_back({0, 3, core::RootRole::working_mode, one.scaled(4) + y * s});
+  }
+  SquareTest of(const Poly& p) const { return square_class(p, 2, roots); }
+  static bool is_root(const SquareTest& test, const Poly& root) {
+    return test.found && (test.found->root == root || test.found->root == -root);
+  }
+
+  Ring ring{{"x", "y", "s", "t"}};
+  Poly one{ring, 1}, x = Poly::variable(ring, 0), y = Poly::variable(ring, 1), s = Poly::variable(ring, 2),
+                     t = Poly::variable(ring, 3);
+  std::vector<TowerRoot> roots;
+};
+
+TEST_F(SquareClasses, FindsTheElement) {
+  const Poly s2 = one - x * x;
+  EXPECT_TRUE(is_root(of((x + y) * (x + y)), x + y));
+  EXPECT_TRUE(is_root(of(s2.scaled(9)), s.scaled(3)));       // another root's square
+  EXPECT_EQ(of(s2 * (x + y) * (x + y)).found->constant, 1);  // times a square
+  const SquareTest twice = of((y * y).scaled(8));            // a number times a square
+  EXPECT_EQ(twice.found->constant, 2);
+  EXPECT_TRUE(is_root(twice, y.scaled(2)));
+  const SquareTest nested = of(x * x + y * y * s2 + (x * y * s).scaled(2));  // (x + y s)^2
+  EXPECT_TRUE(is_root(nested, x + y * s));
+  EXPECT_TRUE(of(one.scaled(4) + y * s).found.has_value());  // t's own
+}
+
+TEST_F(SquareClasses, KnowsWhatIsNone) {
+  const Poly s2 = one - x * x;
+  for (const Poly& p : {x, s2 * x, one + x * x, s, x + s, one.scaled(4) - y * s, t})
+    EXPECT_FALSE(of(p).found.has_value()) << core::to_string(p.plain(), ring.names());
+}
+
+TEST(SignOverBox, IsKnownWhereItIsKept) {
+  const std::vector<core::Rational> lower = {-1, -1}, upper = {1, 1};
+  const core::Polynomial x = core::variable_polynomial(2, 0);
+  const auto number = [](const core::Rational& value) { return core::constant_polynomial(2, value); };
+  EXPECT_EQ(sign_over_box(x + number(2), lower, upper), 1);
+  EXPECT_EQ(sign_over_box(x - number(2), lower, upper), -1);
+  EXPECT_EQ(sign_over_box(x, lower, upper), 0);
+  EXPECT_EQ(sign_over_box(x * x - x + number(core::Rational(3, 10)), lower, upper), 1);
+}
+
+TEST(CoincidentLegs, AreSingularOnOneSideOfEachOther) {
+  const mechanism::Mechanism m = corpus("coincident_legs");
+  EXPECT_TRUE(why_singular(m, {1, 1}).has_value());
+  EXPECT_TRUE(why_singular(m, {-1, -1}).has_value());
+  EXPECT_FALSE(why_singular(m, {1, -1}).has_value());
+  EXPECT_FALSE(why_singular(m, {-1, 1}).has_value());
+}
+
+TEST(CoincidentLegs, ModesThatAreSingularEverywhereAreLeftOut) {
+  const mechanism::Mechanism m = corpus("coincident_legs");
+  EXPECT_THROW(locus_problems(m, {}), core::InputError);
+  Selection all;
+  all.working_modes = {{-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
+  const std::vector<DerivedProblem> problems = locus_problems(m, all);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems.front().problem.modes, (std::vector<core::WorkingMode>{{-1, 1}, {1, -1}}));
+  EXPECT_EQ(
+      std::count_if(problems.front().notes.begin(), problems.front().notes.end(),
+                    [](const std::string& note) { return note.find("singular in every pose") != std::string::npos; }),
+      2);
+}
+
+TEST(Parallelogram, IsCutWhereItIsFlat) {
+  const mechanism::Mechanism m = corpus("parallelogram");
+  const Geometry geometry(m, false);
+  ASSERT_EQ(geometry.folds().size(), 1u);  // tan(theta/2) = 0
+  EXPECT_EQ(geometry.folds().front().where, Poly::variable(geometry.ring(), 0));
+  // On either side of it the point is rational in the coordinate.
+  for (const int half : {1, -1}) {
+    const Geometry side(m, false, {}, {{}, {half}});
+    EXPECT_EQ(side.roots().front().square, Poly(side.ring(), 1));
+    EXPECT_FALSE(side.tower(side.constructed().front().point).x.depends_on(side.roots().front().variable));
+  }
+}
+
+TEST(Parallelogram, OnALegIsCutWhereThatLegLiesOnTheBase) {
+  const mechanism::Mechanism m = corpus("five_bar_parallelogram");
+  const Geometry geometry(m, false);
+  ASSERT_EQ(geometry.folds().size(), 1u);
+  EXPECT_TRUE(geometry.folds().front().where.depends_on(geometry.roots().front().variable));
+  EXPECT_EQ(locus_problems(m, {}).size(), 2u);
+}
+
+}  // namespace
+}  // namespace clearloci::symbolic
