@@ -243,8 +243,8 @@ TEST_P(Changes, MoveTheVerdictsAlong) {
     moved.shape = core::TaskCircle{change.place(centre), radius * change.scale};
     const Verification a = verify_task(parsed(base()), task, request(false)),
                        b = verify_task(parsed(changed(base(), change)), moved, request(true));
-    EXPECT_EQ(a.verified, part < 1);
-    EXPECT_EQ(b.verified, a.verified);
+    EXPECT_EQ(a.verified(), part < 1);
+    EXPECT_EQ(b.verdict, a.verdict);
     EXPECT_NEAR(a.margin, b.margin / core::to_double(change.scale), 1e-3 * zone.inscribed.radius);
   }
 }
