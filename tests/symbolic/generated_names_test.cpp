@@ -1,6 +1,7 @@
 // Generated programs are data-safe: whatever a file calls its mechanism, parameters, coordinates, points and joints,
 // the C compiles without a warning, the programs run, and their values are those of the numeric witness.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -163,8 +164,8 @@ class GeneratedNames : public testing::TestWithParam<std::tuple<std::size_t, boo
     keep_ = keep;
     mechanism_ = mechanism::parse_mechanism(model_text(cases()[index]), "model.yaml");
     folder_ = std::filesystem::temp_directory_path() /
-              ("clearloci_names_" + std::to_string(index) + (keep ? "_kept" : "") + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name()[0]);
+              ("clearloci_names_" + std::to_string(::getpid()) + "_" + std::to_string(index) + (keep ? "_kept" : "") +
+               "_" + testing::UnitTest::GetInstance()->current_test_info()->name()[0]);
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
@@ -352,10 +353,12 @@ TEST(GeneratedNamesOfExamples, CompileAndHaveTheirComments) {
 
 TEST(GeneratedNamesOfExamples, SymbolicThreeRprDeclaresPi) {
   const auto mechanism = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/three_rpr.yaml");
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "clearloci_three_rpr_symbolic.c";
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("clearloci_pi_" + std::to_string(::getpid()) + ".c");
   std::ofstream(file) << format(equation_sheet(mechanism, {Language::c, true}));
   const std::string flags = "cc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -fsyntax-only ";
   EXPECT_EQ(std::system((flags + file.string()).c_str()), 0);
+  std::filesystem::remove(file);
 }
 
 }  // namespace
