@@ -899,7 +899,7 @@ class SheetCheck {
         const double reach = 10 * same_place * size_;
         const bool there = own.kind == Junction::Kind::open || distance(own.at(), at) <= reach;
         const bool said = own.label == ArcEnd::none || own.label == arc.ends[end] || arc.ends[end] == ArcEnd::crossing;
-        found = found || (there && (said || near_end_of_kind(at, arc.ends[end])));
+        found = found || (there && (said || near_end_of_kind(at, arc.ends[end]) || is_singular_end(own, arc.ends[end])));
       }
       if (!found) fail(fmt::format("an arc ends at ({}, {}), its curve does not, or not like that", at[0], at[1]));
     }
@@ -908,6 +908,15 @@ class SheetCheck {
         distance(junctions_[static_cast<std::size_t>(path.first)].at(),
                  junctions_[static_cast<std::size_t>(path.last)].at()) > 100 * same_place * size_)
       fail("an arc's two ends are one");
+  }
+
+  /// |A| may vanish where a curve ends on the boundary, and then gives the end its name.
+  bool is_singular_end(const Junction& end, ArcEnd label) const {
+    if (label != ArcEnd::direct_singularity) return false;
+    return std::any_of(singular_.begin(), singular_.end(), [&](int f) {
+      Sheet sheet(parts_of(c_, claim_.mode, claim_.at_zero), {&c_.functions[static_cast<std::size_t>(f)].program});
+      return !sheet.enter(end.place.x, end.place.y) || sheet.value(0).contains_zero();
+    });
   }
 
   /// Ends of several kinds may lie in one place.
