@@ -67,7 +67,7 @@ std::vector<Approach> approaches(const NumericModel& model, std::span<const int>
   std::vector<Approach> ways;
   for (const ArcPlace& place : places_of(arc)) {
     for (const double side : {1.0, -1.0}) {
-      Approach way{place.at, {}};
+      Approach way{place.at, {-place.along[1], place.along[0]}, {}};
       for (const double distance : distances) {
         const double t = side * distance * size;
         const std::array pose = {place.at[0] - t * place.along[1], place.at[1] + t * place.along[0]};
@@ -78,6 +78,22 @@ std::vector<Approach> approaches(const NumericModel& model, std::span<const int>
     }
   }
   return ways;
+}
+
+bool turns_round(const NumericModel& model, std::span<const int> mode, const Approach& way,
+                 const WitnessColumns& columns, double reach) {
+  std::array<ForceNumerators, 2> sides{};
+  double sign = 1;
+  for (const std::size_t side : {0u, 1u}) {
+    const double t = side == 0 ? reach : -reach;
+    const std::array pose = {way.towards[0] + t * way.across[0], way.towards[1] + t * way.across[1]};
+    const BoundedNumerators at = bounded_numerators(model, pose, mode);
+    if (!at.reachable || std::abs(at.determinant.value) <= at.determinant.error) return false;
+    if (at.determinant.value < 0) sign = -sign;
+    const auto values = components(at, columns);
+    for (std::size_t c = 0; c < values.size(); ++c) sides[side][c] = values[c].value;
+  }
+  return sign * turn_cosine(sides[0], sides[1]) < -least_cosine;
 }
 
 std::optional<Tendency> tendency(const Approach& approach, const WitnessColumns& columns) {

@@ -17,7 +17,8 @@ enum class Tendency { zero, finite, unbounded };
 
 /// One way towards an arc: poses in descending distance from it.
 struct Approach {
-  core::Point2 towards{};              ///< on the arc
+  core::Point2 towards{};             ///< on the arc
+  core::Point2 across{};              ///< unit vector off the arc
   std::vector<BoundedNumerators> at;  ///< at distances that fall by `approach_step`
 };
 
@@ -26,6 +27,10 @@ inline constexpr double approach_step = 1e-2;
 /// The ways to a few points of an arc, from either side. `size`: of the box, m.
 std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::Arc& arc,
                                  double size);
+
+/// The reaction turns round between the two sides of the arc, `reach` away from it: the arc stands for a zero near by.
+bool turns_round(const NumericModel& model, std::span<const int> mode, const Approach& way,
+                 const WitnessColumns& columns, double reach);
 
 /// What a reaction does along one way; nothing where rounding errors or a zero near by leave that open.
 std::optional<Tendency> tendency(const Approach& approach, const WitnessColumns& columns);

@@ -304,8 +304,16 @@ class ModeValidation {
       ++report.disputed;
       report.disputed_arcs.push_back({map_.curves[c].id, at, mode_, checked.reaction, claimed, false});
     };
-    if (claimed && most(tally.other)) return dispute(ways.front().towards);
-    if (claimed) ++(most(tally.zero) ? report.arcs_held : report.arcs_undecided);
+    if (claimed && most(tally.other)) {
+      // Vertices may be off their curve by the map's tolerance.
+      const auto stands_for_a_zero = [&](const Approach& way) {
+        return turns_round(model_, signs_, way, checked.columns, reach_);
+      };
+      if (!std::all_of(ways.begin(), ways.end(), stands_for_a_zero)) return dispute(ways.front().towards);
+      ++report.arcs_undecided;
+    } else if (claimed) {
+      ++(most(tally.zero) ? report.arcs_held : report.arcs_undecided);
+    }
     if (claimed || !most(tally.zero)) return;
     // Another curve of the map may run along here and say so.
     const core::Point2& at = ways.front().towards;
