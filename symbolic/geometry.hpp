@@ -60,9 +60,9 @@ struct Fold {
 
 /// Of the sheets of a tower with dependent roots the one on which the points are placed.
 struct SheetChoice {
-  std::vector<int> sides;   ///< one a dyad or slider, as mechanism::working_mode; empty: the file's
-  std::vector<int> halves;  ///< one a fold, in the order in which they are met: the sign of its f; +1 beyond
-  bool all_sheets = false;  ///< dependent roots stay as they are: for enclosures, which ask for no field
+  std::vector<int> sides = {};   ///< one a dyad or slider, as mechanism::working_mode; empty: the file's
+  std::vector<int> halves = {};  ///< one a fold, in the order in which they are met: the sign of its f; +1 beyond
+  bool all_sheets = false;       ///< dependent roots stay as they are: for enclosures, which ask for no field
 };
 
 /// A point that has symbols of its own in natural coordinates (xB1, yB1).

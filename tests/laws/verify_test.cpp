@@ -2,6 +2,7 @@
 // dense sampling of the reactions never contradicts a proof. CLEARLOCI_DESIGNS=n in the environment tries n designs.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -62,6 +63,62 @@ TEST(Verify, HoldsTheLeastForce) {
   EXPECT_TRUE(free.verified());
   EXPECT_FALSE(verified(mechanism, box + "min_force: 1000").verified());
   EXPECT_FALSE(verified(mechanism, box + "min_couple: 1000").verified());
+}
+
+mechanism::Mechanism kept(const std::string& name) {
+  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/" + name);
+}
+
+Verification decided(const mechanism::Mechanism& mechanism, const std::string& task, const LociRequest& request = {}) {
+  const std::string file = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/verify/" + task;
+  return decide_task(mechanism, mechanism::read_task(file, mechanism), request);
+}
+
+TEST(Verify, HoldsTheLeastForceBetweenTheEndsOfARangeOfLoads) {
+  const Verification coupler = decided(kept("examples/five_bar_coupler.yaml"), "coupler_minforce_task1.yaml");
+  EXPECT_EQ(coupler.verdict, loci::TaskVerdict::refuted);
+  ASSERT_TRUE(coupler.witness && coupler.witness->load && coupler.witness->size);
+  EXPECT_LT(*coupler.witness->size, 12.3);
+  // The load is one of the range, from (-14, -21) to (29, -24) N.
+  const core::Point2& load = *coupler.witness->load;
+  EXPECT_NEAR((load[0] + 14) * -3 - (load[1] + 21) * 43, 0, 1e-9);
+  EXPECT_GT(load[0], -14);
+  EXPECT_LT(load[0], 29);
+  EXPECT_EQ(decided(kept("tests/corpus/verify/coupler_midload.yaml"), "coupler_midtask.yaml").verdict,
+            loci::TaskVerdict::refuted);
+
+  LociRequest pin;
+  pin.selection.joints = {"P"};
+  pin.selection.quantities = {core::Quantity::f};
+  const Verification range = decided(kept("tests/corpus/verify/minforce_range.yaml"), "minforce_range_task.yaml", pin);
+  EXPECT_EQ(range.verdict, loci::TaskVerdict::refuted);
+  ASSERT_TRUE(range.witness && range.witness->size);
+  EXPECT_LT(*range.witness->size, 4.4);
+  EXPECT_EQ(
+      decided(kept("tests/corpus/verify/minforce_range_midload.yaml"), "minforce_range_midtask.yaml", pin).verdict,
+      loci::TaskVerdict::refuted);
+}
+
+TEST(Verify, FindsASingularityOnALineThroughZero) {
+  const Verification result = decided(kept("tests/corpus/verify/singular_at_zero.yaml"), "singular_at_zero_task.yaml");
+  EXPECT_EQ(result.verdict, loci::TaskVerdict::refuted);
+  ASSERT_TRUE(result.witness);
+  EXPECT_NEAR(result.witness->at[1], 0, 1e-12);
+}
+
+TEST(Verify, SaysThatItCannotTell) {
+  // No time at all: the task is open as a whole, and no witness is made up.
+  const mechanism::Mechanism mechanism = five_bar();
+  LociRequest hurried;
+  hurried.deadline = std::chrono::steady_clock::now();
+  const core::Task task =
+      mechanism::parse_task("format: 1\nbox: {x: [0.2, 0.3], y: [-0.7, -0.6]}", "task.yaml", mechanism);
+  const Verification result = decide_task(mechanism, task, hurried);
+  EXPECT_EQ(result.verdict, loci::TaskVerdict::undecided);
+  EXPECT_FALSE(result.witness);
+  ASSERT_TRUE(result.open);
+  EXPECT_LE(result.open->lower[0], 0.2);
+  EXPECT_GE(result.open->upper[1], -0.6);
 }
 
 /// Signs of |A| and the couples, and the contact forces, at a pose; none out of reach.
