@@ -228,7 +228,7 @@ class Error(InOwnFolder):
         for row in rows:
             for name in ("dx", "dy", "dalpha"):
                 self.assertLessEqual(abs(float(row[name])), float(row["worst_" + name]) * (1 + 1e-9))
-            self.assertLessEqual(float(row["dp"]), float(row["worst_dp"]) * (1 + 1.1e-4))
+            self.assertLessEqual(float(row["dp"]), float(row["worst_dp"]) * (1 + 1e-9))
         # The row of a pose is what `pose` says there.
         row = rows[len(rows) // 2]
         pose = json.loads(self.run_program("pose", FIVE_BAR, "--at", f"{row['x']},{row['y']}", "--json").stdout)
