@@ -3,7 +3,8 @@
 //   an independent floating-point solver disputes nothing; both engines tell the same where degrees are at most 8;
 //   zones partition the workspace and have the signs that they are said to have; what is refused has no pose or no |A|.
 // In the environment: CLEARLOCI_DESIGNS=n tries n designs over all families, CLEARLOCI_FIRST=i begins each family with
-// its i-th, CLEARLOCI_KEEP=folder keeps the files of those that fail, CLEARLOCI_SHOW=1 says which are not certified.
+// its i-th, CLEARLOCI_KEEP=folder keeps the files of those that fail, CLEARLOCI_SHOW=1 says which are not certified,
+// CLEARLOCI_PATIENCE=s waits s seconds for each step.
 #include "tests/laws/lattice_designs.hpp"
 
 #include <gtest/gtest.h>
@@ -36,8 +37,8 @@ int from_environment(const char* name, int usual) {
   return wanted != nullptr ? std::atoi(wanted) : usual;
 }
 
-/// No design is waited for longer; what is not done by then is counted, and has no other consequence.
-constexpr std::chrono::seconds patience{30};
+/// No step is waited for longer; what is not done by then is counted, and has no other consequence.
+std::chrono::seconds patience() { return std::chrono::seconds(from_environment("CLEARLOCI_PATIENCE", 60)); }
 
 /// Up to this degree the exact engine is quick.
 constexpr int exact_degree = 8;
@@ -230,7 +231,7 @@ class Laws {
 
   LociRequest in_time() const {
     LociRequest request = request_;
-    request.deadline = Clock::now() + patience;
+    request.deadline = Clock::now() + patience();
     return request;
   }
 
