@@ -12,6 +12,7 @@
 #include "cli/framed.hpp"
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
+#include "core/fold.hpp"
 #include "loci/chart_maps.hpp"
 #include "loci/sheet_maps.hpp"
 #include "loci/surfaces.hpp"
