@@ -87,8 +87,17 @@ struct LogSystem {
 
 class Fit {
  public:
-  Fit(const mechanism::Mechanism& m, const CertificateFile& c, int mode)
-      : m_(m), c_(c), mode_(mode), functions_(c.functions.size()) {}
+  Fit(const mechanism::Mechanism& m, const CertificateFile& c, int mode) : m_(m), c_(c), mode_(mode) {
+    // First those that cells tell of: what others add to them are divisors, which explain more when they come before all.
+    std::vector<bool> told(c.functions.size(), false);
+    for (const SheetCells& sheet : c.sheets)
+      if (sheet.mode == mode) told[static_cast<std::size_t>(sheet.function)] = true;
+    for (const OpenClaim& open : c.open)
+      if (open.mode == mode) told[static_cast<std::size_t>(open.function)] = true;
+    for (const bool first : {true, false})
+      for (std::size_t f = 0; f < told.size(); ++f)
+        if (told[f] == first) order_.push_back(f);
+  }
 
   Orders run() {
     Orders orders;
@@ -138,9 +147,10 @@ class Fit {
       const std::optional<Solution> solved = solve(m_, *here, x, y);
       if (!solved) continue;
       std::vector<Interval> row = {Interval(1.0, identity_bits)};
-      for (std::size_t f = 0; f < functions_; ++f) row.push_back(log_of(sheet.value(static_cast<int>(f))));
-      for (const Interval& q : here->squares) row.push_back(log_of(q));
       for (const Interval& d : here->divisors) row.push_back(log_of(d));
+      first_ = row.size();
+      for (const std::size_t f : order_) row.push_back(log_of(sheet.value(static_cast<int>(f))));
+      for (const Interval& q : here->squares) row.push_back(log_of(q));
       for (int j = 0; j < static_cast<int>(c_.squares.size()); ++j)
         if (sheet.uses(j)) row.push_back(log_of(sheet.square(j)));
       system_.columns = row.size();
@@ -171,7 +181,9 @@ class Fit {
   /// Twice the exponents of the functions.
   std::vector<int> exponents(std::size_t column, const std::string& what) const {
     const std::vector<int> all = system_.exponents(column, what);
-    return {all.begin() + 1, all.begin() + 1 + static_cast<std::ptrdiff_t>(functions_)};
+    std::vector<int> result(order_.size(), 0);
+    for (std::size_t i = 0; i < order_.size(); ++i) result[order_[i]] = all[first_ + i];
+    return result;
   }
 
   /// Every root of a dyad or slider is the model's, times what the closure divides by: both are real in the same poses.
@@ -195,21 +207,19 @@ class Fit {
   }
 
   std::vector<int> same_zeros() const {
-    std::vector<int> result(functions_, -1);
-    for (std::size_t f = 0; f < functions_; ++f) {
-      const std::size_t column = f + 1;
-      if (std::find(system_.pivots.begin(), system_.pivots.end(), column) != system_.pivots.end()) {
-        result[f] = static_cast<int>(f);
-        continue;
-      }
+    std::vector<int> result(order_.size(), -1);
+    const auto is_function = [&](std::size_t column) { return first_ <= column && column < first_ + order_.size(); };
+    for (std::size_t place = 0; place < order_.size(); ++place) {
+      const std::size_t column = first_ + place;
       int found = -1;
       bool single = true;
       for (std::size_t i = 0; i < system_.pivots.size(); ++i) {
-        if (system_.pivots[i] == 0 || system_.pivots[i] > functions_ || is_nothing(system_.rows[i][column])) continue;
+        const std::size_t pivot = system_.pivots[i];
+        if (!is_function(pivot) || is_nothing(system_.rows[i][column])) continue;
         single = single && found < 0;
-        found = static_cast<int>(system_.pivots[i]) - 1;
+        found = static_cast<int>(order_[pivot - first_]);
       }
-      if (single) result[f] = found;
+      if (single) result[order_[place]] = found;
     }
     return result;
   }
@@ -217,7 +227,8 @@ class Fit {
   const mechanism::Mechanism& m_;
   const CertificateFile& c_;
   int mode_;
-  std::size_t functions_;
+  std::vector<std::size_t> order_;  // of the functions among the columns, from first_ on
+  std::size_t first_ = 0;
   LogSystem system_, roots_;
   std::vector<bool> always_zero_;
 };
