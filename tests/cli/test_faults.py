@@ -210,6 +210,20 @@ class TimeLimits(InOwnFolder):
         subprocess.run(["rm", "-rf", self.folder / "out"], check=True)
         return process
 
+    def verify_limited(self, limit):
+        """A task that is not decided in time is an answer, `undecided`, that says what stays open and why."""
+        start = time.monotonic()
+        process = self.run_program("verify", FIVE_BAR, TASK, "--time-limit", limit, "-o", "out", status=3)
+        self.assertLess(time.monotonic() - start, 2 * float(limit) + 8)
+        result = json.loads((self.folder / "out" / "verify.json").read_text())
+        if "complete" in result:  # the watch ended the call: a line says so
+            self.assertFalse(result["complete"])
+            self.assertIn("time limit", process.stderr)
+        else:
+            self.assertIn("time limit", result["open"]["reason"])
+        self.assertEqual((result["verdict"], result["verified"]), ("undecided", False))
+        subprocess.run(["rm", "-rf", self.folder / "out"], check=True)
+
     def test_every_command_at_once(self):
         for limit in ("0.000001", "0.001"):
             self.limited("loci", EXAMPLES / "gough_stewart.yaml", limit=limit, file="loci.json")
@@ -217,7 +231,7 @@ class TimeLimits(InOwnFolder):
             self.limited("error", FIVE_BAR, "--grid", "10x10", limit=limit, file="error.json")
             self.limited("error", FOUR_BAR, limit=limit, file="error.json")
             self.limited("zones", FIVE_BAR, limit=limit, file="zones.json")
-            self.limited("verify", FIVE_BAR, TASK, limit=limit, file="verify.json")
+            self.verify_limited(limit)
             self.limited("validate", FIVE_BAR, limit=limit, file="validation.json")
 
     def test_what_asks_nobody(self):
