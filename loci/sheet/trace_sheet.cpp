@@ -23,6 +23,9 @@ constexpr std::array<double, 4> margin_shares = {-1.137, 1.291, -1.073, 1.419};
 // Where curve and region's edge touch, double zeros stay open down to smallest_cut. Open places up to this width,
 // relative to the patch, count as one point.
 constexpr double widest_touch = 1e-10;
+// Along a side of the box that the curve touches they are as long as the root of that: in between the curve strays from
+// the side by less than the place is wide.
+constexpr double longest_touch = 1e-6;
 // Zeros of (N, cutter) closer than this, relative to the patch, are a touch; more live cells than this a shared curve.
 constexpr double smallest_cut = 1e-12;
 constexpr std::size_t most_cut_cells = 8192, most_star_cells = 256;
@@ -262,12 +265,18 @@ class Tracer {
     return crossing;
   }
 
+  /// Small enough for a touch.
+  static bool is_one_point(const Cell& place, const Cut& cut, double size) {
+    const double thin = std::min(place.x.width(), place.y.width()), wide = std::max(place.x.width(), place.y.width());
+    return thin <= widest_touch * size && wide <= (cut.side < 0 ? widest_touch : longest_touch) * size;
+  }
+
   /// The curve meets a region's edge in a place that is one point to rounding: where they touch. What it does there is
   /// seen from its pieces on either side, which are joined again where both belong to the region.
   bool touch(int patch, const Cell& place, const Cut& cut) {
     const Patch& own = graph_.patches[static_cast<std::size_t>(patch)];
     const double size = std::max(own.domain.x.width(), own.domain.y.width());
-    if (!cut.keep || std::max(place.x.width(), place.y.width()) > widest_touch * size) return false;
+    if (!cut.keep || !is_one_point(place, cut, size)) return false;
     SheetCell cell(*own.program, own_.mode);
     if (!cell.enter(place.x, place.y)) return true;  // outside the workspace
     std::vector<Interval> enclosure = {place.x, place.y};
@@ -314,11 +323,12 @@ class Tracer {
   /// reaches the boundary meets a cutter, it ends at both, and the graver one names the end.
   bool at_end(const Cell& place, const Cut& cut) {
     const double width = same_place * size_;
-    if (place.x.width() > width || place.y.width() > width) return false;
+    if (!is_one_point(place, cut, size_)) return false;
     bool found = false;
     for (Crossing& crossing : graph_.crossings) {
       if (crossing.kind == Crossing::Kind::seam || crossing.kind == Crossing::Kind::node) continue;
-      if (std::abs(crossing.at[0] - place.x.middle()) > width || std::abs(crossing.at[1] - place.y.middle()) > width)
+      if (std::abs(crossing.at[0] - place.x.middle()) > width + place.x.width() / 2 ||
+          std::abs(crossing.at[1] - place.y.middle()) > width + place.y.width() / 2)
         continue;
       found = true;
       if (!cut.keep && crossing.kind == Crossing::Kind::rim) crossing.label = cut.label;
@@ -347,8 +357,7 @@ class Tracer {
       }
     }
     for (const Cell& cell : clusters(std::move(open))) {
-      const bool small = std::max(cell.x.width(), cell.y.width()) <= widest_touch * size_;
-      if (!at_end(cell, cut) && !(cut.keep && small && cut_at(cell, crossing_of(cut))))
+      if (!at_end(cell, cut) && !(cut.keep && is_one_point(cell, cut, size_) && cut_at(cell, crossing_of(cut))))
         graph_.undecided.push_back(cell);
     }
   }

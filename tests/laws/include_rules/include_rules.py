@@ -43,37 +43,6 @@ THIRD_PARTIES = {
 # what a folder's sources may include, it may include too. Benchmarks and tests may look inside.
 PRIVATE = "Private to "
 
-INCLUDE = {
-    "core": set(),
-    "mechanism": {"core"},
-    "symbolic": {"core", "mechanism"},
-    "loci": {"core"},
-    "numeric": {"core", "mechanism"},
-    "report": {"core"},
-    "cli": FOLDERS,
-}
-
-# Third party: (the beginning of its headers' names, folders whose headers and sources may include it, folders whose
-# sources alone may).
-THIRD_PARTIES = {
-    "GMP": (("gmp.h", "gmpxx.h"), FOLDERS, set()),
-    "MPFR": (("mpfr.h", "mpfi.h"), set(), {"symbolic", "loci", "mechanism"}),
-    "yaml-cpp": (("yaml-cpp/",), set(), {"mechanism"}),
-    "GiNaC": (("ginac/",), set(), {"symbolic", "mechanism"}),
-    "CLN": (("cln/",), set(), {"symbolic", "mechanism"}),
-    "FLINT": (("flint/",), set(), {"symbolic"}),
-    "CGAL": (("CGAL/", "boost/"), set(), {"loci"}),
-    "Eigen": (("Eigen/",), {"numeric"}, set()),
-    "TBB": (("tbb/", "oneapi/tbb"), {"numeric"}, set()),
-    "cairomm": (("cairomm/", "cairo"), set(), {"report"}),
-    "nlohmann-json": (("nlohmann/",), {"report", "cli"}, set()),
-    "fmt": (("fmt/",), {"report", "cli"}, set()),
-    "CLI11": (("CLI/",), {"cli"}, set()),
-}
-
-# Headers of symbolic/ that no other folder sees may use FLINT: they are not installed and only its sources include them.
-PRIVATE_HEADERS = {"symbolic/ring.hpp": {"FLINT"}}
-
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
