@@ -13,6 +13,10 @@ namespace {
 /// other zeros may be nearer than the arc.
 constexpr std::array<double, 3> distances = {1e-5, 1e-5 * approach_step, 1e-5 * approach_step * approach_step};
 
+/// An arc is approached from no farther than this part of its length, lest the zeros be others'. Where that is below
+/// `least_distance` of the box, rounding errors of vertices would tell: the arc is left undecided.
+constexpr double share_of_length = 1e-3, least_distance = 1e-6;
+
 /// Exponents of t are multiples of a half: nearer than this to one they are taken for it.
 constexpr double exponent_doubt = 0.2;
 
@@ -65,11 +69,16 @@ Size size_of(const BoundedNumerators& at, const WitnessColumns& columns) {
 std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::Arc& arc,
                                  double size) {
   std::vector<Approach> ways;
+  double length = 0;
+  for (std::size_t i = 1; i < arc.points.size(); ++i)
+    length += std::hypot(arc.points[i][0] - arc.points[i - 1][0], arc.points[i][1] - arc.points[i - 1][1]);
+  const double nearer = std::min(1.0, share_of_length * length / (distances.front() * size));
+  if (nearer * distances.front() < least_distance) return ways;
   for (const ArcPlace& place : places_of(arc)) {
     for (const double side : {1.0, -1.0}) {
       Approach way{place.at, {-place.along[1], place.along[0]}, {}};
       for (const double distance : distances) {
-        const double t = side * distance * size;
+        const double t = side * nearer * distance * size;
         const std::array pose = {place.at[0] - t * place.along[1], place.at[1] + t * place.along[0]};
         way.at.push_back(bounded_numerators(model, pose, mode));
       }
