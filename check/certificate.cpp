@@ -114,8 +114,9 @@ class Reader {
   }
   core::Rational rational(const std::string& digits) const {
     core::Rational value;
-    if (digits.empty() || digits.size() > most_digits || digits.find_first_not_of("-0123456789/") != std::string::npos ||
-        value.set_str(digits, 10) != 0 || value.get_den() == 0)
+    if (digits.empty() || digits.size() > most_digits ||
+        digits.find_first_not_of("-0123456789/") != std::string::npos || value.set_str(digits, 10) != 0 ||
+        value.get_den() == 0)
       fail("'" + digits.substr(0, 40) + "' is no fraction");
     value.canonicalize();
     return value;
@@ -141,8 +142,8 @@ class Reader {
   }
   core::LocusKind kind(const std::string& name) const {
     using enum core::LocusKind;
-    for (const core::LocusKind k : {contact_loss, backlash, component, margin, direct_singularity, workspace_boundary,
-                                    no_limit})
+    for (const core::LocusKind k :
+         {contact_loss, backlash, component, margin, direct_singularity, workspace_boundary, no_limit})
       if (core::to_string(k) == name) return k;
     fail("an unknown kind of locus");
   }
@@ -219,7 +220,8 @@ class Reader {
       } else if (word[0] == 'g') {
         const std::size_t colon = word.find(':');
         if (colon == std::string::npos) fail("a cell is damaged");
-        nodes.push_back({Kind::graph, small(word.substr(1, colon - 1), 1 + roots), 0, small(word.substr(colon + 1), 100000)});
+        nodes.push_back(
+            {Kind::graph, small(word.substr(1, colon - 1), 1 + roots), 0, small(word.substr(colon + 1), 100000)});
       } else if (word.size() > 2 && (word[0] == 'x' || word[0] == 'y') && word[1] == ':') {
         nodes.push_back({Kind::cut, word[0] == 'x' ? 0 : 1, hex(word.substr(2)), 0});
         missing.push_back(2);

@@ -70,11 +70,10 @@ struct ZoneClaim {
   bool certified = false;
 };
 
-
 /// Over the task and its margin nothing wanted vanishes.
 struct TaskClaim {
   int mode = 0;
-  std::string shape;                 ///< "box", "circle", "polygon", "path"
+  std::string shape;                        ///< "box", "circle", "polygon", "path"
   std::vector<core::RationalPoint> points;  ///< opposite corners; the centre; corners
   core::Rational radius, margin;
   std::vector<std::string> unchecked;  ///< what else was asked for
@@ -105,8 +104,8 @@ struct CertificateFile {
 /// Whether a model's text is the one of a certificate, in which bytes that are no UTF-8 were replaced.
 bool same_text(const std::string& model, const std::string& in_certificate);
 
-/// `file`: its name, for errors. Throws core::InputError where the text is no certificate, FalseClaim where its cells are
-/// no partition.
+/// `file`: its name, for errors. Throws core::InputError where the text is no certificate, FalseClaim where its cells
+/// are no partition.
 CertificateFile read_certificate(const std::string& text, const std::string& file);
 
 }  // namespace clearloci::check

@@ -114,11 +114,13 @@ class Check {
         const core::Rational area = (c_.box[1] - c_.box[0]) * (c_.box[3] - c_.box[2]);
         tally_.area += area.get_d();
         tally_.open_area += area.get_d();
-        verdict_.unchecked.push_back(fmt::format("{} in mode {}: no cells, left to the exact engine", name(claim.function), mode + 1));
+        verdict_.unchecked.push_back(
+            fmt::format("{} in mode {}: no cells, left to the exact engine", name(claim.function), mode + 1));
       }
     const auto need = [&](int function, FactorRole role, const std::string& what) {
       if (claimed[function].contains(role) || open.contains(function)) return;
-      throw FalseClaim(fmt::format("{} in mode {}: {} vanishes with it, but no cells tell where", name(function), mode + 1, what));
+      throw FalseClaim(
+          fmt::format("{} in mode {}: {} vanishes with it, but no cells tell where", name(function), mode + 1, what));
     };
     for (int f = 0; f < static_cast<int>(c_.functions.size()); ++f)
       if (orders.determinant[static_cast<std::size_t>(f)] != 0) {
@@ -166,14 +168,15 @@ class Check {
           std::find(c_.quantities.begin(), c_.quantities.end(), Quantity::f) == c_.quantities.end())
         continue;
       for (std::size_t f = 0; f < c_.functions.size(); ++f)
-        if (std::all_of(components.begin(), components.end(), [&](const auto* orders_of_one) { return (*orders_of_one)[f] > 0; }))
+        if (std::all_of(components.begin(), components.end(),
+                        [&](const auto* orders_of_one) { return (*orders_of_one)[f] > 0; }))
           need(static_cast<int>(f), FactorRole::reaction, "f_" + joint);
     }
     (void)mode;
   }
 
-  /// Chains without an arc are parts of reactions' functions on which nothing wanted vanishes; on others a reaction may vanish
-  /// too, and then an arc of its own says so.
+  /// Chains without an arc are parts of reactions' functions on which nothing wanted vanishes; on others a reaction may
+  /// vanish too, and then an arc of its own says so.
   void check_chains(int s, const std::vector<Chain>& chains) {
     const SheetCells& sheet = c_.sheets[static_cast<std::size_t>(s)];
     for (const Chain& chain : chains) {
@@ -214,9 +217,11 @@ class Check {
         continue;
       }
       if (known.sheet < 0) {
-        const bool open = std::any_of(c_.open.begin(), c_.open.end(), [&](const OpenClaim& o) { return o.mode == curve.mode; });
+        const bool open =
+            std::any_of(c_.open.begin(), c_.open.end(), [&](const OpenClaim& o) { return o.mode == curve.mode; });
         if (!open)
-          throw FalseClaim(fmt::format("an arc through ({}, {}) is on no curve that the cells prove", middle[0], middle[1]));
+          throw FalseClaim(
+              fmt::format("an arc through ({}, {}) is on no curve that the cells prove", middle[0], middle[1]));
         ++open_arcs;
         continue;
       }
@@ -227,11 +232,12 @@ class Check {
       if (!label)
         verdict_.unchecked.push_back(fmt::format("what vanishes near ({}, {})", middle[0], middle[1]));
       else if (*label != said)
-        throw FalseClaim(fmt::format("an arc through ({}, {}) is said to make {} vanish; it is {}", middle[0], middle[1],
-                                     names(said), names(*label)));
+        throw FalseClaim(fmt::format("an arc through ({}, {}) is said to make {} vanish; it is {}", middle[0],
+                                     middle[1], names(said), names(*label)));
     }
     if (open_arcs > 0) verdict_.unchecked.push_back(fmt::format("{} arcs of functions without cells", open_arcs));
-    if (uncertain > 0) verdict_.unchecked.push_back(fmt::format("{} arcs that are not claimed to be certain", uncertain));
+    if (uncertain > 0)
+      verdict_.unchecked.push_back(fmt::format("{} arcs that are not claimed to be certain", uncertain));
   }
 
   const mechanism::Mechanism& m_;
@@ -263,8 +269,7 @@ Verdict check_certificate_text(const std::string& model_text, const std::string&
     certificate.deadline = deadline;
     if (!same_text(model_text, certificate.model))
       throw FalseClaim("model: it is not the file that the certificate was made for");
-    const mechanism::Mechanism mechanism =
-        mechanism::parse_mechanism(model_text, model_file, certificate.overrides);
+    const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model_text, model_file, certificate.overrides);
     return Check(mechanism, certificate).run();
   } catch (const FalseClaim& claim) {
     Verdict verdict;

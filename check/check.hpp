@@ -1,5 +1,5 @@
-// The second opinion: verifies a certificate (docs/certificates.md) from the model, with statics, intervals and proofs of its
-// own. Nothing of what wrote the certificate is used here: only the reader of mechanism files and plain data.
+// The second opinion: verifies a certificate (docs/certificates.md) from the model, with statics, intervals and proofs
+// of its own. Nothing of what wrote the certificate is used here: only the reader of mechanism files and plain data.
 #pragma once
 
 #include <chrono>
@@ -13,15 +13,15 @@ struct Verdict {
   bool accepted = false;
   std::string why;  ///< the first claim that is false or could not be shown; empty where accepted
   std::size_t cells = 0, graphs = 0, crossings = 0, arcs = 0, points = 0, zones = 0;  ///< that were shown
-  std::size_t task_cells = 0;          ///< in which a task keeps clear
-  double open_share = 0;               ///< of the area of all sheets
+  std::size_t task_cells = 0;                                                         ///< in which a task keeps clear
+  double open_share = 0;                                                              ///< of the area of all sheets
   std::vector<std::string> unchecked;  ///< what was not looked at, and why
 };
 
 using Deadline = std::optional<std::chrono::steady_clock::time_point>;
 
-/// `model`, `certificate`: the files. Throws core::InputError where one of them cannot be read, core::LimitReached where the
-/// deadline comes first.
+/// `model`, `certificate`: the files. Throws core::InputError where one of them cannot be read, core::LimitReached
+/// where the deadline comes first.
 Verdict check_certificate(const std::string& model, const std::string& certificate, const Deadline& deadline = {});
 
 /// The same for texts.

@@ -39,8 +39,8 @@ struct Node {
 
 /// Where pieces begin and end.
 struct Junction {
-  /// `side`: of the domain, outside of the box. `edge`: of the box or of another root's workspace, where the curve is cut
-  /// unless it is wanted on both sides.
+  /// `side`: of the domain, outside of the box. `edge`: of the box or of another root's workspace, where the curve is
+  /// cut unless it is wanted on both sides.
   enum class Kind { seam, side, rim, cut, edge, open };
   Kind kind = Kind::seam;
   Place place;
@@ -199,7 +199,8 @@ class SheetCheck {
 
   /// Over a cell or a part of it.
   bool is_free(const Rectangle& cell, int cuts) {
-    if (!sheet_.enter(range(cell.x0, cell.x1), range(cell.y0, cell.y1)) || !sheet_.value(0).contains_zero()) return true;
+    if (!sheet_.enter(range(cell.x0, cell.x1), range(cell.y0, cell.y1)) || !sheet_.value(0).contains_zero())
+      return true;
     sheet_.differentiate();
     if (!sheet_.centred(0).contains_zero()) return true;
     if (cuts == 0) return false;
@@ -249,11 +250,13 @@ class SheetCheck {
     tally_.area += area;
     switch (leaf.claim.kind) {
       case CellNode::Kind::free:
-        if (!is_free(leaf.cell, most_cuts)) fail("it may be zero in " + describe(leaf.cell) + ", said to be free of zeros");
+        if (!is_free(leaf.cell, most_cuts))
+          fail("it may be zero in " + describe(leaf.cell) + ", said to be free of zeros");
         ++tally_.cells;
         break;
       case CellNode::Kind::graph:
-        if (leaf.claim.axis >= 2 && !sheet_.uses(leaf.claim.axis - 2)) fail("its cells name a root that it does not hold");
+        if (leaf.claim.axis >= 2 && !sheet_.uses(leaf.claim.axis - 2))
+          fail("its cells name a root that it does not hold");
         if (!is_graph(leaf)) cut_leaf(node, most_cuts);
         ++tally_.cells;
         ++tally_.graphs;
@@ -266,7 +269,8 @@ class SheetCheck {
   void cut_leaf(std::size_t node, int cuts) {
     const int index = nodes_[node].leaf;
     const Leaf whole = leaves_[static_cast<std::size_t>(index)];
-    if (cuts == 0) fail("it is not shown to be one graph in " + describe(origins_[static_cast<std::size_t>(whole.origin)].cell));
+    if (cuts == 0)
+      fail("it is not shown to be one graph in " + describe(origins_[static_cast<std::size_t>(whole.origin)].cell));
     // Off the middle, since curves of symmetric designs like to cross it.
     const Rectangle& cell = whole.cell;
     const int axis = cell.x1 - cell.x0 >= cell.y1 - cell.y0 ? 0 : 1;
@@ -342,7 +346,8 @@ class SheetCheck {
       Junction junction{Junction::Kind::seam, place};
       for (const int leaf : {a.leaf, b.leaf})
         if (kind(leaf) == Kind::open) junction = {Junction::Kind::open, place, -1, leaf};
-      junction.inside = leaves_[static_cast<std::size_t>(a.leaf)].origin == leaves_[static_cast<std::size_t>(b.leaf)].origin;
+      junction.inside =
+          leaves_[static_cast<std::size_t>(a.leaf)].origin == leaves_[static_cast<std::size_t>(b.leaf)].origin;
       const int number = add_junction(junction);
       for (const int leaf : {a.leaf, b.leaf})
         if (kind(leaf) == Kind::graph) attach(leaf, number);
@@ -379,8 +384,8 @@ class SheetCheck {
     for (const Leaf& leaf : leaves_) {
       if (leaf.claim.kind != CellNode::Kind::graph) continue;
       const Rectangle& cell = leaf.cell;
-      if (near_root >= 0 && (!sheet_.enter(range(cell.x0, cell.x1), range(cell.y0, cell.y1)) ||
-                             sheet_.square(near_root).sign() != 0))
+      if (near_root >= 0 &&
+          (!sheet_.enter(range(cell.x0, cell.x1), range(cell.y0, cell.y1)) || sheet_.square(near_root).sign() != 0))
         continue;
       cells.push_back(cell);
     }
@@ -418,8 +423,8 @@ class SheetCheck {
 
   /// The leaf that holds the place in its interior; -1: none for certain.
   int leaf_at(const Place& place) const {
-    if (place.x.upper() < claim_.domain[0] || claim_.domain[1] < place.x.lower() || place.y.upper() < claim_.domain[2] ||
-        claim_.domain[3] < place.y.lower())
+    if (place.x.upper() < claim_.domain[0] || claim_.domain[1] < place.x.lower() ||
+        place.y.upper() < claim_.domain[2] || claim_.domain[3] < place.y.lower())
       return outside;
     std::size_t index = 0;
     while (nodes_[index].axis >= 0) {
@@ -450,11 +455,13 @@ class SheetCheck {
       std::vector<End>& ends = ends_[l];
       if (leaf.claim.kind != CellNode::Kind::graph) continue;
       for (const End& end : ends)
-        if (!junctions_[static_cast<std::size_t>(end.junction)].inside) ++counted[static_cast<std::size_t>(leaf.origin)];
+        if (!junctions_[static_cast<std::size_t>(end.junction)].inside)
+          ++counted[static_cast<std::size_t>(leaf.origin)];
       std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.key.middle() < b.key.middle(); });
       if (ends.size() % 2 != 0) fail("it has an odd number of ends in " + describe(leaf.cell));
       for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-        if (!(ends[i].key.upper() < ends[i + 1].key.lower())) fail("two of its ends are too close in " + describe(leaf.cell));
+        if (!(ends[i].key.upper() < ends[i + 1].key.lower()))
+          fail("two of its ends are too close in " + describe(leaf.cell));
       for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
         pieces_.push_back({static_cast<int>(l), {ends[i], ends[i + 1]}});
     }
@@ -473,8 +480,7 @@ class SheetCheck {
   /// Pieces end where |A| does too, where that matters, and where another root's workspace ends.
   void cut_pieces() {
     if (pieces_.empty()) return;
-    const bool by_singularity =
-        claim_.role == core::FactorRole::reaction || claim_.role == core::FactorRole::margin;
+    const bool by_singularity = claim_.role == core::FactorRole::reaction || claim_.role == core::FactorRole::margin;
     if (by_singularity)
       for (const int f : singular_)
         cut_by(c_.functions[static_cast<std::size_t>(f)].program, Junction::Kind::cut, ArcEnd::direct_singularity,
@@ -565,7 +571,8 @@ class SheetCheck {
         return p.leaf == leaf && p.ends[0].key.upper() < own.lower() && own.upper() < p.ends[1].key.lower();
       });
       if (piece == pieces_.end()) {
-        if (place.x.width() + place.y.width() < 1e-3 * widest_touch * size_) fail("another curve cuts it where it is not");
+        if (place.x.width() + place.y.width() < 1e-3 * widest_touch * size_)
+          fail("another curve cuts it where it is not");
         continue;  // two that pass very near each other
       }
       const int junction = add_junction({kind_of_cut, place, -1, -1, label});
@@ -697,8 +704,9 @@ class SheetCheck {
 
   /// Between two places that are one to rounding.
   bool tiny(const Path& path) const {
-    return path.steps.size() == 1 && distance(junctions_[static_cast<std::size_t>(path.first)].at(),
-                                              junctions_[static_cast<std::size_t>(path.last)].at()) < widest_touch * size_;
+    return path.steps.size() == 1 &&
+           distance(junctions_[static_cast<std::size_t>(path.first)].at(),
+                    junctions_[static_cast<std::size_t>(path.last)].at()) < widest_touch * size_;
   }
 
   // --- arcs ---------------------------------------------------------------------------------------------------------
@@ -749,8 +757,7 @@ class SheetCheck {
       if (kind(node.leaf) == CellNode::Kind::open) open = region(node.leaf);
       const auto found = places_of_.find(node.leaf);
       if (found == places_of_.end()) continue;
-      const Interval own =
-          key(node.leaf, {range(at[0] - reach, at[0] + reach), range(at[1] - reach, at[1] + reach)});
+      const Interval own = key(node.leaf, {range(at[0] - reach, at[0] + reach), range(at[1] - reach, at[1] + reach)});
       for (const auto& [path, step] : found->second) {
         const Step& here = paths_[static_cast<std::size_t>(path)].steps[static_cast<std::size_t>(step)];
         const Piece& piece = pieces_[static_cast<std::size_t>(here.piece)];
@@ -825,7 +832,8 @@ class SheetCheck {
       if (runs.empty() || spot.path != runs.back().path) continue;
       const Path& path = paths_[static_cast<std::size_t>(spot.path)];
       double own = spot.along - runs.back().last;
-      if (path.closed) own -= static_cast<double>(path.steps.size()) * std::nearbyint(own / static_cast<double>(path.steps.size()));
+      if (path.closed)
+        own -= static_cast<double>(path.steps.size()) * std::nearbyint(own / static_cast<double>(path.steps.size()));
       if (best != nullptr && std::abs(own) >= std::abs(step)) continue;
       best = &spot;
       step = own;
@@ -851,7 +859,9 @@ class SheetCheck {
       fail("an arc runs round its curve more than once");
   }
 
-  bool is_open(int junction) const { return junctions_[static_cast<std::size_t>(junction)].kind == Junction::Kind::open; }
+  bool is_open(int junction) const {
+    return junctions_[static_cast<std::size_t>(junction)].kind == Junction::Kind::open;
+  }
   bool in_open_ends(const Path& path) const { return is_open(path.first) && is_open(path.last); }
 
   /// Every vertex is in an open cell, or the arc is too short to have any inside a cell.
@@ -899,7 +909,8 @@ class SheetCheck {
         const double reach = 10 * same_place * size_;
         const bool there = own.kind == Junction::Kind::open || distance(own.at(), at) <= reach;
         const bool said = own.label == ArcEnd::none || own.label == arc.ends[end] || arc.ends[end] == ArcEnd::crossing;
-        found = found || (there && (said || near_end_of_kind(at, arc.ends[end]) || is_singular_end(own, arc.ends[end])));
+        found =
+            found || (there && (said || near_end_of_kind(at, arc.ends[end]) || is_singular_end(own, arc.ends[end])));
       }
       if (!found) fail(fmt::format("an arc ends at ({}, {}), its curve does not, or not like that", at[0], at[1]));
     }
@@ -955,7 +966,7 @@ class SheetCheck {
   std::vector<std::vector<End>> ends_;
   std::vector<Piece> pieces_;
   std::vector<Path> paths_;
-  std::array<bool, 4> along_{};  // of the box's sides: the curve runs along it
+  std::array<bool, 4> along_{};      // of the box's sides: the curve runs along it
   std::vector<bool> wanted_, kept_;  // of pieces, of paths
   std::vector<Point2> inner_of_piece_, inner_;
   std::vector<int> visits_;

@@ -1,8 +1,8 @@
 // The claims of one sheet's cells, and the arcs that were handed out for it. Private to check/.
 //
-// In a cell in which the curve takes every value of one variable at most once, it is a row of graphs over that variable;
-// their ends lie on the cell's sides and on Q_j = 0. So the ends, sorted, bound the graphs two by two, and graphs that
-// meet on a common side make up the curve.
+// In a cell in which the curve takes every value of one variable at most once, it is a row of graphs over that
+// variable; their ends lie on the cell's sides and on Q_j = 0. So the ends, sorted, bound the graphs two by two, and
+// graphs that meet on a common side make up the curve.
 #pragma once
 
 #include <set>
@@ -33,10 +33,10 @@ struct KnownArc {
   int sheet = -1;  ///< by which it was found right; -1: none yet
 };
 
-/// Checks cells and ends of a sheet, and matches the arcs of its mode and role with its chains. Throws FalseClaim. What is
-/// left is chains inside the workspace without an arc.
-std::vector<Chain> check_sheet(const CertificateFile& certificate, int sheet,
-                               const std::vector<int>& singular, std::vector<KnownArc>& arcs, Tally& tally);
+/// Checks cells and ends of a sheet, and matches the arcs of its mode and role with its chains. Throws FalseClaim. What
+/// is left is chains inside the workspace without an arc.
+std::vector<Chain> check_sheet(const CertificateFile& certificate, int sheet, const std::vector<int>& singular,
+                               std::vector<KnownArc>& arcs, Tally& tally);
 
 /// "cell [0, 1] x [2, 3]".
 std::string describe(const Rectangle& cell);

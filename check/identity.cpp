@@ -77,7 +77,8 @@ struct LogSystem {
       }
       if (pivots[i] == 0) continue;  // the constant
       const double twice = std::nearbyint(2 * entry.middle());
-      if (!(std::abs(twice) < 1e6) || !is_nothing(Interval(2.0, identity_bits) * entry - Interval(twice, identity_bits)))
+      if (!(std::abs(twice) < 1e6) ||
+          !is_nothing(Interval(2.0, identity_bits) * entry - Interval(twice, identity_bits)))
         throw FalseClaim("functions: they do not make up " + what);
       result[pivots[i]] = static_cast<int>(twice);
     }
@@ -88,7 +89,8 @@ struct LogSystem {
 class Fit {
  public:
   Fit(const mechanism::Mechanism& m, const CertificateFile& c, int mode) : m_(m), c_(c), mode_(mode) {
-    // First those that cells tell of: what others add to them are divisors, which explain more when they come before all.
+    // First those that cells tell of: what others add to them are divisors, which explain more when they come before
+    // all.
     std::vector<bool> told(c.functions.size(), false);
     for (const SheetCells& sheet : c.sheets)
       if (sheet.mode == mode) told[static_cast<std::size_t>(sheet.function)] = true;
@@ -113,8 +115,9 @@ class Fit {
       if (always_zero_[k] || !is_wanted(unknowns[k]))
         orders.reactions.emplace_back();
       else
-        orders.reactions.emplace_back(exponents(first + 1 + k, core::to_string(unknowns[k].quantity) + "_" +
-                                                          m_.joints[static_cast<std::size_t>(unknowns[k].joint)].name));
+        orders.reactions.emplace_back(exponents(
+            first + 1 + k,
+            core::to_string(unknowns[k].quantity) + "_" + m_.joints[static_cast<std::size_t>(unknowns[k].joint)].name));
     }
     return orders;
   }
@@ -173,9 +176,9 @@ class Fit {
     const auto among = [](const auto& list, const auto& value) {
       return std::find(list.begin(), list.end(), value) != list.end();
     };
-    return among(c_.joints, joint.name) &&
-           (among(c_.quantities, unknown.quantity) || (among(c_.quantities, core::Quantity::f) &&
-                                                       among(mechanism::force_components(m_, joint), unknown.quantity)));
+    return among(c_.joints, joint.name) && (among(c_.quantities, unknown.quantity) ||
+                                            (among(c_.quantities, core::Quantity::f) &&
+                                             among(mechanism::force_components(m_, joint), unknown.quantity)));
   }
 
   /// Twice the exponents of the functions.

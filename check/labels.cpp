@@ -32,8 +32,7 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
   for (int i = 0; i < newton_steps; ++i) {
     if (!function.enter(place[0], place[1]) || !function.is_inner()) return std::nullopt;
     function.differentiate();
-    if (axis < 0)
-      axis = std::abs(function.slope(0, 0).middle()) > std::abs(function.slope(0, 1).middle()) ? 0 : 1;
+    if (axis < 0) axis = std::abs(function.slope(0, 0).middle()) > std::abs(function.slope(0, 1).middle()) ? 0 : 1;
     const Interval step = function.value(0) / function.slope(0, axis);
     if (!step.is_finite()) return std::nullopt;
     place[static_cast<std::size_t>(axis)] = middle_of(place[static_cast<std::size_t>(axis)] - step);
@@ -54,9 +53,8 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
     if (!a || !b) continue;
     std::vector<double> order(unknowns.size(), 0.0);  // infinite: zero in every pose
     for (std::size_t k = 0; k < unknowns.size(); ++k)
-      order[k] = a->reactions[k].sign() == 0
-                     ? HUGE_VAL
-                     : (size_of(a->reactions[k]) - size_of(b->reactions[k])) / (nearer - near);
+      order[k] = a->reactions[k].sign() == 0 ? HUGE_VAL
+                                             : (size_of(a->reactions[k]) - size_of(b->reactions[k])) / (nearer - near);
     const auto wanted = [&](const std::string& joint, Quantity quantity) {
       return std::find(c.joints.begin(), c.joints.end(), joint) != c.joints.end() &&
              std::find(c.quantities.begin(), c.quantities.end(), quantity) != c.quantities.end();

@@ -78,35 +78,39 @@ class PointCheck {
     const CommonZeros& found = zeros_of(f, g);
     if (!found.complete) {
       undecided_ = true;
-      verdict_.unchecked.push_back(fmt::format("isolated contact losses of {} in mode {}: too many cells", joint, mode_ + 1));
+      verdict_.unchecked.push_back(
+          fmt::format("isolated contact losses of {} in mode {}: too many cells", joint, mode_ + 1));
     }
     for (const Rectangle& cell : found.undecided) {
       const Point2 at = {0.5 * (cell.x0 + cell.x1), 0.5 * (cell.y0 + cell.y1)};
       if (cell.size() < 1e-6 * size_ && (at_divisor(cell) || on_contact_loss(joint, at))) continue;
       undecided_ = true;
-      verdict_.unchecked.push_back(fmt::format("isolated contact loss of {} in mode {} near ({}, {})", joint, mode_ + 1,
-                                               at[0], at[1]));
+      verdict_.unchecked.push_back(
+          fmt::format("isolated contact loss of {} in mode {} near ({}, {})", joint, mode_ + 1, at[0], at[1]));
       break;
     }
     for (const Place& place : found.zeros) {
       const Point2 at = {place.x.middle(), place.y.middle()};
       const double reach = same_point * size_;
-      if (at[0] < box_[0] - reach || box_[1] + reach < at[0] || at[1] < box_[2] - reach || box_[3] + reach < at[1]) continue;
+      if (at[0] < box_[0] - reach || box_[1] + reach < at[0] || at[1] < box_[2] - reach || box_[3] + reach < at[1])
+        continue;
       if (!in_workspace(place) || on_contact_loss(joint, at)) continue;
-      const bool on_side = at[0] < box_[0] + reach || box_[1] - reach < at[0] || at[1] < box_[2] + reach || box_[3] - reach < at[1];
+      const bool on_side =
+          at[0] < box_[0] + reach || box_[1] - reach < at[0] || at[1] < box_[2] + reach || box_[3] - reach < at[1];
       bool listed = false;
       for (std::size_t i = 0; i < c_.points.size(); ++i) {
         const PointClaim& point = c_.points[i];
         if (point.mode != mode_ || std::hypot(point.at[0] - at[0], point.at[1] - at[1]) > reach) continue;
-        if (std::find(point.vanishing.begin(), point.vanishing.end(), Reaction{joint, Quantity::f}) == point.vanishing.end())
+        if (std::find(point.vanishing.begin(), point.vanishing.end(), Reaction{joint, Quantity::f}) ==
+            point.vanishing.end())
           continue;
         listed = true;
         if (!claimed_[i]) ++verdict_.points;
         claimed_[i] = true;
       }
       if (!listed && !on_side)
-        throw FalseClaim(fmt::format("{} loses contact at ({}, {}) in mode {}, but no point says so", joint, at[0], at[1],
-                                     mode_ + 1));
+        throw FalseClaim(fmt::format("{} loses contact at ({}, {}) in mode {}, but no point says so", joint, at[0],
+                                     at[1], mode_ + 1));
     }
   }
 
@@ -124,8 +128,8 @@ class PointCheck {
 
   bool on_contact_loss(const std::string& joint, const Point2& at) const {
     for (const CurveClaim& curve : c_.curves) {
-      if (curve.mode != mode_ ||
-          std::find(curve.vanishing.begin(), curve.vanishing.end(), Reaction{joint, Quantity::f}) == curve.vanishing.end())
+      if (curve.mode != mode_ || std::find(curve.vanishing.begin(), curve.vanishing.end(),
+                                           Reaction{joint, Quantity::f}) == curve.vanishing.end())
         continue;
       for (const core::Arc& arc : curve.arcs)
         for (std::size_t i = 1; i < arc.points.size(); ++i)

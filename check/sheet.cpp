@@ -84,7 +84,8 @@ std::size_t Sheet::append(const StraightLine& line) {
     }
     const std::size_t first = place.at(static_cast<std::size_t>(step.first));
     const bool one = step.operation == Operation::inverse;
-    steps_.push_back({step.operation, first, one ? first : place.at(static_cast<std::size_t>(step.second)), place.back()});
+    steps_.push_back(
+        {step.operation, first, one ? first : place.at(static_cast<std::size_t>(step.second)), place.back()});
   }
   return place.back();
 }

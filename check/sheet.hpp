@@ -3,8 +3,8 @@
 //
 // A root s_j = +-sqrt(Q_j) that is far from 0 on the cell is a function of (x, y) and of earlier roots,
 //     ds_j = dQ_j / (2 s_j);
-// one that is not becomes a coordinate of its own ("lifted"), bound by G_j = s_j^2 - Q_j = 0, for there its slope has no
-// bound. The local coordinates of a cell are (x, y, lifted roots).
+// one that is not becomes a coordinate of its own ("lifted"), bound by G_j = s_j^2 - Q_j = 0, for there its slope has
+// no bound. The local coordinates of a cell are (x, y, lifted roots).
 #pragma once
 
 #include <chrono>
@@ -57,8 +57,8 @@ class Sheet {
   Interval middle(int c) const { return middle_of(local(c)); }
   /// f(m) + sum slope_c (X_c - m_c), met with the plain enclosure.
   Interval centred(int f) const;
-  /// The minor of (slopes of f, slopes of G) without column c: where it is free of 0, every value of coordinate c is taken
-  /// at most once on f = 0 in the cell.
+  /// The minor of (slopes of f, slopes of G) without column c: where it is free of 0, every value of coordinate c is
+  /// taken at most once on f = 0 in the cell.
   Interval tangent(int f, int c) const;
 
  private:

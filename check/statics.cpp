@@ -124,9 +124,7 @@ class Closure {
     return put({pose_.value(form.coordinates.at(0)), pose_.value(form.coordinates.at(1))});
   }
 
-  bool place(const mechanism::MeanPoint& form) {
-    return put(pose_.number(0.5) * (at(form.first) + at(form.second)));
-  }
+  bool place(const mechanism::MeanPoint& form) { return put(pose_.number(0.5) * (at(form.first) + at(form.second))); }
 
   bool place(const mechanism::DyadPoint& form) {
     const Vector way = at(form.to) - at(form.from);

@@ -1,8 +1,8 @@
 // The equations of a planar mechanism at a pose, in intervals, derived from the model alone: closure point by point
 // (docs/method.md section 1), then A w = -w_e, three rows a link (docs/notation.md). Private to check/.
 //
-//   dyad B on A, P:   D = |P - A|^2,  k = a^2 - b^2 + D,  Q = 4 a^2 D - k^2,  B = A + (k (P - A) +- sqrt(Q) J (P - A)) / (2 D)
-//   slider S on Q, C: U = u . u,  p = u . (C - Q),  Q = l^2 U - (u x (C - Q))^2,  S = Q + (p +- sqrt(Q)) u / U
+//   dyad B on A, P:   D = |P - A|^2,  k = a^2 - b^2 + D,  Q = 4 a^2 D - k^2,  B = A + (k (P - A) +- sqrt(Q) J (P - A))
+//   / (2 D) slider S on Q, C: U = u . u,  p = u . (C - Q),  Q = l^2 U - (u x (C - Q))^2,  S = Q + (p +- sqrt(Q)) u / U
 #pragma once
 
 #include <array>

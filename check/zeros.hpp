@@ -20,8 +20,8 @@ struct Place {
   Interval x, y;
 };
 
-/// Zeros of function 0 on the segment from `from` to `to` of the line on which coordinate `axis` is `at`, in order. None: they
-/// could not be told apart, or one is at an end.
+/// Zeros of function 0 on the segment from `from` to `to` of the line on which coordinate `axis` is `at`, in order.
+/// None: they could not be told apart, or one is at an end.
 std::optional<std::vector<Place>> zeros_on_segment(Sheet& sheet, int axis, double at, double from, double to);
 
 /// Of function 0 at a point: +1, -1; 0: not known. None: outside the workspace.

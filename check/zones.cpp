@@ -19,13 +19,15 @@ constexpr double on_border = 1e-7;
 double area_of(const Polyline& ring) {
   double twice = 0;
   for (std::size_t i = 1; i < ring.size(); ++i)
-    twice += (ring[i - 1][0] - ring[0][0]) * (ring[i][1] - ring[0][1]) - (ring[i][0] - ring[0][0]) * (ring[i - 1][1] - ring[0][1]);
+    twice += (ring[i - 1][0] - ring[0][0]) * (ring[i][1] - ring[0][1]) -
+             (ring[i][0] - ring[0][0]) * (ring[i - 1][1] - ring[0][1]);
   return 0.5 * twice;
 }
 
 double length_of(const Polyline& ring) {
   double sum = 0;
-  for (std::size_t i = 1; i < ring.size(); ++i) sum += std::hypot(ring[i][0] - ring[i - 1][0], ring[i][1] - ring[i - 1][1]);
+  for (std::size_t i = 1; i < ring.size(); ++i)
+    sum += std::hypot(ring[i][0] - ring[i - 1][0], ring[i][1] - ring[i - 1][1]);
   return sum;
 }
 
@@ -60,7 +62,8 @@ void check_zone(const mechanism::Mechanism& m, const CertificateFile& c, const Z
       const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(unknowns[k].joint)];
       if (joint.name != reaction.first || unknowns[k].quantity != reaction.second) continue;
       known = true;
-      if (solved->reactions[k].sign() != sign) fail(core::to_string(reaction.second) + "_" + joint.name + " has another sign");
+      if (solved->reactions[k].sign() != sign)
+        fail(core::to_string(reaction.second) + "_" + joint.name + " has another sign");
     }
     if (!known) fail("it has the sign of no reaction");
   }

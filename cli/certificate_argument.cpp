@@ -10,12 +10,14 @@
 namespace clearloci::cli {
 
 void add_certificate_argument(CLI::App& command, std::string& file) {
-  command.add_option("--certificate", file, "Also what was proven and how, for clearloci check; over two lengths, planar")
+  command
+      .add_option("--certificate", file, "Also what was proven and how, for clearloci check; over two lengths, planar")
       ->type_name("FILE");
 }
 
 void require_certifiable(const mechanism::Mechanism& mechanism) {
-  const bool lengths = mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
+  const bool lengths =
+      mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
   if (mechanism.space == mechanism::Space::planar && lengths) return;
   throw core::InputError({.file = "--certificate"}, "certificates are of planar mechanisms over two lengths",
                          "leave it out for this mechanism");

@@ -46,8 +46,9 @@ int run(const Arguments& arguments, TimeLimit& limit) {
                verdict.crossings, verdict.arcs, verdict.points);
     if (verdict.zones > 0) fmt::print(", {} zones", verdict.zones);
     if (verdict.open_share > 0)
-      fmt::print("; unchecked: {:.2g} % of the area (around places where a sheet is not smooth, or left to the exact engine)",
-                 100 * verdict.open_share);
+      fmt::print(
+          "; unchecked: {:.2g} % of the area (around places where a sheet is not smooth, or left to the exact engine)",
+          100 * verdict.open_share);
     fmt::print("\n");
     for (const std::string& what : verdict.unchecked) fmt::print("unchecked: {}\n", report::printable(what));
   }

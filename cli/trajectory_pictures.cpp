@@ -177,8 +177,7 @@ NamedChart sweep_chart(const TrajectoryResult& result, const std::string& name, 
   for (const numeric::LossCurve& curve : result.loss_curves) {
     const std::string what = loss_name(result, curve.joint, curve.quantity);
     const bool is_number = curve.quantity != core::Quantity::f;
-    const std::string words =
-        is_number ? what + " = 0" : fmt::format("|{}| = {:.3g} N", what, result.thresholds.force);
+    const std::string words = is_number ? what + " = 0" : fmt::format("|{}| = {:.3g} N", what, result.thresholds.force);
     panel.series.push_back({words, curve.lines, is_number ? number++ : 2 + curve.joint, !is_number});
   }
   chart.panels.push_back(std::move(panel));

@@ -204,8 +204,8 @@ void print_trajectory(const TrajectoryResult& result) {
                          fmt::format(" at {:.4g} m", s["lost_last"]["distance"].get<double>())
                    : "");
   }
-  fmt::print("\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {:.4g} N: {} times\n", result.thresholds.force,
-             result.losses.size());
+  fmt::print("\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {:.4g} N: {} times\n",
+             result.thresholds.force, result.losses.size());
   if (result.losses.empty()) return;
   fmt::print("{:>14}{:>14}{:>8}  {:<10}\n", "time [s]", "distance [m]", "stage", "what");
   for (const numeric::ContactLoss& loss : result.losses) {

@@ -30,9 +30,9 @@ struct CellNode {
 struct SheetClaim {
   int mode = 0;  ///< of the problem
   FactorRole role = FactorRole::reaction;
-  std::string name;  ///< LocusFactor::expression
-  StraightLine function;   ///< over (coordinates..., s1...sm) of the whole tower
-  std::vector<int> at_zero;  ///< roots that are zero there: the curve is part of their Q_j = 0
+  std::string name;                ///< LocusFactor::expression
+  StraightLine function;           ///< over (coordinates..., s1...sm) of the whole tower
+  std::vector<int> at_zero;        ///< roots that are zero there: the curve is part of their Q_j = 0
   std::array<double, 4> domain{};  ///< x0, x1, y0, y1
   std::vector<CellNode> cells;
 };

@@ -48,8 +48,8 @@ struct LocusFactor {
   std::vector<Vanishing> cancelled;  ///< numerators that it divides too, and how often w is without it for that
   /// Every reaction may stay finite on some curve of it. False is certain: some reaction grows without bound on all.
   bool may_be_idle = false;
-  /// Of a margin: what its equation was multiplied by to be a polynomial, and how often. Where that vanishes too, orders
-  /// of vanishing decide.
+  /// Of a margin: what its equation was multiplied by to be a polynomial, and how often. Where that vanishes too,
+  /// orders of vanishing decide.
   std::vector<std::pair<Polynomial, int>> cleared;
 };
 

@@ -1,8 +1,8 @@
 // Orders of vanishing along a curve on a working mode's sheet (method.md section 10), exactly.
 //
-// Along an irreducible curve g = 0 a polynomial p in the coordinates vanishes to the order v(p) in which g divides it; a
-// root to v(s) = v(Q) / 2, so that on the workspace boundary, where Q = 0, orders count in the root. Of an element
-// N = a + b s with s = sigma sqrt(Q), on one side of the curve:
+// Along an irreducible curve g = 0 a polynomial p in the coordinates vanishes to the order v(p) in which g divides it;
+// a root to v(s) = v(Q) / 2, so that on the workspace boundary, where Q = 0, orders count in the root. Of an element N
+// = a + b s with s = sigma sqrt(Q), on one side of the curve:
 //     v(a) != v(b s)                        -> the smaller of the two
 //     equal, and a and b s of one sign      -> v(a): nothing cancels
 //     equal, signs differ                   -> v(a^2 - b^2 Q) - v(a): the conjugate a - b s does not cancel
@@ -61,7 +61,7 @@ class ArcOrders {
   core::WorkingMode mode_;
   core::Polynomial curve_;
   CoordinateGerm rule_;
-  std::vector<sheet::MultiInterval> at_;     ///< coordinates, then the roots placed so far
+  std::vector<sheet::MultiInterval> at_;      ///< coordinates, then the roots placed so far
   std::map<int, std::vector<Germ>> squares_;  ///< of every side: of the squares placed so far
   std::vector<int> sides_;
   int ramification_ = 1;
@@ -71,8 +71,8 @@ class ArcOrders {
 /// p / divisor, where that is a polynomial.
 std::optional<core::Polynomial> exact_quotient(const core::Polynomial& p, const core::Polynomial& divisor);
 
-/// A point of a plane curve within `reach` of a given one, enclosed so that no other point of it is on the same vertical
-/// or horizontal line there. Nothing where there is none.
+/// A point of a plane curve within `reach` of a given one, enclosed so that no other point of it is on the same
+/// vertical or horizontal line there. Nothing where there is none.
 std::optional<CurvePoint> curve_point(const core::Polynomial& curve, const std::array<double, 2>& near, double reach);
 
 }  // namespace clearloci::loci

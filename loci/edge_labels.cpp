@@ -193,7 +193,10 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
       if (factor->role == FactorRole::margin && !(margin.contains(factor) && !margin.at(factor)))
         edge.labels.push_back({LocusKind::margin, factor->vanishing, factor->expression, factor->cause});
       if (factor->role == FactorRole::direct_singularity)
-        edge.labels.push_back({LocusKind::direct_singularity, {}, factor->expression, factor->cause,
+        edge.labels.push_back({LocusKind::direct_singularity,
+                               {},
+                               factor->expression,
+                               factor->cause,
                                !factor->may_be_idle || !orders.decided || orders.excited});
       if (factor->role == FactorRole::workspace_boundary)
         edge.labels.push_back({LocusKind::workspace_boundary, {}, factor->expression, factor->cause});

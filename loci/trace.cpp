@@ -130,9 +130,8 @@ void certify(const LocusProblem& problem, const std::vector<SheetShare>& shares,
       claim.name = factor.expression;
       certificate.sheets.push_back(std::move(claim));
     }
-    std::erase_if(certificate.open, [&](const core::OpenClaim& open) {
-      return open.mode == share.mode && open.factor == share.factor;
-    });
+    std::erase_if(certificate.open,
+                  [&](const core::OpenClaim& open) { return open.mode == share.mode && open.factor == share.factor; });
   }
 }
 

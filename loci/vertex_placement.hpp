@@ -10,8 +10,8 @@ namespace clearloci::loci {
 /// box); chords deviate by at most `tolerance`.
 core::Polyline place_vertices(const CurveArrangement& arrangement, int edge, const PlaneCurve& curve, double tolerance);
 
-/// The arc of a circle through `start`, `via` and `end` in this order (all on it); a whole turn from `start` where it is
-/// closed. Equal chords, as few as the tolerance allows.
+/// The arc of a circle through `start`, `via` and `end` in this order (all on it); a whole turn from `start` where it
+/// is closed. Equal chords, as few as the tolerance allows.
 core::Polyline circle_arc(const core::Point2& centre, double radius, const core::Point2& start, const core::Point2& via,
                           const core::Point2& end, bool closed, double tolerance);
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Distances from an arc, as parts of the box: vertices of arcs are within 1e-12 of it of their curves, and beyond 1e-5
 /// other zeros may be nearer than the arc.
-constexpr std::array<double, 3> distances = {1e-5, 1e-5 * approach_step, 1e-5 * approach_step * approach_step};
+constexpr std::array<double, 3> distances = {1e-5, 1e-5 * approach_step, 1e-5 * approach_step* approach_step};
 
 /// An arc is approached from no farther than this part of its length, lest the zeros be others'. Where that is below
 /// `least_distance` of the box, rounding errors of vertices would tell: the arc is left undecided.
@@ -37,13 +37,14 @@ std::vector<ArcPlace> places_of(const core::Arc& arc) {
   // Off the middle, where symmetric designs have special poses.
   for (const double share : {0.237, 0.419, 0.683}) {
     if (points.size() == 2) {
-      places.push_back({{points[0][0] + share * (points[1][0] - points[0][0]),
-                         points[0][1] + share * (points[1][1] - points[0][1])},
-                        along(points[0], points[1])});
+      places.push_back(
+          {{points[0][0] + share * (points[1][0] - points[0][0]), points[0][1] + share * (points[1][1] - points[0][1])},
+           along(points[0], points[1])});
       continue;
     }
     const auto last = points.size() - 2;
-    const auto i = std::clamp<std::size_t>(static_cast<std::size_t>(share * static_cast<double>(points.size())), 1, last);
+    const auto i =
+        std::clamp<std::size_t>(static_cast<std::size_t>(share * static_cast<double>(points.size())), 1, last);
     places.push_back({points[i], along(points[i - 1], points[i + 1])});
   }
   return places;

@@ -1,7 +1,7 @@
 // Traced arcs against reactions beside them. What a reaction w does towards an arc shows in how |w| changes with the
-// distance t from it: as t^(1/2) or faster where w tends to zero (on the workspace boundary as the root, elsewhere as t),
-// not at all where its limit is another number, as t^(-1/2) or faster where it is unbounded. The arc is approached from
-// both sides as far as the workspace is there, at a few of its points.
+// distance t from it: as t^(1/2) or faster where w tends to zero (on the workspace boundary as the root, elsewhere as
+// t), not at all where its limit is another number, as t^(-1/2) or faster where it is unbounded. The arc is approached
+// from both sides as far as the workspace is there, at a few of its points.
 #pragma once
 
 #include <optional>

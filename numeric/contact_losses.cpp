@@ -54,7 +54,8 @@ class Watch {
 
   Value at(const Instant& i) const {
     if (is_number_)
-      return {number_.of(i.at_rest) + u_ * number_.of(i.inertial), number_.of(i.at_rest_rate) + u_ * number_.of(i.inertial_rate)};
+      return {number_.of(i.at_rest) + u_ * number_.of(i.inertial),
+              number_.of(i.at_rest_rate) + u_ * number_.of(i.inertial_rate)};
     const Value x = component(i, columns_.fx), y = component(i, columns_.fy);
     return {x.value * x.value + y.value * y.value, 2 * (x.value * x.rate + y.value * y.rate)};
   }
@@ -247,7 +248,8 @@ void consider_seams(const Motion& motion, const std::vector<std::vector<Instant>
       if (!(motion.clearances[j].radial > 0)) continue;
       const double period = turn_period(before, after, motion.columns[j]);
       CriticalPeriod& stage = critical[static_cast<std::size_t>(right.stage)];
-      if (period > stage.period) stage = {period, static_cast<int>(j), core::Quantity::f, after.tau, after.distance.value()};
+      if (period > stage.period)
+        stage = {period, static_cast<int>(j), core::Quantity::f, after.tau, after.distance.value()};
     }
   }
 }
@@ -377,8 +379,8 @@ std::vector<ContactLoss> contact_losses(const Motion& motion, const std::vector<
   return LossSearch(motion, samples, period, thresholds).run();
 }
 
-double loss_period(const Motion& motion, const Instant& at, mechanism::JointIndex joint,
-                   core::Quantity quantity, const LossThresholds& thresholds) {
+double loss_period(const Motion& motion, const Instant& at, mechanism::JointIndex joint, core::Quantity quantity,
+                   const LossThresholds& thresholds) {
   const JointColumns& c = motion.columns[static_cast<std::size_t>(joint)];
   if (quantity != core::Quantity::f) {
     const Scalar number(motion, joint, quantity);

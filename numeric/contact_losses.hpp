@@ -1,7 +1,7 @@
 // Where along a trajectory the parts of a joint lose contact: M_J, F_J or what an end of a guide bears passes through
-// zero (for that end N + T/h or N - T/h in the place of M below), or |f_J| has a minimum at or below a threshold, or any
-// of them flips at once where the acceleration or the payload changes. And from which period on
-// that no longer happens. With w = w_s + u w_i, u = 1/T² (dynamics.hpp), both questions have closed forms in T:
+// zero (for that end N + T/h or N - T/h in the place of M below), or |f_J| has a minimum at or below a threshold, or
+// any of them flips at once where the acceleration or the payload changes. And from which period on that no longer
+// happens. With w = w_s + u w_i, u = 1/T² (dynamics.hpp), both questions have closed forms in T:
 //     M_s + u M_i = 0                                 T = sqrt(-M_i / M_s)
 //     |f_s|² + 2 u f_s·f_i + u² |f_i|² = threshold²   T = 1 / sqrt(smallest u >= 0)
 //     (f_s + u f_i)·(f_s' + u f_i') = 0              where the acceleration jumps from i to i'
@@ -30,16 +30,16 @@ struct ContactLoss {
   LossKind kind = LossKind::zero;
   mechanism::JointIndex joint = 0;
   core::Quantity quantity = core::Quantity::f;  ///< f, M, F, end_ahead or end_behind
-  double tau = 0, time = 0;  ///< part of the period; s, within 1e-9 s
-  double distance = 0;       ///< along the path, m
-  int stage = -1;            ///< -1: while dwelling
-  double force = 0;          ///< of a minimum: |f_J|, N
-  double from = 0, to = 0;   ///< of a minimum: times between which |f_J| is at or below the threshold, s
-  bool payload = false;      ///< of a jump: a body is picked or placed there
+  double tau = 0, time = 0;                     ///< part of the period; s, within 1e-9 s
+  double distance = 0;                          ///< along the path, m
+  int stage = -1;                               ///< -1: while dwelling
+  double force = 0;                             ///< of a minimum: |f_J|, N
+  double from = 0, to = 0;  ///< of a minimum: times between which |f_J| is at or below the threshold, s
+  bool payload = false;     ///< of a jump: a body is picked or placed there
 };
 
-/// What is watched of a joint: f with a radial clearance, M or F with play in its actuator, the ends of a guide's contact
-/// with a gap.
+/// What is watched of a joint: f with a radial clearance, M or F with play in its actuator, the ends of a guide's
+/// contact with a gap.
 std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t joint);
 
 /// Of the joints with a clearance, in order of time.
@@ -47,8 +47,8 @@ std::vector<ContactLoss> contact_losses(const Motion& motion, const std::vector<
                                         double period, const LossThresholds& thresholds);
 
 /// The largest period at which a joint loses contact at an instant: 0 if at none, infinite if also at rest.
-double loss_period(const Motion& motion, const Instant& at, mechanism::JointIndex joint,
-                   core::Quantity quantity, const LossThresholds& thresholds);
+double loss_period(const Motion& motion, const Instant& at, mechanism::JointIndex joint, core::Quantity quantity,
+                   const LossThresholds& thresholds);
 
 /// The least period above which a stage is free of contact losses, jumps by payloads aside; 0 where it always is,
 /// infinite where contact is lost at rest too. With what is lost last and where.

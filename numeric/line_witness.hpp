@@ -63,8 +63,8 @@ class LineWitness {
   Parity sign_changes(const WitnessColumns& columns, double a, double b);
 
   /// Whether there is an odd number of places between a and b at which |A| and the numerator change sign together:
-  /// there the reaction, their quotient, stays finite and is no zero; or |A| does and the numerator vanishes without doing
-  /// so: there the quotient changes sign. For a single component.
+  /// there the reaction, their quotient, stays finite and is no zero; or |A| does and the numerator vanishes without
+  /// doing so: there the quotient changes sign. For a single component.
   bool cancels(const WitnessColumns& columns, double a, double b);
 
  private:

@@ -29,7 +29,8 @@ struct LossCurve {
   std::vector<std::vector<Point2>> lines;
 };
 
-/// w = 0 for couples, axial forces and ends of guides, and the largest period at which |f_J| is at the threshold for the forces, within the range.
+/// w = 0 for couples, axial forces and ends of guides, and the largest period at which |f_J| is at the threshold for
+/// the forces, within the range.
 std::vector<LossCurve> loss_curves(const Motion& motion, const std::vector<std::vector<Instant>>& samples,
                                    const LossThresholds& thresholds, double shortest, double longest);
 

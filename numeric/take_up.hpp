@@ -52,8 +52,8 @@ struct TakeUp {
   std::optional<double> beta;  ///< β_J in (-π, π]; absent where f_J vanishes
   bool force_vanishes = false;
   bool couple_vanishes = false;
-  double normal = 0, tilt = 0;  ///< of a prismatic joint, m and rad
-  bool guide_vanishes = false;  ///< one of its ends is pressed to neither side
+  double normal = 0, tilt = 0;         ///< of a prismatic joint, m and rad
+  bool guide_vanishes = false;         ///< one of its ends is pressed to neither side
   std::array<bool, 2> end_vanishes{};  ///< which: ahead, behind
 
   bool operator==(const TakeUp&) const = default;

@@ -56,8 +56,9 @@ std::vector<Bounded> TaskWitness::parts_of(const core::TaskDemand& demand, const
   }
   std::vector<Quantity> quantities = {demand.quantity};
   if (demand.quantity == Quantity::f)
-    quantities = joint->type == mechanism::JointType::prismatic ? mechanism::reaction_components(model.mechanism, *joint)
-                                                                : std::vector{Quantity::fx, Quantity::fy, Quantity::fz};
+    quantities = joint->type == mechanism::JointType::prismatic
+                     ? mechanism::reaction_components(model.mechanism, *joint)
+                     : std::vector{Quantity::fx, Quantity::fy, Quantity::fz};
   std::vector<Bounded> parts;
   for (const Quantity quantity : quantities)
     if (column_of(model, index, quantity) >= 0) parts.push_back(value(quantity));

@@ -270,8 +270,7 @@ class ModeValidation {
       for (const core::Arc& arc : curve.arcs) {
         const std::vector<Approach> ways = approaches(model_, signs_, arc, diagonal_);
         if (ways.empty()) continue;
-        const bool context =
-            curve.kind == LocusKind::direct_singularity || curve.kind == LocusKind::workspace_boundary;
+        const bool context = curve.kind == LocusKind::direct_singularity || curve.kind == LocusKind::workspace_boundary;
         for (std::size_t r = 0; r < reactions_.size(); ++r)
           if (!zero_[r]) judge_arc(c, ways, reactions_[r], context, report);
         if (curve.kind == LocusKind::direct_singularity && !curve.excited) judge_idle(c, ways, report);

@@ -56,8 +56,8 @@ struct DisputedArc {
   core::Point2 at{};  ///< one of the arc's points that were approached
   core::WorkingMode mode;
   TracedReaction reaction;
-  bool claimed = false;      ///< the map has the reaction vanish there; or, with `unbounded`, says that none is unbounded
-  bool unbounded = false;    ///< the reaction grows without bound there
+  bool claimed = false;    ///< the map has the reaction vanish there; or, with `unbounded`, says that none is unbounded
+  bool unbounded = false;  ///< the reaction grows without bound there
 };
 
 struct ValidationReport {

@@ -119,7 +119,9 @@ Json points_list(const core::Polyline& line) {
 
 Json task_object(const core::Task& task) {
   Json points = Json::array();
-  const auto add = [&](const core::RationalPoint& p) { points.push_back({core::to_string(p[0]), core::to_string(p[1])}); };
+  const auto add = [&](const core::RationalPoint& p) {
+    points.push_back({core::to_string(p[0]), core::to_string(p[1])});
+  };
   core::Rational radius = 0;
   if (const auto* box = std::get_if<core::TaskBox>(&task.shape)) {
     add(box->lower);

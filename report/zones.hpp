@@ -13,15 +13,15 @@ namespace clearloci::report {
 
 /// The object of results.md: a head like that of loci.json, then `zones`. Of a zone besides the keys shown there:
 /// `borders` (curve, what vanishes there, length), `contact_lost_at_border` (the joints), `isolated_points`,
-/// `certified`. Then `areas`, one a working mode: `workspace`, what the mode reaches in the box, and `in_doubt`, what of
-/// that is in zones that are not certified or in none.
+/// `certified`. Then `areas`, one a working mode: `workspace`, what the mode reaches in the box, and `in_doubt`, what
+/// of that is in zones that are not certified or in none.
 nlohmann::ordered_json zones_object(const core::ZoneMap& map);
 
 /// One polygon a zone.
 std::string zones_geojson(const core::ZoneMap& map);
 
-/// A row a zone: id, assembly mode, signs, area in m^2, largest circle in m, what bounds it; the sum, and what area is in
-/// doubt. Ends with a newline.
+/// A row a zone: id, assembly mode, signs, area in m^2, largest circle in m, what bounds it; the sum, and what area is
+/// in doubt. Ends with a newline.
 std::string zones_table(const core::ZoneMap& map);
 
 /// Writes zones.json and what else is asked for of svg, png, pdf, geojson; a picture a mode. Returns the files.

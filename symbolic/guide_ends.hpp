@@ -18,10 +18,10 @@ namespace clearloci::symbolic {
 struct Guide {
   std::string joint;
   core::Rational half_length;
-  FactoredPoly common;                    ///< what the numerators of N and T share
-  Poly bears, turns;                      ///< the rest of h N / |u| and of T
-  Poly square;                            ///< u . u
-  std::optional<core::Rational> length;   ///< |u| where it is constant, within 1e-30
+  FactoredPoly common;                   ///< what the numerators of N and T share
+  Poly bears, turns;                     ///< the rest of h N / |u| and of T
+  Poly square;                           ///< u . u
+  std::optional<core::Rational> length;  ///< |u| where it is constant, within 1e-30
 
   /// The ends' numerators are polynomials: |u| is constant, or but a factor as one of N and T is zero in every pose.
   bool is_polynomial() const { return length || bears.is_zero() || turns.is_zero(); }

@@ -69,7 +69,8 @@ class Margins {
     const Poly natural = polynomial.primitive();
     auto known = std::find_if(margins_.begin(), margins_.end(),
                               [&](const Margin& m) { return m.quantity == quantity && m.natural == natural; });
-    if (known == margins_.end()) known = margins_.insert(known, {natural, quantity, bound, {}, below.first, below.second, std::move(senses)});
+    if (known == margins_.end())
+      known = margins_.insert(known, {natural, quantity, bound, {}, below.first, below.second, std::move(senses)});
     if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
   }
 

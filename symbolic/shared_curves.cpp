@@ -98,8 +98,8 @@ SharedCurves::Residue SharedCurves::value(const Reduced& p, const std::vector<Re
   return total;
 }
 
-/// The points above one point of the curve; nothing where some root of theirs is not in the field, or a place divides by
-/// zero.
+/// The points above one point of the curve; nothing where some root of theirs is not in the field, or a place divides
+/// by zero.
 std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsigned seed) {
   std::vector<Residue> start(static_cast<std::size_t>(geometry_.ring().size()), 0);
   int along = geometry_.coordinates() - 1;
@@ -135,7 +135,8 @@ std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsign
       const Residue inverse = n_invmod(w, prime);
       point[static_cast<std::size_t>(pair->x)] = product(value(reduced(pair->place.x), point), inverse);
       point[static_cast<std::size_t>(pair->y)] = product(value(reduced(pair->place.y), point), inverse);
-      if (pair->z >= 0) point[static_cast<std::size_t>(pair->z)] = product(value(reduced(pair->place.z), point), inverse);
+      if (pair->z >= 0)
+        point[static_cast<std::size_t>(pair->z)] = product(value(reduced(pair->place.z), point), inverse);
     }
   return points;
 }
@@ -154,8 +155,8 @@ bool SharedCurves::may_vanish_along(const std::vector<Poly>& curves, const Poly&
   return std::any_of(curves.begin(), curves.end(), [&](const Poly& curve) {
     const std::optional<Fibre>& points = fibre_of(curve);
     return !points || std::any_of(points->begin(), points->end(), [&](const std::vector<Residue>& point) {
-             return value(reduced(sheet), point) == 0 && value(reduced(natural), point) == 0;
-           });
+      return value(reduced(sheet), point) == 0 && value(reduced(natural), point) == 0;
+    });
   });
 }
 

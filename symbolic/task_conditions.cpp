@@ -24,7 +24,10 @@ using core::TaskDemand;
 class Conditions {
  public:
   explicit Conditions(const std::vector<const mechanism::Mechanism*>& loads)
-      : mechanism_(*loads.front()), geometry_(mechanism_, false, {}, {.all_sheets = true}), elimination_(geometry_), lines_(geometry_) {
+      : mechanism_(*loads.front()),
+        geometry_(mechanism_, false, {}, {.all_sheets = true}),
+        elimination_(geometry_),
+        lines_(geometry_) {
     result_.loads = loads.size();
     result_.tower = lines_.tower();
     for (const mechanism::Mechanism* load : loads) {
@@ -46,11 +49,10 @@ class Conditions {
   void add(const TaskDemand& demand) {
     const mechanism::Joint& joint = joint_named(demand.joint);
     std::vector<Quantity> quantities = {demand.quantity};
-    const bool guide =
-        mechanism_.space == mechanism::Space::planar && joint.type == mechanism::JointType::prismatic;
+    const bool guide = mechanism_.space == mechanism::Space::planar && joint.type == mechanism::JointType::prismatic;
     if (demand.quantity == Quantity::f)
-      quantities = guide ? mechanism::reaction_components(mechanism_, joint)
-                         : mechanism::force_components(mechanism_, joint);
+      quantities =
+          guide ? mechanism::reaction_components(mechanism_, joint) : mechanism::force_components(mechanism_, joint);
     if (core::is_guide_end(demand.quantity)) know_length(demand.joint);
     if (demand.least > 0 && std::find(quantities.begin(), quantities.end(), Quantity::f1) != quantities.end())
       throw core::InputError(joint.where,
@@ -103,8 +105,7 @@ class Conditions {
     if (!guide.length && !guide.bears.is_zero()) {
       const Poly bears = guide.bears * Poly::variable(geometry_.ring(), geometry_.auxiliary());
       for (Reaction& end : ends) {
-        end.numerator =
-            factored(end.quantity == Quantity::end_ahead ? bears + guide.turns : bears - guide.turns, {});
+        end.numerator = factored(end.quantity == Quantity::end_ahead ? bears + guide.turns : bears - guide.turns, {});
         multiply(end.numerator, guide.common);
         end.numerator.constant /= 2 * guide.half_length;
       }

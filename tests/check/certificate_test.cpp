@@ -24,13 +24,13 @@ TEST_P(Examples, AreAccepted) {
   RecordProperty("verdict", summary(verdict));
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
-                         // Others: docs/certificates.md says which are rejected though true, or left to the exact engine.
-                         testing::Values("five_bar_generic.yaml", "prrrp.yaml", "rprpr.yaml", "three_rrr.yaml"),
-                         [](const auto& own) {
-                           const std::string file = own.param;
-                           return file.substr(0, file.find('.'));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Shipped, Examples,
+    // Others: docs/certificates.md says which are rejected though true, or left to the exact engine.
+    testing::Values("five_bar_generic.yaml", "prrrp.yaml", "rprpr.yaml", "three_rrr.yaml"), [](const auto& own) {
+      const std::string file = own.param;
+      return file.substr(0, file.find('.'));
+    });
 
 TEST(Certificate, OfEveryWorkingModeIsAccepted) {
   const std::string model = example("five_bar_generic.yaml");
@@ -62,7 +62,8 @@ TEST(Certificate, OfRandomDesignsIsAccepted) {
   EXPECT_EQ(accepted, designs);
 }
 
-// --- what is false ----------------------------------------------------------------------------------------------------
+// --- what is false
+// ----------------------------------------------------------------------------------------------------
 
 class Mutations : public testing::Test {
  protected:
@@ -141,7 +142,8 @@ TEST_F(Mutations, DISABLED_AVariableChanged) {
   Json changed = certificate();
   for (Json& sheet : changed["sheets"]) {
     std::string cells = sheet["cells"];
-    for (std::size_t at = cells.find("g0:"); at != std::string::npos; at = cells.find("g0:", at + 1)) cells[at + 1] = '1';
+    for (std::size_t at = cells.find("g0:"); at != std::string::npos; at = cells.find("g0:", at + 1))
+      cells[at + 1] = '1';
     sheet["cells"] = cells;
   }
   expect_rejected(changed);

@@ -1,5 +1,5 @@
-// Loci are of reactions, not of numerators (method.md section 10): symmetric designs, on which numerators and |A| vanish
-// together, and guides, which lose contact where an end lifts. The witness knows reactions alone.
+// Loci are of reactions, not of numerators (method.md section 10): symmetric designs, on which numerators and |A|
+// vanish together, and guides, which lose contact where an end lifts. The witness knows reactions alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,9 +93,8 @@ TEST(Vanishing, TwoRodsOnOneRailLoseTheirAxialForcesAlone) {
 core::LocusMap with_claims(core::LocusMap map, const std::string& polynomial,
                            const std::vector<core::Vanishing>& claims) {
   LocusCurve claim = *of_kind(on(map, polynomial), LocusKind::workspace_boundary);
-  std::erase_if(map.curves, [&](const LocusCurve& curve) {
-    return !curve.vanishing.empty() && curve.implicit == claim.implicit;
-  });
+  std::erase_if(map.curves,
+                [&](const LocusCurve& curve) { return !curve.vanishing.empty() && curve.implicit == claim.implicit; });
   claim.id = "claim";
   claim.kind = LocusKind::contact_loss;
   claim.vanishing = claims;
@@ -108,8 +107,8 @@ TEST(Vanishing, TheWitnessDisputesWhatNumeratorsAloneWouldClaim) {
   const core::LocusMap legs = trace_loci(leg);
   EXPECT_EQ(numeric::validate(leg, legs, {40, 40}).disputed, 0u);
   for (const char* rim : {"100*x^2 + 100*y^2 - 9", "100*x^2 + 100*y^2 - 1"}) {
-    const auto list = disputed(numeric::validate(
-        leg, with_claims(legs, rim, {{"A1", Quantity::M, 1}, {"A2", Quantity::M, 1}}), {40, 40}));
+    const auto list = disputed(
+        numeric::validate(leg, with_claims(legs, rim, {{"A1", Quantity::M, 1}, {"A2", Quantity::M, 1}}), {40, 40}));
     EXPECT_TRUE(contains(list, "A1", Quantity::M)) << rim;
     EXPECT_TRUE(contains(list, "A2", Quantity::M)) << rim;
   }
@@ -138,8 +137,8 @@ TEST(Vanishing, TheWitnessMissesWhatIsNotNamed) {
   const mechanism::Mechanism rail = corpus("prr2.yaml");
   core::LocusMap map = trace_loci(rail);
   std::erase_if(map.curves, [](const LocusCurve& curve) { return curve.kind == LocusKind::backlash; });
-  const auto list =
-      disputed(numeric::validate(rail, map, {40, 40}, {{"G1", Quantity::F}, {"G2", Quantity::F}, {"S1", Quantity::fy}}));
+  const auto list = disputed(
+      numeric::validate(rail, map, {40, 40}, {{"G1", Quantity::F}, {"G2", Quantity::F}, {"S1", Quantity::fy}}));
   EXPECT_TRUE(contains(list, "G1", Quantity::F));
   EXPECT_TRUE(contains(list, "G2", Quantity::F));
   EXPECT_FALSE(contains(list, "S1", Quantity::fy));
@@ -219,8 +218,8 @@ TEST(Vanishing, SymmetricDesignsHoldAgainstTheWitness) {
   hold(rods("1/2", "1/2", "1/4", "[1, 1]", "[10, -5]", true));
 }
 
-// A gantry: the bridge slides along x and carries the tool that slides along y. With the load (F_x, F_y) at the tool the
-// bridge's guide bears N = -F_y and T = y F_x about its middle, and an end lifts where h F_y = +-y F_x.
+// A gantry: the bridge slides along x and carries the tool that slides along y. With the load (F_x, F_y) at the tool
+// the bridge's guide bears N = -F_y and T = y F_x about its middle, and an end lifts where h F_y = +-y F_x.
 TEST(Vanishing, AGuideLosesContactWhereAnEndLifts) {
   const mechanism::Mechanism gantry = corpus("gantry.yaml");
   LociRequest request;

@@ -88,7 +88,8 @@ TEST(ArcOrders, HoldForRootsThatDependOnOneAnother) {
 
 TEST(ArcOrders, AreRightAtIrrationalPoints) {
   const RootTower tower = over(circle);
-  const std::optional<CurvePoint> at = curve_point(plane(2) * x * x + y * y - plane({1, 2}), {0.3, std::sqrt(0.32)}, 1e-9);
+  const std::optional<CurvePoint> at =
+      curve_point(plane(2) * x * x + y * y - plane({1, 2}), {0.3, std::sqrt(0.32)}, 1e-9);
   ASSERT_TRUE(at.has_value());
   ArcOrders arc(tower, {1}, plane(2) * x * x + y * y - plane({1, 2}), *at);
   // On the ellipse s^2 = 1/2 + x^2.

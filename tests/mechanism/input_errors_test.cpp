@@ -83,13 +83,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"DivisionByZeroInAPoint", "P: [x, y]", "P: [x/(L - 0.5), y]", 13, 7, "division by zero"},
         Mistake{"RootOfNegative", "L: 0.5", "L: sqrt(-2)", 5, 6, "negative number -2"},
         Mistake{"TooLargePower", "L: 0.5", "L: 2^(10^9)", 5, 6, "100000 bits"},
-        Mistake{"TooLargeProduct", "L: 0.5", "L: (3/7)^4096*(3/7)^4096*(3/7)^4096*(3/7)^4096*(3/7)^4096*(3/7)^4096", 5, 6,
-                "100000 bits"},
+        Mistake{"TooLargeProduct", "L: 0.5", "L: (3/7)^4096*(3/7)^4096*(3/7)^4096*(3/7)^4096*(3/7)^4096*(3/7)^4096", 5,
+                6, "100000 bits"},
         Mistake{"TooLargeSum", "L: 0.5", "L: (1/7)^20000 + (1/11)^20000", 5, 6, "100000 bits"},
-        Mistake{"TooManyRoots", "L: 0.5",
-                "L: (sqrt(2) + sqrt(3) + 1)*(sqrt(5) + sqrt(7) + 1)*(sqrt(11) + sqrt(13) + 1)*(sqrt(17) + sqrt(19) + 1)*"
-                "(sqrt(23) + sqrt(29) + 1)*(sqrt(31) + sqrt(37) + 1)",
-                5, 6, "256 different roots"},
+        Mistake{
+            "TooManyRoots", "L: 0.5",
+            "L: (sqrt(2) + sqrt(3) + 1)*(sqrt(5) + sqrt(7) + 1)*(sqrt(11) + sqrt(13) + 1)*(sqrt(17) + sqrt(19) + 1)*"
+            "(sqrt(23) + sqrt(29) + 1)*(sqrt(31) + sqrt(37) + 1)",
+            5, 6, "256 different roots"},
         Mistake{"Huge", "L: 0.5", "L: 10^400", 5, 6, "larger than 1e15"},
         Mistake{"HugeAndIrrational", "L: 0.5", "L: sqrt(10^400 + 1)", 5, 6, "larger than 1e15"},
         Mistake{"Tiny", "L: 0.5", "L: 1e-40", 5, 6, "nearer to 0 than 1e-30"},

@@ -55,8 +55,8 @@ struct Unloading {
   int apex = 0;  ///< its dyad point
 };
 
-/// tests/reference/reference-cases.md: with massless links leg 1 is unloaded where PB2 is parallel to the force at P, leg 2 where B1P
-/// is.
+/// tests/reference/reference-cases.md: with massless links leg 1 is unloaded where PB2 is parallel to the force at P,
+/// leg 2 where B1P is.
 LocusMap unloading_map(const FiveBar& d, int steps = 4000) {
   const auto mechanism = test::five_bar(d);
   const NumericModel model = compile(mechanism);
