@@ -184,8 +184,8 @@ class SheetCheck {
         const Rectangle& cell = node.cell;
         if (!(claim.axis == 0 ? cell.x0 < claim.at && claim.at < cell.x1 : cell.y0 < claim.at && claim.at < cell.y1))
           fail("a cut lies outside of its " + describe(cell));
-        open.push_back({index, 1});
-        open.push_back({index, 0});
+        open.emplace_back(index, 1);
+        open.emplace_back(index, 0);
       } else {
         node.leaf = static_cast<int>(leaves_.size());
         leaves_.push_back({node.cell, claim, node.leaf});

@@ -205,8 +205,7 @@ class Isolation {
     }
     for (const Known& known : known_) {
       if (disjoint(zero[0], known.zero.x) || disjoint(zero[1], known.zero.y)) continue;
-      if (!inside(zero[0], known.x) || !inside(zero[1], known.y)) return false;
-      return true;
+      return inside(zero[0], known.x) && inside(zero[1], known.y);
     }
     known_.push_back({{zero[0], zero[1]}, wide[0], wide[1]});
     result_.zeros.push_back({zero[0], zero[1]});
