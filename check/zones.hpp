@@ -1,5 +1,5 @@
-// A zone's claims: its signs at the sample, its area, and that its border runs along arcs and the box. Private to
-// check/.
+// A zone's claims: its signs at the sample, its area, and that its border runs along arcs and the box.
+// Private to check/.
 #pragma once
 
 #include "check/certificate.hpp"

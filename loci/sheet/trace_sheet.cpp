@@ -31,6 +31,8 @@ constexpr double smallest_cut = 1e-12;
 constexpr std::size_t most_cut_cells = 8192, most_star_cells = 256;
 // Nearer than this, relative to the region, a point is on the curve to rounding.
 constexpr double at_rounding = 1e-14;
+// Vertices are this near to their curve, relative to the region.
+constexpr double vertex_accuracy = 1e-12;
 // An arc shorter than this, relative to the region, is none.
 constexpr double same_place = 1e-10;
 
@@ -331,9 +333,18 @@ class Tracer {
           std::abs(crossing.at[1] - place.y.middle()) > width + place.y.width() / 2)
         continue;
       found = true;
+      if (cut.side >= 0) move_onto_side(crossing.at, cut.side);
       if (!cut.keep && crossing.kind == Crossing::Kind::rim) crossing.label = cut.label;
     }
     return found;
+  }
+
+  /// An end that is beyond a side of the box by no more than vertices are off their curve is on it.
+  void move_onto_side(core::Point2& at, int side) const {
+    const double level = core::to_double(sides_[static_cast<std::size_t>(side)]);
+    double& own = at[static_cast<std::size_t>(side / 2)];
+    const double beyond = side % 2 == 0 ? level - own : own - level;
+    if (beyond > 0 && beyond <= vertex_accuracy * size_) own = level;
   }
 
   /// The cutter has roots that the curve does not: search the curve's cells on the sheet of both.
