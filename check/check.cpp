@@ -27,12 +27,6 @@ using core::Quantity;
 
 constexpr std::size_t most_bytes = 400'000'000;
 
-double distance(const core::Point2& p, const core::Point2& a, const core::Point2& b) {
-  const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-  const double t = length2 > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(a[0] + t * dx - p[0], a[1] + t * dy - p[1]);
-}
-
 std::string names(const std::set<Reaction>& reactions) {
   std::string text;
   for (const auto& [joint, quantity] : reactions)
@@ -127,7 +121,7 @@ class Check {
         singular.insert(f);
         need(f, FactorRole::direct_singularity, "|A|");
       }
-    need_reactions(mode, orders, need);
+    need_reactions(orders, need);
     for (int s = 0; s < static_cast<int>(c_.sheets.size()); ++s) {
       const SheetCells& sheet = c_.sheets[static_cast<std::size_t>(s)];
       if (sheet.mode != mode) continue;
@@ -149,7 +143,7 @@ class Check {
   }
 
   template <class Need>
-  void need_reactions(int mode, const Orders& orders, const Need& need) const {
+  void need_reactions(const Orders& orders, const Need& need) const {
     const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
     for (const std::string& joint : c_.joints) {
       const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
@@ -172,7 +166,6 @@ class Check {
                         [&](const auto* orders_of_one) { return (*orders_of_one)[f] > 0; }))
           need(static_cast<int>(f), FactorRole::reaction, "f_" + joint);
     }
-    (void)mode;
   }
 
   /// Chains without an arc are parts of reactions' functions on which nothing wanted vanishes; on others a reaction may
@@ -196,9 +189,7 @@ class Check {
   bool has_reaction_arc(int mode, const core::Point2& at) const {
     for (const KnownArc& known : arcs_) {
       if (known.curve->mode != mode || known.curve->kind > core::LocusKind::component) continue;
-      const core::Polyline& points = known.arc->points;
-      for (std::size_t i = 1; i < points.size(); ++i)
-        if (distance(at, points[i - 1], points[i]) <= 2.5 * c_.tolerance) return true;
+      if (passes_near(known.arc->points, at, 2.5 * c_.tolerance)) return true;
     }
     return false;
   }

@@ -209,13 +209,6 @@ class SheetCheck {
     return true;
   }
 
-  static std::array<Rectangle, 2> halves(const Rectangle& cell) {
-    const double x = 0.5 * (cell.x0 + cell.x1), y = 0.5 * (cell.y0 + cell.y1);
-    if (cell.x1 - cell.x0 >= cell.y1 - cell.y0)
-      return {Rectangle{cell.x0, x, cell.y0, cell.y1}, Rectangle{x, cell.x1, cell.y0, cell.y1}};
-    return {Rectangle{cell.x0, cell.x1, cell.y0, y}, Rectangle{cell.x0, cell.x1, y, cell.y1}};
-  }
-
   bool is_graph(const Leaf& leaf) {
     const Rectangle& cell = leaf.cell;
     const int variable = leaf.claim.axis;

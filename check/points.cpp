@@ -18,12 +18,6 @@ using core::Quantity;
 constexpr double same_point = 1e-9;
 constexpr std::size_t most_cells = 60'000;
 
-double distance(const Point2& p, const Point2& a, const Point2& b) {
-  const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-  const double t = length2 > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(a[0] + t * dx - p[0], a[1] + t * dy - p[1]);
-}
-
 class PointCheck {
  public:
   PointCheck(const mechanism::Mechanism& m, const CertificateFile& c, int mode, const Orders& orders, Verdict& verdict)
@@ -132,8 +126,7 @@ class PointCheck {
                                            Reaction{joint, Quantity::f}) == curve.vanishing.end())
         continue;
       for (const core::Arc& arc : curve.arcs)
-        for (std::size_t i = 1; i < arc.points.size(); ++i)
-          if (distance(at, arc.points[i - 1], arc.points[i]) <= 2.5 * c_.tolerance) return true;
+        if (passes_near(arc.points, at, 2.5 * c_.tolerance)) return true;
     }
     return false;
   }

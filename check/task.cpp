@@ -15,12 +15,6 @@ using core::Quantity;
 
 constexpr std::size_t most_cells = 400'000;
 
-double distance(const Point2& p, const Point2& a, const Point2& b) {
-  const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-  const double t = length2 > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(a[0] + t * dx - p[0], a[1] + t * dy - p[1]);
-}
-
 class TaskCheck {
  public:
   TaskCheck(const mechanism::Mechanism& m, const CertificateFile& c, const Orders& orders)
@@ -50,14 +44,7 @@ class TaskCheck {
       }
       if (count > most_cells || cell.size() < 1e-9 * (bound[1] - bound[0] + bound[3] - bound[2] + reach))
         throw FalseClaim("task: that it keeps clear is not shown in " + describe(cell));
-      const double x = 0.5 * (cell.x0 + cell.x1), y = 0.5 * (cell.y0 + cell.y1);
-      if (cell.x1 - cell.x0 >= cell.y1 - cell.y0) {
-        open.push_back({cell.x0, x, cell.y0, cell.y1});
-        open.push_back({x, cell.x1, cell.y0, cell.y1});
-      } else {
-        open.push_back({cell.x0, cell.x1, cell.y0, y});
-        open.push_back({cell.x0, cell.x1, y, cell.y1});
-      }
+      for (const Rectangle& half : halves(cell)) open.push_back(half);
     }
     return cells;
   }
@@ -90,7 +77,7 @@ class TaskCheck {
     bool in = false;
     for (std::size_t i = filled ? 0 : 1; i < points_.size(); ++i) {
       const Point2 &a = points_[i == 0 ? points_.size() - 1 : i - 1], &b = points_[i];
-      nearest = std::min(nearest, distance(middle, a, b));
+      nearest = std::min(nearest, distance_to_segment(middle, a, b));
       if (filled && (a[1] > middle[1]) != (b[1] > middle[1]) &&
           middle[0] < a[0] + (middle[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
         in = !in;

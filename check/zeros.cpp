@@ -151,14 +151,7 @@ class Isolation {
         result_.undecided.push_back(cell);
         continue;
       }
-      const double x = 0.5 * (cell.x0 + cell.x1), y = 0.5 * (cell.y0 + cell.y1);
-      if (cell.x1 - cell.x0 >= cell.y1 - cell.y0) {
-        cells.push_back({cell.x0, x, cell.y0, cell.y1});
-        cells.push_back({x, cell.x1, cell.y0, cell.y1});
-      } else {
-        cells.push_back({cell.x0, cell.x1, cell.y0, y});
-        cells.push_back({cell.x0, cell.x1, y, cell.y1});
-      }
+      for (const Rectangle& half : halves(cell)) cells.push_back(half);
     }
     return std::move(result_);
   }

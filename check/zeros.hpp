@@ -5,15 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "check/plane.hpp"
 #include "check/sheet.hpp"
 
 namespace clearloci::check {
-
-struct Rectangle {
-  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-
-  double size() const { return std::max(x1 - x0, y1 - y0); }
-};
 
 /// Where a zero is: a tiny box.
 struct Place {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "check/identity.hpp"
+#include "check/plane.hpp"
 
 namespace clearloci::check {
 namespace {
@@ -38,12 +39,6 @@ bool is_inside(const Polyline& ring, const Point2& at) {
     if ((a[1] > at[1]) != (b[1] > at[1]) && at[0] < a[0] + (at[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) in = !in;
   }
   return in;
-}
-
-double distance(const Point2& p, const Point2& a, const Point2& b) {
-  const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-  const double t = length2 > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(a[0] + t * dx - p[0], a[1] + t * dy - p[1]);
 }
 
 }  // namespace
@@ -83,8 +78,7 @@ void check_zone(const mechanism::Mechanism& m, const CertificateFile& c, const Z
     for (const CurveClaim& curve : c.curves)
       if (curve.mode == zone.mode)
         for (const core::Arc& arc : curve.arcs)
-          for (std::size_t i = 1; i < arc.points.size(); ++i)
-            if (distance(at, arc.points[i - 1], arc.points[i]) <= reach) return true;
+          if (passes_near(arc.points, at, reach)) return true;
     return false;
   };
   const auto check_border = [&](const Polyline& ring) {

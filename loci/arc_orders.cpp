@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
+#include "loci/sheet/star.hpp"
 #include "loci/tower_algebra.hpp"
 #include "loci/univariate.hpp"
 
@@ -19,43 +20,7 @@ using sheet::MultiInterval;
 /// Halvings of a point's interval: below what MultiInterval resolves.
 constexpr int halvings = 260;
 
-MultiInterval value(const Polynomial& p, const std::vector<MultiInterval>& at) {
-  MultiInterval sum(0.0);
-  for (const core::Term& term : p.terms) {
-    MultiInterval product(term.coefficient);
-    for (std::size_t v = 0; v < term.exponents.size(); ++v)
-      for (int k = 0; k < term.exponents[v]; ++k) product = product * at[v];
-    sum = sum + product;
-  }
-  return sum;
-}
-
 }  // namespace
-
-std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& divisor) {
-  core::ensure(!divisor.is_zero() && divisor.variables == p.variables, "a division by a polynomial of the same ring");
-  const core::Term& head = divisor.terms.front();
-  std::map<std::vector<int>, Rational, std::greater<>> rest;
-  for (const core::Term& term : p.terms) rest.emplace(term.exponents, term.coefficient);
-  Polynomial quotient;
-  quotient.variables = p.variables;
-  while (!rest.empty()) {
-    core::Term next{rest.begin()->first, rest.begin()->second / head.coefficient};
-    for (std::size_t v = 0; v < next.exponents.size(); ++v) {
-      next.exponents[v] -= head.exponents[v];
-      if (next.exponents[v] < 0) return std::nullopt;
-    }
-    for (const core::Term& term : divisor.terms) {
-      std::vector<int> exponents = term.exponents;
-      for (std::size_t v = 0; v < exponents.size(); ++v) exponents[v] += next.exponents[v];
-      const auto [place, fresh] = rest.try_emplace(std::move(exponents), 0);
-      place->second -= term.coefficient * next.coefficient;
-      if (place->second == 0) rest.erase(place);
-    }
-    quotient.terms.push_back(std::move(next));
-  }
-  return quotient;
-}
 
 std::optional<CurvePoint> curve_point(const Polynomial& curve, const std::array<double, 2>& near, double reach) {
   // Along the axis that the curve runs across.
@@ -123,7 +88,7 @@ bool ArcOrders::place_roots_on(int side) {
     if (!square) decided_ = false;
     if (!square || square->sign < 0) return false;
     MultiInterval root(0.0);
-    if (square->order == 0 && !square->is_zero()) root = square_root(value(tower_.roots[j].square, at_));
+    if (square->order == 0 && !square->is_zero()) root = square_root(evaluate(tower_.roots[j].square, at_));
     at_.push_back(mode_[j] > 0 ? root : -root);
     squares.push_back(*square);
   }
@@ -134,12 +99,12 @@ std::optional<Germ> ArcOrders::coordinate_germ(const Polynomial& p, int side) {
   if (rule_) return rule_(p, side);
   Polynomial rest = core::with_variables(p, curve_.variables);
   Germ germ;
-  while (const std::optional<Polynomial> quotient = exact_quotient(rest, curve_)) {
+  while (const std::optional<Polynomial> quotient = sheet::exact_quotient(rest, curve_)) {
     rest = *quotient;
     germ.order += 1;
     germ.sign = germ.sign == 0 ? side : germ.sign * side;
   }
-  const int cofactor = value(rest, at_).sign();
+  const int cofactor = evaluate(rest, at_).sign();
   if (cofactor == 0) return std::nullopt;
   germ.sign = germ.order == 0 ? cofactor : germ.sign * cofactor;
   return germ;
@@ -150,7 +115,7 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
   // The variables of roots that are still to be placed do not occur.
   std::vector<MultiInterval> at = at_;
   at.resize(std::max(at.size(), static_cast<std::size_t>(p.variables)), MultiInterval(0.0));
-  if (const int sign = value(p, at).sign(); sign != 0) return Germ{0, sign};
+  if (const int sign = evaluate(p, at).sign(); sign != 0) return Germ{0, sign};
   const int top = top_root(p, tower_);
   if (top < 0) return coordinate_germ(p, side);
   const auto [a, b] = split(p, static_cast<int>(tower_.coordinates.size()) + top);

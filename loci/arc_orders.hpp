@@ -68,9 +68,6 @@ class ArcOrders {
   bool decided_ = true;
 };
 
-/// p / divisor, where that is a polynomial.
-std::optional<core::Polynomial> exact_quotient(const core::Polynomial& p, const core::Polynomial& divisor);
-
 /// A point of a plane curve within `reach` of a given one, enclosed so that no other point of it is on the same
 /// vertical or horizontal line there. Nothing where there is none.
 std::optional<CurvePoint> curve_point(const core::Polynomial& curve, const std::array<double, 2>& near, double reach);

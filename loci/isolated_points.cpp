@@ -52,26 +52,13 @@ bool on_contact_loss_curve(const LocusMap& map, const WorkingMode& mode, const s
   });
 }
 
-/// Value of a sheet polynomial where (x, y) and the roots are enclosed.
-MultiInterval value(const core::Polynomial& p, const std::vector<MultiInterval>& variables) {
-  MultiInterval sum{core::Rational(0)};
-  for (const core::Term& term : p.terms) {
-    MultiInterval product(term.coefficient);
-    for (std::size_t i = 0; i < term.exponents.size(); ++i) {
-      for (int k = 0; k < term.exponents[i]; ++k) product = product * variables[i];
-    }
-    sum = sum + product;
-  }
-  return sum;
-}
-
 /// The point on the mode's sheet; empty where it lies outside the workspace.
 std::vector<MultiInterval> on_sheet(const core::RootTower& tower, const WorkingMode& mode, const PointEnclosure& at) {
   std::vector<MultiInterval> variables;
   for (std::size_t i = 0; i < 2; ++i) variables.emplace_back(at.lower[i], at.upper[i]);
   variables.resize(static_cast<std::size_t>(tower.variables()), MultiInterval(core::Rational(0)));
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
-    const MultiInterval square = value(tower.roots[j].square, variables);
+    const MultiInterval square = evaluate(tower.roots[j].square, variables);
     if (!square.non_negative()) return {};
     const MultiInterval root = square_root(square);
     variables[2 + j] = mode[j] > 0 ? root : -root;
@@ -85,7 +72,7 @@ bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode,
   const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
   return !at.empty() &&
          std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
-           return factor.role == FactorRole::direct_singularity && value(factor.sheet, at).sign() == 0;
+           return factor.role == FactorRole::direct_singularity && evaluate(factor.sheet, at).sign() == 0;
          });
 }
 
@@ -265,7 +252,7 @@ void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& m
       const core::LocusFactor& factor = problem.factors[f];
       const auto& own = curves_of_factor[f];
       if (std::find(own.begin(), own.end(), point.curve) == own.end()) continue;
-      if (value(factor.sheet, at).sign() != 0) continue;
+      if (evaluate(factor.sheet, at).sign() != 0) continue;
       if (factor.role == FactorRole::reaction) {
         components.insert(components.end(), factor.vanishing.begin(), factor.vanishing.end());
       }

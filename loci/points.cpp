@@ -24,17 +24,6 @@ using sheet::MultiInterval;
 /// Halvings of an isolating interval before its point is given as a double and before intervals decide signs.
 constexpr int halvings = 120;
 
-MultiInterval evaluate(const Polynomial& p, const std::vector<MultiInterval>& at) {
-  MultiInterval sum(0.0);
-  for (const core::Term& term : p.terms) {
-    MultiInterval product(term.coefficient);
-    for (std::size_t v = 0; v < term.exponents.size(); ++v)
-      for (int k = 0; k < term.exponents[v]; ++k) product = product * at[v];
-    sum = sum + product;
-  }
-  return sum;
-}
-
 /// The configurations of one mode at one value of the coordinate.
 class Place {
  public:

@@ -34,12 +34,6 @@ using sheet::TracedArc;
 // A point is on a curve where the curve is this near, relative to the box, to first order.
 constexpr double on_curve = 1e-9;
 
-bool shares_curve(const LocusFactor& a, const LocusFactor& b) {
-  return std::any_of(a.implicit.begin(), a.implicit.end(), [&](const core::Polynomial& p) {
-    return std::find(b.implicit.begin(), b.implicit.end(), p) != b.implicit.end();
-  });
-}
-
 /// What vanishes where all the given factors do.
 EdgeLabel label_of(const LocusProblem& problem, const std::vector<int>& factors) {
   const LocusFactor& first = problem.factors[static_cast<std::size_t>(factors.front())];
@@ -423,6 +417,12 @@ class Gathering {
 };
 
 }  // namespace
+
+bool shares_curve(const LocusFactor& a, const LocusFactor& b) {
+  return std::any_of(a.implicit.begin(), a.implicit.end(), [&](const core::Polynomial& p) {
+    return std::find(b.implicit.begin(), b.implicit.end(), p) != b.implicit.end();
+  });
+}
 
 std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const TraceOptions& options) {
   sheet::SheetTraceOptions sheet_options;

@@ -16,6 +16,9 @@ struct SheetShare {
   sheet::SheetTrace traced;
 };
 
+/// Whether an implicit polynomial is of both.
+bool shares_curve(const core::LocusFactor& a, const core::LocusFactor& b);
+
 /// Traces every factor that has curves, except those whose curves nobody wants, in every mode. Shares come in the order
 /// of modes, then factors.
 std::vector<SheetShare> trace_on_sheets(const core::LocusProblem& problem, const TraceOptions& options);

@@ -35,12 +35,6 @@ bool is_context(const LocusFactor& factor) {
          factor.role == FactorRole::construction;
 }
 
-bool have_common_curve(const LocusFactor& a, const LocusFactor& b) {
-  return std::any_of(a.implicit.begin(), a.implicit.end(), [&](const core::Polynomial& p) {
-    return std::find(b.implicit.begin(), b.implicit.end(), p) != b.implicit.end();
-  });
-}
-
 core::LocusKind kind_of(FactorRole role, core::LocusKind reaction) {
   switch (role) {
     case FactorRole::margin:
@@ -81,7 +75,7 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
   for (const SheetShare& share : shares) {
     const bool is_open = std::any_of(shares.begin(), shares.end(), [&](const SheetShare& other) {
       return other.mode == share.mode && !other.traced.certified && factor_of(other).role == factor_of(share).role &&
-             have_common_curve(factor_of(other), factor_of(share));
+             shares_curve(factor_of(other), factor_of(share));
     });
     (is_open ? open : settled).push_back(share);
   }

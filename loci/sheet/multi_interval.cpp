@@ -99,4 +99,15 @@ MultiInterval square_root(const MultiInterval& a) {
   return result;
 }
 
+MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterval>& at) {
+  MultiInterval sum(0.0);
+  for (const core::Term& term : p.terms) {
+    MultiInterval product(term.coefficient);
+    for (std::size_t v = 0; v < term.exponents.size(); ++v)
+      for (int k = 0; k < term.exponents[v]; ++k) product = product * at[v];
+    sum = sum + product;
+  }
+  return sum;
+}
+
 }  // namespace clearloci::loci::sheet

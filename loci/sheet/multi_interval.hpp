@@ -1,6 +1,9 @@
 // The rung above double intervals: intervals with ends n / 2^precision, for signs that doubles cannot decide.
 #pragma once
 
+#include <vector>
+
+#include "core/polynomial.hpp"
 #include "core/rational.hpp"
 
 namespace clearloci::loci::sheet {
@@ -36,5 +39,8 @@ class MultiInterval {
  private:
   core::Integer lower_, upper_;
 };
+
+/// Value of a polynomial. Of variables that do not occur, the last ones may be left out.
+MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterval>& at);
 
 }  // namespace clearloci::loci::sheet

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "loci/reaction_orders.hpp"
+#include "loci/sheet/star.hpp"
 #include "tests/loci/sheet_cases.hpp"
 
 namespace clearloci::loci {
@@ -99,8 +100,8 @@ TEST(ArcOrders, AreRightAtIrrationalPoints) {
 }
 
 TEST(ArcOrders, DivideOnlyWhatDivides) {
-  EXPECT_EQ(exact_quotient(circle * (x + y), circle), x + y);
-  EXPECT_FALSE(exact_quotient(circle * (x + y) + plane(1), circle).has_value());
+  EXPECT_EQ(sheet::exact_quotient(circle * (x + y), circle), x + y);
+  EXPECT_FALSE(sheet::exact_quotient(circle * (x + y) + plane(1), circle).has_value());
 }
 
 /// A numerator s (x + y) of M, and s times `rest` as |A|.
