@@ -120,7 +120,7 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
   if (top < 0) return coordinate_germ(p, side);
   const auto [a, b] = split(p, static_cast<int>(tower_.coordinates.size()) + top);
   const Germ& square = squares_.at(side)[static_cast<std::size_t>(top)];
-  const std::optional<Germ> plain = germ(a, side);
+  std::optional<Germ> plain = germ(a, side);
   std::optional<Germ> rooted = germ(b, side);
   if (!plain || !rooted) return std::nullopt;
   rooted->order += square.order / 2;
@@ -131,7 +131,7 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
   if (plain->sign == rooted->sign) return plain;
   Polynomial product = conjugate_product(p, top, tower_);
   if (product.is_zero()) return Germ{};
-  const std::optional<Germ> both = germ(core::scaled_for_doubles(product), side);
+  std::optional<Germ> both = germ(core::scaled_for_doubles(product), side);
   if (!both || both->is_zero()) return both;
   return Germ{both->order - plain->order, both->sign * plain->sign};
 }

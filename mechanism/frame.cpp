@@ -144,9 +144,8 @@ class Change {
       }
       case Kind::cos:
       case Kind::sin:
-        for (std::size_t i = 0; i < mechanism_.coordinates.size(); ++i)
-          if (!mechanism_.coordinates[i].angle && core::symbols(e).contains(mechanism_.coordinates[i].name))
-            throw NotPolynomial{};
+        for (const auto& coordinate : mechanism_.coordinates)
+          if (!coordinate.angle && core::symbols(e).contains(coordinate.name)) throw NotPolynomial{};
         return Sum::atom(e);
       default:
         throw NotPolynomial{};

@@ -283,7 +283,7 @@ std::string comment_text(const std::string& text, Language language) {
 std::string latex_text(const std::string& name) { return replace_all(name, "_", "\\_"); }
 
 std::string latex_symbol(const std::string& name) {
-  const std::string first = latex_text(name.substr(0, 1));
+  std::string first = latex_text(name.substr(0, 1));
   if (name.size() == 1) return first;
   return first + "_{" + latex_text(name.substr(1)) + "}";
 }
