@@ -612,10 +612,13 @@ class Laws {
     };
     const int turn = sign(p.determinant) * sign(q.determinant);
     if (turn == 0) return;
-    if (turn < 0 &&
-        !point_between(a, b, [](const auto& point) { return point.kind == core::LocusKind::direct_singularity; }))
+    const bool singular =
+        point_between(a, b, [](const auto& point) { return point.kind == core::LocusKind::direct_singularity; });
+    if (turn < 0 && !singular)
       Faults::Line(faults_) << "|A| changes its sign between " << a << " and " << b << " rad, where no point is";
-    for (std::size_t k = 0; k < p.values.size() && turn > 0; ++k) {
+    // Across a singularity a reaction may change its sign without a zero, whatever |A| does: both may be even at a
+    // fold.
+    for (std::size_t k = 0; k < p.values.size() && turn > 0 && !singular; ++k) {
       const mechanism::Unknown& unknown = witness_.model().unknowns[k];
       if (unknown.quantity != core::Quantity::M) continue;
       if (sign(p.values[k]) * sign(q.values[k]) >= 0) continue;
