@@ -15,7 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
+#include "clearloci/mechanism.hpp"
 #include "loci/sheet/sheet_program.hpp"
 #include "loci/sheet/subtower.hpp"
 
@@ -167,12 +168,11 @@ Segments segments_of(const clearloci::core::LocusMap& map) {
 }
 
 nlohmann::ordered_json drag(int designs) {
-  const clearloci::Loci loci = clearloci::Loci::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
+  const clearloci::Model model = clearloci::Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
   std::vector<double> derive, whole;
   for (int i = 0; i < designs; ++i) {
     const Clock::time_point start = Clock::now();
-    const auto member = loci.mechanism({{"L", std::to_string(500 + i) + "/1000"}});
-    const clearloci::core::LocusMap map = loci.trace(member);
+    const clearloci::LocusMap map = trace_loci(model.with({{"L", std::to_string(500 + i) + "/1000"}}));
     whole.push_back(milliseconds(start));
     double seconds = 0;
     for (const auto& [stage, time] : map.timing)
@@ -190,9 +190,9 @@ int main(int argc, char** argv) {
   const bool with_exact = argc > 1 && std::string_view(argv[1]) == "--exact";
   const auto mechanism = clearloci::mechanism::read_mechanism(CLEARLOCI_SOURCE_DIR "/examples/five_bar_weights.yaml");
   clearloci::LociRequest request;
-  request.selection.joints = {"A1"};
-  request.selection.quantities = {clearloci::core::Quantity::M};
-  request.engine = clearloci::loci::Engine::adaptive;
+  request.joints = {"A1"};
+  request.quantities = {clearloci::core::Quantity::M};
+  request.engine = clearloci::Engine::adaptive;
   const clearloci::core::LocusProblem problem = clearloci::trace_problem(mechanism, request).problem;
   const auto own = std::find_if(problem.factors.begin(), problem.factors.end(), [](const auto& factor) {
     return factor.role == clearloci::core::FactorRole::reaction;
@@ -221,8 +221,7 @@ int main(int argc, char** argv) {
     result["grid"].push_back({{"cells", n}, {"milliseconds", time}, {"deviation", deviation(factor, segments)}});
   }
   if (with_exact) {
-    const double time =
-        best_of(1, [&] { clearloci::loci::trace(problem, {.engine = clearloci::loci::Engine::exact}); });
+    const double time = best_of(1, [&] { clearloci::loci::trace(problem, {.engine = clearloci::Engine::exact}); });
     result["exact"] = {{"milliseconds", time}};
   }
   result["drag"] = drag(60);

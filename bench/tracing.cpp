@@ -1,7 +1,7 @@
 // From a mechanism file to its traced loci, in one process: what a program that calls the library waits for.
 #include <benchmark/benchmark.h>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "core/rational.hpp"
 #include "mechanism/mechanism.hpp"
 

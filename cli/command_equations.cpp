@@ -7,10 +7,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/singular_modes.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
-#include "cli/singular_modes.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
 #include "report/files.hpp"

@@ -9,15 +9,15 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/singular_modes.hpp"
+#include "analysis/zone_errors.hpp"
+#include "analysis/zones.hpp"
 #include "cli/commands.hpp"
 #include "cli/coordinate_errors.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
-#include "cli/singular_modes.hpp"
-#include "cli/zone_errors.hpp"
-#include "cli/zone_search.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
 #include "numeric/error_map.hpp"

@@ -62,16 +62,15 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     write_incomplete(common, "loci.json", report::loci_object(map));
   });
   Progress progress(arguments.common.quiet);
-  LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   core::Certificate certificate;
-  if (!arguments.certificate.empty()) request.certificate = &certificate;
-  const core::LocusMap map = trace_loci(mechanism, request);
+  const bool certify = !arguments.certificate.empty();
+  const core::LocusMap map = trace_loci(mechanism, request, certify ? &certificate : nullptr);
   progress.clear();
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
-  if (request.certificate != nullptr)
-    write_certificate(arguments.certificate, "loci", arguments.common, certificate, map);
+  if (certify) write_certificate(arguments.certificate, "loci", arguments.common, certificate, map);
   const std::vector<std::filesystem::path> files =
       report::write_loci(map, sample_sketches(mechanism, map), folder, formats);
   if (arguments.common.json) {

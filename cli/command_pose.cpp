@@ -7,12 +7,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/singular_modes.hpp"
 #include "cli/arguments.hpp"
 #include "cli/columns.hpp"
 #include "cli/commands.hpp"
 #include "cli/pose_result.hpp"
 #include "cli/program.hpp"
-#include "cli/singular_modes.hpp"
 #include "cli/spatial_pose.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"

@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/singular_modes.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
-#include "cli/singular_modes.hpp"
 #include "cli/time_limit.hpp"
 #include "cli/trajectory_pictures.hpp"
 #include "core/errors.hpp"

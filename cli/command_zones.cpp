@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/zones.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
-#include "cli/zone_search.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
 #include "report/loci_json.hpp"
@@ -54,15 +54,15 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     write_incomplete(common, "zones.json", incomplete_body(name, "the zones were"));
   });
   Progress progress(arguments.common.quiet);
-  LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   core::Certificate certificate;
-  if (!arguments.certificate.empty()) request.certificate = &certificate;
-  const core::ZoneMap map = find_zones(mechanism, request);
+  const bool certify = !arguments.certificate.empty();
+  const core::ZoneMap map = find_zones(mechanism, request, certify ? &certificate : nullptr);
   progress.clear();
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
-  if (request.certificate != nullptr)
+  if (certify)
     write_certificate(arguments.certificate, "zones", arguments.common, certificate, map.loci, {.zones = &map.zones});
   const std::vector<std::filesystem::path> files = report::write_zones(map, folder, formats);
   if (arguments.common.json) {

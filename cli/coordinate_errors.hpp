@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/loci.hpp"
 #include "cli/columns.hpp"
-#include "cli/pipeline.hpp"
 #include "numeric/error_range.hpp"
 #include "report/chart.hpp"
 

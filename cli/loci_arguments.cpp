@@ -8,16 +8,15 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "mechanism/frame.hpp"
 
 namespace clearloci::cli {
 namespace {
 
-loci::Engine parse_engine(const std::string& word) {
-  if (word == "automatic") return loci::Engine::automatic;
-  if (word == "exact") return loci::Engine::exact;
-  if (word == "adaptive") return loci::Engine::adaptive;
+Engine parse_engine(const std::string& word) {
+  if (const std::optional<Engine> engine = core::engine_named(word)) return *engine;
   throw core::InputError({.file = "--engine"}, fmt::format("unknown engine '{}'", word),
-                         "choose from automatic, exact, adaptive");
+                         "choose from adaptive-then-exact, exact, adaptive");
 }
 
 /// What doubles can express in the box at least: vertices are placed within some spacings of doubles at its
@@ -55,7 +54,8 @@ void add_tracing_arguments(CLI::App& command, LociArguments& arguments) {
                   "left or right for every dyad, e.g. right,left, or all (default: the file's)")
       ->type_name("SIDES");
   command
-      .add_option("--engine", arguments.engine, "automatic, exact (arrangement of curves) or adaptive (subdivision)")
+      .add_option("--engine", arguments.engine,
+                  "exact (arrangement of curves), adaptive (subdivision), or both: adaptive-then-exact")
       ->type_name("ENGINE")
       ->capture_default_str();
 }
@@ -86,12 +86,11 @@ void add_mesh_argument(CLI::App& command, LociArguments& arguments) {
 LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress,
                          const TimeLimit& limit) {
   LociRequest request;
-  request.selection.joints = parse_joints(arguments.joints, mechanism);
-  request.selection.quantities = parse_quantities(arguments.quantities);
-  if (!arguments.min_force.empty())
-    request.selection.min_force = parse_positive(arguments.min_force, "--min-force", mechanism);
+  request.joints = parse_joints(arguments.joints, mechanism);
+  request.quantities = parse_quantities(arguments.quantities);
+  if (!arguments.min_force.empty()) request.min_force = parse_positive(arguments.min_force, "--min-force", mechanism);
   if (!arguments.min_couple.empty())
-    request.selection.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism);
+    request.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism);
   request.tolerance = arguments.tolerance.empty() ? 1e-5 * mechanism::frame_of(mechanism).scale_value()
                                                   : parse_tolerance(arguments.tolerance, mechanism);
   request.mesh_size = core::to_double(parse_positive(arguments.mesh_size, "--mesh-size", mechanism));

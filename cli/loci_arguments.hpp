@@ -16,7 +16,7 @@ struct LociArguments {
   std::vector<std::string> joints;
   std::string quantities = "f,M";
   std::string min_force, min_couple, tolerance, mesh_size = "1/32", working_mode;
-  std::string engine = "automatic";
+  std::string engine = "adaptive-then-exact";
 };
 
 /// --joint, --working-mode, --engine.

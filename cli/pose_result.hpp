@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci::cli {

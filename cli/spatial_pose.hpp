@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "mechanism/mechanism.hpp"
 #include "numeric/bounded.hpp"
 

@@ -43,7 +43,8 @@ function(clearloci_folder folder)
   add_library(clearloci::${folder} ALIAS clearloci_${folder})
   set_target_properties(clearloci_${folder} PROPERTIES EXPORT_NAME ${folder})
   target_include_directories(clearloci_${folder} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/clearloci>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:include>)
   target_compile_features(clearloci_${folder} PUBLIC cxx_std_20)
   clearloci_warnings(clearloci_${folder})
 endfunction()

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 double angle_at(const AngleChart& chart, double t) { return chart.half_turns * std::numbers::pi + 2 * std::atan(t); }
 
@@ -18,4 +18,4 @@ std::string parameter_name(const AngleChart& chart, const std::string& angle) {
   return "tan((" + angle + (chart.half_turns > 0 ? " - " : " + ") + shift + ")/2)";
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 struct AngleChart {
   int half_turns = 0;
@@ -21,4 +21,4 @@ double parameter_at(const AngleChart& chart, double angle);
 /// How t is written in formulas: "tan(theta/2)", "tan((theta - pi)/2)".
 std::string parameter_name(const AngleChart& chart, const std::string& angle);
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -8,7 +8,7 @@
 
 #include "core/locus_factor.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 /// A node of a tree of cells, in preorder: a cut into a lower and an upper half, or a leaf with a claim.
 struct CellNode {
@@ -49,4 +49,4 @@ struct Certificate {
   std::vector<OpenClaim> open;
 };
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -1,6 +1,6 @@
 #include "core/circle_pair.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 constexpr unsigned precision = 256;  // bits: the sum may cancel
@@ -79,4 +79,4 @@ std::optional<CirclePairForm> recognise_circle_pair(const Polynomial& quartic) {
   return std::nullopt;
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

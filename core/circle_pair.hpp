@@ -6,7 +6,7 @@
 
 #include "core/locus_map.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 /// rational + sign multiple sqrt(n), to the nearest double or its neighbour.
 double to_double(const QuadraticNumber& value, const Integer& n, int sign);
@@ -16,4 +16,4 @@ double to_double(const QuadraticNumber& value, const Integer& n, int sign);
 /// and both circles have real points.
 std::optional<CirclePairForm> recognise_circle_pair(const Polynomial& quartic);
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

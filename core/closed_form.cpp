@@ -6,7 +6,7 @@
 #include "core/circle_pair.hpp"
 #include "core/locus_map.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 /// a x^2 + b x y + c y^2 + d x + e y + f.
@@ -133,4 +133,4 @@ std::optional<Circle> circle_through(const ClosedForm& form, const Polyline& poi
   return std::nullopt;
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -4,7 +4,7 @@
 
 #include "core/text.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 std::string one_line(const SourcePosition& position, const std::string& problem, const std::string& mend) {
@@ -30,4 +30,4 @@ void ensure(bool promise, std::string_view what, const char* file, int line) {
   throw std::logic_error(std::string(file) + ":" + std::to_string(line) + ": broken promise: " + std::string(what));
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 using Kind = Expression::Kind;
@@ -143,4 +143,4 @@ std::set<std::string> symbols(const Expression& expression) {
 
 std::string to_string(const Expression& expression) { return print(expression).text; }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -8,7 +8,7 @@
 
 #include "core/rational.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 class Expression {
  public:
@@ -46,4 +46,4 @@ std::set<std::string> symbols(const Expression& expression);
 /// Infix, with the fewest parentheses that keep its meaning.
 std::string to_string(const Expression& expression);
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -9,7 +9,7 @@
 
 #include "core/locus_map.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 struct Field {
   std::string name;            ///< "dx": of files
@@ -33,4 +33,4 @@ struct FieldMap {
   }
 };
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -1,9 +1,9 @@
 // Sides of a fold (symbolic/locus_problem.hpp).
 #pragma once
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 /// The name of a root that places nothing: its square is positive on one side of a fold and keeps the sheet there.
 inline constexpr const char* fold_name = "fold";
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 std::vector<Quantity> force_components(const LocusProblem& problem, const std::string& joint) {
   if (problem.force_components.empty()) return {Quantity::fx, Quantity::fy};
@@ -11,4 +11,4 @@ std::vector<Quantity> force_components(const LocusProblem& problem, const std::s
   return problem.force_components[static_cast<std::size_t>(found - problem.joint_order.begin())];
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -7,23 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "clearloci/quantity.hpp"
 #include "core/angle_chart.hpp"
 #include "core/polynomial.hpp"
-#include "core/quantity.hpp"
 #include "core/root_tower.hpp"
 
-namespace clearloci::core {
-
-/// A reaction that vanishes on a factor. `multiplicity`: how often the factor divides its numerator beyond what it
-/// divides |A|; on a traced curve the order p - q to which the reaction vanishes (method.md section 10). Where that is
-/// even the reaction vanishes without a change of sign.
-struct Vanishing {
-  std::string joint;
-  Quantity quantity = Quantity::f;
-  int multiplicity = 1;
-
-  bool operator==(const Vanishing&) const = default;
-};
+namespace clearloci::inline core {
 
 /// `construction`: a squared distance that the closure divides by; a point where the mode may change.
 enum class FactorRole { reaction, margin, direct_singularity, workspace_boundary, construction };
@@ -76,4 +65,4 @@ struct LocusProblem {
 /// The components of a joint's f.
 std::vector<Quantity> force_components(const LocusProblem& problem, const std::string& joint);
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -2,7 +2,7 @@
 
 #include "core/errors.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 std::string to_string(LocusKind kind) {
   switch (kind) {
@@ -40,13 +40,23 @@ std::string to_string(ArcEnd end) {
   return {};
 }
 
-std::vector<std::pair<std::string, std::string>> describe_mode(const RootTower& tower, const WorkingMode& mode) {
-  ensure(mode.size() == tower.roots.size(), "a working mode has one sign a root");
-  std::vector<std::pair<std::string, std::string>> described;
-  for (std::size_t j = 0; j < mode.size(); ++j)
-    if (tower.roots[j].role == RootRole::working_mode)
-      described.emplace_back(tower.roots[j].point, tower.roots[j].sides[mode[j] > 0 ? 0 : 1]);
-  return described;
+std::string to_string(Engine engine) {
+  switch (engine) {
+    case Engine::adaptive_then_exact:
+      return "adaptive-then-exact";
+    case Engine::exact:
+      return "exact";
+    case Engine::adaptive:
+      break;
+  }
+  return "adaptive";
 }
 
-}  // namespace clearloci::core
+std::optional<Engine> engine_named(std::string_view name) {
+  if (name == "automatic") return Engine::adaptive_then_exact;
+  for (const Engine engine : {Engine::adaptive_then_exact, Engine::exact, Engine::adaptive})
+    if (name == to_string(engine)) return engine;
+  return std::nullopt;
+}
+
+}  // namespace clearloci::inline core

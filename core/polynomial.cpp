@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 using Exponents = std::vector<int>;
@@ -221,4 +221,4 @@ double evaluate(const Polynomial& p, std::span<const double> at) {
   return evaluate_with<double>(p, at, [](const Rational& coefficient) { return to_double(coefficient); });
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

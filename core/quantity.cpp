@@ -1,6 +1,6 @@
-#include "core/quantity.hpp"
+#include "clearloci/quantity.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 std::string to_string(Quantity quantity) {
   switch (quantity) {
@@ -42,4 +42,4 @@ std::string to_string(Quantity quantity) {
   return {};
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -9,7 +9,7 @@
 
 #include "core/errors.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 // No quantity of mechanics needs more; without a bound `1e999999999` would fill the memory.
@@ -131,4 +131,4 @@ Rational simplest_rational_near(const Rational& value, const Rational& tolerance
   return negative ? Rational(-result) : result;
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

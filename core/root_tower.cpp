@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 std::vector<WorkingMode> all_working_modes(const RootTower& tower, const WorkingMode& first) {
   ensure(first.size() == tower.roots.size(), "a working mode has one sign a root");
@@ -23,4 +23,19 @@ std::vector<WorkingMode> all_working_modes(const RootTower& tower, const Working
   return modes;
 }
 
-}  // namespace clearloci::core
+TowerNames names_of(const RootTower& tower) {
+  TowerNames names{tower.coordinates, {}};
+  for (const Root& root : tower.roots) names.roots.push_back({root.name, root.point, root.role, root.sides});
+  return names;
+}
+
+std::vector<std::pair<std::string, std::string>> describe_mode(const TowerNames& tower, const WorkingMode& mode) {
+  ensure(mode.size() == tower.roots.size(), "a working mode has one sign a root");
+  std::vector<std::pair<std::string, std::string>> described;
+  for (std::size_t j = 0; j < mode.size(); ++j)
+    if (tower.roots[j].role == RootRole::working_mode)
+      described.emplace_back(tower.roots[j].point, tower.roots[j].sides[mode[j] > 0 ? 0 : 1]);
+  return described;
+}
+
+}  // namespace clearloci::inline core

@@ -7,16 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "clearloci/working_mode.hpp"
 #include "core/polynomial.hpp"
 #include "core/straight_line.hpp"
 
-namespace clearloci::core {
-
-/// What choosing the other sign of a root means.
-enum class RootRole {
-  working_mode,  ///< the other assembly of a dyad or slider: both signs are postures
-  length,        ///< a distance: always the positive root
-};
+namespace clearloci::inline core {
 
 /// One root s = +-sqrt(square). `point` is the constructed point that it places ("B1").
 struct Root {
@@ -48,10 +43,10 @@ struct RootTower {
   int variables() const { return static_cast<int>(coordinates.size() + roots.size()); }
 };
 
-/// Sign of every root of the tower, +1 (left, ahead) or -1 (right, behind); +1 for roots of role `length`.
-using WorkingMode = std::vector<int>;
+/// What the names in the tower are, without its algebra.
+TowerNames names_of(const RootTower& tower);
 
 /// Every combination of signs of the `working_mode` roots, the given mode first.
 std::vector<WorkingMode> all_working_modes(const RootTower& tower, const WorkingMode& first);
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -6,7 +6,7 @@
 
 #include "core/locus_map.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 struct SketchLink {
   std::string name;
@@ -40,4 +40,10 @@ struct Sketch {
   Point2 gravity{};  ///< m/s^2, zero where absent
 };
 
-}  // namespace clearloci::core
+/// The posture in which the pictures of a mode show the mechanism.
+struct ModeSketch {
+  WorkingMode mode;
+  Sketch sketch;
+};
+
+}  // namespace clearloci::inline core

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 const Rational& StraightLine::Step::zero() {
   static const Rational zero = 0;
@@ -138,4 +138,4 @@ StraightLine StraightLineBuilder::line(int result) const {
   return line;
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

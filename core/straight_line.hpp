@@ -9,7 +9,7 @@
 
 #include "core/polynomial.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 struct StraightLine {
   enum class Operation { constant, variable, add, subtract, multiply, inverse };
@@ -75,4 +75,4 @@ class StraightLineBuilder {
   int zero_ = 0, one_ = 0;
 };
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -1,8 +1,10 @@
 #include "core/task.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 RationalPoint sum(const RationalPoint& a, const RationalPoint& b) { return {a[0] + b[0], a[1] + b[1]}; }
@@ -54,4 +56,42 @@ TaskShape translated(const TaskShape& shape, const RationalPoint& by) { return s
 
 std::array<RationalPoint, 2> bounds(const TaskShape& shape) { return std::visit(Bounds{}, shape); }
 
-}  // namespace clearloci::core
+Polyline outline(const TaskShape& shape) {
+  const auto rounded = [](const RationalPoint& p) { return Point2{to_double(p[0]), to_double(p[1])}; };
+  Polyline points;
+  if (const auto* box = std::get_if<TaskBox>(&shape)) {
+    const Point2 low = rounded(box->lower), high = rounded(box->upper);
+    return {low, {high[0], low[1]}, high, {low[0], high[1]}, low};
+  }
+  if (const auto* circle = std::get_if<TaskCircle>(&shape)) {
+    constexpr int chords = 64;
+    const Point2 centre = rounded(circle->centre);
+    const double radius = to_double(circle->radius);
+    for (int i = 0; i <= chords; ++i) {
+      const double angle = 2 * std::numbers::pi * (i % chords) / chords;
+      points.push_back({centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)});
+    }
+    return points;
+  }
+  if (const auto* polygon = std::get_if<TaskPolygon>(&shape)) {
+    for (const RationalPoint& p : polygon->corners) points.push_back(rounded(p));
+    points.push_back(points.front());
+    return points;
+  }
+  for (const RationalPoint& p : std::get<TaskPath>(shape).points) points.push_back(rounded(p));
+  return points;
+}
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::verified:
+      return "verified";
+    case Verdict::refuted:
+      return "refuted";
+    case Verdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+}  // namespace clearloci::inline core

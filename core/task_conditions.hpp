@@ -9,7 +9,7 @@
 
 #include "core/locus_factor.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 /// A reaction that must not vanish, or must keep a size.
 struct TaskDemand {
@@ -44,4 +44,4 @@ struct TaskConditions {
   std::size_t loads = 1;
 };
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

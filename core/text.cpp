@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
@@ -104,4 +104,4 @@ std::string message_line(std::string_view text) {
   return cut(line, longest_line);
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

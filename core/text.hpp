@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 /// The text with every ill-formed UTF-8 sequence, every control character (C0, DEL, C1) and every character that
 /// reorders or breaks a line unseen replaced by U+FFFD.
@@ -18,4 +18,4 @@ std::string shortened(std::string_view text, std::size_t most);
 /// lines of 80 columns in all.
 std::string message_line(std::string_view text);
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -21,7 +21,7 @@ using core::LocusProblem;
 using core::Root;
 
 /// Of folds and margins: they place no point.
-bool is_own(const Root& root) { return root.point.empty(); }
+bool is_own(const core::RootNames& root) { return root.point.empty(); }
 
 /// Whether a factor is of the f of a fold.
 bool is_fold(const LocusFactor& factor, const LocusProblem& problem) {
@@ -76,14 +76,6 @@ void drop_own_roots(LocusMap& map) {
   const auto first_own = std::find_if(map.tower.roots.begin(), map.tower.roots.end(), is_own);
   const auto kept = static_cast<std::size_t>(first_own - map.tower.roots.begin());
   map.tower.roots.erase(first_own, map.tower.roots.end());
-  const int variables = map.tower.variables();
-  for (Root& root : map.tower.roots) root.square = core::with_variables(root.square, variables);
-  for (core::Polynomial& denominator : map.tower.denominators)
-    denominator = core::with_variables(denominator, variables);
-  for (core::DyadBase& base : map.tower.bases) {
-    base.x = core::with_variables(base.x, variables);
-    base.y = core::with_variables(base.y, variables);
-  }
   for (LocusCurve& curve : map.curves) curve.mode.resize(kept, 1);
   for (core::LocusSurface& surface : map.surfaces) surface.mode.resize(kept, 1);
   for (core::IsolatedPoint& point : map.isolated_points) point.mode.resize(kept, 1);

@@ -289,7 +289,8 @@ class ModeSurfaces {
         what += (what.empty() ? "" : ", ") + core::to_string(v.quantity) + "_" + v.joint;
       if (what.empty()) what = factor.cause;
     }
-    for (const auto& [point, side] : core::describe_mode(problem_.tower, mode_)) what += ", " + point + " " + side;
+    for (const auto& [point, side] : core::describe_mode(names_of(problem_.tower), mode_))
+      what += ", " + point + " " + side;
     const Point at = fields_[f]->frame().place(meshed.at);
     std::ostringstream text;
     text.precision(3);
@@ -400,7 +401,7 @@ LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const Su
   for (const auto& mode : modes)
     for (std::size_t f = 0; f < mode->size(); ++f) mode->add(f, map);
   if (map.complete) note_forces(problem, map);
-  map.tower = problem.tower;
+  map.tower = names_of(problem.tower);
   map.lower = problem.lower;
   map.upper = problem.upper;
   map.tolerance = problem.tolerance;

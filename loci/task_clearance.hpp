@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "clearloci/verify.hpp"
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
 #include "loci/task_region.hpp"
@@ -24,7 +25,7 @@ struct NearestLocus {
 std::optional<NearestLocus> nearest_locus(const core::LocusProblem& problem, const core::LocusMap& map,
                                           const core::WorkingMode& mode, const TaskRegion& region);
 
-enum class FitGoal { nearest, best };
+using core::FitGoal;
 
 /// A translation of a task, m, and its clearance there.
 struct Fit {

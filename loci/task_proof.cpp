@@ -184,7 +184,7 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   TaskProof proof;
   Refutation refutation(conditions, mode, region, margin, refuted_at);
   if (refutation.by_samples()) {
-    proof.verdict = TaskVerdict::refuted;
+    proof.verdict = core::Verdict::refuted;
     return proof;
   }
   TaskCell judge(conditions, mode);
@@ -219,7 +219,7 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
       continue;
     }
     if (refutation.by_cell(cell, state, judge.unmet())) {
-      proof.verdict = TaskVerdict::refuted;
+      proof.verdict = core::Verdict::refuted;
       return proof;
     }
     if (cell.width() < finest * size)
@@ -229,7 +229,7 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   }
   for (const Cell& cell : open)
     if (region.distance(cell.x, cell.y) <= reach) left_open(cell);
-  if (proof.open == 0) proof.verdict = TaskVerdict::verified;
+  if (proof.open == 0) proof.verdict = core::Verdict::verified;
   return proof;
 }
 

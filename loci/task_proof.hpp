@@ -15,16 +15,15 @@
 #include <functional>
 #include <optional>
 
+#include "clearloci/verify.hpp"
 #include "core/locus_map.hpp"
 #include "core/task_conditions.hpp"
 #include "loci/task_region.hpp"
 
 namespace clearloci::loci {
 
-enum class TaskVerdict { verified, refuted, undecided };
-
 struct TaskProof {
-  TaskVerdict verdict = TaskVerdict::undecided;
+  core::Verdict verdict = core::Verdict::undecided;
   int cells = 0;  ///< that were looked at
   // Of the cells that stayed open:
   std::size_t open = 0;

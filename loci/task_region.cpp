@@ -57,16 +57,10 @@ TaskRegion::TaskRegion(const core::TaskShape& shape) {
   if (const auto* circle = std::get_if<core::TaskCircle>(&shape)) {
     circle_ = true;
     round_ = {rounded(circle->centre), core::to_double(circle->radius)};
-  } else if (std::holds_alternative<core::TaskBox>(shape)) {
-    box_ = true;
-    line_ = {lower_, {upper_[0], lower_[1]}, upper_, {lower_[0], upper_[1]}, lower_};
-  } else if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) {
-    for (const core::RationalPoint& p : polygon->corners) line_.push_back(rounded(p));
-    line_.push_back(line_.front());
-  } else {
-    for (const core::RationalPoint& p : std::get<core::TaskPath>(shape).points) line_.push_back(rounded(p));
-    filled_ = false;
   }
+  line_ = core::outline(shape);
+  box_ = std::holds_alternative<core::TaskBox>(shape);
+  filled_ = !std::holds_alternative<core::TaskPath>(shape);
 }
 
 bool TaskRegion::inside(const Point2& at) const {
@@ -125,7 +119,7 @@ double TaskRegion::distance(const Interval& x, const Interval& y) const {
 Polyline TaskRegion::samples() const {
   if (circle_) {
     Polyline points = {round_.centre};
-    for (const Point2& p : outline()) points.push_back(p);
+    points.insert(points.end(), line_.begin(), line_.end());
     return points;
   }
   Polyline points;
@@ -136,18 +130,6 @@ Polyline TaskRegion::samples() const {
       points.push_back({line_[i - 1][0] + t * (line_[i][0] - line_[i - 1][0]),
                         line_[i - 1][1] + t * (line_[i][1] - line_[i - 1][1])});
   points.push_back(line_.back());
-  return points;
-}
-
-Polyline TaskRegion::outline() const {
-  if (!circle_) return line_;
-  constexpr int chords = 64;
-  Polyline points;
-  for (int i = 0; i <= chords; ++i) {
-    const double angle = 2 * std::numbers::pi * (i % chords) / chords;
-    points.push_back(
-        {round_.centre[0] + round_.radius * std::cos(angle), round_.centre[1] + round_.radius * std::sin(angle)});
-  }
   return points;
 }
 

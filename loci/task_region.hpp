@@ -23,14 +23,12 @@ class TaskRegion {
   core::Point2 upper() const { return upper_; }
   /// A few points of the shape, one in its middle first.
   core::Polyline samples() const;
-  /// Its outline, the first point repeated at the end, circles by chords; of a path the path.
-  core::Polyline outline() const;
 
  private:
   bool inside(const core::Point2& at) const;
 
   bool circle_ = false, box_ = false, filled_ = true;
-  core::Polyline line_;  ///< the border, closed, or the path
+  core::Polyline line_;  ///< the border, closed, of a circle by chords; or the path
   core::Circle round_;
   core::Point2 lower_{}, upper_{};
 };

@@ -129,7 +129,7 @@ void certify(const LocusProblem& problem, const std::vector<SheetShare>& shares,
   }
 }
 
-/// The adaptive engine, with the exact one behind it.
+/// The adaptive engine, with the exact one behind it where that is wanted.
 void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
   std::vector<SheetShare> shares = trace_on_sheets(problem, options);
   if (options.certificate != nullptr) {
@@ -137,7 +137,7 @@ void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, 
     for (const SheetShare& share : shares) options.certificate->open.push_back({share.mode, share.factor});
   }
   try {
-    settle_exactly(problem, options, shares, map);
+    if (options.engine != Engine::adaptive) settle_exactly(problem, options, shares, map);
   } catch (const core::LimitReached&) {
     map.complete = false;  // what is open stays so
   }
@@ -173,7 +173,7 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
   } catch (const core::LimitReached&) {
     map.complete = false;
   }
-  map.tower = problem.tower;
+  map.tower = names_of(problem.tower);
   map.lower = problem.lower;
   map.upper = problem.upper;
   map.tolerance = problem.tolerance;

@@ -12,12 +12,10 @@
 
 namespace clearloci::loci {
 
-/// `exact`: the CGAL arrangement of the implicit curves proves the topology; `adaptive`: certified subdivision on the
-/// working mode's sheet; `automatic`: exact up to the degree where it is quick, adaptive above.
-enum class Engine { automatic, exact, adaptive };
+using core::Engine;
 
 struct TraceOptions {
-  Engine engine = Engine::automatic;
+  Engine engine = Engine::adaptive_then_exact;
   std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
   std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
   /// Where the adaptive engine puts what it claims of its cells; not asked for where it is null.

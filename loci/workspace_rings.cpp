@@ -11,7 +11,7 @@ namespace clearloci::loci {
 WorkspaceFaces workspace_faces(const core::LocusProblem& problem, const core::WorkingMode& mode,
                                const core::LocusMap& map) {
   core::LocusMap boundary;
-  boundary.tower = problem.tower;
+  boundary.tower = names_of(problem.tower);
   boundary.lower = problem.lower;
   boundary.upper = problem.upper;
   boundary.tolerance = problem.tolerance;

@@ -1,8 +1,8 @@
 // The discontinuity-free zones of every mode of a traced map (method.md section 9).
 #pragma once
 
+#include "clearloci/zones.hpp"
 #include "core/locus_factor.hpp"
-#include "core/zone_map.hpp"
 
 namespace clearloci::loci {
 

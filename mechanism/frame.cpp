@@ -263,7 +263,9 @@ Frame frame_of(const Mechanism& mechanism) {
 
 std::optional<Mechanism> in_frame(const Mechanism& mechanism, const Frame& frame) {
   try {
-    return Change(mechanism, frame).run();
+    Mechanism inside = Change(mechanism, frame).run();
+    inside.frame = frame;
+    return inside;
   } catch (const NotPolynomial&) {
     return std::nullopt;
   }

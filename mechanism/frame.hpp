@@ -14,15 +14,6 @@
 
 namespace clearloci::mechanism {
 
-struct Frame {
-  std::array<Rational, 3> origin{};
-  std::vector<Rational> from;  ///< one a free coordinate; 0 of an angle
-  Rational scale = 1;
-
-  bool is_usual() const;  ///< nothing changes
-  double scale_value() const { return core::to_double(scale); }
-};
-
 /// The usual one unless the points of a sample of postures are far from the origin for their distances, or of a size
 /// far from 1: powers of two, and an origin of few digits.
 Frame frame_of(const Mechanism& mechanism);

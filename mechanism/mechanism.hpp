@@ -2,15 +2,16 @@
 // Units are SI throughout: m, kg, s, N, N m, rad.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "clearloci/quantity.hpp"
 #include "core/errors.hpp"
 #include "core/expression.hpp"
-#include "core/quantity.hpp"
 #include "core/rational.hpp"
 
 namespace clearloci::mechanism {
@@ -144,6 +145,16 @@ struct Unknown {
   core::Quantity quantity = core::Quantity::fx;
 };
 
+/// A change of coordinates (mechanism/frame.hpp): place p = origin + scale p', free length q = from + scale q'.
+struct Frame {
+  std::array<Rational, 3> origin{};
+  std::vector<Rational> from;  ///< one a free coordinate; 0 of an angle
+  Rational scale = 1;
+
+  bool is_usual() const;  ///< nothing changes
+  double scale_value() const { return core::to_double(scale); }
+};
+
 struct Mechanism {
   std::string name;
   std::string file;
@@ -157,6 +168,8 @@ struct Mechanism {
   PointIndex end_effector_point = 0;
   std::vector<Load> loads;
   std::vector<Expression> gravity;  ///< empty: links are weightless
+  /// The frame that it is seen in, if not its own: expressions are printed in the coordinates outside it.
+  std::optional<Frame> frame = {};
 };
 
 /// Unknowns in column order. Planar: fx, fy of every revolute joint and N, T of every prismatic one in the file's

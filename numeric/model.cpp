@@ -321,7 +321,7 @@ double typical_length(const NumericModel& model, const Posture& p) {
   return *middle;
 }
 
-std::vector<int> dyad_signs(const NumericModel& model, const core::RootTower& tower, const core::WorkingMode& mode) {
+std::vector<int> dyad_signs(const NumericModel& model, const core::TowerNames& tower, const core::WorkingMode& mode) {
   if (tower.roots.empty()) {
     core::ensure(mode.size() == model.dyads.size(), "a working mode has one sign for each dyad");
     return mode;
@@ -330,7 +330,7 @@ std::vector<int> dyad_signs(const NumericModel& model, const core::RootTower& to
   std::vector<int> signs;
   for (const int dyad : model.dyads) {
     const auto& name = model.mechanism.points[static_cast<std::size_t>(dyad)].name;
-    const auto root = std::find_if(tower.roots.begin(), tower.roots.end(), [&](const core::Root& r) {
+    const auto root = std::find_if(tower.roots.begin(), tower.roots.end(), [&](const core::RootNames& r) {
       return r.point == name && r.role == core::RootRole::working_mode;
     });
     if (root == tower.roots.end()) {

@@ -90,6 +90,6 @@ double typical_length(const NumericModel& model, const Posture& posture);
 
 /// Signs of the model's dyads in a traced mode: entries of `length` roots are dropped, the rest matched by point name.
 /// Throws core::InputError if the tower lacks one of the dyads.
-std::vector<int> dyad_signs(const NumericModel& model, const core::RootTower& tower, const core::WorkingMode& mode);
+std::vector<int> dyad_signs(const NumericModel& model, const core::TowerNames& tower, const core::WorkingMode& mode);
 
 }  // namespace clearloci::numeric

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "clearloci/zones.hpp"
 #include "core/certificate.hpp"
 #include "core/locus_map.hpp"
 #include "core/task.hpp"
-#include "core/zone_map.hpp"
 
 namespace clearloci::report {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "clearloci/zones.hpp"
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
-#include "core/zone_map.hpp"
 #include "report/axis.hpp"
 #include "report/field_scale.hpp"
 #include "report/groups.hpp"

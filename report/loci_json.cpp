@@ -168,7 +168,7 @@ void print(const Json& value, int depth, std::string& out) {
 
 }  // namespace
 
-Json mode_object(const core::RootTower& tower, const core::WorkingMode& mode) {
+Json mode_object(const core::TowerNames& tower, const core::WorkingMode& mode) {
   Json body = Json::object();
   for (const auto& [point, side] : core::describe_mode(tower, mode)) body[printable(point)] = side;
   return body;

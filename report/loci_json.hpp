@@ -23,7 +23,7 @@ nlohmann::ordered_json loci_object(const core::LocusMap& map);
 std::string json_text(const nlohmann::ordered_json& value);
 
 /// {"B1": "right", "B2": "left"}.
-nlohmann::ordered_json mode_object(const core::RootTower& tower, const core::WorkingMode& mode);
+nlohmann::ordered_json mode_object(const core::TowerNames& tower, const core::WorkingMode& mode);
 
 /// [{"joint": "A1", "quantity": "f"}, ...].
 nlohmann::ordered_json vanishing_array(const std::vector<core::Vanishing>& vanishing);

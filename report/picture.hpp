@@ -3,10 +3,10 @@
 
 #include <string>
 
+#include "clearloci/zones.hpp"
 #include "core/field_map.hpp"
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
-#include "core/zone_map.hpp"
 #include "report/task_mark.hpp"
 
 namespace clearloci::report {

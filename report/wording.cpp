@@ -140,13 +140,13 @@ std::string closed_form_words(const core::ClosedForm& form, std::span<const std:
   return "";
 }
 
-std::string mode_words(const core::RootTower& tower, const core::WorkingMode& mode) {
+std::string mode_words(const core::TowerNames& tower, const core::WorkingMode& mode) {
   std::vector<std::string> parts;
   for (const auto& [point, side] : core::describe_mode(tower, mode)) parts.push_back(point + " " + side);
   return joined(parts, ", ");
 }
 
-std::string mode_slug(const core::RootTower& tower, const core::WorkingMode& mode) {
+std::string mode_slug(const core::TowerNames& tower, const core::WorkingMode& mode) {
   std::vector<std::string> parts;
   for (const auto& [point, side] : core::describe_mode(tower, mode)) parts.push_back(side);
   return joined(parts, "-");

@@ -26,10 +26,10 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
 std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates);
 
 /// "B1 right, B2 left"; empty for a mechanism without a choice.
-std::string mode_words(const core::RootTower& tower, const core::WorkingMode& mode);
+std::string mode_words(const core::TowerNames& tower, const core::WorkingMode& mode);
 
 /// "right-left": the mode as a part of a file's name.
-std::string mode_slug(const core::RootTower& tower, const core::WorkingMode& mode);
+std::string mode_slug(const core::TowerNames& tower, const core::WorkingMode& mode);
 
 /// "L = 1/2, d = 1/2".
 std::string parameter_words(const core::LocusMap& map);

@@ -24,11 +24,7 @@ std::vector<std::string> file_format_names();
 /// json, svg, png, csv.
 std::set<FileFormat> default_file_formats();
 
-/// The posture in which the pictures of a mode show the mechanism.
-struct ModeSketch {
-  core::WorkingMode mode;
-  core::Sketch sketch;
-};
+using core::ModeSketch;
 
 /// Whether loci over so many free coordinates can be written so: dxf and geojson hold curves, stl and obj surfaces.
 bool can_hold(FileFormat format, std::size_t coordinates);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/zone_map.hpp"
+#include "clearloci/zones.hpp"
 
 namespace clearloci::report {
 

@@ -358,10 +358,10 @@ class Derivation {
   }
 
   std::string text(const Poly& p) const {
-    const bool primitive = selection_.frame && p.primitive() == p;
+    const bool primitive = mechanism_.frame && p.primitive() == p;
     Poly outside = p;
-    if (selection_.frame) {
-      const mechanism::Frame& frame = *selection_.frame;
+    if (mechanism_.frame) {
+      const mechanism::Frame& frame = *mechanism_.frame;
       for (int i = 0; i < geometry_.coordinates(); ++i)
         if (!geometry_.charts()[static_cast<std::size_t>(i)])
           outside = shifted(outside, i, frame.from[static_cast<std::size_t>(i)], frame.scale);
@@ -732,7 +732,7 @@ class Derivation {
         names += joint;
         factor.vanishing.push_back({joint, margin.quantity, 1});
       }
-      const core::Rational unit = selection_.frame && !force ? selection_.frame->scale : core::Rational(1);
+      const core::Rational unit = mechanism_.frame && !force ? mechanism_.frame->scale : core::Rational(1);
       const std::string bound = core::to_string(core::Rational(margin.bound * unit));
       factor.cleared = cleared_by(margin.below, margin.power);
       factor.expression = text(margin.natural);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/locus_factor.hpp"
-#include "mechanism/frame.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci::symbolic {
@@ -21,8 +20,6 @@ struct Selection {
   std::optional<core::Rational> min_couple;  ///< N m: adds the margin curves |M_J| = min_couple
   /// Signs of the dyads and sliders, +1 left or ahead, in the order of mechanism::dyad_points; empty: the file's mode.
   std::vector<std::vector<int>> working_modes = {};
-  /// The frame that the mechanism is seen in: expressions are printed in the coordinates outside it.
-  std::optional<mechanism::Frame> frame = {};
 };
 
 struct DerivedProblem {

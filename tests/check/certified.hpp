@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/loci.hpp"
+#include "analysis/zones.hpp"
 #include "check/check.hpp"
-#include "cli/pipeline.hpp"
-#include "cli/zone_search.hpp"
 #include "mechanism/read.hpp"
 #include "report/certificate.hpp"
 

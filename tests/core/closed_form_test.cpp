@@ -6,7 +6,7 @@
 
 #include "core/locus_map.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 Polynomial x() { return variable_polynomial(2, 0); }
@@ -183,4 +183,4 @@ TEST(ClosedForm, ParabolasOpenAlongTheirAngle) {
 }
 
 }  // namespace
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

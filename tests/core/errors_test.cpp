@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 TEST(InputError, IsOneLineWithPlaceProblemAndMend) {
@@ -33,4 +33,4 @@ TEST(Ensure, ThrowsForABrokenPromiseOnly) {
 }
 
 }  // namespace
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 using Kind = Expression::Kind;
@@ -95,4 +95,4 @@ TEST(ToString, TreatsAFractionAsADivision) {
 }
 
 }  // namespace
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

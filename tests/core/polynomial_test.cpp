@@ -6,7 +6,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 const std::vector<std::string> names = {"x", "y"};
@@ -150,4 +150,4 @@ TEST(Polynomial, EvaluatesInDoubles) {
 }
 
 }  // namespace
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 TEST(RationalFromDecimal, IsExact) {
@@ -99,4 +99,4 @@ RC_GTEST_PROP(SimplestRationalNear, HasTheSmallestDenominator, ()) {
 }
 
 }  // namespace
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -7,7 +7,7 @@
 
 #include "core/locus_map.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 RootTower three_roots() {
@@ -58,4 +58,4 @@ TEST(Names, AreThoseOfTheResultFiles) {
 }
 
 }  // namespace
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 namespace {
 
 TEST(Printable, KeepsWritingAndReplacesWhatSteers) {
@@ -44,4 +44,4 @@ TEST(MessageLine, FitsOnAScreenWhateverItIsMadeOf) {
 }
 
 }  // namespace
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

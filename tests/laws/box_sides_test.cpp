@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "cli/zone_search.hpp"
+#include "analysis/zones.hpp"
 #include "loci/arc_check.hpp"
 
 namespace clearloci {

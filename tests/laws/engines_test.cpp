@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "tests/laws/design_texts.hpp"
 #include "tests/laws/same_topology.hpp"
 
@@ -52,7 +52,7 @@ TEST_P(EnginesOnExamples, Agree) {
       mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + GetParam() + ".yaml");
   LociRequest request = all_modes(loci::Engine::adaptive);
   expect_agreement(mechanism, request);
-  request.selection.quantities = {core::Quantity::fx, core::Quantity::fy};
+  request.quantities = {core::Quantity::fx, core::Quantity::fy};
   expect_agreement(mechanism, request);
 }
 
@@ -64,8 +64,8 @@ TEST(Engines, AgreeOnMargins) {
   const auto mechanism =
       mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar_generic.yaml");
   LociRequest request;
-  request.selection.joints = {"B2"};
-  request.selection.min_force = 50;
+  request.joints = {"B2"};
+  request.min_force = 50;
   expect_agreement(mechanism, request);
 }
 

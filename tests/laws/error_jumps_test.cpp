@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "numeric/error_map.hpp"
 
 namespace clearloci {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "cli/pipeline.hpp"
+#include "clearloci/mechanism.hpp"
 
 namespace clearloci {
 namespace {
@@ -59,16 +59,16 @@ void expect_same(const core::LocusMap& a, const core::LocusMap& b) {
     EXPECT_EQ(a.isolated_points[i].at, b.isolated_points[i].at);
 }
 
-void expect_as_from_scratch(const Loci& family, const std::vector<mechanism::Override>& values) {
+void expect_as_from_scratch(const Model& family, const std::vector<Model::Value>& values) {
   std::string trace;
   for (const auto& [name, value] : values) trace += name + " = " + value + " ";
   SCOPED_TRACE(trace);
-  const mechanism::Mechanism member = family.mechanism(values);
-  expect_same(family.trace(member), trace_loci(member));
+  const Model member = family.with(values);
+  expect_same(trace_loci(member), trace_loci(Model::parse(member.text(), member.file(), member.values())));
 }
 
 TEST(Family, TakesNewValuesAsFromScratch) {
-  const Loci family(design, "family.yaml");
+  const Model family = Model::parse(design, "family.yaml");
   constexpr unsigned seed = 4711;
   std::mt19937 random(seed);
   const auto quotient = [&](int low, int high, int denominator) {
@@ -88,7 +88,7 @@ TEST(Family, TakesNewValuesAsFromScratch) {
 
 // Values at which factors split, vanish or coincide.
 TEST(Family, SeesWhatSpecialValuesDo) {
-  const Loci family(design, "family.yaml");
+  const Model family = Model::parse(design, "family.yaml");
   expect_as_from_scratch(family, {{"a", "1/2"}, {"b", "1/2"}, {"c", "1/2"}});              // both legs equal, stars
   expect_as_from_scratch(family, {{"fx", "0"}});                                           // along an axis
   expect_as_from_scratch(family, {{"fx", "0"}, {"fy", "0"}, {"w", "1"}});                  // weights alone
@@ -100,13 +100,13 @@ TEST(Family, SeesWhatSpecialValuesDo) {
 TEST(Family, DoesNotDependOnTheMemberItWasDerivedFrom) {
   std::string weighted = design;
   weighted.replace(weighted.find("w: 0}"), 5, "w: 1}");
-  const Loci family(weighted, "family.yaml");
+  const Model family = Model::parse(weighted, "family.yaml");
   expect_as_from_scratch(family, {{"w", "0"}});
   expect_as_from_scratch(family, {{"w", "0"}, {"b", "1/2"}});
 }
 
 TEST(Family, LeavesIrrationalValuesToTheUsualWay) {
-  const Loci family(design, "family.yaml");
+  const Model family = Model::parse(design, "family.yaml");
   expect_as_from_scratch(family, {{"d", "sqrt(2)/3"}});
 }
 

@@ -20,7 +20,7 @@
 #include <numbers>
 #include <optional>
 
-#include "cli/zone_search.hpp"
+#include "analysis/zones.hpp"
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "numeric/reactions.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cli/pipeline.hpp"
-#include "cli/zone_search.hpp"
+#include "analysis/loci.hpp"
+#include "analysis/zones.hpp"
 #include "numeric/reactions.hpp"
 
 namespace clearloci {
@@ -172,8 +172,8 @@ TEST(PlatformSlices, ALeastForceIsTracedToTheDirectSingularity) {
                                 std::string("0.6 + ") + corners[i][2]);
   const mechanism::Mechanism m = read(platform);
   LociRequest request;
-  request.selection.joints = {"J2", "U4"};
-  request.selection.min_force = 40;
+  request.joints = {"J2", "U4"};
+  request.min_force = 40;
   const core::LocusMap map = trace_loci(m, request);
   const numeric::NumericModel model = numeric::compile(m);
   int senses = 0;

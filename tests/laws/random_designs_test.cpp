@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "tests/laws/design_texts.hpp"
 
 namespace clearloci {

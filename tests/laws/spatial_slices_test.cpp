@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "cli/verification.hpp"
-#include "cli/zone_search.hpp"
+#include "analysis/verification.hpp"
+#include "analysis/zones.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/spatial.hpp"
 #include "tests/numeric/spatial_designs.hpp"
@@ -153,8 +153,8 @@ TEST(SpatialSlices, ZonesHaveOneSignEach) {
 TEST(SpatialSlices, TheLeastForceIsKeptUpToItsCurve) {
   const mechanism::Mechanism m = slice();
   LociRequest request;
-  request.selection.joints = {"B1"};
-  request.selection.min_force = 100;
+  request.joints = {"B1"};
+  request.min_force = 100;
   request.engine = loci::Engine::exact;  // two branches of degree 8 run closely side by side
   const core::LocusMap map = trace_loci(m, request);
   int places = 0;
@@ -187,7 +187,7 @@ TEST(SpatialSlices, TasksAreVerifiedInsideAZoneAndNotAcrossALocus) {
   EXPECT_FALSE(across.witness->vanishing.empty());
   EXPECT_FALSE(verified(m, "box: {x: [0.1, 0.25], y: [-0.1, 0]}").verified());
   LociRequest one;
-  one.selection.joints = {"B1"};
+  one.joints = {"B1"};
   one.engine = loci::Engine::exact;
   const std::string box = "box: {x: [0.3, 0.31], y: [0.2, 0.21]}\n";
   EXPECT_TRUE(verified(m, box + "min_force: 10", one).verified());

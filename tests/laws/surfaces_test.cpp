@@ -11,7 +11,7 @@
 #include <map>
 #include <numbers>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "numeric/spatial.hpp"
 
 namespace clearloci {

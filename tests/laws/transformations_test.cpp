@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
-#include "cli/pipeline.hpp"
-#include "cli/verification.hpp"
-#include "cli/zone_search.hpp"
+#include "analysis/loci.hpp"
+#include "analysis/verification.hpp"
+#include "analysis/zones.hpp"
 #include "tests/laws/design_texts.hpp"
 
 namespace clearloci {

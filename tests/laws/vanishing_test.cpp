@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "core/locus_map.hpp"
 
 namespace clearloci {
@@ -51,7 +51,7 @@ bool contains(const std::vector<numeric::TracedReaction>& list, const std::strin
 
 TEST(Vanishing, CoaxialLegsBearTheirMotorsCouplesOnTheRim) {
   const mechanism::Mechanism leg = corpus("minitaur.yaml");
-  for (const loci::Engine engine : {loci::Engine::automatic, loci::Engine::exact}) {
+  for (const loci::Engine engine : {loci::Engine::adaptive_then_exact, loci::Engine::exact}) {
     LociRequest request;
     request.engine = engine;
     const core::LocusMap map = trace_loci(leg, request);
@@ -69,7 +69,7 @@ TEST(Vanishing, CoaxialLegsBearTheirMotorsCouplesOnTheRim) {
 
 TEST(Vanishing, TwoRodsOnOneRailLoseTheirAxialForcesAlone) {
   const mechanism::Mechanism rail = corpus("prr2.yaml");
-  for (const loci::Engine engine : {loci::Engine::automatic, loci::Engine::exact}) {
+  for (const loci::Engine engine : {loci::Engine::adaptive_then_exact, loci::Engine::exact}) {
     LociRequest request;
     request.engine = engine;
     const core::LocusMap map = trace_loci(rail, request);
@@ -233,7 +233,7 @@ TEST(Vanishing, AGuideLosesContactWhereAnEndLifts) {
   ASSERT_EQ(lower.front()->vanishing.size(), 1u);
   EXPECT_TRUE(names(*lower.front(), "bridge", Quantity::end_behind));
   EXPECT_TRUE(on(map, "y").empty());  // T = 0 alone is a component
-  request.selection.quantities = {Quantity::f, Quantity::M, Quantity::T};
+  request.quantities = {Quantity::f, Quantity::M, Quantity::T};
   const auto component = on(trace_loci(gantry, request), "y");
   ASSERT_EQ(component.size(), 1u);
   EXPECT_EQ(component.front()->kind, LocusKind::component);
@@ -241,7 +241,7 @@ TEST(Vanishing, AGuideLosesContactWhereAnEndLifts) {
 
   // Where an end bears 5 N: (20 +- 20 y)/2 = +-5.
   request = {};
-  request.selection.min_force = 5;
+  request.min_force = 5;
   const core::LocusMap margins = trace_loci(gantry, request);
   for (const char* line : {"2*y - 1", "2*y + 1", "2*y - 3", "2*y + 3"}) {
     const LocusCurve* margin = of_kind(on(margins, line), LocusKind::margin);

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <random>
 
-#include "cli/verification.hpp"
+#include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "loci/task_region.hpp"
 #include "mechanism/read_task.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using core::Point2;
 using core::Quantity;
-using loci::TaskVerdict;
+using core::Verdict;
 
 /// Ends of a guide: N + T/h and N - T/h, twice what they bear.
 struct GuideEnds {
@@ -271,7 +271,7 @@ TEST(VerifySampling, IsNeverContradicted) {
   const int designs = wanted != nullptr ? std::atoi(wanted) : 70;
   const char* seed = std::getenv("CLEARLOCI_SEED");
   const char* dump = std::getenv("CLEARLOCI_DUMP");  // a folder for the models and tasks
-  std::map<TaskVerdict, int> counts;
+  std::map<Verdict, int> counts;
   std::vector<double> times;
   int refused = 0;
   for (int i = 0; i < designs; ++i) {
@@ -315,8 +315,8 @@ TEST(VerifySampling, IsNeverContradicted) {
                  : result->open  ? " " + result->open->reason
                                  : "");
     const Oracle oracle(mechanism, *task);
-    EXPECT_EQ(result->witness.has_value(), result->verdict == TaskVerdict::refuted);
-    EXPECT_EQ(result->open.has_value(), result->verdict == TaskVerdict::undecided);
+    EXPECT_EQ(result->witness.has_value(), result->verdict == Verdict::refuted);
+    EXPECT_EQ(result->open.has_value(), result->verdict == Verdict::undecided);
     if (result->verified()) expect_no_contradiction(random, oracle, *task, *result, 300);
     if (result->witness) expect_confirmed(oracle, *task, *result->witness);
   }
@@ -324,11 +324,11 @@ TEST(VerifySampling, IsNeverContradicted) {
   if (!times.empty())
     fmt::print(
         "{} verified, {} refuted, {} undecided, {} refused; median {:.3f} s, 9 of 10 in {:.3f} s, longest {:.1f} s\n",
-        counts[TaskVerdict::verified], counts[TaskVerdict::refuted], counts[TaskVerdict::undecided], refused,
+        counts[Verdict::verified], counts[Verdict::refuted], counts[Verdict::undecided], refused,
         times[times.size() / 2], times[times.size() * 9 / 10], times.back());
-  EXPECT_GT(counts[TaskVerdict::verified], designs / 10);
-  EXPECT_GT(counts[TaskVerdict::refuted], designs / 10);
-  EXPECT_LT(counts[TaskVerdict::undecided], designs / 5);
+  EXPECT_GT(counts[Verdict::verified], designs / 10);
+  EXPECT_GT(counts[Verdict::refuted], designs / 10);
+  EXPECT_LT(counts[Verdict::undecided], designs / 5);
 }
 
 }  // namespace

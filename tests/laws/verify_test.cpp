@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "cli/verification.hpp"
+#include "analysis/verification.hpp"
 #include "loci/task_region.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/reactions.hpp"
@@ -76,7 +76,7 @@ Verification decided(const mechanism::Mechanism& mechanism, const std::string& t
 
 TEST(Verify, HoldsTheLeastForceBetweenTheEndsOfARangeOfLoads) {
   const Verification coupler = decided(kept("examples/five_bar_coupler.yaml"), "coupler_minforce_task1.yaml");
-  EXPECT_EQ(coupler.verdict, loci::TaskVerdict::refuted);
+  EXPECT_EQ(coupler.verdict, core::Verdict::refuted);
   ASSERT_TRUE(coupler.witness && coupler.witness->load && coupler.witness->size);
   EXPECT_LT(*coupler.witness->size, 12.3);
   // The load is one of the range, from (-14, -21) to (29, -24) N.
@@ -85,23 +85,23 @@ TEST(Verify, HoldsTheLeastForceBetweenTheEndsOfARangeOfLoads) {
   EXPECT_GT(load[0], -14);
   EXPECT_LT(load[0], 29);
   EXPECT_EQ(decided(kept("tests/corpus/verify/coupler_midload.yaml"), "coupler_midtask.yaml").verdict,
-            loci::TaskVerdict::refuted);
+            core::Verdict::refuted);
 
   LociRequest pin;
-  pin.selection.joints = {"P"};
-  pin.selection.quantities = {core::Quantity::f};
+  pin.joints = {"P"};
+  pin.quantities = {core::Quantity::f};
   const Verification range = decided(kept("tests/corpus/verify/minforce_range.yaml"), "minforce_range_task.yaml", pin);
-  EXPECT_EQ(range.verdict, loci::TaskVerdict::refuted);
+  EXPECT_EQ(range.verdict, core::Verdict::refuted);
   ASSERT_TRUE(range.witness && range.witness->size);
   EXPECT_LT(*range.witness->size, 4.4);
   EXPECT_EQ(
       decided(kept("tests/corpus/verify/minforce_range_midload.yaml"), "minforce_range_midtask.yaml", pin).verdict,
-      loci::TaskVerdict::refuted);
+      core::Verdict::refuted);
 }
 
 TEST(Verify, FindsASingularityOnALineThroughZero) {
   const Verification result = decided(kept("tests/corpus/verify/singular_at_zero.yaml"), "singular_at_zero_task.yaml");
-  EXPECT_EQ(result.verdict, loci::TaskVerdict::refuted);
+  EXPECT_EQ(result.verdict, core::Verdict::refuted);
   ASSERT_TRUE(result.witness);
   EXPECT_NEAR(result.witness->at[1], 0, 1e-12);
 }
@@ -114,7 +114,7 @@ TEST(Verify, SaysThatItCannotTell) {
   const core::Task task =
       mechanism::parse_task("format: 1\nbox: {x: [0.2, 0.3], y: [-0.7, -0.6]}", "task.yaml", mechanism);
   const Verification result = decide_task(mechanism, task, hurried);
-  EXPECT_EQ(result.verdict, loci::TaskVerdict::undecided);
+  EXPECT_EQ(result.verdict, core::Verdict::undecided);
   EXPECT_FALSE(result.witness);
   ASSERT_TRUE(result.open);
   EXPECT_LE(result.open->lower[0], 0.2);
@@ -228,7 +228,7 @@ TEST(VerifyFit, FindsTheShortestMoveThatVerifies) {
   const core::Task task =
       mechanism::parse_task("format: 1\nbox: {x: [0.15, 0.35], y: [-0.95, -0.85]}\nmargin: 0.01", "t.yaml", mechanism);
   EXPECT_FALSE(verify_task(mechanism, task, {}).verified());
-  const Verification nearest = fit_task(mechanism, task, {}, loci::FitGoal::nearest);
+  const Verification nearest = fit_task(mechanism, task, {}, FitGoal::nearest);
   ASSERT_TRUE(nearest.by);
   EXPECT_TRUE(nearest.verified());
   // The corner (0.15, y) stays 0.01 within the circle of radius 1 about (1/2, 0).
@@ -236,7 +236,7 @@ TEST(VerifyFit, FindsTheShortestMoveThatVerifies) {
   const double moved = std::hypot(core::to_double((*nearest.by)[0]), core::to_double((*nearest.by)[1]));
   EXPECT_GE(moved, up - 1e-6);
   EXPECT_LE(moved, up + 1e-3);
-  const Verification best = fit_task(mechanism, task, {}, loci::FitGoal::best);
+  const Verification best = fit_task(mechanism, task, {}, FitGoal::best);
   EXPECT_TRUE(best.verified());
   EXPECT_GT(best.margin, 0.1);
 }
@@ -245,7 +245,7 @@ TEST(VerifyFit, SaysThatThereIsNoPlace) {
   const mechanism::Mechanism mechanism = five_bar();
   const core::Task task =
       mechanism::parse_task("format: 1\nbox: {x: [-0.4, 0.9], y: [-0.8, 0.8]}", "t.yaml", mechanism);
-  const Verification result = fit_task(mechanism, task, {}, loci::FitGoal::nearest);
+  const Verification result = fit_task(mechanism, task, {}, FitGoal::nearest);
   EXPECT_FALSE(result.verified());
   EXPECT_FALSE(result.by);
 }

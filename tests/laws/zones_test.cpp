@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "cli/zone_search.hpp"
+#include "analysis/zones.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_texts.hpp"
 
@@ -137,8 +137,8 @@ TEST_P(ZonesOfExamples, HaveOneSignEachInEveryMode) {
   std::mt19937 random(20110577);
   expect_one_sign_a_zone(mechanism, map, random);
   // However many loci cut it, a workspace has one area.
-  request.selection.joints = {mechanism.joints.front().name};
-  request.selection.quantities = {core::Quantity::M};
+  request.joints = {mechanism.joints.front().name};
+  request.quantities = {core::Quantity::M};
   const core::ZoneMap coarse = find_zones(mechanism, request);
   for (const core::Zone& zone : map.zones) {
     const double area = total_area(map, zone.mode);

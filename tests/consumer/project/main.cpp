@@ -1,5 +1,5 @@
 // Prints the discontinuity loci of a mechanism, one a line.
-#include <cli/pipeline.hpp>
+#include <analysis/loci.hpp>
 #include <iostream>
 
 int main(int argc, char** argv) {

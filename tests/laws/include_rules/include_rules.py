@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "check", "report", "cli"}
+FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "check", "analysis", "report", "cli"}
 MAY_INCLUDE = {
     "core": set(),
     "mechanism": {"core"},
@@ -16,7 +16,8 @@ MAY_INCLUDE = {
     "loci": {"core"},
     "numeric": {"core", "mechanism"},
     "check": {"core", "mechanism"},
-    "report": {"core"},
+    "analysis": {"core", "mechanism", "symbolic", "loci", "numeric"},
+    "report": {"core", "analysis"},
     "cli": FOLDERS,
 }
 

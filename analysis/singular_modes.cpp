@@ -1,4 +1,4 @@
-#include "cli/singular_modes.hpp"
+#include "analysis/singular_modes.hpp"
 
 #include <algorithm>
 #include <cmath>

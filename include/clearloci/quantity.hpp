@@ -1,10 +1,10 @@
-// The reactions of a joint by what they are.
+// The reactions of a joint by what they are, and which of them vanish.
 #pragma once
 
 #include <array>
 #include <string>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 /// `f`: every force component of a joint together; `M`: an actuator's couple; `F`: an actuator's axial force. Of a
 /// planar prismatic joint `N` is the normal force and `T` the couple; `T` is also the one couple that a universal joint
@@ -27,4 +27,15 @@ inline bool is_guide_end(Quantity quantity) {
 /// "f", "M", ..., as in loci.json.
 std::string to_string(Quantity quantity);
 
-}  // namespace clearloci::core
+/// A reaction that vanishes. `multiplicity`: how often the factor divides its numerator beyond what it divides |A|; on
+/// a traced curve the order p - q to which the reaction vanishes (docs/method.md section 10). Where that is even the
+/// reaction vanishes without a change of sign.
+struct Vanishing {
+  std::string joint;
+  Quantity quantity = Quantity::f;
+  int multiplicity = 1;
+
+  bool operator==(const Vanishing&) const = default;
+};
+
+}  // namespace clearloci::inline core

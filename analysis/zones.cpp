@@ -1,10 +1,11 @@
-#include "cli/zone_search.hpp"
+#include "analysis/zones.hpp"
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "cli/framed.hpp"
+#include "analysis/framed.hpp"
+#include "analysis/model.hpp"
 #include "core/errors.hpp"
 #include "loci/sheet_maps.hpp"
 #include "loci/zones.hpp"
@@ -24,7 +25,7 @@ int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 :
 /// Signs of |A| and of every wanted couple and the like in the zones, by the independent witness at their samples.
 void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request, core::ZoneMap& map) {
   const numeric::NumericModel model = numeric::compile(mechanism);
-  const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request.selection);
+  const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request);
   const std::vector<numeric::JointColumns> columns_of_joints = numeric::joint_columns(model);
   const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
   for (core::Zone& zone : map.zones) {
@@ -108,19 +109,20 @@ core::ZoneMap zones_of(TracedProblem traced) {
 
 }  // namespace
 
-core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                         core::Certificate* certificate) {
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
     if (coordinate.angle)
       throw core::InputError(
           {mechanism.file},
           "zones lie in the plane of two lengths, and the free coordinate '" + coordinate.name + "' is an angle",
           "make it a parameter and vary it with --set; 'loci' and 'validate' take angles");
-  if (const std::optional<Framed> own = framed(mechanism, request))
+  if (const std::optional<Framed> own = certificate == nullptr ? framed(mechanism) : std::nullopt)
     return from_frame(find_zones(own->mechanism, in_frame(request, own->frame)), mechanism, own->frame);
   constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
   LociRequest finer = request;
   for (int attempt = 1;; ++attempt) {
-    TracedProblem traced = trace_problem(mechanism, finer);
+    TracedProblem traced = trace_problem(mechanism, finer, certificate);
     if (!traced.map.complete) throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
     core::ZoneMap map = zones_of(std::move(traced));
@@ -134,6 +136,10 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
     map.loci.timing.emplace_back("zones", taken.count());
     return map;
   }
+}
+
+ZoneMap find_zones(const Model& model, const LociRequest& request) {
+  return find_zones(model.content().mechanism, request);
 }
 
 }  // namespace clearloci

@@ -4,10 +4,10 @@
 
 #include <optional>
 
-#include "cli/pipeline.hpp"
-#include "cli/verification.hpp"
+#include "analysis/loci.hpp"
+#include "analysis/verification.hpp"
+#include "clearloci/zones.hpp"
 #include "core/task.hpp"
-#include "core/zone_map.hpp"
 #include "mechanism/frame.hpp"
 #include "numeric/validate.hpp"
 
@@ -20,8 +20,6 @@ struct Framed {
 
 /// Nothing where the mechanism needs no other frame than its own.
 std::optional<Framed> framed(const mechanism::Mechanism& mechanism);
-/// The same, and nothing where a certificate is asked for: it speaks of the mechanism of the file.
-std::optional<Framed> framed(const mechanism::Mechanism& mechanism, const LociRequest& request);
 
 LociRequest in_frame(LociRequest request, const mechanism::Frame& frame);
 core::Task in_frame(core::Task task, const mechanism::Frame& frame);

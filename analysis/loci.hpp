@@ -1,4 +1,4 @@
-// The library's front door: from a mechanism to its discontinuity loci in one call. Joins the modules and adds nothing:
+// From a mechanism to its discontinuity loci in one call (clearloci/loci.hpp). Joins the modules and adds nothing:
 //     Mechanism -> symbolic::locus_problem -> loci::trace -> LocusMap
 #pragma once
 
@@ -9,38 +9,30 @@
 #include <string_view>
 #include <vector>
 
+#include "clearloci/loci.hpp"
+#include "core/certificate.hpp"
 #include "core/locus_map.hpp"
+#include "core/sketch.hpp"
 #include "loci/trace.hpp"
 #include "mechanism/read.hpp"
 #include "numeric/validate.hpp"
-#include "report/write_loci.hpp"
 #include "symbolic/locus_problem.hpp"
 
 namespace clearloci {
 
-/// Signs of a mechanism's dyads, in the order of mechanism::dyad_points: +1 left, -1 right.
-using DyadSides = std::vector<int>;
-
-struct LociRequest {
-  symbolic::Selection selection = {};         ///< joints, quantities, margins
-  double tolerance = 1e-5;                    ///< largest distance of a chord from its curve, m
-  double mesh_size = 1.0 / 32;                ///< of surfaces: edges of triangles, as a part of the box's extent
-  std::vector<DyadSides> working_modes = {};  ///< empty: the file's
-  bool all_working_modes = false;             ///< every combination of sides, the file's first
-  loci::Engine engine = loci::Engine::automatic;
-  std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
-  std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
-  core::Certificate* certificate = nullptr;  ///< over two lengths: what is claimed of cells goes there
-};
+/// What of a request symbolic/ is asked for.
+symbolic::Selection selection_of(const LociRequest& request);
 
 /// The discontinuity loci of a mechanism: points over one free coordinate, curves over two, surfaces over three.
 /// Throws core::InputError where the mechanism has no loci to speak of: a system that is not square, a determinant that
 /// vanishes in every pose, an unknown joint, a working mode of the wrong length.
-core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
+/// `certificate`: over two lengths, where what is claimed of cells goes; may be null.
+core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request = {},
+                          core::Certificate* certificate = nullptr);
 
 /// The loci together with the problem that they solve, for work that goes on from there. The problem is empty where
 /// the deadline came first. Coordinates are those of the mechanism itself, however far from the origin: callers put it
-/// into its frame first (cli/framed.hpp).
+/// into its frame first (analysis/framed.hpp).
 struct TracedSheet {
   core::LocusProblem problem;
   core::LocusMap map;
@@ -52,26 +44,13 @@ struct TracedProblem {
   core::LocusMap map;
   std::vector<TracedSheet> sheets = {};
 };
-TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
+TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request = {},
+                            core::Certificate* certificate = nullptr);
 
-/// The loci of a family of designs: one mechanism file, whose parameters take new values. What does not depend on them
-/// is derived once; for sweeps, and for a link that is dragged.
-class Loci {
- public:
-  /// `text`: of a mechanism file; `file`: the name that errors show. Throws core::InputError as parse_mechanism and
-  /// trace_loci do.
-  Loci(std::string text, std::string file);
-  static Loci read(const std::string& path);
+/// The same for a member of a family of designs, whose equations are derived already.
+core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,
+                          const LociRequest& request = {});
 
-  /// The mechanism with values of parameters put in.
-  mechanism::Mechanism mechanism(const std::vector<mechanism::Override>& values = {}) const;
-  /// The same loci as trace_loci gives for that mechanism.
-  core::LocusMap trace(const mechanism::Mechanism& member, const LociRequest& request = {}) const;
-
- private:
-  std::string text_, file_;
-  symbolic::LocusFamily family_;
-};
 /// Throws core::InputError, saying what has no meaning here, where the number of free coordinates is another.
 void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t least, std::size_t most,
                          const std::string& what);
@@ -80,7 +59,7 @@ void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t leas
 std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, const LociRequest& request);
 
 /// Sides of the dyads as a mode of the tower, whose roots of lengths have no side to choose.
-core::WorkingMode mode_of(const DyadSides& sides, const core::RootTower& tower);
+core::WorkingMode mode_of(const DyadSides& sides, const core::TowerNames& tower);
 
 /// A map without loci: the box, the coordinates and the names of the working mode, for pictures of something else.
 core::LocusMap empty_map(const mechanism::Mechanism& mechanism);
@@ -88,11 +67,11 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism);
 /// The map of work that a limit ended before there was a locus to show: complete = false, `reason` among its notes.
 core::LocusMap unfinished_map(const mechanism::Mechanism& mechanism, const std::string& reason);
 
-/// The scalar reactions (fx, fy, and M where actuated) of the joints that a selection means, in the file's order.
-/// `selection.joints` empty: every joint with a clearance, or all where none has one; in space then without the couples
+/// The scalar reactions (fx, fy, and M where actuated) of the joints that a request means, in the file's order.
+/// `request.joints` empty: every joint with a clearance, or all where none has one; in space then without the couples
 /// across a joint's axes, of which no clearance depends.
 std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,
-                                                        const symbolic::Selection& selection);
+                                                        const LociRequest& request);
 
 struct LociValidation {
   core::LocusMap map;
@@ -106,6 +85,6 @@ LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest 
 
 /// The mechanism in a sample posture of every working mode of the map, for its pictures. Empty where the free
 /// coordinates are not the place of the end effector's point, for a posture then has no place in the picture.
-std::vector<report::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map);
+std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map);
 
 }  // namespace clearloci

@@ -2,14 +2,16 @@
 //     Mechanism -> trace_problem -> loci::zones, numeric::bounded_numerators -> ZoneMap
 #pragma once
 
-#include "cli/pipeline.hpp"
-#include "core/zone_map.hpp"
+#include "analysis/loci.hpp"
+#include "clearloci/zones.hpp"
 
 namespace clearloci {
 
 /// The discontinuity-free zones of the request's modes, cut out by its loci, the workspace boundary and the direct
 /// singularities. Polylines are finer than the request's tolerance where areas correct to 1e-6 need it.
 /// Throws as trace_loci, and core::LimitReached where the deadline comes first.
-core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request = {});
+/// `certificate`: as of trace_loci.
+core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request = {},
+                         core::Certificate* certificate = nullptr);
 
 }  // namespace clearloci

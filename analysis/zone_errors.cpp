@@ -1,4 +1,4 @@
-#include "cli/zone_errors.hpp"
+#include "analysis/zone_errors.hpp"
 
 #include <algorithm>
 #include <cmath>

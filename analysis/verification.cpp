@@ -1,22 +1,23 @@
-#include "cli/verification.hpp"
-
-#include <fmt/format.h>
+#include "analysis/verification.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "cli/framed.hpp"
-#include "cli/singular_modes.hpp"
+#include "analysis/framed.hpp"
+#include "analysis/model.hpp"
+#include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "loci/plane_graph.hpp"
 #include "loci/sheet_maps.hpp"
+#include "loci/task_clearance.hpp"
+#include "loci/task_proof.hpp"
 #include "loci/zones.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/read_task.hpp"
 #include "numeric/line_witness.hpp"
 #include "numeric/take_up.hpp"
 #include "numeric/task_witness.hpp"
-#include "report/wording.hpp"
 #include "symbolic/task_conditions.hpp"
 
 namespace clearloci {
@@ -26,7 +27,7 @@ using core::Point2;
 using core::Quantity;
 using core::Task;
 using core::TaskDemand;
-using loci::TaskVerdict;
+using core::Verdict;
 using numeric::TaskFailure;
 
 constexpr int cells_of_the_task = 400'000, cells_of_a_margin = 40'000;
@@ -57,20 +58,20 @@ std::vector<LoadCase> load_cases(const mechanism::Mechanism& mechanism, const Ta
 }
 
 LociRequest request_of(const Task& task, LociRequest request) {
-  if (task.min_force) request.selection.min_force = task.min_force;
-  if (task.min_couple) request.selection.min_couple = task.min_couple;
+  if (task.min_force) request.min_force = task.min_force;
+  if (task.min_couple) request.min_couple = task.min_couple;
   request.all_working_modes = false;
   if (request.working_modes.size() > 1) request.working_modes.resize(1);
   return request;
 }
 
-/// What the loci of a selection are zeros of, and what its margins hold.
-std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const symbolic::Selection& selection) {
+/// What the loci of a request are zeros of, and what its margins hold.
+std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   std::vector<TaskDemand> demands;
   const auto wanted = [&](Quantity quantity) {
-    return std::find(selection.quantities.begin(), selection.quantities.end(), quantity) != selection.quantities.end();
+    return std::find(request.quantities.begin(), request.quantities.end(), quantity) != request.quantities.end();
   };
-  for (const numeric::TracedReaction& reaction : selected_reactions(mechanism, selection)) {
+  for (const numeric::TracedReaction& reaction : selected_reactions(mechanism, request)) {
     const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
                                     [&](const mechanism::Joint& j) { return j.name == reaction.joint; });
     const std::vector<Quantity> force = mechanism::force_components(mechanism, *joint);
@@ -80,13 +81,13 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
     switch (const Quantity q = reaction.quantity; q) {
       case Quantity::M:
       case Quantity::F: {
-        const bool couple = q == Quantity::M && selection.min_couple;
-        if (wanted(q) || wanted(Quantity::M) || couple) add(q, couple ? selection.min_couple : std::nullopt);
+        const bool couple = q == Quantity::M && request.min_couple;
+        if (wanted(q) || wanted(Quantity::M) || couple) add(q, couple ? request.min_couple : std::nullopt);
         break;
       }
       case Quantity::end_ahead:
       case Quantity::end_behind:
-        if (wanted(q) || wanted(Quantity::f) || selection.min_force) add(q, selection.min_force);
+        if (wanted(q) || wanted(Quantity::f) || request.min_force) add(q, request.min_force);
         break;
       case Quantity::N:
         // A guide whose ends are not known loses its contact where N and T vanish together.
@@ -98,17 +99,11 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
         break;
       default:
         // Once a joint, with the first component of its force.
-        if (!force.empty() && q == force.front() && (wanted(Quantity::f) || selection.min_force))
-          add(Quantity::f, selection.min_force);
+        if (!force.empty() && q == force.front() && (wanted(Quantity::f) || request.min_force))
+          add(Quantity::f, request.min_force);
     }
   }
   return demands;
-}
-
-std::string reaction_name(const TaskDemand& demand) { return core::to_string(demand.quantity) + "_" + demand.joint; }
-
-const char* unit_of(const TaskDemand& demand) {
-  return demand.quantity == Quantity::M || demand.quantity == Quantity::T ? "N m" : "N";
 }
 
 /// Where roots depend on one another: the sheet that holds the task. A fold that the task meets bounds it.
@@ -132,10 +127,10 @@ class Verifier {
         task_(task),
         request_(request_of(task, request)),
         cases_(load_cases(mechanism, task)),
-        demands_(demands_of(mechanism, request_.selection)),
+        demands_(demands_of(mechanism, request_)),
         conditions_(symbolic::task_conditions(mechanisms(), demands_)),
         sides_(requested_modes(mechanism, request_).front()),
-        mode_(mode_of(sides_, conditions_.tower)) {
+        mode_(mode_of(sides_, names_of(conditions_.tower))) {
     for (const TaskDemand& never : conditions_.never_loaded)
       std::erase_if(demands_, [&](const TaskDemand& demand) {
         return demand.joint == never.joint && demand.quantity == never.quantity;
@@ -153,7 +148,7 @@ class Verifier {
     progress("proof");
     const loci::TaskProof proof = prove(region, margin, judge, result.witness);
     result.verdict = proof.verdict;
-    if (result.verdict == TaskVerdict::undecided) result.open = open_part(proof);
+    if (result.verdict == Verdict::undecided) result.open = open_part(proof);
     if (result.verified()) {
       progress("margin");
       prove_margin(region, margin, result);
@@ -167,9 +162,9 @@ class Verifier {
     const numeric::TaskWitness judge = witness_for(region);
     Verification result = decide(task);
     // Loci that touch the task without crossing it are not met by subdivision, but by tracing.
-    if (result.verdict == TaskVerdict::undecided &&
+    if (result.verdict == Verdict::undecided &&
         refuted_by_loci(region, core::to_double(task.margin), judge, result.witness)) {
-      result.verdict = TaskVerdict::refuted;
+      result.verdict = Verdict::refuted;
       result.open.reset();
     }
     // What the proof met may lie outside the box, where nothing is traced.
@@ -182,7 +177,7 @@ class Verifier {
   bool proven(const Task& task) const {
     const loci::TaskRegion region(task.shape);
     std::optional<TaskWitness> ignored;
-    return prove(region, core::to_double(task.margin), witness_for(region), ignored).verdict == TaskVerdict::verified;
+    return prove(region, core::to_double(task.margin), witness_for(region), ignored).verdict == Verdict::verified;
   }
 
   /// The loci under each load, traced once; fewer where the deadline came first.
@@ -277,8 +272,8 @@ class Verifier {
     return loci::refuted_near(conditions_, mode_, region, margin, refuted_at(region, judge, witness), suspects);
   }
 
-  /// Of lengths in m and couples in N m, where the mechanism is seen in a frame.
-  double unit() const { return request_.selection.frame ? request_.selection.frame->scale_value() : 1.0; }
+  /// Of couples in N m, where the mechanism is seen in a frame.
+  core::Rational unit() const { return mechanism_.frame ? mechanism_.frame->scale : core::Rational(1); }
 
   TaskWitness described(const Point2& at, const std::vector<TaskFailure>& failures, double distance) const {
     TaskWitness witness;
@@ -286,58 +281,54 @@ class Verifier {
     witness.distance = std::max(0.0, distance);
     const TaskFailure& first = failures.front();
     using Kind = TaskFailure::Kind;
+    const auto reactions = [&] {
+      std::vector<core::Vanishing> list;
+      for (const TaskFailure& failure : failures)
+        if (failure.kind == first.kind && failure.load == first.load)
+          list.push_back({failure.demand.joint, failure.demand.quantity, 1});
+      return list;
+    };
     switch (first.kind) {
       case Kind::unreachable:
-        witness.reason = "the mechanism does not reach it";
+        witness.kind = TaskWitness::Kind::unreachable;
         break;
       case Kind::boundary:
-        witness.reason = "the boundary of the workspace passes here";
+        witness.kind = TaskWitness::Kind::boundary;
         break;
       case Kind::singular:
-        witness.reason = "|A| vanishes: a direct singularity";
+        witness.kind = TaskWitness::Kind::singular;
         break;
-      case Kind::vanishing: {
-        for (const TaskFailure& failure : failures)
-          if (failure.kind == Kind::vanishing && failure.load == first.load)
-            witness.vanishing.push_back({failure.demand.joint, failure.demand.quantity, 1});
-        witness.reason =
-            report::reaction_names(witness.vanishing) + (witness.vanishing.size() > 1 ? " vanish" : " vanishes");
+      case Kind::vanishing:
+        witness.kind = TaskWitness::Kind::vanishing;
+        witness.vanishing = reactions();
         break;
-      }
       case Kind::too_small: {
-        for (const TaskFailure& failure : failures)
-          if (failure.kind == Kind::too_small && failure.load == first.load)
-            witness.too_small.push_back({failure.demand.joint, failure.demand.quantity, 1});
-        const bool couple = std::string(unit_of(first.demand)) == "N m";
-        witness.size = (couple ? unit() : 1.0) * first.size;
-        const core::Rational least = couple && request_.selection.frame
-                                         ? core::Rational(first.demand.least * request_.selection.frame->scale)
-                                         : first.demand.least;
-        witness.reason = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(first.demand), *witness.size,
-                                     unit_of(first.demand), core::to_string(least));
+        witness.kind = TaskWitness::Kind::too_small;
+        witness.too_small = reactions();
+        const Quantity q = first.demand.quantity;
+        const core::Rational outside = q == Quantity::M || q == Quantity::T ? unit() : core::Rational(1);
+        witness.size = core::to_double(outside) * first.size;
+        witness.least = first.demand.least * outside;
         break;
       }
     }
-    const bool of_a_load = first.kind == Kind::vanishing || first.kind == Kind::too_small;
-    if (task_.loads && of_a_load) {
+    if (task_.loads && (first.kind == Kind::vanishing || first.kind == Kind::too_small)) {
       Point2 load{};
       for (std::size_t c = 0; c < 2; ++c)
         load[c] = (1 - first.load) * core::to_double(task_.loads->first[c]) +
                   first.load * core::to_double(task_.loads->second[c]);
       witness.load = load;
-      witness.reason += fmt::format(" under the load ({:.9g}, {:.9g}) N", load[0], load[1]);
     }
-    if (witness.distance > 1e-12)
-      witness.reason += fmt::format("; {:.6g} m from the task, within its margin", unit() * witness.distance);
     return witness;
   }
 
   static OpenTask open_part(const loci::TaskProof& proof) {
-    OpenTask open{proof.open, proof.lower, proof.upper, {}};
-    open.reason = proof.out_of_time    ? "the time limit was reached"
-                  : proof.out_of_cells ? fmt::format("{} cells were looked at", proof.cells)
-                                       : "doubles tell no more apart there";
-    return open;
+    using Reason = OpenTask::Reason;
+    return {proof.open, proof.lower, proof.upper,
+            proof.out_of_time    ? Reason::time
+            : proof.out_of_cells ? Reason::cells
+                                 : Reason::doubles,
+            proof.cells};
   }
 
   /// From the traced loci. Under a range of loads they are those of its ends, and the loads between have others.
@@ -432,20 +423,8 @@ void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verifi
 
 }  // namespace
 
-std::string to_string(TaskVerdict verdict) {
-  switch (verdict) {
-    case TaskVerdict::verified:
-      return "verified";
-    case TaskVerdict::refuted:
-      return "refuted";
-    case TaskVerdict::undecided:
-      break;
-  }
-  return "undecided";
-}
-
 Verification verify_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request) {
-  if (const std::optional<Framed> own = framed(mechanism, request))
+  if (const std::optional<Framed> own = framed(mechanism))
     return from_frame(verify_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame)), task,
                       mechanism, own->frame);
   require_regular(mechanism, requested_modes(mechanism, request).front());
@@ -456,7 +435,7 @@ Verification verify_task(const mechanism::Mechanism& mechanism, const Task& task
 }
 
 Verification decide_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request) {
-  if (const std::optional<Framed> own = framed(mechanism, request))
+  if (const std::optional<Framed> own = framed(mechanism))
     return from_frame(decide_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame)), task,
                       mechanism, own->frame);
   require_regular(mechanism, requested_modes(mechanism, request).front());
@@ -464,8 +443,8 @@ Verification decide_task(const mechanism::Mechanism& mechanism, const Task& task
 }
 
 Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request,
-                      loci::FitGoal goal) {
-  if (const std::optional<Framed> own = framed(mechanism, request))
+                      FitGoal goal) {
+  if (const std::optional<Framed> own = framed(mechanism))
     return from_frame(fit_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame), goal), task,
                       mechanism, own->frame);
   require_regular(mechanism, requested_modes(mechanism, request).front());
@@ -486,6 +465,26 @@ Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, c
   if (fit) result.by = core::RationalPoint{core::Rational(fit->by[0]), core::Rational(fit->by[1])};
   add_zones(mechanism, verifier, result);
   return result;
+}
+
+Task read_task(const std::string& path, const Model& model) {
+  return mechanism::read_task(path, model.content().mechanism);
+}
+
+Task parse_task(const std::string& text, const Model& model, const std::string& file) {
+  return mechanism::parse_task(text, file, model.content().mechanism);
+}
+
+Verification verify_task(const Model& model, const Task& task, const LociRequest& request) {
+  return verify_task(model.content().mechanism, task, request);
+}
+
+Verification decide_task(const Model& model, const Task& task, const LociRequest& request) {
+  return decide_task(model.content().mechanism, task, request);
+}
+
+Verification fit_task(const Model& model, const Task& task, const LociRequest& request, FitGoal goal) {
+  return fit_task(model.content().mechanism, task, request, goal);
 }
 
 }  // namespace clearloci

@@ -1,14 +1,18 @@
-// The discontinuity-free zones of a mechanism (method.md section 9; results.md, zones.json): the faces into which the
-// loci, the workspace boundary and the direct singularities cut the workspace of a working mode.
+// Where can the mechanism move without losing contact? Its discontinuity-free zones (docs/method.md section 9;
+// docs/results.md, zones.json): the faces into which the loci, the workspace boundary and the direct singularities cut
+// the workspace of a working mode.
+//
+//     const clearloci::ZoneMap map = clearloci::find_zones(clearloci::Model::read("five_bar.yaml"));
+//     std::cout << map.zones.size() << " zones, the largest of " << map.zones.front().area << " m^2\n";
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/locus_map.hpp"
+#include "clearloci/loci.hpp"
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 /// A stretch of a zone's border on one curve. A curve that ends inside the zone borders it from both sides.
 struct ZoneBorder {
@@ -45,4 +49,13 @@ struct ZoneMap {
   std::vector<ModeArea> areas = {};  ///< one a mode
 };
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core
+
+namespace clearloci {
+
+/// The zones of the request's modes, over two lengths. Polylines are finer than the request's tolerance where areas
+/// correct to 1e-6 need it. Throws as trace_loci, InputError where a free coordinate is an angle or there are not two,
+/// and LimitReached where the deadline comes first.
+ZoneMap find_zones(const Model& model, const LociRequest& request = {});
+
+}  // namespace clearloci

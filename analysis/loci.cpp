@@ -1,15 +1,14 @@
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 
-#include "cli/framed.hpp"
+#include "analysis/framed.hpp"
+#include "analysis/model.hpp"
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
@@ -154,18 +153,16 @@ core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symb
 /// Of the pieces and sheets of one mechanism together. `parts`: those of a single piece, where there are several.
 core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociRequest& request,
                             std::vector<symbolic::DerivedProblem>& derived, const std::vector<DyadSides>& sides,
-                            std::vector<TracedSheet>& parts) {
-  const loci::TraceOptions options{.engine = request.engine,
-                                   .progress = request.progress,
-                                   .deadline = request.deadline,
-                                   .certificate = request.certificate};
+                            std::vector<TracedSheet>& parts, core::Certificate* certificate) {
+  const loci::TraceOptions options{
+      .engine = request.engine, .progress = request.progress, .deadline = request.deadline, .certificate = certificate};
   if (options.certificate != nullptr)
     for (const core::Root& root : derived.front().problem.tower.roots)
       if (root.square.is_constant() || root.name == core::fold_name)
         throw core::InputError({mechanism.file}, "the roots that place the points depend on one another",
                                "such a mechanism has no certificate: leave --certificate out");
   std::vector<core::WorkingMode> modes;
-  for (const DyadSides& own : sides) modes.push_back(mode_of(own, derived.front().problem.tower));
+  for (const DyadSides& own : sides) modes.push_back(mode_of(own, names_of(derived.front().problem.tower)));
   if (mechanism.coordinates.size() == 3) {
     core::LocusMap map = trace_surfaces(request, derived, options);
     name_coordinates(mechanism, map);
@@ -202,7 +199,7 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
 /// `family`: of which the mechanism is a member; may be null.
 TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                               const symbolic::LocusFamily* family) {
+                               const symbolic::LocusFamily* family, core::Certificate* certificate) {
   const auto check_deadline = [&] {
     if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
   };
@@ -213,7 +210,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
   try {
     if (request.progress) request.progress(0, "equations");
     check_deadline();
-    symbolic::Selection selection = request.selection;
+    symbolic::Selection selection = selection_of(request);
     selection.working_modes = sides_to_trace(mechanism, request);
     std::vector<symbolic::DerivedProblem> derived =
         family != nullptr ? family->problems(mechanism, selection) : symbolic::locus_problems(mechanism, selection);
@@ -225,10 +222,10 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
 
     start = Clock::now();
     check_deadline();
-    map = trace_pieces(mechanism, request, derived, selection.working_modes, traced.sheets);
+    map = trace_pieces(mechanism, request, derived, selection.working_modes, traced.sheets, certificate);
     tracing = seconds_since(start);
-    if (request.certificate != nullptr) {
-      auto& factors = request.certificate->problem.factors;
+    if (certificate != nullptr) {
+      auto& factors = certificate->problem.factors;
       factors.insert(factors.end(), derived.front().rest.begin(), derived.front().rest.end());
     }
     std::vector<std::string> notes;
@@ -260,10 +257,10 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
 }
 
 TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                           const symbolic::LocusFamily* family) {
+                           const symbolic::LocusFamily* family, core::Certificate* certificate) {
   require_coordinates(mechanism, 1, 3, "loci are traced");
   check_sides(mechanism, request);
-  TracedProblem traced = derive_and_trace(mechanism, request, family);
+  TracedProblem traced = derive_and_trace(mechanism, request, family, certificate);
   core::LocusMap& map = traced.map;
   map.mechanism = mechanism.name;
   for (const mechanism::Parameter& parameter : mechanism.parameters)
@@ -275,10 +272,10 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
 
 }  // namespace
 
-core::WorkingMode mode_of(const DyadSides& sides, const core::RootTower& tower) {
+core::WorkingMode mode_of(const DyadSides& sides, const core::TowerNames& tower) {
   core::WorkingMode mode;
   std::size_t dyad = 0;
-  for (const core::Root& root : tower.roots) {
+  for (const core::RootNames& root : tower.roots) {
     if (root.role != core::RootRole::working_mode) {
       mode.push_back(1);
       continue;
@@ -315,7 +312,7 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
   }
   if (std::none_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; })) map.angles.clear();
   for (const mechanism::PointIndex dyad : mechanism::dyad_points(mechanism)) {
-    core::Root root;
+    core::RootNames root;
     root.point = mechanism.points[static_cast<std::size_t>(dyad)].name;
     root.role = core::RootRole::working_mode;
     map.tower.roots.push_back(std::move(root));
@@ -343,40 +340,44 @@ void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t leas
           : "give 'workspace' another coordinate with its range");
 }
 
-core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  if (const std::optional<Framed> own = framed(mechanism, request))
-    return from_frame(trace_member(own->mechanism, in_frame(request, own->frame), nullptr).map, mechanism, own->frame);
-  return trace_member(mechanism, request, nullptr).map;
+symbolic::Selection selection_of(const LociRequest& request) {
+  return {.joints = request.joints,
+          .quantities = request.quantities,
+          .min_force = request.min_force,
+          .min_couple = request.min_couple};
 }
 
-TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  return trace_member(mechanism, request, nullptr);
+core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                          core::Certificate* certificate) {
+  // A certificate speaks of the mechanism of the file.
+  if (const std::optional<Framed> own = certificate == nullptr ? framed(mechanism) : std::nullopt)
+    return from_frame(trace_member(own->mechanism, in_frame(request, own->frame), nullptr, nullptr).map, mechanism,
+                      own->frame);
+  return trace_member(mechanism, request, nullptr, certificate).map;
 }
 
-Loci::Loci(std::string text, std::string file)
-    : text_(std::move(text)), file_(std::move(file)), family_(mechanism::parse_mechanism(text_, file_)) {}
-
-Loci Loci::read(const std::string& path) {
-  (void)mechanism::read_mechanism(path);  // complains as usual where the file cannot be read
-  std::ifstream stream(path);
-  return {std::string(std::istreambuf_iterator<char>(stream), {}), path};
+TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                            core::Certificate* certificate) {
+  return trace_member(mechanism, request, nullptr, certificate);
 }
 
-mechanism::Mechanism Loci::mechanism(const std::vector<mechanism::Override>& values) const {
-  return mechanism::parse_mechanism(text_, file_, values);
+core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,
+                          const LociRequest& request) {
+  if (framed(member)) return trace_loci(member, request);
+  return trace_member(member, request, &family, nullptr).map;
 }
 
-core::LocusMap Loci::trace(const mechanism::Mechanism& member, const LociRequest& request) const {
-  if (framed(member, request)) return trace_loci(member, request);
-  return trace_member(member, request, &family_).map;
+core::LocusMap trace_loci(const Model& model, const LociRequest& request) {
+  const Model::Content& own = model.content();
+  return own.member ? trace_loci(own.mechanism, own.shared->family(), request) : trace_loci(own.mechanism, request);
 }
 
 std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,
-                                                        const symbolic::Selection& selection) {
+                                                        const LociRequest& request) {
   const std::vector<mechanism::Joint>& joints = mechanism.joints;
   const bool any_clearance =
       std::any_of(joints.begin(), joints.end(), [](const mechanism::Joint& joint) { return joint.clearance; });
-  const std::vector<std::string>& named = selection.joints;
+  const std::vector<std::string>& named = request.joints;
   std::vector<numeric::TracedReaction> reactions;
   for (const mechanism::Joint& joint : joints) {
     const bool wanted = named.empty() ? joint.clearance.has_value() || !any_clearance
@@ -396,13 +397,13 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
 LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                              const numeric::GridSpec& grid) {
   require_coordinates(mechanism, 2, 2, "loci are held against a grid");
-  if (const std::optional<Framed> own = framed(mechanism, request)) {
+  if (const std::optional<Framed> own = framed(mechanism)) {
     LociValidation inside = validate_loci(own->mechanism, in_frame(std::move(request), own->frame), grid);
     return {from_frame(std::move(inside.map), mechanism, own->frame),
             from_frame(std::move(inside.report), mechanism, own->frame)};
   }
-  const std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request.selection);
-  std::vector<core::Quantity>& quantities = request.selection.quantities = {core::Quantity::f};
+  const std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request);
+  std::vector<core::Quantity>& quantities = request.quantities = {core::Quantity::f};
   for (const numeric::TracedReaction& reaction : reactions)
     if (std::find(quantities.begin(), quantities.end(), reaction.quantity) == quantities.end())
       quantities.push_back(reaction.quantity);
@@ -413,10 +414,10 @@ LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest 
   return {std::move(map), std::move(report)};
 }
 
-std::vector<report::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
+std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
   if (mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism)) return {};
   const numeric::NumericModel model = numeric::compile(mechanism);
-  std::vector<report::ModeSketch> sketches;
+  std::vector<core::ModeSketch> sketches;
   for (const core::WorkspaceRegion& region : map.workspace) {
     const std::vector<int> sides = numeric::dyad_signs(model, map.tower, region.mode);
     if (const std::optional<std::vector<double>> pose = numeric::sample_pose(model, sides, model.box))

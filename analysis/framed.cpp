@@ -1,4 +1,4 @@
-#include "cli/framed.hpp"
+#include "analysis/framed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,14 +136,9 @@ std::optional<Framed> framed(const mechanism::Mechanism& mechanism) {
   return Framed{std::move(frame), std::move(*inside)};
 }
 
-std::optional<Framed> framed(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  return request.certificate != nullptr ? std::nullopt : framed(mechanism);
-}
-
 LociRequest in_frame(LociRequest request, const Frame& frame) {
   request.tolerance /= frame.scale_value();
-  if (request.selection.min_couple) *request.selection.min_couple /= frame.scale;
-  request.selection.frame = frame;
+  if (request.min_couple) *request.min_couple /= frame.scale;
   return request;
 }
 

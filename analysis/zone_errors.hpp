@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "clearloci/zones.hpp"
 #include "core/field_map.hpp"
-#include "core/zone_map.hpp"
 
 namespace clearloci {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 
 namespace clearloci {
 

@@ -1,0 +1,81 @@
+#include "analysis/model.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "mechanism/read.hpp"
+
+namespace clearloci {
+
+SharedDesign::SharedDesign(std::string text, std::string file, mechanism::Mechanism first)
+    : text_(std::move(text)), file_(std::move(file)), first_(std::move(first)) {}
+
+const symbolic::LocusFamily& SharedDesign::family() const {
+  const std::lock_guard lock(mutex_);
+  if (!family_) family_.emplace(first_);
+  return *family_;
+}
+
+Model Model::parse(std::string text, std::string file, const std::vector<Value>& values) {
+  mechanism::Mechanism own = mechanism::parse_mechanism(text, file, values);
+  auto shared = std::make_shared<const SharedDesign>(std::move(text), std::move(file), own);
+  return Model(std::make_shared<const Content>(Content{std::move(shared), values, std::move(own), false}));
+}
+
+Model Model::read(const std::string& path, const std::vector<Value>& values) {
+  (void)mechanism::read_mechanism(path, values);  // complains as usual where the file cannot be read
+  std::ifstream stream(path, std::ios::binary);
+  return parse({std::istreambuf_iterator<char>(stream), {}}, path, values);
+}
+
+Model Model::with(const std::vector<Value>& values) const {
+  std::vector<Value> all = values;
+  for (const Value& old : content_->values)
+    if (std::none_of(values.begin(), values.end(), [&](const Value& v) { return v.first == old.first; }))
+      all.push_back(old);
+  mechanism::Mechanism own = mechanism::parse_mechanism(text(), file(), all);
+  return Model(std::make_shared<const Content>(Content{content_->shared, std::move(all), std::move(own), true}));
+}
+
+const std::string& Model::name() const { return content_->mechanism.name; }
+const std::string& Model::file() const { return content_->shared->file(); }
+const std::string& Model::text() const { return content_->shared->text(); }
+const std::vector<Model::Value>& Model::values() const { return content_->values; }
+bool Model::spatial() const { return content_->mechanism.space == mechanism::Space::spatial; }
+
+std::vector<Model::Parameter> Model::parameters() const {
+  std::vector<Parameter> list;
+  for (const mechanism::Parameter& own : content_->mechanism.parameters)
+    list.push_back({own.name, own.exact ? core::to_string(own.value) : core::to_string(own.expression),
+                    core::to_double(own.value)});
+  return list;
+}
+
+std::vector<Model::Coordinate> Model::coordinates() const {
+  std::vector<Coordinate> list;
+  for (const mechanism::Coordinate& own : content_->mechanism.coordinates)
+    list.push_back({own.name, own.angle, core::to_double(own.lower), core::to_double(own.upper)});
+  return list;
+}
+
+std::vector<Model::Joint> Model::joints() const {
+  std::vector<Joint> list;
+  for (const mechanism::Joint& own : content_->mechanism.joints)
+    list.push_back({own.name, mechanism::to_string(own.type), own.actuated, own.clearance.has_value()});
+  return list;
+}
+
+std::vector<Model::Dyad> Model::dyads() const {
+  const mechanism::Mechanism& own = content_->mechanism;
+  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(own);
+  const std::vector<int> sides = mechanism::working_mode(own);
+  std::vector<Dyad> list;
+  for (std::size_t j = 0; j < points.size(); ++j)
+    list.push_back({own.points[static_cast<std::size_t>(points[j])].name, mechanism::side_name(own, points[j], 1),
+                    mechanism::side_name(own, points[j], -1), sides[j]});
+  return list;
+}
+
+}  // namespace clearloci

@@ -1,0 +1,39 @@
+// What a Model keeps (clearloci/mechanism.hpp).
+#pragma once
+
+#include <mutex>
+#include <optional>
+
+#include "clearloci/mechanism.hpp"
+#include "mechanism/mechanism.hpp"
+#include "symbolic/locus_problem.hpp"
+
+namespace clearloci {
+
+/// What the members of a family of designs have in common: the file, and its equations, derived when first asked for.
+class SharedDesign {
+ public:
+  SharedDesign(std::string text, std::string file, mechanism::Mechanism first);
+
+  const std::string& text() const { return text_; }
+  const std::string& file() const { return file_; }
+  /// Throws core::InputError where the equations themselves are wrong.
+  const symbolic::LocusFamily& family() const;
+
+ private:
+  std::string text_, file_;
+  mechanism::Mechanism first_;
+  mutable std::mutex mutex_;
+  mutable std::optional<symbolic::LocusFamily> family_;
+};
+
+struct Model::Content {
+  std::shared_ptr<const SharedDesign> shared;
+  std::vector<Value> values;
+  mechanism::Mechanism mechanism;
+  /// One of several members: made by Model::with. What they share is worth deriving then; for a single design its own
+  /// numbers are quicker.
+  bool member = false;
+};
+
+}  // namespace clearloci

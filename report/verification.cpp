@@ -1,0 +1,206 @@
+#include "report/verification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/task.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/picture.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// m; what is nearer is in the task but for rounding.
+constexpr double rounding_of_distance = 1e-12;
+
+const char* unit_of(const core::Vanishing& reaction) {
+  return reaction.quantity == core::Quantity::M || reaction.quantity == core::Quantity::T ? "N m" : "N";
+}
+
+std::string open_words(const core::OpenTask& open) {
+  switch (open.reason) {
+    case core::OpenTask::Reason::time:
+      return "the time limit was reached";
+    case core::OpenTask::Reason::cells:
+      return fmt::format("{} cells were looked at", open.looked_at);
+    case core::OpenTask::Reason::doubles:
+      break;
+  }
+  return "doubles tell no more apart there";
+}
+
+/// Exact numbers of a shape, rounded.
+Json point_json(const core::RationalPoint& p) { return {core::to_double(p[0]), core::to_double(p[1])}; }
+
+Json points_json(const std::vector<core::RationalPoint>& points) {
+  Json list = Json::array();
+  for (const core::RationalPoint& p : points) list.push_back(point_json(p));
+  return list;
+}
+
+Json shape_json(const core::TaskShape& shape) {
+  if (const auto* box = std::get_if<core::TaskBox>(&shape))
+    return {{"lower", point_json(box->lower)}, {"upper", point_json(box->upper)}};
+  if (const auto* circle = std::get_if<core::TaskCircle>(&shape))
+    return {{"centre", point_json(circle->centre)}, {"radius", core::to_double(circle->radius)}};
+  if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) return points_json(polygon->corners);
+  return points_json(std::get<core::TaskPath>(shape).points);
+}
+
+const char* verdict_line(core::Verdict verdict) {
+  switch (verdict) {
+    case core::Verdict::verified:
+      return "VERIFIED      no locus, singularity or boundary in the task: proven";
+    case core::Verdict::refuted:
+      return "REFUTED       the task fails at the witness, confirmed numerically";
+    case core::Verdict::undecided:
+      break;
+  }
+  return "UNDECIDED     neither proven nor refuted";
+}
+
+}  // namespace
+
+std::string witness_words(const core::TaskWitness& witness) {
+  std::string words;
+  switch (witness.kind) {
+    case core::TaskWitness::Kind::unreachable:
+      words = "the mechanism does not reach it";
+      break;
+    case core::TaskWitness::Kind::boundary:
+      words = "the boundary of the workspace passes here";
+      break;
+    case core::TaskWitness::Kind::singular:
+      words = "|A| vanishes: a direct singularity";
+      break;
+    case core::TaskWitness::Kind::vanishing:
+      words = reaction_names(witness.vanishing) + (witness.vanishing.size() > 1 ? " vanish" : " vanishes");
+      break;
+    case core::TaskWitness::Kind::too_small:
+      words = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(witness.too_small.front()), *witness.size,
+                          unit_of(witness.too_small.front()), core::to_string(*witness.least));
+      break;
+  }
+  if (witness.load) words += fmt::format(" under the load ({:.9g}, {:.9g}) N", (*witness.load)[0], (*witness.load)[1]);
+  if (witness.distance > rounding_of_distance)
+    words += fmt::format("; {:.6g} m from the task, within its margin", witness.distance);
+  return words;
+}
+
+Json verification_object(const core::Verification& result) {
+  const core::LocusMap& loci = result.map.loci;
+  Json root = {{"format", 1},
+               {"mechanism", printable(loci.mechanism)},
+               {"working_mode", mode_object(loci.tower, result.mode)},
+               {"task", {{core::kind_of(result.task.shape), shape_json(result.task.shape)}}},
+               {"verdict", core::to_string(result.verdict)},
+               {"verified", result.verified()},
+               {"zone", result.zone.empty() ? Json(nullptr) : Json(result.zone)},
+               {"margin", result.verified() ? Json(result.margin) : Json(nullptr)},
+               {"nearest", nullptr},
+               {"witness", nullptr},
+               {"open", nullptr}};
+  if (result.by) root["moved_by"] = point_json(*result.by);
+  if (result.nearest) {
+    const core::NearestOfTask& nearest = *result.nearest;
+    Json joints = Json::array();
+    for (const core::Vanishing& v : nearest.vanishing)
+      if (std::find(joints.begin(), joints.end(), v.joint) == joints.end()) joints.push_back(v.joint);
+    root["nearest"] = {{"curve", nearest.curve.empty() ? Json(nullptr) : Json(nearest.curve)},
+                       {"kind", core::to_string(nearest.kind)},
+                       {"joints", std::move(joints)},
+                       {"vanishing", vanishing_array(nearest.vanishing)},
+                       {"at", nearest.at},
+                       {"distance", nearest.distance}};
+  }
+  if (result.witness) {
+    const core::TaskWitness& witness = *result.witness;
+    root["witness"] = {{"at", witness.at},
+                       {"load", witness.load ? Json(*witness.load) : Json(nullptr)},
+                       {"distance", witness.distance},
+                       {"reason", witness_words(witness)},
+                       {"vanishing", vanishing_array(witness.vanishing)},
+                       {"too_small", vanishing_array(witness.too_small)},
+                       {"size", witness.size ? Json(*witness.size) : Json(nullptr)}};
+  }
+  if (result.open)
+    root["open"] = {{"lower", result.open->lower},
+                    {"upper", result.open->upper},
+                    {"cells", result.open->cells},
+                    {"reason", open_words(*result.open)}};
+  root["notes"] = result.notes;
+  return root;
+}
+
+std::string verification_text(const core::Verification& result, bool fit) {
+  std::string text;
+  const auto put = [&](fmt::string_view format, const auto&... values) {
+    text += fmt::format(fmt::runtime(format), values...);
+  };
+  const core::LocusMap& loci = result.map.loci;
+  put("{}: {}", printable(loci.mechanism), core::kind_of(result.task.shape));
+  const std::string mode = printable(mode_words(loci.tower, result.mode));
+  put("{}\n\n", mode.empty() ? "" : "; " + mode);
+  if (result.by)
+    put("moved by      ({:.6f}, {:.6f}) m\n", core::to_double((*result.by)[0]), core::to_double((*result.by)[1]));
+  else if (fit)
+    put("No place in the box was found that verifies; where the task lies:\n");
+  put("{}\n", verdict_line(result.verdict));
+  if (!result.zone.empty()) put("zone          {}\n", result.zone);
+  if (result.verified()) put("margin        at least {:.6g} m, proven\n", result.margin);
+  if (result.nearest) {
+    const core::NearestOfTask& nearest = *result.nearest;
+    put("nearest       {}{}{}{} at ({:.6f}, {:.6f}), {}\n", kind_words(nearest.kind),
+        nearest.vanishing.empty() ? "" : " ", reaction_names(nearest.vanishing),
+        nearest.isolated        ? ", an isolated point"
+        : nearest.curve.empty() ? ""
+                                : " on " + nearest.curve,
+        nearest.at[0], nearest.at[1],
+        nearest.distance > rounding_of_distance ? fmt::format("{:.6g} m away", nearest.distance) : "in the task");
+  }
+  if (result.witness)
+    put("witness       ({:.9f}, {:.9f}): {}\n", result.witness->at[0], result.witness->at[1],
+        witness_words(*result.witness));
+  if (result.open)
+    put("open          {} cell{} in [{:.9f}, {:.9f}] x [{:.9f}, {:.9f}]: {}; the rest is proven\n", result.open->cells,
+        result.open->cells == 1 ? "" : "s", result.open->lower[0], result.open->upper[0], result.open->lower[1],
+        result.open->upper[1], open_words(*result.open));
+  for (const std::string& note : result.notes) put("{}\n", printable(note));
+  return text;
+}
+
+std::vector<std::filesystem::path> write_verification(const core::Verification& result,
+                                                      const std::filesystem::path& directory,
+                                                      const std::set<std::string>& formats) {
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    write_atomically(directory / name, bytes);
+    files.push_back(directory / name);
+  };
+  write("verify.json", json_text(verification_object(result)));
+  TaskMark mark;
+  mark.outline = core::outline(result.task.shape);
+  mark.filled = !std::holds_alternative<core::TaskPath>(result.task.shape);
+  mark.verified = result.verified();
+  mark.margin = result.verified() ? result.margin : core::to_double(result.task.margin);
+  if (result.witness)
+    mark.points.push_back(result.witness->at);
+  else if (result.nearest)
+    mark.points.push_back(result.nearest->at);
+  const auto picture = [&](const char* format, PictureFormat kind) {
+    if (formats.contains(format))
+      write(std::string("verify.") + format, task_picture(result.map, result.mode, mark, kind));
+  };
+  picture("svg", PictureFormat::svg);
+  picture("png", PictureFormat::png);
+  picture("pdf", PictureFormat::pdf);
+  return files;
+}
+
+}  // namespace clearloci::report
