@@ -1,7 +1,5 @@
 #include "analysis/loci.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -43,9 +41,10 @@ std::vector<DyadSides> sides_to_trace(const mechanism::Mechanism& mechanism, con
 void check_mode_count(std::size_t dyads) {
   constexpr std::size_t most = 12;
   if (dyads > most)
-    throw core::InputError({.file = "--working-mode"},
-                           fmt::format("all working modes of {} dyads are more than {}", dyads, 1U << most),
-                           "name one at a time");
+    throw core::InputError(
+        {.file = "--working-mode"},
+        "all working modes of " + std::to_string(dyads) + " dyads are more than " + std::to_string(1U << most),
+        "name one at a time");
 }
 
 void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& request) {

@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "analysis/loci.hpp"
 #include "core/rational.hpp"
 #include "mechanism/mechanism.hpp"
+#include "report/formats.hpp"
 
 namespace clearloci::cli {
 
@@ -61,5 +63,8 @@ int parse_steps(const std::string& text);
 
 /// `options.joints`, each of which may list several after commas; checked against the mechanism.
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism);
+
+/// --export: names after commas. Throws core::InputError for one that the answer has no format for.
+std::set<std::string> parse_formats(const std::string& text, report::Answer answer);
 
 }  // namespace clearloci::cli

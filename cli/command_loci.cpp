@@ -14,9 +14,9 @@
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
-#include "report/write_loci.hpp"
 
 namespace clearloci::cli {
 namespace {
@@ -28,33 +28,18 @@ struct Arguments {
   std::string certificate;
 };
 
-/// loci.json is always among them.
-std::set<report::FileFormat> parse_formats(const std::string& text) {
-  std::set<report::FileFormat> formats = {report::FileFormat::json};
-  for (const std::string& word : split(text)) {
-    const std::optional<report::FileFormat> format = report::file_format(word);
-    if (!format)
-      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
-                             fmt::format("choose from {}", fmt::join(report::file_format_names(), ", ")));
-    formats.insert(*format);
-  }
-  return formats;
-}
-
 /// Asked for, not merely a default.
-void check_formats(const std::set<report::FileFormat>& formats, std::size_t coordinates) {
-  for (const std::string& name : report::file_format_names()) {
-    const report::FileFormat format = *report::file_format(name);
-    if (!formats.contains(format) || report::can_hold(format, coordinates)) continue;
-    throw core::InputError(
-        {.file = "--export"},
-        fmt::format("{} does not hold loci over {} free coordinate{}", name, coordinates, coordinates == 1 ? "" : "s"),
-        coordinates == 3 ? "surfaces go to stl, obj, vtk, csv and pictures" : "leave it out");
-  }
+void check_formats(const std::set<std::string>& formats, std::size_t coordinates) {
+  for (const std::string& name : formats)
+    if (!report::can_hold(name, coordinates))
+      throw core::InputError({.file = "--export"},
+                             fmt::format("{} does not hold loci over {} free coordinate{}", name, coordinates,
+                                         coordinates == 1 ? "" : "s"),
+                             coordinates == 3 ? "surfaces go to stl, obj, vtk, csv and pictures" : "leave it out");
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<report::FileFormat> formats = parse_formats(arguments.formats);
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::Answer::loci);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   check_formats(formats, mechanism.coordinates.size());
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
@@ -72,7 +57,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   const std::filesystem::path folder = output_folder(arguments.common);
   if (certify) write_certificate(arguments.certificate, "loci", arguments.common, certificate, map);
   const std::vector<std::filesystem::path> files =
-      report::write_loci(map, sample_sketches(mechanism, map), folder, formats);
+      report::write_loci({map, sample_sketches(mechanism, map)}, folder, formats);
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::loci_object(map)));
   } else if (!arguments.common.quiet) {
@@ -95,9 +80,9 @@ Command add_loci_command(CLI::App& program) {
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
   add_mesh_argument(*app, arguments->loci);
-  app->add_option(
-         "--export", arguments->formats,
-         fmt::format("Files besides loci.json, several after commas: {}", fmt::join(report::file_format_names(), ", ")))
+  app->add_option("--export", arguments->formats,
+                  fmt::format("Files besides loci.json, several after commas: {}",
+                              fmt::join(report::format_names(report::Answer::loci), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate);

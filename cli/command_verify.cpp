@@ -16,6 +16,7 @@
 #include "core/errors.hpp"
 #include "core/text.hpp"
 #include "mechanism/read_task.hpp"
+#include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/verification.hpp"
 
@@ -29,19 +30,6 @@ struct Arguments {
   std::string formats = "svg,png";
   std::string certificate;
 };
-
-const std::set<std::string> known_formats = {"pdf", "png", "svg"};
-
-std::set<std::string> parse_formats(const std::string& text) {
-  std::set<std::string> formats;
-  for (const std::string& word : split(text)) {
-    if (!known_formats.contains(word))
-      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
-                             fmt::format("choose from {}", fmt::join(known_formats, ", ")));
-    formats.insert(word);
-  }
-  return formats;
-}
 
 int status_of(core::Verdict verdict) {
   switch (verdict) {
@@ -72,7 +60,7 @@ void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, 
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats);
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::Answer::verification);
   const std::optional<FitGoal> goal = parse_fit(arguments.fit);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   const core::Task task = mechanism::read_task(arguments.task, mechanism);
@@ -121,7 +109,8 @@ Command add_verify_command(CLI::App& program) {
       ->expected(0, 1)
       ->default_str("nearest");
   app->add_option("--export", arguments->formats,
-                  fmt::format("Pictures besides verify.json, several after commas: {}", fmt::join(known_formats, ", ")))
+                  fmt::format("Pictures besides verify.json, several after commas: {}",
+                              fmt::join(report::format_names(report::Answer::verification), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate);

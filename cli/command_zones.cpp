@@ -15,6 +15,7 @@
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/zones.hpp"
 
@@ -28,21 +29,8 @@ struct Arguments {
   std::string certificate;
 };
 
-const std::set<std::string> known_formats = {"geojson", "json", "pdf", "png", "svg"};
-
-std::set<std::string> parse_formats(const std::string& text) {
-  std::set<std::string> formats;
-  for (const std::string& word : split(text)) {
-    if (!known_formats.contains(word))
-      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
-                             fmt::format("choose from {}", fmt::join(known_formats, ", ")));
-    formats.insert(word);
-  }
-  return formats;
-}
-
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats);
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::Answer::zones);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (mechanism.coordinates.size() != 2)
     throw core::InputError(
@@ -85,7 +73,8 @@ Command add_zones_command(CLI::App& program) {
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
   app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides zones.json, several after commas: {}", fmt::join(known_formats, ", ")))
+                  fmt::format("Files besides zones.json, several after commas: {}",
+                              fmt::join(report::format_names(report::Answer::zones), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate);

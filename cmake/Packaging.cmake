@@ -3,24 +3,15 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/clearloci")
-set(folders core mechanism symbolic loci numeric check report)
+set(folders core mechanism symbolic loci numeric check analysis report)
 list(TRANSFORM folders PREPEND clearloci_ OUTPUT_VARIABLE folder_targets)
 
 install(TARGETS ${folder_targets} clearloci_library EXPORT clearlociTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS clearloci RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-# Headers that say they are private to their folder stay at home (tests/laws/include_rules holds them to it).
-foreach(folder IN LISTS folders)
-  file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.hpp")
-  foreach(header IN LISTS headers)
-    file(STRINGS "${header}" private REGEX "^// ?.*Private to ")
-    if(NOT private)
-      install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/clearloci/${folder}")
-    endif()
-  endforeach()
-endforeach()
-install(FILES "${PROJECT_SOURCE_DIR}/cli/pipeline.hpp" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/clearloci/cli")
+# The public headers, and nothing else.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/clearloci" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
   DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/task.hpp"
-#include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/wording.hpp"
@@ -175,15 +174,7 @@ std::string verification_text(const core::Verification& result, bool fit) {
   return text;
 }
 
-std::vector<std::filesystem::path> write_verification(const core::Verification& result,
-                                                      const std::filesystem::path& directory,
-                                                      const std::set<std::string>& formats) {
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    write_atomically(directory / name, bytes);
-    files.push_back(directory / name);
-  };
-  write("verify.json", json_text(verification_object(result)));
+std::string verification_picture(const core::Verification& result, PictureFormat format) {
   TaskMark mark;
   mark.outline = core::outline(result.task.shape);
   mark.filled = !std::holds_alternative<core::TaskPath>(result.task.shape);
@@ -193,14 +184,7 @@ std::vector<std::filesystem::path> write_verification(const core::Verification& 
     mark.points.push_back(result.witness->at);
   else if (result.nearest)
     mark.points.push_back(result.nearest->at);
-  const auto picture = [&](const char* format, PictureFormat kind) {
-    if (formats.contains(format))
-      write(std::string("verify.") + format, task_picture(result.map, result.mode, mark, kind));
-  };
-  picture("svg", PictureFormat::svg);
-  picture("png", PictureFormat::png);
-  picture("pdf", PictureFormat::pdf);
-  return files;
+  return task_picture(result.map, result.mode, mark, format);
 }
 
 }  // namespace clearloci::report

@@ -1,13 +1,11 @@
 // The answer of `clearloci verify` as a text, as JSON (results.md, verify.json) and as a picture.
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <set>
 #include <string>
-#include <vector>
 
 #include "clearloci/verify.hpp"
+#include "report/picture.hpp"
 
 namespace clearloci::report {
 
@@ -19,9 +17,7 @@ nlohmann::ordered_json verification_object(const core::Verification& result);
 /// A line a fact. `fit`: a place was looked for. Ends with a newline.
 std::string verification_text(const core::Verification& result, bool fit);
 
-/// Writes verify.json and the pictures asked for of svg, png, pdf. Returns the files.
-std::vector<std::filesystem::path> write_verification(const core::Verification& result,
-                                                      const std::filesystem::path& directory,
-                                                      const std::set<std::string>& formats);
+/// The zones with the task over them, and its witness or what is nearest.
+std::string verification_picture(const core::Verification& result, PictureFormat format);
 
 }  // namespace clearloci::report

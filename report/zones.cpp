@@ -80,17 +80,6 @@ Json zone_object(const core::ZoneMap& map, const core::Zone& zone) {
           {"polygon", polygon_of(zone)}};
 }
 
-std::vector<core::WorkingMode> modes_of_zones(const core::ZoneMap& map) {
-  std::vector<core::WorkingMode> modes;
-  const auto add = [&](const core::WorkingMode& mode) {
-    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
-  };
-  for (const core::Zone& zone : map.zones) add(zone.mode);
-  for (const core::ModeArea& area : map.areas)
-    if (area.in_doubt > 0) add(area.mode);
-  return modes;
-}
-
 std::string sign_words(int sign) { return sign > 0 ? "+" : sign < 0 ? "-" : "?"; }
 
 std::string border_words(const core::ZoneMap& map, const core::Zone& zone) {
@@ -105,6 +94,17 @@ std::string border_words(const core::ZoneMap& map, const core::Zone& zone) {
 }
 
 }  // namespace
+
+std::vector<core::WorkingMode> modes_of_zones(const core::ZoneMap& map) {
+  std::vector<core::WorkingMode> modes;
+  const auto add = [&](const core::WorkingMode& mode) {
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+  };
+  for (const core::Zone& zone : map.zones) add(zone.mode);
+  for (const core::ModeArea& area : map.areas)
+    if (area.in_doubt > 0) add(area.mode);
+  return modes;
+}
 
 Json zones_object(const core::ZoneMap& map) {
   const Json loci = loci_object(map.loci);
@@ -175,28 +175,6 @@ std::string zones_table(const core::ZoneMap& map) {
   if (doubtful) out += "\n*: not certified\n";
   for (const std::string& note : map.loci.notes) out += printable(note) + "\n";
   return out;
-}
-
-std::vector<std::filesystem::path> write_zones(const core::ZoneMap& map, const std::filesystem::path& directory,
-                                               const std::set<std::string>& formats) {
-  std::vector<std::filesystem::path> written;
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    write_atomically(directory / name, bytes);
-    written.push_back(directory / name);
-  };
-  write("zones.json", json_text(zones_object(map)));
-  if (formats.contains("geojson")) write("zones.geojson", zones_geojson(map));
-  const std::vector<core::WorkingMode> modes = modes_of_zones(map);
-  for (const core::WorkingMode& mode : modes) {
-    const std::string which = modes.size() > 1 ? "-" + mode_slug(map.loci.tower, mode) : "";
-    const auto picture = [&](const char* format, PictureFormat kind) {
-      if (formats.contains(format)) write("zones" + which + "." + format, zone_picture(map, mode, kind));
-    };
-    picture("svg", PictureFormat::svg);
-    picture("png", PictureFormat::png);
-    picture("pdf", PictureFormat::pdf);
-  }
-  return written;
 }
 
 }  // namespace clearloci::report

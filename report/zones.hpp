@@ -1,9 +1,7 @@
 // Zones as files and as a table (results.md, zones.json).
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -24,8 +22,7 @@ std::string zones_geojson(const core::ZoneMap& map);
 /// in doubt. Ends with a newline.
 std::string zones_table(const core::ZoneMap& map);
 
-/// Writes zones.json and what else is asked for of svg, png, pdf, geojson; a picture a mode. Returns the files.
-std::vector<std::filesystem::path> write_zones(const core::ZoneMap& map, const std::filesystem::path& directory,
-                                               const std::set<std::string>& formats);
+/// The modes that have zones, or area in doubt.
+std::vector<core::WorkingMode> modes_of_zones(const core::ZoneMap& map);
 
 }  // namespace clearloci::report

@@ -20,15 +20,14 @@ inline std::string example(const std::string& name) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-inline std::string certificate_of(const std::string& model, LociRequest request = {}, bool zones = false) {
+inline std::string certificate_of(const std::string& model, const LociRequest& request = {}, bool zones = false) {
   const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model, "model.yaml");
   core::Certificate certificate;
-  request.certificate = &certificate;
   if (zones) {
-    const core::ZoneMap map = find_zones(mechanism, request);
+    const core::ZoneMap map = find_zones(mechanism, request, &certificate);
     return report::certificate_text({"zones", model, {}}, certificate, map.loci, {.zones = &map.zones});
   }
-  const core::LocusMap map = trace_loci(mechanism, request);
+  const core::LocusMap map = trace_loci(mechanism, request, &certificate);
   return report::certificate_text({"loci", model, {}}, certificate, map);
 }
 

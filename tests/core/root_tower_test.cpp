@@ -37,7 +37,7 @@ TEST(AllWorkingModes, HasOneModeWithoutRoots) {
 }
 
 TEST(DescribeMode, NamesThePointsAndSides) {
-  const auto described = describe_mode(three_roots(), {-1, 1, 1});
+  const auto described = describe_mode(names_of(three_roots()), {-1, 1, 1});
   const std::vector<std::pair<std::string, std::string>> expected = {{"B1", "right"}, {"B2", "left"}};
   EXPECT_EQ(described, expected);
 }

@@ -16,6 +16,7 @@
 #include "mechanism/read_task.hpp"
 #include "numeric/reactions.hpp"
 #include "numeric/take_up.hpp"
+#include "report/verification.hpp"
 #include "tests/laws/task_designs.hpp"
 
 namespace clearloci {
@@ -149,7 +150,7 @@ Point2 pose_of(std::mt19937& random, const loci::TaskRegion& region, const core:
 void expect_no_contradiction(std::mt19937& random, const Oracle& oracle, const core::Task& task,
                              const Verification& result, int poses) {
   const loci::TaskRegion region(task.shape);
-  const core::Polyline outline = region.outline();
+  const core::Polyline outline = core::outline(task.shape);
   EXPECT_GE(result.margin, core::to_double(task.margin));
   std::vector<Oracle::Solved> solved;
   std::vector<Point2> places = region.samples();
@@ -226,7 +227,8 @@ void expect_no_contradiction(std::mt19937& random, const Oracle& oracle, const c
 }
 
 void expect_confirmed(const Oracle& oracle, const core::Task& task, const TaskWitness& witness) {
-  SCOPED_TRACE(fmt::format("witness ({:.17g}, {:.17g}): {}", witness.at[0], witness.at[1], witness.reason));
+  SCOPED_TRACE(
+      fmt::format("witness ({:.17g}, {:.17g}): {}", witness.at[0], witness.at[1], report::witness_words(witness)));
   const loci::TaskRegion region(task.shape);
   EXPECT_LE(region.signed_distance(witness.at), std::max(core::to_double(task.margin), 1e-14));
   const auto around = [&](double step) {
@@ -310,10 +312,7 @@ TEST(VerifySampling, IsNeverContradicted) {
     ++counts[result->verdict];
     if (wanted != nullptr)
       fmt::print("{} kind {} {} {} {:.2f} s{}\n", i, kind, lattice ? "lattice" : "general", to_string(result->verdict),
-                 times.back(),
-                 result->witness ? " " + result->witness->reason
-                 : result->open  ? " " + result->open->reason
-                                 : "");
+                 times.back(), result->witness ? " " + report::witness_words(*result->witness) : "");
     const Oracle oracle(mechanism, *task);
     EXPECT_EQ(result->witness.has_value(), result->verdict == Verdict::refuted);
     EXPECT_EQ(result->open.has_value(), result->verdict == Verdict::undecided);

@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 
 #include "core/errors.hpp"
+#include "report/formats.hpp"
 #include "report/loci_json.hpp"
-#include "report/write_loci.hpp"
 #include "tests/report/five_bar_map.hpp"
 #include "tests/report/scratch_folder.hpp"
 
@@ -77,10 +77,10 @@ TEST(Files, AFolderWithoutPermissionIsRefused) {
 TEST(WriteLoci, OneModeNeedsNoModeInItsNames) {
   const ScratchFolder scratch;
   const auto map = fixture::five_bar_map();
-  std::set<FileFormat> all;
-  for (const auto& name : file_format_names()) all.insert(file_format(name).value());
-  const auto written = write_loci(map, {{fixture::elbows_out(), fixture::five_bar_sketch(fixture::elbows_out())}},
-                                  scratch.path() / "out", all);
+  const std::vector<std::string> all = format_names(Answer::loci);
+  const std::vector<core::ModeSketch> sketches = {
+      {fixture::elbows_out(), fixture::five_bar_sketch(fixture::elbows_out())}};
+  const auto written = write_loci({map, sketches}, scratch.path() / "out", {all.begin(), all.end()});
   std::vector<std::string> names;
   for (const auto& path : written) {
     names.push_back(path.filename().string());
@@ -92,11 +92,11 @@ TEST(WriteLoci, OneModeNeedsNoModeInItsNames) {
 
 TEST(WriteLoci, SeveralModesHaveAPictureEach) {
   const ScratchFolder scratch;
-  const auto written = write_loci(fixture::five_bar_map_in_all_modes(), {}, scratch.path(), {FileFormat::svg});
+  const auto written = write_loci({fixture::five_bar_map_in_all_modes(), {}}, scratch.path(), {"svg"});
   std::vector<std::string> names;
   for (const auto& path : written) names.push_back(path.filename().string());
-  EXPECT_EQ(names, (std::vector<std::string>{"loci-right-left.svg", "loci-right-right.svg", "loci-left-left.svg",
-                                             "loci-left-right.svg"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"loci.json", "loci-right-left.svg", "loci-right-right.svg",
+                                             "loci-left-left.svg", "loci-left-right.svg"}));
 }
 
 TEST(WriteLoci, AMapWithoutAnyCurveStillGivesEveryFile) {
@@ -105,13 +105,17 @@ TEST(WriteLoci, AMapWithoutAnyCurveStillGivesEveryFile) {
   map.curves.clear();
   map.isolated_points.clear();
   map.workspace.clear();
-  EXPECT_EQ(write_loci(map, {}, scratch.path(), default_file_formats()).size(), 4u);
+  EXPECT_EQ(write_loci({map, {}}, scratch.path(), {"svg", "png", "csv"}).size(), 4u);
 }
 
-TEST(WriteLoci, UnknownFormatsAreUnknown) {
-  EXPECT_FALSE(file_format("jpeg"));
-  EXPECT_FALSE(file_format(""));
-  EXPECT_FALSE(file_format("SVG"));
+TEST(Formats, HoldWhatTheySay) {
+  for (const char* unknown : {"jpeg", "", "SVG"}) EXPECT_FALSE(can_hold(unknown, 2)) << unknown;
+  EXPECT_TRUE(can_hold("dxf", 2));
+  EXPECT_FALSE(can_hold("dxf", 3));
+  EXPECT_TRUE(can_hold("stl", 3));
+  EXPECT_FALSE(can_hold("stl", 2));
+  EXPECT_EQ(format_names(Answer::zones), (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson"}));
+  EXPECT_EQ(format_names(Answer::verification), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ core::LocusMap empty_map() {
   map.parameters = {{"L", "1/2"}, {"d", "1/2"}};
   map.tower.coordinates = {"x", "y"};
   for (const char* point : {"B1", "B2"}) {
-    map.tower.roots.push_back({.name = point[1] == '1' ? "s1" : "s2", .point = point, .square = {}});
+    map.tower.roots.push_back({.name = point[1] == '1' ? "s1" : "s2", .point = point});
   }
   map.lower = {Rational(-1, 2), -1};
   map.upper = {1, 1};

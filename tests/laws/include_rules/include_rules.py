@@ -9,6 +9,8 @@ import re
 import sys
 
 FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "check", "analysis", "report", "cli"}
+# Public headers, of which core/ is made: they include the standard library, GMP's numbers and one another.
+PUBLIC = "clearloci"
 MAY_INCLUDE = {
     "core": set(),
     "mechanism": {"core"},
@@ -51,9 +53,20 @@ def is_private(text):
     return any(line.startswith("//") and PRIVATE in line for line in text.splitlines())
 
 
+def public_offences_of(path, text):
+    """Lines that say what the public header `path` must not include."""
+    return [
+        f"{path}: a public header must not include {included}"
+        for included in INCLUDE.findall(text)
+        if not included.startswith(PUBLIC + "/") and included != "gmpxx.h" and ("/" in included or "." in included)
+    ]
+
+
 def offences_of(path, text, private_headers=frozenset()):
     """Lines that say what `path` (relative, with /) must not include."""
     folder = path.split("/")[0]
+    if folder == "include":
+        return public_offences_of(path, text)
     is_public_header = path.endswith(".hpp") and not is_private(text)
     found = []
     for included in INCLUDE.findall(text):
@@ -80,7 +93,7 @@ def offences_of(path, text, private_headers=frozenset()):
 def offences(root):
     texts = {
         path.relative_to(root).as_posix(): path.read_text(encoding="utf-8")
-        for folder in sorted(FOLDERS)
+        for folder in sorted(FOLDERS | {"include"})
         for path in sorted((root / folder).rglob("*.[ch]pp"))
     }
     private_headers = {path for path, text in texts.items() if path.endswith(".hpp") and is_private(text)}

@@ -1,0 +1,147 @@
+#include "clearloci/export.hpp"
+
+#include "bindings/bindings.hpp"
+#include "bindings/maps.hpp"
+
+namespace clearloci::python {
+
+py::dict mode_of(const TowerNames& tower, const WorkingMode& mode) {
+  py::dict sides;
+  for (const auto& [point, side] : describe_mode(tower, mode)) sides[py::str(point)] = side;
+  return sides;
+}
+
+namespace {
+
+py::dict dict_of(const LocusMap& map, const LocusCurve& curve) {
+  py::list arcs, ends;
+  for (const Arc& arc : curve.arcs) {
+    arcs.append(array_of(arc.points));
+    ends.append(py::make_tuple(to_string(arc.ends[0]), to_string(arc.ends[1])));
+  }
+  const std::vector<std::string>& variables = curve.variables.empty() ? map.tower.coordinates : curve.variables;
+  py::dict one;
+  one["id"] = curve.id;
+  one["kind"] = to_string(curve.kind);
+  one["vanishing"] = names_of(curve.vanishing);
+  one["factor"] = curve.factor;
+  one["cause"] = curve.cause;
+  one["degree"] = curve.implicit.is_zero() ? py::object(py::none()) : py::cast(total_degree(curve.implicit));
+  one["implicit"] = curve.implicit.is_zero() ? py::object(py::none()) : py::cast(to_string(curve.implicit, variables));
+  one["variables"] = variables;
+  one["working_mode"] = mode_of(map.tower, curve.mode);
+  one["certified"] = curve.certified;
+  one["excited"] = curve.excited;
+  one["arcs"] = arcs;
+  one["ends"] = ends;
+  return one;
+}
+
+py::dict dict_of(const LocusMap& map, const LocusSurface& surface) {
+  py::array_t<double> vertices({static_cast<py::ssize_t>(surface.vertices.size()), py::ssize_t{3}});
+  py::array_t<int> triangles({static_cast<py::ssize_t>(surface.triangles.size()), py::ssize_t{3}});
+  auto vertex = vertices.mutable_unchecked<2>();
+  auto triangle = triangles.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      vertex(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(c)) = surface.vertices[i][c];
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      triangle(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(c)) = surface.triangles[i][c];
+  py::dict one;
+  one["id"] = surface.id;
+  one["kind"] = to_string(surface.kind);
+  one["vanishing"] = names_of(surface.vanishing);
+  one["factor"] = surface.factor;
+  one["cause"] = surface.cause;
+  one["working_mode"] = mode_of(map.tower, surface.mode);
+  one["certified"] = surface.certified;
+  one["vertices"] = vertices;
+  one["triangles"] = triangles;
+  return one;
+}
+
+}  // namespace
+
+py::dict dict_of(const LocusMap& map) {
+  py::list curves, surfaces, points, workspace, reachable;
+  for (const LocusCurve& curve : map.curves) curves.append(dict_of(map, curve));
+  for (const LocusSurface& surface : map.surfaces) surfaces.append(dict_of(map, surface));
+  for (const IsolatedPoint& point : map.isolated_points) {
+    py::dict one;
+    one["kind"] = to_string(point.kind);
+    one["vanishing"] = names_of(point.vanishing);
+    one["at"] = point.at;
+    one["working_mode"] = mode_of(map.tower, point.mode);
+    one["certified"] = point.certified;
+    one["factor"] = point.factor;
+    one["cause"] = point.cause;
+    points.append(one);
+  }
+  for (const WorkspaceRegion& region : map.workspace) {
+    py::list rings;
+    for (const Polyline& ring : region.rings) rings.append(array_of(ring));
+    py::dict one;
+    one["working_mode"] = mode_of(map.tower, region.mode);
+    one["rings"] = rings;
+    workspace.append(one);
+  }
+  for (const ReachableInterval& interval : map.reachable) {
+    py::dict one;
+    one["working_mode"] = mode_of(map.tower, interval.mode);
+    one["range"] = py::make_tuple(interval.from, interval.to);
+    reachable.append(one);
+  }
+  py::list box;
+  for (std::size_t i = 0; i < map.lower.size(); ++i)
+    box.append(py::make_tuple(to_double(map.lower[i]), to_double(map.upper[i])));
+  py::dict all;
+  all["mechanism"] = map.mechanism;
+  all["coordinates"] = map.tower.coordinates;
+  all["box"] = box;
+  all["complete"] = map.complete;
+  all["notes"] = map.notes;
+  all["curves"] = curves;
+  all["surfaces"] = surfaces;
+  all["isolated_points"] = points;
+  all["workspace"] = workspace;
+  all["reachable"] = reachable;
+  return all;
+}
+
+std::vector<WorkingMode> modes_of(const LocusMap& map) {
+  std::vector<WorkingMode> modes;
+  const auto add = [&](const WorkingMode& mode) {
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+  };
+  for (const LocusCurve& curve : map.curves) add(curve.mode);
+  for (const WorkspaceRegion& region : map.workspace) add(region.mode);
+  for (const IsolatedPoint& point : map.isolated_points) add(point.mode);
+  for (const LocusSurface& surface : map.surfaces) add(surface.mode);
+  return modes;
+}
+
+void bind_loci(py::module_& module) {
+  py::class_<LocusMap>(module, "LocusMap", "Traced loci as the library holds them.")
+      .def("data", [](const LocusMap& map) { return dict_of(map); })
+      .def("json", [](const LocusMap& map) { return to_json(map); })
+      .def("table", [](const LocusMap& map) { return to_table(map); })
+      .def("svgs",
+           [](const LocusMap& map) {
+             std::vector<std::string> pictures;
+             for (const WorkingMode& mode : modes_of(map)) pictures.push_back(to_svg(map, mode));
+             return pictures;
+           })
+      .def("export", [](const LocusMap& map, const Model& model, const std::string& folder,
+                        const std::set<std::string>& formats) {
+        std::vector<std::string> files;
+        for (const auto& file : export_loci(model, map, folder, formats)) files.push_back(file.string());
+        return files;
+      });
+  module.def("trace_loci", [](const Model& model, const py::kwargs& options) {
+    LociRequest request = request_of(model, options);
+    return unlocked(request, [&](const LociRequest& own) { return trace_loci(model, own); });
+  });
+}
+
+}  // namespace clearloci::python

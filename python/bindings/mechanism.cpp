@@ -1,0 +1,171 @@
+#include "bindings/bindings.hpp"
+
+namespace clearloci::python {
+namespace {
+
+std::vector<std::string> words_of(const py::handle& value) {
+  if (!py::isinstance<py::str>(value)) return value.cast<std::vector<std::string>>();
+  std::vector<std::string> words(1);
+  for (const char c : value.cast<std::string>()) {
+    if (c == ',')
+      words.emplace_back();
+    else if (c != ' ')
+      words.back() += c;
+  }
+  return words;
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& problem, const std::string& mend) {
+  throw InputError({option, 0, 0}, problem, mend);
+}
+
+/// "right,left", ["right", "left"] or [-1, +1].
+DyadSides sides_of(const Model& model, const py::handle& value) {
+  const std::vector<Model::Dyad> dyads = model.dyads();
+  if (!py::isinstance<py::str>(value) && py::len(value) > 0 && py::isinstance<py::int_>(value[py::int_(0)]))
+    return value.cast<DyadSides>();
+  const std::vector<std::string> words = words_of(value);
+  if (words.size() != dyads.size())
+    refuse("working_mode", std::to_string(words.size()) + " sides for " + std::to_string(dyads.size()) + " dyads",
+           "give one for each");
+  DyadSides sides;
+  for (std::size_t j = 0; j < dyads.size(); ++j) {
+    if (words[j] != dyads[j].left && words[j] != dyads[j].right)
+      refuse("working_mode", "'" + words[j] + "' is no side of " + dyads[j].point,
+             "choose " + dyads[j].left + " or " + dyads[j].right);
+    sides.push_back(words[j] == dyads[j].left ? 1 : -1);
+  }
+  return sides;
+}
+
+Rational exact(const py::handle& value, const std::string& option) {
+  if (py::isinstance<py::float_>(value)) return Rational(value.cast<double>());
+  try {
+    Rational number(py::str(value).cast<std::string>());
+    number.canonicalize();
+    return number;
+  } catch (const std::invalid_argument&) {
+    refuse(option, "'" + py::str(value).cast<std::string>() + "' is no number", "give a number or a fraction '1/2'");
+  }
+}
+
+std::vector<Model::Value> values_of(const py::kwargs& values) {
+  std::vector<Model::Value> list;
+  for (const auto& [name, value] : values)
+    list.emplace_back(py::str(name).cast<std::string>(), py::str(value).cast<std::string>());
+  return list;
+}
+
+py::dict dict_of(const Model::Parameter& own) {
+  py::dict one;
+  one["exact"] = own.exact;
+  one["value"] = own.value;
+  return one;
+}
+
+}  // namespace
+
+LociRequest request_of(const Model& model, const py::kwargs& options) {
+  LociRequest request;
+  for (const auto& [key, value] : options) {
+    const std::string name = py::str(key).cast<std::string>();
+    if (value.is_none()) continue;
+    if (name == "working_mode") {
+      if (py::isinstance<py::str>(value) && value.cast<std::string>() == "all")
+        request.all_working_modes = true;
+      else
+        request.working_modes = {sides_of(model, value)};
+    } else if (name == "quantity") {
+      request.quantities.clear();
+      for (const std::string& word : words_of(value)) {
+        const auto known = std::find_if(all_quantities.begin(), all_quantities.end(),
+                                        [&](Quantity quantity) { return to_string(quantity) == word; });
+        if (known == all_quantities.end()) refuse(name, "unknown quantity '" + word + "'", "f, M, F, N, T, fx to mz");
+        request.quantities.push_back(*known);
+      }
+    } else if (name == "joint") {
+      request.joints = words_of(value);
+    } else if (name == "min_force") {
+      request.min_force = exact(value, name);
+    } else if (name == "min_couple") {
+      request.min_couple = exact(value, name);
+    } else if (name == "tolerance") {
+      request.tolerance = value.cast<double>();
+    } else if (name == "mesh_size") {
+      request.mesh_size = value.cast<double>();
+    } else if (name == "engine") {
+      const auto engine = engine_named(value.cast<std::string>());
+      if (!engine)
+        refuse(name, "unknown engine '" + value.cast<std::string>() + "'", "adaptive-then-exact, exact or adaptive");
+      request.engine = *engine;
+    } else if (name == "time_limit") {
+      request.deadline =
+          std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                 std::chrono::duration<double>(value.cast<double>()));
+    } else {
+      throw py::type_error("unexpected keyword argument '" + name + "'");
+    }
+  }
+  return request;
+}
+
+py::tuple state_of(const Model& model) { return py::make_tuple(model.text(), model.file(), model.values()); }
+
+Model model_of(const py::tuple& state) {
+  return Model::parse(state[0].cast<std::string>(), state[1].cast<std::string>(),
+                      state[2].cast<std::vector<Model::Value>>());
+}
+
+void bind_mechanism(py::module_& module) {
+  py::class_<Model>(module, "Model", "A mechanism file, whose parameters may take new values.")
+      .def_static(
+          "read", [](const std::string& path) { return Model::read(path); }, py::arg("path"))
+      .def_static(
+          "parse", [](std::string text, std::string file) { return Model::parse(std::move(text), std::move(file)); },
+          py::arg("text"), py::arg("file") = "model")
+      .def(
+          "with_parameters", [](const Model& model, const py::kwargs& values) { return model.with(values_of(values)); },
+          "The same mechanism with new values: with_parameters(L='0.45', F=80). What does not depend on them is "
+          "derived "
+          "once.")
+      .def_property_readonly("name", &Model::name)
+      .def_property_readonly("file", &Model::file)
+      .def_property_readonly("text", &Model::text)
+      .def_property_readonly("spatial", &Model::spatial)
+      .def_property_readonly(
+          "parameters",
+          [](const Model& model) {
+            py::dict all;
+            for (const Model::Parameter& own : model.parameters()) all[py::str(own.name)] = dict_of(own);
+            return all;
+          },
+          "name -> {'exact': str, 'value': float}, SI units")
+      .def_property_readonly(
+          "coordinates",
+          [](const Model& model) {
+            py::dict all;
+            for (const Model::Coordinate& own : model.coordinates())
+              all[py::str(own.name)] = py::make_tuple(own.lower, own.upper);
+            return all;
+          },
+          "free coordinate -> (lower, upper), m or, of an angle, rad")
+      .def_property_readonly("joints",
+                             [](const Model& model) {
+                               std::vector<std::string> names;
+                               for (const Model::Joint& own : model.joints()) names.push_back(own.name);
+                               return names;
+                             })
+      .def_property_readonly(
+          "working_mode",
+          [](const Model& model) {
+            py::dict all;
+            for (const Model::Dyad& own : model.dyads()) all[py::str(own.point)] = own.side > 0 ? own.left : own.right;
+            return all;
+          },
+          "the file's: point -> side")
+      .def("__repr__", [](const Model& model) { return "<clearloci.Model '" + model.name() + "'>"; })
+      .def(py::pickle([](const Model& model) { return state_of(model); },
+                      [](const py::tuple& state) { return model_of(state); }));
+}
+
+}  // namespace clearloci::python

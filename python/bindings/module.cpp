@@ -1,0 +1,57 @@
+#include "bindings/bindings.hpp"
+
+namespace clearloci::python {
+namespace {
+
+/// Python's InputError carries the same parts as ours.
+void bind_errors(py::module_& module) {
+  static const py::handle input_error = py::exception<InputError>(module, "InputError", PyExc_ValueError).release();
+  static const py::handle limit_reached =
+      py::exception<LimitReached>(module, "LimitReached", PyExc_RuntimeError).release();
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const InputError& error) {
+      const py::object own = input_error(error.what());
+      own.attr("file") = error.position().file;
+      own.attr("line") = error.position().line;
+      own.attr("column") = error.position().column;
+      own.attr("what") = error.problem();
+      own.attr("mend") = error.mend();
+      PyErr_SetObject(input_error.ptr(), own.ptr());
+    } catch (const LimitReached& limit) {
+      PyErr_SetString(limit_reached.ptr(), limit.what());
+    }
+  });
+}
+
+}  // namespace
+
+py::array_t<double> array_of(const Polyline& points) {
+  py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
+  auto view = array.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t c = 0; c < 2; ++c) view(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(c)) = points[i][c];
+  return array;
+}
+
+std::string name_of(const Vanishing& reaction) { return to_string(reaction.quantity) + "_" + reaction.joint; }
+
+std::vector<std::string> names_of(const std::vector<Vanishing>& reactions) {
+  std::vector<std::string> names;
+  for (const Vanishing& reaction : reactions) names.push_back(name_of(reaction));
+  return names;
+}
+
+}  // namespace clearloci::python
+
+PYBIND11_MODULE(_clearloci, module) {
+  using namespace clearloci::python;
+  module.doc() = "Discontinuity loci of parallel mechanisms with joint clearances";
+  module.attr("__version__") = CLEARLOCI_VERSION;
+  bind_errors(module);
+  bind_mechanism(module);
+  bind_loci(module);
+  bind_zones(module);
+  bind_verify(module);
+}

@@ -1,0 +1,31 @@
+"""Discontinuity loci of parallel mechanisms with joint clearances.
+
+    import clearloci as cl
+
+    m = cl.read("five_bar.yaml")
+    loci = m.loci(working_mode="all")
+    loci.plot()
+    zones = m.zones()
+    answer = m.verify({"box": {"x": [0.1, 0.4], "y": [-0.8, -0.6]}, "margin": 0.01})
+
+Units are SI throughout: m, rad, N, N m. Names and defaults are those of the command line.
+"""
+
+from ._clearloci import InputError, LimitReached, __version__
+from .answers import Curve, Loci, Surface, Verification, Zone, Zones
+from .model import Model, parse, read
+
+__all__ = [
+    "Curve",
+    "InputError",
+    "LimitReached",
+    "Loci",
+    "Model",
+    "Surface",
+    "Verification",
+    "Zone",
+    "Zones",
+    "__version__",
+    "parse",
+    "read",
+]

@@ -1,0 +1,253 @@
+"""Answers, as plain values. Each keeps the model and the options that it was asked with: what the library alone can do
+(files, pictures, tables) is made from these when it is wanted, also after unpickling."""
+
+from __future__ import annotations
+
+import html
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Iterable, Iterator
+
+import numpy as np
+
+from . import _clearloci
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .model import Model, Task
+
+Mode = "dict[str, str]"  # point -> side
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One curve in one working mode, with everything that vanishes on it there."""
+
+    id: str
+    kind: str  #: "contact-loss", "backlash", "component", "margin", "direct-singularity", "workspace-boundary"
+    vanishing: list[str]  #: "f_A1"
+    factor: str
+    cause: str
+    degree: int | None
+    implicit: str | None  #: its polynomial in `variables`; None where it is not known
+    variables: list[str]
+    working_mode: dict[str, str]
+    certified: bool
+    excited: bool  #: of a direct singularity: some reaction grows without bound there
+    arcs: list[np.ndarray]  #: float64 (n, 2), m; of angles rad
+    ends: list[tuple[str, str]]
+
+    def sympy(self) -> Any:
+        """The implicit polynomial as an expression of SymPy, which has to be installed."""
+        import sympy
+
+        if self.implicit is None:
+            return None
+        symbols = {name: sympy.Symbol(name) for name in self.variables}
+        return sympy.sympify(self.implicit.replace("^", "**"), locals=symbols, rational=True)
+
+
+@dataclass(frozen=True)
+class Surface:
+    """One surface in one working mode, over three free coordinates."""
+
+    id: str
+    kind: str
+    vanishing: list[str]
+    factor: str
+    cause: str
+    working_mode: dict[str, str]
+    certified: bool
+    vertices: np.ndarray  #: float64 (n, 3), m; of angles rad
+    triangles: np.ndarray  #: int32 (k, 3)
+
+
+@dataclass(frozen=True)
+class IsolatedPoint:
+    kind: str
+    vanishing: list[str]
+    at: list[float]  #: one value a coordinate, m or rad
+    working_mode: dict[str, str]
+    certified: bool
+    factor: str
+    cause: str
+
+
+@dataclass(frozen=True)
+class Region:
+    """The workspace of one mode: rings to be filled by the even-odd rule."""
+
+    working_mode: dict[str, str]
+    rings: list[np.ndarray]
+
+
+@dataclass(frozen=True)
+class Interval:
+    """One free coordinate: a piece of its range in which the mode's posture exists."""
+
+    working_mode: dict[str, str]
+    range: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ModeArea:
+    working_mode: dict[str, str]
+    workspace: float  #: m^2
+    in_doubt: float  #: m^2 of that in zones that are not certified, in none, or in several
+
+
+class _Answer:
+    """What the library holds of an answer, made when it is wanted and left out of pickles."""
+
+    _map: Any = None
+
+    def _ask(self) -> Any:
+        raise NotImplementedError
+
+    @property
+    def _held(self) -> Any:
+        if self._map is None:
+            self._map = self._ask()
+        return self._map
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "_map"}
+
+    def json(self) -> str:
+        """The text of the file that the program writes."""
+        return self._held.json()
+
+    def table(self) -> str:
+        """The table that the program prints."""
+        return self._held.table()
+
+    def export(self, folder: str | os.PathLike[str], formats: Iterable[str] = ("svg", "png")) -> list[str]:
+        """Writes the formats named, and json, as the program does; returns the files."""
+        return self._held.export(self.model._handle, os.fspath(folder), set(formats))
+
+    def _repr_svg_(self) -> str:
+        return self._held.svgs()[0]
+
+    def _repr_html_(self) -> str:
+        return "".join(self._held.svgs()) + f"<pre>{html.escape(self.table())}</pre>"
+
+
+class Loci(_Answer):
+    """The discontinuity loci of a model."""
+
+    def __init__(self, model: Model, options: dict[str, Any]) -> None:
+        self.model, self.options = model, dict(options)
+        self._fill(self._held.data())
+
+    def _ask(self) -> Any:
+        return _clearloci.trace_loci(self.model._handle, **self.options)
+
+    def _fill(self, data: dict[str, Any]) -> None:
+        self.coordinates: list[str] = data["coordinates"]
+        self.box: list[tuple[float, float]] = data["box"]
+        self.complete: bool = data["complete"]  #: False where a time limit came first
+        self.notes: list[str] = data["notes"]
+        self.curves = [Curve(**own) for own in data["curves"]]
+        self.surfaces = [Surface(**own) for own in data["surfaces"]]
+        self.isolated_points = [IsolatedPoint(**own) for own in data["isolated_points"]]
+        self.workspace = [Region(**own) for own in data["workspace"]]
+        self.reachable = [Interval(**own) for own in data["reachable"]]
+
+    def plot(self, ax: Axes | None = None, working_mode: dict[str, str] | None = None) -> Axes:
+        """The loci of one working mode (the first) over two coordinates, in the Axes given or in new ones."""
+        from .plots import plot_loci
+
+        return plot_loci(self, ax, working_mode)
+
+    def __repr__(self) -> str:
+        return f"<clearloci.Loci of {self.model.name!r}: {len(self.curves) or len(self.surfaces)} loci>"
+
+
+@dataclass(frozen=True)
+class Zone:
+    """A face of the workspace that no locus crosses."""
+
+    id: str
+    working_mode: dict[str, str]
+    assembly_mode: int  #: sign of |A|
+    signs: dict[str, int]  #: of couples, axial and normal forces: {"M_A1": 1}
+    area: float  #: m^2
+    polygon: np.ndarray = field(repr=False)  #: (n, 2), m, counter-clockwise, first point repeated
+    holes: list[np.ndarray] = field(repr=False)
+    inscribed_circle: tuple[tuple[float, float], float]  #: centre and radius, m
+    sample: tuple[float, float]
+    borders: list[tuple[str, float]] = field(repr=False)  #: curve and length, m
+    certified: bool
+
+    def contains(self, at: tuple[float, float]) -> bool:
+        """Whether a point, m, lies inside, by the zone's polygons."""
+        return _inside(self.polygon, at) and not any(_inside(hole, at) for hole in self.holes)
+
+
+def _inside(ring: np.ndarray, at: tuple[float, float]) -> bool:
+    x, y = at
+    a, b = ring[:-1], ring[1:]
+    crosses = (a[:, 1] > y) != (b[:, 1] > y)
+    a, b = a[crosses], b[crosses]
+    return bool(np.count_nonzero(x < a[:, 0] + (b[:, 0] - a[:, 0]) * (y - a[:, 1]) / (b[:, 1] - a[:, 1])) % 2)
+
+
+class Zones(_Answer):
+    """The discontinuity-free zones of a model: a sequence, by mode, then area, largest first."""
+
+    def __init__(self, model: Model, options: dict[str, Any]) -> None:
+        self.model, self.options = model, dict(options)
+        data = self._held.data()
+        self._zones = [Zone(**own) for own in data["zones"]]
+        self.areas = [ModeArea(**own) for own in data["areas"]]
+        self.notes: list[str] = data["loci"]["notes"]
+        self.curves = [Curve(**own) for own in data["loci"]["curves"]]
+
+    def _ask(self) -> Any:
+        return _clearloci.find_zones(self.model._handle, **self.options)
+
+    def __len__(self) -> int:
+        return len(self._zones)
+
+    def __getitem__(self, index: int) -> Zone:
+        return self._zones[index]
+
+    def __iter__(self) -> Iterator[Zone]:
+        return iter(self._zones)
+
+    def plot(self, ax: Axes | None = None, working_mode: dict[str, str] | None = None) -> Axes:
+        """The zones of one working mode (the first), in the Axes given or in new ones."""
+        from .plots import plot_zones
+
+        return plot_zones(self, ax, working_mode)
+
+    def __repr__(self) -> str:
+        return f"<clearloci.Zones of {self.model.name!r}: {len(self)} zones>"
+
+
+class Verification(_Answer):
+    """Whether a task keeps clear of every locus: true where that is proven."""
+
+    def __init__(self, model: Model, task: Task, fit: str | None, options: dict[str, Any]) -> None:
+        self.model, self.task, self.fit, self.options = model, task, fit, dict(options)
+        data = self._held.data()
+        self.verdict: str = data["verdict"]  #: "verified", "refuted", "undecided"
+        self.margin: float | None = data["margin"]  #: m, proven to be free; None where not verified
+        self.zone: str | None = data["zone"]
+        self.witness: dict[str, Any] | None = data["witness"]  #: where refuted: a pose at which the task fails
+        self.nearest: dict[str, Any] | None = data["nearest"]  #: the nearest locus
+        self.moved_by: tuple[float, float] | None = data["moved_by"]  #: m, where a place was looked for
+        self.notes: list[str] = data["notes"]
+
+    def _ask(self) -> Any:
+        from .model import task_of
+
+        task = task_of(self.model, self.task)
+        return _clearloci.verify_task(self.model._handle, task, fit=self.fit, **self.options)
+
+    def __bool__(self) -> bool:
+        return self.verdict == "verified"
+
+    def __repr__(self) -> str:
+        return f"<clearloci.Verification of {self.model.name!r}: {self.verdict}>"

@@ -1,0 +1,90 @@
+import json
+import pickle
+
+import numpy as np
+import pytest
+
+
+def test_loci_are_curves_with_arrays(five_bar):
+    loci = five_bar.loci(working_mode="all")
+    assert loci.complete
+    assert {c.kind for c in loci.curves} >= {"contact-loss", "backlash", "direct-singularity", "workspace-boundary"}
+    for curve in loci.curves:
+        assert curve.certified
+        for arc in curve.arcs:
+            assert arc.dtype == np.float64 and arc.ndim == 2 and arc.shape[1] == 2
+
+
+def test_arcs_lie_on_their_implicit_curves(five_bar):
+    for curve in five_bar.loci().curves:
+        polynomial = eval(f"lambda x, y: {curve.implicit.replace('^', '**')}")
+        for arc in curve.arcs:
+            x, y = arc[:, 0], arc[:, 1]
+            step = 1e-6
+            slope = np.hypot(
+                polynomial(x + step, y) - polynomial(x - step, y), polynomial(x, y + step) - polynomial(x, y - step)
+            ) / (2 * step)
+            assert np.all(np.abs(polynomial(x, y)) <= 1e-9 * np.maximum(slope, 1))
+
+
+def test_zones_are_polygons(five_bar):
+    zones = five_bar.zones()
+    zone = zones[0]
+    assert zone.area == max(z.area for z in zones)
+    centre, radius = zone.inscribed_circle
+    assert zone.contains(centre)
+    for angle in np.linspace(0, 6, 20):
+        assert zone.contains((centre[0] + 0.999 * radius * np.cos(angle), centre[1] + 0.999 * radius * np.sin(angle)))
+    x, y = zone.polygon[:, 0], zone.polygon[:, 1]
+    area = (x[:-1] @ y[1:] - x[1:] @ y[:-1]) / 2
+    if not zone.holes:
+        assert area == pytest.approx(zone.area, rel=1e-4)  # chords within the tolerance
+    assert zones.areas[0].in_doubt == 0
+
+
+def test_tasks_are_files_dictionaries_or_arrays(five_bar):
+    from conftest import EXAMPLES
+
+    from_file = five_bar.verify(EXAMPLES / "tasks" / "pick_and_place.yaml")
+    assert from_file and from_file.margin > 0.139 and from_file.witness is None
+    path = [[0, -0.7], [0, -0.675], [0.5, -0.675], [0.5, -0.7]]
+    assert five_bar.verify({"path": path, "margin": 0.01}).margin == from_file.margin
+    assert five_bar.verify(np.array(path))
+    refuted = five_bar.verify({"box": {"x": [0.1, 0.9], "y": [-0.8, -0.6]}})
+    assert not refuted and refuted.verdict == "refuted" and refuted.witness is not None
+
+
+def test_fit_moves_a_task(five_bar):
+    task = {"circle": {"centre": [0.5, -0.3], "radius": 0.05}}
+    if not five_bar.verify(task):
+        moved = five_bar.verify(task, fit="nearest")
+        assert moved and moved.moved_by is not None
+
+
+def test_answers_pickle_and_still_write_files(five_bar, tmp_path):
+    for answer in (five_bar.loci(), five_bar.zones(), five_bar.verify({"box": {"x": [0.2, 0.3], "y": [-0.8, -0.7]}})):
+        again = pickle.loads(pickle.dumps(answer))
+        assert repr(again) == repr(answer)
+        files = again.export(tmp_path / type(answer).__name__, {"svg"})
+        assert len(files) == 2
+        json.loads(again.json())
+        assert again._repr_svg_().lstrip().startswith("<?xml")
+
+
+def test_plots_go_into_given_axes(five_bar):
+    plt = pytest.importorskip("matplotlib.pyplot")
+    figure, axes = plt.subplots(1, 2)
+    assert five_bar.loci().plot(ax=axes[0]) is axes[0]
+    assert len(axes[0].lines) > 5
+    assert five_bar.zones().plot(ax=axes[1]) is axes[1]
+    plt.close(figure)
+
+
+def test_surfaces_are_triangles():
+    import clearloci as cl
+    from conftest import EXAMPLES
+
+    loci = cl.read(EXAMPLES / "gough_stewart.yaml").loci(mesh_size=1 / 8)
+    assert loci.surfaces and not loci.curves
+    surface = loci.surfaces[0]
+    assert surface.vertices.shape[1] == 3 and surface.triangles.max() < len(surface.vertices)

@@ -1,0 +1,75 @@
+// clearloci/export.hpp over the registry of formats.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analysis/loci.hpp"
+#include "analysis/model.hpp"
+#include "clearloci/export.hpp"
+#include "core/errors.hpp"
+#include "report/formats.hpp"
+#include "report/loci_json.hpp"
+#include "report/loci_table.hpp"
+#include "report/verification.hpp"
+#include "report/zones.hpp"
+
+namespace clearloci {
+namespace {
+
+void check(const std::set<std::string>& wanted, const std::vector<std::string>& known) {
+  for (const std::string& name : wanted)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw core::InputError({}, fmt::format("the answer is not written as '{}'", name),
+                             fmt::format("choose from {}", fmt::join(known, ", ")));
+}
+
+}  // namespace
+
+std::vector<std::string> loci_formats(std::size_t coordinates) {
+  std::vector<std::string> names = report::format_names(report::Answer::loci);
+  std::erase_if(names, [&](const std::string& name) { return !report::can_hold(name, coordinates); });
+  return names;
+}
+std::vector<std::string> zone_formats() { return report::format_names(report::Answer::zones); }
+std::vector<std::string> verification_formats() { return report::format_names(report::Answer::verification); }
+
+std::vector<std::filesystem::path> export_loci(const Model& model, const LocusMap& loci,
+                                               const std::filesystem::path& folder,
+                                               const std::set<std::string>& formats) {
+  check(formats, loci_formats(loci.tower.coordinates.size()));
+  return report::write_loci({loci, sample_sketches(model.content().mechanism, loci)}, folder, formats);
+}
+
+std::vector<std::filesystem::path> export_zones(const ZoneMap& zones, const std::filesystem::path& folder,
+                                                const std::set<std::string>& formats) {
+  check(formats, zone_formats());
+  return report::write_zones(zones, folder, formats);
+}
+
+std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
+                                                       const std::set<std::string>& formats) {
+  check(formats, verification_formats());
+  return report::write_verification(answer, folder, formats);
+}
+
+std::string to_json(const LocusMap& loci) { return report::json_text(report::loci_object(loci)); }
+std::string to_json(const ZoneMap& zones) { return report::json_text(report::zones_object(zones)); }
+std::string to_json(const Verification& answer) { return report::json_text(report::verification_object(answer)); }
+
+std::string to_table(const LocusMap& loci) { return report::loci_table(loci); }
+std::string to_table(const ZoneMap& zones) { return report::zones_table(zones); }
+std::string to_text(const Verification& answer) { return report::verification_text(answer, answer.by.has_value()); }
+
+std::string to_svg(const LocusMap& loci, const WorkingMode& mode) {
+  return report::picture(loci, mode, nullptr, report::PictureFormat::svg);
+}
+std::string to_svg(const ZoneMap& zones, const WorkingMode& mode) {
+  return report::zone_picture(zones, mode, report::PictureFormat::svg);
+}
+std::string to_svg(const Verification& answer) {
+  return report::verification_picture(answer, report::PictureFormat::svg);
+}
+
+}  // namespace clearloci
