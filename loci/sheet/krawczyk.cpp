@@ -1,7 +1,9 @@
 #include "loci/sheet/krawczyk.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -12,6 +14,9 @@ namespace {
 
 // More unknowns than any sheet has roots to lift; matrices of this size need no memory from the heap.
 constexpr int most_unknowns = 16;
+constexpr int most_newton_steps = 30;
+constexpr int most_radii = 16;
+constexpr double first_radius = 0.02;  // relative to the accuracy wanted
 
 struct SquareMatrix {
   std::array<std::array<double, most_unknowns>, most_unknowns> entries;  // the first n rows and columns are in use
@@ -85,6 +90,51 @@ Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interv
     image[own] = sum;
   }
   return none ? Verdict::none : contracted ? Verdict::unique : Verdict::unknown;
+}
+
+void narrow(SheetCell& cell, const System& system, const std::vector<Interval>& box, const std::vector<int>& lifted,
+            double accuracy, std::vector<Interval>& enclosure) {
+  std::vector<Interval> point(enclosure.size()), image, trial(enclosure.size());
+  const auto is_thin = [&](std::size_t c) { return box[c].width() == 0; };
+  for (std::size_t c = 0; c < enclosure.size(); ++c) point[c] = enclosure[c].middle();
+  for (const bool sharp : {false, true}) {
+    double step = 0, last = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_newton_steps; ++i, last = step) {
+      if (!cell.enter_local(point, lifted)) return;
+      cell.differentiate();
+      if (sharp) cell.sharpen_middle();
+      krawczyk(cell, system, image);
+      if (image.empty()) return;
+      step = 0;
+      for (std::size_t c = 0; c < point.size(); ++c) {
+        step = std::max(step, std::abs(image[c].middle() - point[c].middle()));
+        if (!is_thin(c)) point[c] = image[c].middle();
+      }
+      if (step == 0 || step >= 0.5 * last) break;
+    }
+    double radius = std::max(2 * step, first_radius * accuracy);
+    bool narrow = false;
+    for (int i = 0; i < most_radii; ++i, radius *= 8) {
+      bool inside_box = true;
+      for (std::size_t c = 0; c < point.size(); ++c) {
+        const double own = std::max(radius, 0x1p-51 * point[c].magnitude());
+        trial[c] = is_thin(c) ? box[c] : Interval(point[c].lower() - own, point[c].upper() + own);
+        inside_box = inside_box && (is_thin(c) || inside(trial[c], box[c]));
+      }
+      if (!inside_box || !cell.enter_local(trial, lifted)) break;
+      cell.differentiate();
+      if (sharp) cell.sharpen_middle();
+      if (krawczyk(cell, system, image) != Verdict::unique) continue;
+      narrow = true;
+      for (std::size_t c = 0; c < point.size(); ++c) {
+        enclosure[c] = meet(image[c], trial[c]);
+        narrow = narrow && enclosure[c].width() <= accuracy;
+        if (!is_thin(c)) point[c] = enclosure[c].middle();
+      }
+      break;
+    }
+    if (narrow) return;
+  }
 }
 
 }  // namespace clearloci::loci::sheet

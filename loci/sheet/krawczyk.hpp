@@ -22,4 +22,10 @@ struct System {
 /// are not free stay as they are), or empty where the middle Jacobian is singular.
 Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interval>& image);
 
+/// Narrows the enclosure of the only zero in a box, which is thin in the coordinates that are not free: Newton's method
+/// from its middle, then the smallest box around the limit that is proven to hold a zero, which can only be this one;
+/// in multi-precision where doubles do not get it as narrow as `accuracy`.
+void narrow(SheetCell& cell, const System& system, const std::vector<Interval>& box, const std::vector<int>& lifted,
+            double accuracy, std::vector<Interval>& enclosure);
+
 }  // namespace clearloci::loci::sheet

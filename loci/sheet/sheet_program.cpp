@@ -1,5 +1,6 @@
 #include "loci/sheet/sheet_program.hpp"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -169,6 +170,24 @@ class SheetProgram::Builder {
     return derivatives_[v][node] = result;
   }
 
+  /// Laplace's expansion, the minors of the last rows made once each.
+  int determinant(const std::vector<std::vector<int>>& matrix) {
+    const std::size_t n = matrix.size();
+    std::vector<int> minors(std::size_t{1} << n, one_);
+    for (std::size_t columns = 1; columns < minors.size(); ++columns) {
+      const std::vector<int>& row = matrix[n - static_cast<std::size_t>(std::popcount(columns))];
+      int sum = zero_;
+      bool plus = true;
+      for (std::size_t left = columns; left != 0; left &= left - 1, plus = !plus) {
+        const std::size_t own = left & (~left + 1);
+        const int term = multiply(row[static_cast<std::size_t>(std::countr_zero(left))], minors[columns ^ own]);
+        sum = plus ? add(sum, term) : subtract(sum, term);
+      }
+      minors[columns] = sum;
+    }
+    return minors.back();
+  }
+
   int zero() const { return zero_; }
   int instructions() const { return instructions_; }
 
@@ -271,13 +290,25 @@ SheetProgram::SheetProgram(const core::RootTower& tower, const std::vector<Sheet
   compile();
 }
 
+SheetProgram SheetProgram::with_tangency(const core::RootTower& tower, const std::vector<SheetFunction>& two) {
+  core::ensure(two.size() == 2, "two functions are tangent");
+  SheetProgram program;
+  program.tower_ = tower;
+  for (const SheetFunction& function : two) {
+    program.functions_.push_back(function.polynomial);
+    program.lines_.push_back(function.line);
+  }
+  program.compile(true);
+  return program;
+}
+
 bool SheetProgram::is_nested() const {
   return std::any_of(square_partials_.begin(), square_partials_.end(), [this](const std::vector<int>& partials) {
     return std::any_of(partials.begin() + coordinates(), partials.end(), [this](int p) { return p != zero_; });
   });
 }
 
-void SheetProgram::compile() {
+void SheetProgram::compile(bool tangency) {
   Builder builder(variables());
   std::vector<int> square_nodes, value_nodes;
   for (const core::Root& root : tower_.roots) {
@@ -288,6 +319,21 @@ void SheetProgram::compile() {
   for (std::size_t f = 0; f < functions_.size(); ++f) {
     core::ensure(functions_[f].variables == variables(), "a function is written in all variables of the tower");
     value_nodes.push_back(lines_[f].empty() ? builder.polynomial(functions_[f]) : builder.line(lines_[f]));
+  }
+  if (tangency) {
+    std::vector<std::vector<int>> jacobian;
+    for (const int node : value_nodes) {
+      jacobian.emplace_back();
+      for (int v = 0; v < variables(); ++v) jacobian.back().push_back(builder.derivative(node, v));
+    }
+    for (int j = 0; j < roots(); ++j) {
+      jacobian.emplace_back();
+      for (int v = 0; v < variables(); ++v)
+        jacobian.back().push_back(builder.subtract(builder.zero(), builder.derivative(square_nodes[j], v)));
+      const int own = coordinates() + j;  // the square does not hold the root itself
+      jacobian.back()[own] = builder.multiply(builder.constant(2), own);
+    }
+    value_nodes.push_back(builder.determinant(jacobian));
   }
   stage_end_.push_back(builder.instructions());
 

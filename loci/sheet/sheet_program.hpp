@@ -2,6 +2,9 @@
 //     stage j       Q_j(x, y, s1..s_{j-1})            the caller then sets s_j = sigma_j sqrt(Q_j)
 //     values        f(x, y, s1..sm)
 //     gradients     df/dv, dQ_j/dv for v in (x, y, s1..sm), by symbolic forward differentiation of the program
+// A further function, where it is asked for, is the tangency of two given ones f and g:
+//     det d(f, g, s_j^2 - Q_j) / d(x, y, s1..sm)
+// On the sheet it vanishes where the curve f = 0 runs along a level line of g.
 // Where a function or a square comes with its straight line, that is compiled instead of the polynomial: it is shorter
 // and its enclosures are tighter. One program serves double, Batch, Interval and MultiInterval.
 #pragma once
@@ -56,12 +59,15 @@ class SheetProgram {
   SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions,
                std::vector<core::StraightLine> lines = {});
   SheetProgram(const core::RootTower& tower, const std::vector<SheetFunction>& functions);
+  /// Two functions and, as function 2, their tangency. Required: two coordinates.
+  static SheetProgram with_tangency(const core::RootTower& tower, const std::vector<SheetFunction>& two);
 
   int coordinates() const { return static_cast<int>(tower_.coordinates.size()); }
   int roots() const { return static_cast<int>(tower_.roots.size()); }
   int variables() const { return coordinates() + roots(); }
-  int functions() const { return static_cast<int>(functions_.size()); }
+  int functions() const { return static_cast<int>(values_.size()); }
   const core::RootTower& tower() const { return tower_; }
+  /// One of those given.
   SheetFunction function(int index) const { return {functions_[index], lines_[index]}; }
 
   /// Values of all instructions; one a thread, made once, then reused.
@@ -107,7 +113,8 @@ class SheetProgram {
   };
   class Builder;
 
-  void compile();
+  SheetProgram() = default;
+  void compile(bool tangency = false);
 
   core::RootTower tower_;
   std::vector<core::Polynomial> functions_;

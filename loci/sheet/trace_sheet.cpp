@@ -246,9 +246,12 @@ class Tracer {
       const ChartedSheet sheet = charting.in(patch.chart);
       const SheetProgram program(sheet.tower, sheet.functions);
       const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
-      const FoundZeros found = ZeroSearch(program, own_.mode, {})
-                                   .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop});
+      TouchSearch touches(sheet.tower, sheet.functions, own_.mode, size);
+      const FoundZeros found =
+          ZeroSearch(program, own_.mode, {})
+              .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop, &touches});
       std::vector<Cell> open = found.undecided;
+      for (const std::vector<Interval>& place : found.touches) open.push_back({place[0], place[1]});
       for (const std::vector<Interval>& zero : found.enclosures)
         if (!cut_stretch(graph_, static_cast<int>(p), zero, crossing_of(cut))) open.push_back({zero[0], zero[1]});
       for (const Cell& cell : clusters(std::move(open)))
@@ -358,8 +361,14 @@ class Tracer {
       const ChartedSheet sheet = charting.in(chart);
       const SheetProgram program(sheet.tower, sheet.functions);
       const double size = chart.side == Chart::Side::plane ? size_ : 1.0;
-      const FoundZeros found = ZeroSearch(program, both.mode, {})
-                                   .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop});
+      TouchSearch touches(sheet.tower, sheet.functions, both.mode, size);
+      const FoundZeros found =
+          ZeroSearch(program, both.mode, {})
+              .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop, &touches});
+      for (const std::vector<Interval>& place : found.touches) {
+        const Cell cell = {place[0], place[1]};
+        if (!at_star(chart, cell)) open.push_back(chart.to_plane(cell));
+      }
       for (const Cell& cell : found.undecided)
         if (!at_star(chart, cell)) open.push_back(chart.to_plane(cell));
       for (const std::vector<Interval>& zero : found.enclosures) {

@@ -21,11 +21,12 @@ constexpr int most_widenings = 2;
 constexpr double hopeless = 16;         // an image this much wider than its box comes from a singular Jacobian
 constexpr double thinnest_root = 0.01;  // relative to the cell; then the cell is cut next
 constexpr double lifted_inflation = 0.6, root_inflation = 0.2;
-constexpr int most_newton_steps = 30;
-constexpr int most_radii = 16;
-constexpr double first_radius = 0.02;  // relative to the accuracy wanted
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
+// Cells this much wider than the smallest that cannot be told anything about may be next to a touch. Where it is none,
+// trials say nothing for long.
+constexpr double worth_a_touch = 1e10;
+constexpr std::size_t most_touch_trials = 256;
 constexpr std::size_t cells_between_stops = 64;
 
 const Interval everything(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
@@ -48,6 +49,8 @@ ZeroSearch::ZeroSearch(const SheetProgram& program, const core::WorkingMode& mod
 FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits) {
   limits_ = limits;
   zeros_.clear();
+  settled_.clear();
+  touch_trials_ = 0;
   undecided_.clear();
   std::vector<Box> live, next;
   for (const Cell& seed : seeds) live.push_back({seed, {}});
@@ -64,6 +67,8 @@ FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits)
   result.gave_up = !live.empty();
   for (const Box& box : live) undecided_.push_back(box.cell);
   result.undecided = std::move(undecided_);
+  for (CertifiedZero& touch : settled_)
+    if (!touch.enclosure.empty()) result.touches.push_back(std::move(touch.enclosure));
   for (CertifiedZero& zero : zeros_) result.enclosures.push_back(std::move(zero.enclosure));
   return result;
 }
@@ -110,10 +115,26 @@ void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
       verdict = try_wider(box_, lifted, image_);
     if (verdict == Verdict::unique && accept(box_, lifted, image_, cell)) return;
   }
+  if (settle_touch(cell, roots, lifted) && cell_.enter(cell.x, cell.y, live.roots) && known(cell)) return;
   if (width(cell) < limits_.smallest)
     undecided_.push_back(cell);
   else
     split({cell, std::move(roots)}, axis, next);
+}
+
+bool ZeroSearch::settle_touch(const Cell& cell, const std::vector<Interval>& roots, const std::vector<int>& lifted) {
+  if (limits_.touches == nullptr || width(cell) > worth_a_touch * limits_.smallest) return false;
+  if (touch_trials_++ >= most_touch_trials) return false;
+  std::vector<Interval> local = {cell.x, cell.y};
+  for (const int j : lifted) local.push_back(roots[static_cast<std::size_t>(j)]);
+  std::optional<Touch> touch = limits_.touches->around(local, lifted);
+  if (!touch) return false;
+  const bool known = std::any_of(settled_.begin(), settled_.end(), [&](const CertifiedZero& other) {
+    return !touch->enclosure.empty() && owns(other, touch->enclosure);
+  });
+  if (known) touch->enclosure.clear();
+  settled_.push_back({lifted, std::move(touch->box), std::move(touch->enclosure)});
+  return true;
 }
 
 bool ZeroSearch::smoothly_excluded(const Cell& cell) {
@@ -168,10 +189,11 @@ bool ZeroSearch::owns(const CertifiedZero& zero, const std::vector<Interval>& al
 
 /// All of the cell lies in the box of a zero that is known already. Required: cell_ has entered it.
 bool ZeroSearch::known(const Cell& cell) const {
-  if (zeros_.empty()) return false;
+  if (zeros_.empty() && settled_.empty()) return false;
   std::vector<Interval> all = {cell.x, cell.y};
   for (int j = 0; j < program_->roots(); ++j) all.push_back(cell_.root(j));
-  return std::any_of(zeros_.begin(), zeros_.end(), [&](const CertifiedZero& zero) { return owns(zero, all); });
+  const auto owns_all = [&](const CertifiedZero& zero) { return owns(zero, all); };
+  return std::any_of(zeros_.begin(), zeros_.end(), owns_all) || std::any_of(settled_.begin(), settled_.end(), owns_all);
 }
 
 double ZeroSearch::width(const Cell& cell) const { return std::max(cell.x.width(), cell.y.width()); }
@@ -187,64 +209,19 @@ void ZeroSearch::split(const Box& box, int axis, std::vector<Box>& next) {
   for (Box& half : halves) next.push_back(std::move(half));
 }
 
-/// Narrows the enclosure of a certified zero: Newton's method from its middle, then the smallest box around the limit
-/// that is proven to hold a zero, which can only be this one; in multi-precision where doubles do not get it narrow.
-void ZeroSearch::shrink(std::vector<Interval>& enclosure, const std::vector<Interval>& box,
-                        const std::vector<int>& lifted) {
-  std::vector<Interval> point(enclosure.size()), image, trial(enclosure.size());
-  const auto is_thin = [&](std::size_t c) { return box[c].width() == 0; };
-  for (std::size_t c = 0; c < enclosure.size(); ++c) point[c] = enclosure[c].middle();
-  for (const bool sharp : {false, true}) {
-    double step = 0, last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < most_newton_steps; ++i, last = step) {
-      if (!cell_.enter_local(point, lifted)) return;
-      cell_.differentiate();
-      if (sharp) cell_.sharpen_middle();
-      krawczyk(cell_, system_, image);
-      if (image.empty()) return;
-      step = 0;
-      for (std::size_t c = 0; c < point.size(); ++c) {
-        step = std::max(step, std::abs(image[c].middle() - point[c].middle()));
-        if (!is_thin(c)) point[c] = image[c].middle();
-      }
-      if (step == 0 || step >= 0.5 * last) break;
-    }
-    double radius = std::max(2 * step, first_radius * limits_.accuracy);
-    bool narrow = false;
-    for (int i = 0; i < most_radii; ++i, radius *= 8) {
-      bool inside_box = true;
-      for (std::size_t c = 0; c < point.size(); ++c) {
-        const double own = std::max(radius, 0x1p-51 * point[c].magnitude());
-        trial[c] = is_thin(c) ? box[c] : Interval(point[c].lower() - own, point[c].upper() + own);
-        inside_box = inside_box && (is_thin(c) || inside(trial[c], box[c]));
-      }
-      if (!inside_box || !cell_.enter_local(trial, lifted)) break;
-      cell_.differentiate();
-      if (sharp) cell_.sharpen_middle();
-      if (krawczyk(cell_, system_, image) != Verdict::unique) continue;
-      narrow = true;
-      for (std::size_t c = 0; c < point.size(); ++c) {
-        enclosure[c] = meet(image[c], trial[c]);
-        narrow = narrow && enclosure[c].width() <= limits_.accuracy;
-        if (!is_thin(c)) point[c] = enclosure[c].middle();
-      }
-      break;
-    }
-    if (narrow) return;
-  }
-}
-
 /// Keeps the zero in `box` if it lies in the cell and on the mode's sheet. False: rounding does not tell whether it is
 /// a new one.
 bool ZeroSearch::accept(const std::vector<Interval>& box, const std::vector<int>& lifted,
                         std::vector<Interval> enclosure, const Cell& cell) {
-  shrink(enclosure, box, lifted);
+  narrow(cell_, system_, box, lifted, limits_.accuracy, enclosure);
   if (disjoint(enclosure[0], cell.x) || disjoint(enclosure[1], cell.y)) return true;
   for (std::size_t l = 0; l < lifted.size(); ++l)
     if (enclosure[2 + l].sign() == -mode()[lifted[l]]) return true;
   CertifiedZero zero{lifted, box, {enclosure[0], enclosure[1]}};
   if (!cell_.enter_local(enclosure, lifted)) return false;
   for (int j = 0; j < program_->roots(); ++j) zero.enclosure.push_back(cell_.root(j));
+  for (const CertifiedZero& place : settled_)
+    if (owns(place, zero.enclosure)) return true;
   for (const CertifiedZero& other : zeros_) {
     if (owns(other, zero.enclosure) || owns(zero, other.enclosure)) return true;
     if (!disjoint(other.enclosure[0], zero.enclosure[0]) && !disjoint(other.enclosure[1], zero.enclosure[1]))

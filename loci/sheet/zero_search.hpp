@@ -9,6 +9,7 @@
 #include "loci/sheet/krawczyk.hpp"
 #include "loci/sheet/sheet_cell.hpp"
 #include "loci/sheet/smooth_cell.hpp"
+#include "loci/sheet/touch_search.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -22,6 +23,8 @@ std::vector<Cell> clusters(std::vector<Cell> cells);
 
 struct FoundZeros {
   std::vector<std::vector<Interval>> enclosures;  ///< of (x, y, s1...sm), one a zero, in the order found
+  /// Where the two curves touch, or come so near to touching that they cross twice in what counts as one point.
+  std::vector<std::vector<Interval>> touches;
   std::vector<Cell> undecided;
   bool gave_up = false;
 };
@@ -36,6 +39,7 @@ class ZeroSearch {
     std::size_t most_cells;           ///< more live cells than that of one size mean that the functions share a curve
     double accuracy;                  ///< width of enclosures that is worth multi-precision to get below
     std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
+    TouchSearch* touches = nullptr;   ///< settles places where the curves touch; none: they stay undecided
   };
 
   /// All zeros in the seeds, which are thin in the coordinates that are not free.
@@ -58,6 +62,8 @@ class ZeroSearch {
   };
 
   void examine(const Box& live, std::vector<Box>& next);
+  /// The cell is next to a place where the curves touch or nearly do, in a box that is settled from now on.
+  bool settle_touch(const Cell& cell, const std::vector<Interval>& roots, const std::vector<int>& lifted);
   /// Second-order enclosures prove that no zero is in the cell.
   bool smoothly_excluded(const Cell& cell);
   int axis_to_cut(const Cell& cell) const;
@@ -66,7 +72,6 @@ class ZeroSearch {
   bool known(const Cell& cell) const;
   static void split(const Box& box, int axis, std::vector<Box>& next);
   double width(const Cell& cell) const;
-  void shrink(std::vector<Interval>& enclosure, const std::vector<Interval>& box, const std::vector<int>& lifted);
   bool accept(const std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval> enclosure,
               const Cell& cell);
 
@@ -76,6 +81,8 @@ class ZeroSearch {
   std::optional<SmoothCell> smooth_;
   Limits limits_{};
   std::vector<CertifiedZero> zeros_;
+  std::vector<CertifiedZero> settled_;  // boxes in which there is nothing else
+  std::size_t touch_trials_ = 0;
   std::vector<Cell> undecided_;
   std::vector<Interval> box_, image_;  // of the cell under examination
 };
