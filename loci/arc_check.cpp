@@ -39,12 +39,6 @@ bool plays_part_of(const LocusFactor& factor, LocusKind kind) {
   }
 }
 
-bool owns(const LocusFactor& factor, const core::LocusCurve& curve) {
-  if (!plays_part_of(factor, curve.kind)) return false;
-  if (curve.implicit.is_zero()) return factor.implicit.empty();
-  return std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
-}
-
 }  // namespace
 
 ArcCheck::ArcCheck(const core::LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode)
@@ -130,27 +124,45 @@ std::optional<ArcFault> ArcCheck::operator()(const core::Arc& arc) {
   return std::nullopt;
 }
 
-void withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map) {
-  for (core::LocusCurve& curve : map.curves) {
+bool owns(const LocusFactor& factor, const core::LocusCurve& curve) {
+  if (!plays_part_of(factor, curve.kind)) return false;
+  if (curve.implicit.is_zero()) return factor.implicit.empty();
+  return std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
+}
+
+std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::LocusMap& map) {
+  std::vector<WrongArc> wrong;
+  for (std::size_t c = 0; c < map.curves.size(); ++c) {
+    const core::LocusCurve& curve = map.curves[c];
     std::deque<ArcCheck> checks;
     for (const LocusFactor& factor : problem.factors)
       if (owns(factor, curve)) checks.emplace_back(problem, factor, curve.mode);
-    if (checks.empty()) continue;
-    std::erase_if(curve.arcs, [&](const core::Arc& arc) {
+    for (std::size_t a = 0; a < curve.arcs.size() && !checks.empty(); ++a) {
       std::optional<ArcFault> fault;
       const bool held = std::any_of(checks.begin(), checks.end(), [&](ArcCheck& check) {
-        std::optional<ArcFault> found = check(arc);
+        std::optional<ArcFault> found = check(curve.arcs[a]);
         const bool none = !found;
         if (!fault) fault = std::move(found);
         return none;
       });
-      if (held) return false;
-      curve.certified = false;
-      map.notes.push_back("an arc of " + (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
-                          " failed its last check and is withheld: " + fault->what + " near (" +
-                          std::to_string(fault->at[0]) + ", " + std::to_string(fault->at[1]) + ")");
-      return true;
-    });
+      if (!held) wrong.push_back({c, a, std::move(*fault)});
+    }
+  }
+  return wrong;
+}
+
+void withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map) {
+  std::vector<WrongArc> wrong = wrong_arcs(problem, map);
+  for (const auto& [c, a, fault] : wrong) {
+    core::LocusCurve& curve = map.curves[c];
+    curve.certified = false;
+    map.notes.push_back("an arc of " + (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
+                        " failed its last check and is withheld: " + fault.what + " near (" +
+                        std::to_string(fault.at[0]) + ", " + std::to_string(fault.at[1]) + ")");
+  }
+  for (auto last = wrong.rbegin(); last != wrong.rend(); ++last) {
+    std::vector<core::Arc>& arcs = map.curves[last->curve].arcs;
+    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(last->arc));
   }
   std::erase_if(map.curves, [](const core::LocusCurve& curve) { return curve.arcs.empty(); });
 }

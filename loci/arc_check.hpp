@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
@@ -38,6 +39,18 @@ class ArcCheck {
   double reach_ = 0;
   std::vector<int> singularities_, undefined_;  ///< functions of the program: every |A|, every denominator
 };
+
+/// An arc of a map that is proven to be wrong.
+struct WrongArc {
+  std::size_t curve = 0, arc = 0;
+  ArcFault fault;
+};
+
+/// All of them, in order.
+std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::LocusMap& map);
+
+/// Whether a curve's arcs are zeros of the factor: it plays the curve's part and owns its polynomial.
+bool owns(const core::LocusFactor& factor, const core::LocusCurve& curve);
 
 /// Withholds arcs of the map that are proven to be wrong: their curves are not certified then, and a note says so.
 void withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map);

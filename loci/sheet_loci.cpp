@@ -10,7 +10,6 @@
 #include <optional>
 #include <thread>
 
-#include "loci/arc_check.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/plane_curve.hpp"
 #include "loci/sheet/apex.hpp"
@@ -162,22 +161,6 @@ core::Arc finished(const TracedArc& traced, const core::ClosedForm& form, double
   return arc;
 }
 
-/// Finishes the arcs from their closed forms and holds each against its curve, mode and box. What fails is left to the
-/// exact engine.
-void finish(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
-            const std::vector<core::ClosedForm>& forms, sheet::SheetTrace& trace) {
-  ArcCheck check(problem, factor, mode);
-  std::erase_if(trace.arcs, [&](TracedArc& traced) {
-    const auto colour = static_cast<std::size_t>(traced.colour);
-    if (colour < forms.size()) traced.arc = finished(traced, forms[colour], problem.tolerance);
-    const std::optional<ArcFault> fault = check(traced.arc);
-    if (!fault) return false;
-    trace.certified = false;
-    trace.undecided.push_back({fault->at[0], fault->at[0], fault->at[1], fault->at[1]});
-    return true;
-  });
-}
-
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
                               sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
@@ -217,7 +200,9 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
       cutters.push_back({{other->sheet, other->line}, core::ArcEnd::direct_singularity});
     traced = trace();
   }
-  finish(problem, factor, mode, forms, traced);
+  for (TracedArc& arc : traced.arcs)
+    if (const auto colour = static_cast<std::size_t>(arc.colour); colour < forms.size())
+      arc.arc = finished(arc, forms[colour], problem.tolerance);
   return traced;
 }
 
@@ -488,7 +473,7 @@ void add_sheet_loci(const LocusProblem& problem, const std::vector<SheetShare>& 
   for (std::size_t m = 0; m < problem.modes.size(); ++m) {
     std::vector<const SheetShare*> own;
     for (const SheetShare& share : shares)
-      if (share.mode == static_cast<int>(m)) own.push_back(&share);
+      if (share.mode == static_cast<int>(m) && !share.settled) own.push_back(&share);
     Gathering(problem, own, map).run();
   }
 }

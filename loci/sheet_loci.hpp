@@ -14,6 +14,7 @@ struct SheetShare {
   int factor = 0;  ///< of the problem
   int mode = 0;    ///< of the problem
   sheet::SheetTrace traced;
+  bool settled = false;  ///< its curves are known from elsewhere
 };
 
 /// Whether an implicit polynomial is of both.
@@ -23,8 +24,8 @@ bool shares_curve(const core::LocusFactor& a, const core::LocusFactor& b);
 /// of modes, then factors.
 std::vector<SheetShare> trace_on_sheets(const core::LocusProblem& problem, const TraceOptions& options);
 
-/// Appends the curves, points and notes of shares to the map. Shares of factors that have a curve in common belong
-/// together: a curve carries everything that vanishes on it.
+/// Appends the curves, points and notes of shares that are not settled to the map. Shares of factors that have a curve
+/// in common belong together: a curve carries everything that vanishes on it.
 void add_sheet_loci(const core::LocusProblem& problem, const std::vector<SheetShare>& shares, core::LocusMap& map);
 
 }  // namespace clearloci::loci

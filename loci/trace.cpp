@@ -64,20 +64,20 @@ LocusMap trace_exactly_in_time(const LocusProblem& problem, const TraceOptions& 
   return within(*options.deadline, [problem, own] { return trace_exactly(problem, own); });
 }
 
-/// The exact engine on what the adaptive one left open: shares that have a curve in common go together. Takes those
-/// out of `shares` that it settled.
+/// The exact engine on what the adaptive one left open: shares that have a curve in common go together. Marks those
+/// that it settled.
 void settle_exactly(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares,
                     LocusMap& map) {
   const auto factor_of = [&](const SheetShare& share) -> const LocusFactor& {
     return problem.factors[static_cast<std::size_t>(share.factor)];
   };
-  std::vector<SheetShare> open, settled;
-  for (const SheetShare& share : shares) {
+  std::vector<SheetShare*> open;
+  for (SheetShare& share : shares) {
     const bool is_open = std::any_of(shares.begin(), shares.end(), [&](const SheetShare& other) {
       return other.mode == share.mode && !other.traced.certified && factor_of(other).role == factor_of(share).role &&
              shares_curve(factor_of(other), factor_of(share));
     });
-    (is_open ? open : settled).push_back(share);
+    if (is_open) open.push_back(&share);
   }
   if (open.empty()) return;
   if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
@@ -87,7 +87,7 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
   rest.modes.clear();
   for (std::size_t f = 0; f < problem.factors.size(); ++f) {
     const bool own = std::any_of(open.begin(), open.end(),
-                                 [&](const SheetShare& share) { return share.factor == static_cast<int>(f); });
+                                 [&](const SheetShare* share) { return share->factor == static_cast<int>(f); });
     if (!own && !is_context(problem.factors[f])) {
       // Its curves are settled; its orders along those that are not may still count.
       if (problem.factors[f].role != FactorRole::reaction) continue;
@@ -99,25 +99,26 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
     if (highest_degree(problem.factors[f]) > bearable_degree || problem.factors[f].implicit_too_heavy) return;
     rest.factors.push_back(problem.factors[f]);
   }
-  for (const SheetShare& share : open) {
-    const core::WorkingMode& mode = problem.modes[static_cast<std::size_t>(share.mode)];
+  for (const SheetShare* share : open) {
+    const core::WorkingMode& mode = problem.modes[static_cast<std::size_t>(share->mode)];
     if (std::find(rest.modes.begin(), rest.modes.end(), mode) == rest.modes.end()) rest.modes.push_back(mode);
   }
   LocusMap exact = trace_exactly_in_time(rest, options);
   if (!exact.complete) throw core::LimitReached("the time limit was reached");
   for (LocusCurve& curve : exact.curves) {
-    if (std::any_of(open.begin(), open.end(), [&](const SheetShare& share) { return replaces(curve, problem, share); }))
+    if (std::any_of(open.begin(), open.end(),
+                    [&](const SheetShare* share) { return replaces(curve, problem, *share); }))
       map.curves.push_back(std::move(curve));
   }
   for (core::IsolatedPoint& point : exact.isolated_points) map.isolated_points.push_back(std::move(point));
-  shares = std::move(settled);
+  for (SheetShare* share : open) share->settled = true;
 }
 
 /// Hands out the claims of shares that were proven on the sheets.
 void certify(const LocusProblem& problem, const std::vector<SheetShare>& shares, core::Certificate& certificate) {
   for (const SheetShare& share : shares) {
     const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share.factor)];
-    if (!share.traced.certified || share.traced.stopped) continue;
+    if (share.settled || !share.traced.certified || share.traced.stopped) continue;
     for (core::SheetClaim claim : share.traced.claims) {
       claim.mode = share.mode;
       claim.role = factor.role;
@@ -129,6 +130,37 @@ void certify(const LocusProblem& problem, const std::vector<SheetShare>& shares,
   }
 }
 
+/// Curves, points and notes of the shares, those that are open from the exact engine.
+LocusMap gathered(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares) {
+  LocusMap map;
+  for (SheetShare& share : shares) share.settled = false;
+  try {
+    if (options.engine != Engine::adaptive) settle_exactly(problem, options, shares, map);
+  } catch (const core::LimitReached&) {
+    map.complete = false;  // what is open stays so
+  }
+  add_sheet_loci(problem, shares, map);
+  return map;
+}
+
+/// Marks the shares that wrong arcs are of as open. False: there are none that were taken for certified.
+bool reopen(const LocusProblem& problem, const std::vector<WrongArc>& wrong, const LocusMap& map,
+            std::vector<SheetShare>& shares) {
+  bool any = false;
+  for (const WrongArc& arc : wrong)
+    for (SheetShare& share : shares) {
+      const LocusCurve& curve = map.curves[arc.curve];
+      if (!share.traced.certified || curve.mode != problem.modes[static_cast<std::size_t>(share.mode)] ||
+          !owns(problem.factors[static_cast<std::size_t>(share.factor)], curve))
+        continue;
+      const core::Point2& at = arc.fault.at;
+      share.traced.certified = false;
+      share.traced.undecided.push_back({at[0], at[0], at[1], at[1]});
+      any = true;
+    }
+  return any;
+}
+
 /// The adaptive engine, with the exact one behind it where that is wanted.
 void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
   std::vector<SheetShare> shares = trace_on_sheets(problem, options);
@@ -136,13 +168,13 @@ void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, 
     *options.certificate = {problem, {}, {}};
     for (const SheetShare& share : shares) options.certificate->open.push_back({share.mode, share.factor});
   }
-  try {
-    if (options.engine != Engine::adaptive) settle_exactly(problem, options, shares, map);
-  } catch (const core::LimitReached&) {
-    map.complete = false;  // what is open stays so
+  map = gathered(problem, options, shares);
+  // The last check. What fails it is traced again by the exact engine; what fails it then is not handed out.
+  if (const std::vector<WrongArc> wrong = wrong_arcs(problem, map); !wrong.empty()) {
+    if (reopen(problem, wrong, map, shares)) map = gathered(problem, options, shares);
+    withhold_wrong_arcs(problem, map);
   }
   if (options.certificate != nullptr) certify(problem, shares, *options.certificate);
-  add_sheet_loci(problem, shares, map);
   for (const core::WorkingMode& mode : problem.modes)
     map.workspace.push_back({mode, workspace_faces(problem, mode, map).rings});
 }
@@ -154,13 +186,14 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
   core::ensure(coordinates == 1 || coordinates == 2, "one or two free coordinates");
   LocusMap map;
   try {
-    if (coordinates == 1)
+    if (coordinates == 1) {
       add_points_of_one_coordinate(problem, options, map);
-    else if (options.engine == Engine::exact)
+    } else if (options.engine == Engine::exact) {
       map = trace_exactly_in_time(problem, options);
-    else
+      withhold_wrong_arcs(problem, map);
+    } else {
       trace_adaptively(problem, options, map);
-    if (coordinates == 2) withhold_wrong_arcs(problem, map);
+    }
     const std::function<bool()> stop = [&] {
       return options.deadline && std::chrono::steady_clock::now() > *options.deadline;
     };
