@@ -94,8 +94,20 @@ struct CurveArrangement::Implementation {
     return true;
   }
 
+  bool on_side(const core::Point2& p, double slack) const {
+    for (std::size_t i = 0; i < 2; ++i)
+      for (const Rational& side : {lower[i], upper[i]})
+        if (std::abs(p[i] - core::to_double(side)) <= slack) return true;
+    return false;
+  }
+
   void build(const std::function<bool()>& interrupted);
-  void collect();
+  /// A point in the interior of an edge.
+  PointEnclosure sample(const Arc& arc, bool vertical, int attempt) const;
+  bool is_outside(const PointEnclosure& point) const {
+    return point.upper[0] < lower[0] || point.lower[0] > upper[0] || point.upper[1] < lower[1] ||
+           point.lower[1] > upper[1];
+  }
 
   std::vector<core::Polynomial> curves;
   std::array<Rational, 2> lower, upper;
@@ -108,6 +120,23 @@ struct CurveArrangement::Implementation {
   std::vector<ArrangementPoint> points;
   std::vector<Arc> arcs;  ///< of every edge
 };
+
+PointEnclosure CurveArrangement::Implementation::sample(const Arc& arc, bool vertical, int attempt) const {
+  const Point min = arc.curve_end(CGAL::ARR_MIN_END), max = arc.curve_end(CGAL::ARR_MAX_END);
+  if (vertical) {
+    const auto x = enclose_x(min, sample_bits);
+    const Rational low = rational(enclose_y(min, vertex_bits).second);
+    const Rational high = rational(enclose_y(max, vertex_bits).first);
+    const Rational y = low + (high - low) * Rational(attempt + 3, 2 * attempt + 7);
+    return {{rational(x.first), y}, {rational(x.second), y}};
+  }
+  const auto between = line_kernel.bound_between_1_object();
+  Bound x = between(min.x(), max.x());
+  for (int i = 0; i < attempt; ++i) x = between(min.x(), Real(x));
+  auto line = arc.curve().status_line_at_exact_x(x);
+  const auto y = plane_kernel.approximate_absolute_y_2_object()(line.algebraic_real_2(arc.arcno()), sample_bits);
+  return {{rational(x), rational(y.first)}, {rational(x), rational(y.second)}};
+}
 
 void CurveArrangement::Implementation::build(const std::function<bool()>& interrupted) {
   const auto check = [&] {
@@ -164,6 +193,9 @@ void CurveArrangement::Implementation::build(const std::function<bool()>& interr
     const int from = vertex(forward ? e->source() : e->target());
     const int to = vertex(forward ? e->target() : e->source());
     if (from < 0 || to < 0) continue;
+    // What leaves the box and comes back has both ends in it.
+    const auto on_rim = [&](int v) { return on_side(vertices[static_cast<std::size_t>(v)].at, slack); };
+    if (on_rim(from) && on_rim(to) && is_outside(sample(e->curve(), e->curve().is_vertical(), 0))) continue;
     edges.push_back({index_of.at(e->curve().curve().id()), from, to, e->curve().is_vertical()});
     arcs.push_back(e->curve());
   }
@@ -185,22 +217,8 @@ const std::vector<ArrangementEdge>& CurveArrangement::edges() const { return imp
 const std::vector<ArrangementPoint>& CurveArrangement::isolated_points() const { return implementation_->points; }
 
 PointEnclosure CurveArrangement::sample(int edge, int attempt) const {
-  const Implementation& self = *implementation_;
-  const Arc& arc = self.arcs[static_cast<std::size_t>(edge)];
-  const Point min = arc.curve_end(CGAL::ARR_MIN_END), max = arc.curve_end(CGAL::ARR_MAX_END);
-  if (self.edges[static_cast<std::size_t>(edge)].vertical) {
-    const auto x = self.enclose_x(min, sample_bits);
-    const Rational low = rational(self.enclose_y(min, vertex_bits).second);
-    const Rational high = rational(self.enclose_y(max, vertex_bits).first);
-    const Rational y = low + (high - low) * Rational(attempt + 3, 2 * attempt + 7);
-    return {{rational(x.first), y}, {rational(x.second), y}};
-  }
-  const auto between = self.line_kernel.bound_between_1_object();
-  Bound x = between(min.x(), max.x());
-  for (int i = 0; i < attempt; ++i) x = between(min.x(), Real(x));
-  auto line = arc.curve().status_line_at_exact_x(x);
-  const auto y = self.plane_kernel.approximate_absolute_y_2_object()(line.algebraic_real_2(arc.arcno()), sample_bits);
-  return {{rational(x), rational(y.first)}, {rational(x), rational(y.second)}};
+  const auto e = static_cast<std::size_t>(edge);
+  return implementation_->sample(implementation_->arcs[e], implementation_->edges[e].vertical, attempt);
 }
 
 double CurveArrangement::y_at(int edge, double x) const {

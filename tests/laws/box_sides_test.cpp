@@ -9,6 +9,7 @@
 
 #include "analysis/zones.hpp"
 #include "loci/arc_check.hpp"
+#include "tests/laws/same_topology.hpp"
 
 namespace clearloci {
 namespace {
@@ -71,6 +72,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"box_47_zones_area_short", 0.22831, 1e-4, 0},
                     Case{"box_82_zones_area_short", 0.30988, 1e-4, 0}),
     [](const auto& test) { return std::string(test.param.file); });
+
+// The exact engine kept edges that leave the box and come back to it, and lost the arcs that they were joined to.
+class BothEngines : public testing::TestWithParam<const char*> {};
+
+TEST_P(BothEngines, TellTheSame) {
+  const auto mechanism =
+      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + GetParam() + ".yaml");
+  LociRequest request;
+  const core::LocusMap adaptive = trace_loci(mechanism, request);
+  request.engine = loci::Engine::exact;
+  const core::LocusMap exact = trace_loci(mechanism, request);
+  for (const core::LocusMap* map : {&adaptive, &exact})
+    for (const core::LocusCurve& curve : map->curves) EXPECT_TRUE(curve.certified) << curve.factor;
+  for (const std::string& difference : test::differences(exact, adaptive, test::EndsOnSides::by_place))
+    ADD_FAILURE() << difference;
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, BothEngines, testing::Values("three_rpr_leaves_the_box", "rrrpr_leaves_the_box"),
+                         [](const auto& test) { return std::string(test.param); });
 
 // The box lies all inside the workspace: its only ring is the box itself.
 TEST(BoxInsideTheWorkspace, IsItsOwnRing) {

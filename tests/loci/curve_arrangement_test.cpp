@@ -46,6 +46,20 @@ TEST(CurveArrangement, TheBoxCutsAndNothingOutsideIsKept) {
   }
 }
 
+TEST(CurveArrangement, WhatLeavesTheBoxAndComesBackIsCut) {
+  // Of the circle a cap is outside, with both ends on one side of the box; then one that is not x-monotone.
+  for (const bool top : {true, false}) {
+    const CurveArrangement arrangement({circle(0, 0, 1)}, {-2, -2},
+                                       {top ? Rational(2) : Rational(1, 2), top ? Rational(1, 2) : Rational(2)});
+    for (std::size_t e = 0; e < arrangement.edges().size(); ++e) {
+      if (arrangement.edges()[e].curve != 0) continue;
+      const PointEnclosure at = arrangement.sample(static_cast<int>(e), 0);
+      EXPECT_LT(at.upper[top ? 1 : 0], Rational(1, 2)) << top;
+    }
+    EXPECT_EQ(edges_on(arrangement, 0), top ? 3 : 2);
+  }
+}
+
 TEST(CurveArrangement, AnIsolatedPointIsFoundEvenOnAnotherCurve) {
   // x^2 (x - 1) = y^2 has an isolated point in the origin, which lies on the line y = 0.
   const Polynomial cubic = core::primitive_part(x * x * (x - number(1)) - y * y);
