@@ -103,34 +103,67 @@ bool is_planar(const PlaneGraph& graph) {
   return true;
 }
 
-core::Polyline points_in_face(const std::vector<core::Polyline>& rings) {
+namespace {
+
+/// A piece of a horizontal line inside a face.
+struct Span {
+  double from = 0, to = 0;
+  double width() const { return to - from; }
+};
+
+std::vector<Span> spans_at(const std::vector<core::Polyline>& rings, double y) {
+  std::vector<double> crossings;
+  for (const core::Polyline& ring : rings)
+    for (std::size_t i = 1; i < ring.size(); ++i) {
+      const core::Point2 &a = ring[i - 1], &b = ring[i];
+      if ((a[1] > y) != (b[1] > y)) crossings.push_back(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]));
+    }
+  std::sort(crossings.begin(), crossings.end());
+  std::vector<Span> spans;
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) spans.push_back({crossings[i], crossings[i + 1]});
+  return spans;
+}
+
+Span heights_of(const std::vector<core::Polyline>& rings) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const core::Polyline& ring : rings)
     for (const core::Point2& p : ring) low = std::min(low, p[1]), high = std::max(high, p[1]);
-  // Heights at no round shares: designs are symmetric, and what is special lies amid their faces.
+  return {low, high};
+}
+
+// Designs are symmetric, and what is special lies amid their faces and at round shares of them.
+constexpr double off_middle = 0.0391;
+
+}  // namespace
+
+core::Polyline points_in_face(const std::vector<core::Polyline>& rings) {
+  const Span heights = heights_of(rings);
   constexpr std::array<double, 7> shares = {0.4713, 0.3271, 0.6397, 0.1709, 0.8233, 0.0617, 0.9361};
-  constexpr double off_middle = 0.0391;
   std::vector<std::pair<double, core::Point2>> found;  // room, point
   for (const double share : shares) {
-    const double y = low + share * (high - low);
-    std::vector<double> crossings;
-    for (const core::Polyline& ring : rings)
-      for (std::size_t i = 1; i < ring.size(); ++i) {
-        const core::Point2 &a = ring[i - 1], &b = ring[i];
-        if ((a[1] > y) != (b[1] > y)) crossings.push_back(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]));
-      }
-    std::sort(crossings.begin(), crossings.end());
-    double most = 0, at = 0;
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
-      if (crossings[i + 1] - crossings[i] > most) {
-        most = crossings[i + 1] - crossings[i];
-        at = crossings[i] + (0.5 + off_middle) * most;
-      }
-    if (most > 0) found.push_back({std::min(most, std::min(share, 1 - share) * (high - low)), {at, y}});
+    const double y = heights.from + share * heights.width();
+    Span widest;
+    for (const Span& span : spans_at(rings, y))
+      if (span.width() > widest.width()) widest = span;
+    if (widest.width() > 0)
+      found.push_back({std::min(widest.width(), std::min(share, 1 - share) * heights.width()),
+                       {widest.from + (0.5 + off_middle) * widest.width(), y}});
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   core::Polyline points;
   for (const auto& [room, point] : found) points.push_back(point);
+  return points;
+}
+
+core::Polyline points_all_over_face(const std::vector<core::Polyline>& rings, double narrowest) {
+  constexpr int lines = 32;
+  const Span heights = heights_of(rings);
+  core::Polyline points;
+  for (int i = 0; i < lines; ++i) {
+    const double y = heights.from + (i + 0.5 - off_middle) / lines * heights.width();
+    for (const Span& span : spans_at(rings, y))
+      if (span.width() > narrowest) points.push_back({span.from + (0.5 + off_middle) * span.width(), y});
+  }
   return points;
 }
 

@@ -45,6 +45,9 @@ bool is_planar(const PlaneGraph& graph);
 /// the face is thinner than doubles tell.
 core::Polyline points_in_face(const std::vector<core::Polyline>& rings);
 
+/// Points in every part of a face that is wider than `narrowest` where lines at many heights pass it.
+core::Polyline points_all_over_face(const std::vector<core::Polyline>& rings, double narrowest);
+
 /// The points along a walk, the first repeated at the end.
 core::Polyline ring_of(const PlaneGraph& graph, const std::vector<HalfEdge>& walk);
 

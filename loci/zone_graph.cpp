@@ -193,10 +193,11 @@ class Builder {
     for (Strand& strand : strands_) {
       const double reach = strand.owner == box_owner ? same_place * size_ : 2 * map_.tolerance + same_place * size_;
       for (const Foot& foot : passes(strand.points, at, reach)) {
-        const CurveProjection* const own = projection(strand.owner);
-        const bool end = !strand.closed && (distance(strand.points.front(), at) <= same_place * size_ ||
-                                            distance(strand.points.back(), at) <= same_place * size_);
-        if (own != nullptr && !end && distance((*own)(at).at, at) > 10 * same_place * size_) continue;
+        // A vertex is on the curve, also where the curve is singular and nothing near could be moved onto it.
+        const auto is_near = [&](std::size_t i) { return distance(strand.points[i], at) <= same_place * size_; };
+        const CurveProjection* const own =
+            is_near(foot.segment) || is_near(foot.segment + 1) ? nullptr : projection(strand.owner);
+        if (own != nullptr && distance((*own)(at).at, at) > 10 * same_place * size_) continue;
         strand.cuts.emplace_back(foot.position(), node);
       }
     }

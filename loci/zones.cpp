@@ -9,6 +9,7 @@
 #include "loci/edge_area.hpp"
 #include "loci/inscribed_circle.hpp"
 #include "loci/largest_circle.hpp"
+#include "loci/sheet/sheet_cell.hpp"
 #include "loci/workspace_area.hpp"
 #include "loci/workspace_rings.hpp"
 #include "loci/zone_graph.hpp"
@@ -29,6 +30,8 @@ class ModeZones {
         map_(map),
         mode_(mode),
         workspace_(problem.tower, mode),
+        singularities_(problem.tower, determinants(problem)),
+        sign_(singularities_, mode),
         projections_(problem, map),
         cut_(zone_graph(problem, map, mode, projections_)) {
     for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
@@ -60,6 +63,13 @@ class ModeZones {
   }
 
  private:
+  static std::vector<sheet::SheetFunction> determinants(const core::LocusProblem& problem) {
+    std::vector<sheet::SheetFunction> list;
+    for (const core::LocusFactor& factor : problem.factors)
+      if (factor.role == core::FactorRole::direct_singularity) list.push_back({factor.sheet, factor.line});
+    return list;
+  }
+
   struct Face {
     GraphFace walks;
     Polyline outer;
@@ -191,8 +201,27 @@ class ModeZones {
     for (const int i : points_) {
       if (inside(place(i))) zone.isolated_points.push_back(i);
     }
-    zone.certified = cut_.certified;
+    zone.certified = cut_.certified && is_one(rings, zone.area);
     return zone;
+  }
+
+  /// A check by other means than those that made the face: all over it poses can be reached, and no factor of |A| has
+  /// both signs.
+  bool is_one(const std::vector<Polyline>& rings, double area) {
+    std::vector<int> signs(static_cast<std::size_t>(singularities_.functions()), 0);
+    for (const Point2& at : points_all_over_face(rings, clear_of_chords * map_.tolerance)) {
+      bool amiss = workspace_.holds(at) == std::optional<bool>(false);
+      for (std::size_t f = 0; f < signs.size() && !amiss; ++f) {
+        const int sign = sign_(at[0], at[1], static_cast<int>(f)).value_or(0);
+        amiss = sign * signs[f] < 0;
+        if (sign != 0) signs[f] = sign;
+      }
+      if (!amiss) continue;
+      cut_.notes.push_back("a zone of " + std::to_string(area) + " m^2 is not one at (" + std::to_string(at[0]) + ", " +
+                           std::to_string(at[1]) + ")");
+      return false;
+    }
+    return true;
   }
 
   std::vector<core::ZoneBorder> borders(const GraphFace& face) const {
@@ -271,7 +300,9 @@ class ModeZones {
   }
 
   static constexpr double area_accuracy = 1e-7;  ///< relative; a tenth of what is promised, since it is an estimate
-  static constexpr double area_slack = 1e-5;     ///< relative: what the boundary's curved sides may hide of an area
+  /// Tolerances, so that a point amid a span this wide is on the side of every curve that its chords tell.
+  static constexpr double clear_of_chords = 8;
+  static constexpr double area_slack = 1e-5;  ///< relative: what the boundary's curved sides may hide of an area
   static constexpr int most_refinements = 8;
   static constexpr double most_sites = 4000;  ///< on a zone's border
   static constexpr std::size_t most_candidates = 3;
@@ -280,6 +311,8 @@ class ModeZones {
   const LocusMap& map_;
   core::WorkingMode mode_;
   ModeWorkspace workspace_;
+  sheet::SheetProgram singularities_;
+  sheet::PointSign sign_;
   CurveProjections projections_;
   ZoneGraph cut_;
   std::vector<int> points_;

@@ -426,13 +426,15 @@ class Laws {
     fault.precision(10);
     for (const double side : {1.0, -1.0}) {
       // A root of the distance shrinks by 30 in between, and its zero is still far above rounding errors.
-      const double far = 1e-5 * size() * side, near = 1e-8 * size() * side;
+      const double far = 1e-5 * size() * side, near = 1e-8 * size() * side, nearest = 1e-11 * size() * side;
       const auto beside = [&](double by) { return Point2{at[0] - by * dy / l, at[1] + by * dx / l}; };
       const auto a = witness_.at(beside(far), sides), b = witness_.at(beside(near), sides);
       if (b) ++alive;
       if (!a || !b) continue;
       const double scale = b->values.cwiseAbs().maxCoeff();
       grows = grows || scale > 5 * a->values.cwiseAbs().maxCoeff();
+      // Where bases nearly coincide reactions grow in the last thousandth of that way.
+      if (const auto c = witness_.at(beside(nearest), sides)) grows = grows || c->values.cwiseAbs().maxCoeff() > 5 * scale;
       if (curve.kind == core::LocusKind::direct_singularity &&
           !(std::abs(b->determinant) <= 0.2 * std::abs(a->determinant)))
         fault << "|A| is " << a->determinant << " and " << b->determinant;
@@ -680,6 +682,11 @@ TEST_P(LeaningDesigns, KeepTheLaws) {
     try {
       const mechanism::Mechanism mechanism = mechanism::parse_mechanism(text, "lattice.yaml");
       Laws(mechanism, request, tally, faults).hold();
+    } catch (const core::InputError& refused) {
+      // The reader refuses boxes in which no pose can be reached; which these are, its own tests know.
+      ++tally.refused;
+      if (std::string(refused.what()).find("is unreachable in the whole box") == std::string::npos)
+        Faults::Line(faults) << "refused: " << refused.what();
     } catch (const std::exception& error) {
       Faults::Line(faults) << error.what();
     }
