@@ -122,11 +122,12 @@ struct CurveArrangement::Implementation {
 };
 
 PointEnclosure CurveArrangement::Implementation::sample(const Arc& arc, bool vertical, int attempt) const {
+  const int bits = sample_bits << std::min(attempt, 2);
   const Point min = arc.curve_end(CGAL::ARR_MIN_END), max = arc.curve_end(CGAL::ARR_MAX_END);
   if (vertical) {
-    const auto x = enclose_x(min, sample_bits);
-    const Rational low = rational(enclose_y(min, vertex_bits).second);
-    const Rational high = rational(enclose_y(max, vertex_bits).first);
+    const auto x = enclose_x(min, bits);
+    const Rational low = rational(enclose_y(min, bits).second);
+    const Rational high = rational(enclose_y(max, bits).first);
     const Rational y = low + (high - low) * Rational(attempt + 3, 2 * attempt + 7);
     return {{rational(x.first), y}, {rational(x.second), y}};
   }
@@ -134,7 +135,7 @@ PointEnclosure CurveArrangement::Implementation::sample(const Arc& arc, bool ver
   Bound x = between(min.x(), max.x());
   for (int i = 0; i < attempt; ++i) x = between(min.x(), Real(x));
   auto line = arc.curve().status_line_at_exact_x(x);
-  const auto y = plane_kernel.approximate_absolute_y_2_object()(line.algebraic_real_2(arc.arcno()), sample_bits);
+  const auto y = plane_kernel.approximate_absolute_y_2_object()(line.algebraic_real_2(arc.arcno()), bits);
   return {{rational(x), rational(y.first)}, {rational(x), rational(y.second)}};
 }
 

@@ -52,7 +52,7 @@ class CurveArrangement {
   const std::vector<ArrangementEdge>& edges() const;
   const std::vector<ArrangementPoint>& isolated_points() const;
 
-  /// A point in the interior of an edge; other attempts give other points.
+  /// A point in the interior of an edge; other attempts give other points, the first ones with more and more digits.
   PointEnclosure sample(int edge, int attempt) const;
 
   /// The y of a non-vertical edge at an x strictly between its ends' (correctly to 1e-16 of the box).

@@ -160,9 +160,10 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
     const int index = static_cast<int>(e);
     edge.in_workspace = edge.interior = true;
     for (std::size_t j = 0; j < problem.tower.roots.size() && edge.in_workspace; ++j) {
-      const int sign = signs.square_sign(static_cast<int>(j), mode, index);
-      if (sign < 0) edge.in_workspace = false;
-      if (sign <= 0) edge.interior = false;
+      const std::optional<int> sign = signs.square_sign(static_cast<int>(j), mode, index);
+      edge.decided = edge.decided && sign;
+      if (!sign || *sign < 0) edge.in_workspace = false;
+      if (!sign || *sign <= 0) edge.interior = false;
     }
     if (!edge.in_workspace) continue;
     std::vector<const core::LocusFactor*> vanishing, reactions;
@@ -172,7 +173,9 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
       const auto& curves = curves_of_factor[f];
       if (std::find(curves.begin(), curves.end(), arrangement.edges()[e].curve) == curves.end()) continue;
       if (factor.role == FactorRole::construction) continue;
-      if (signs.sign(sheet_of_factor[f], mode, index) != 0) continue;
+      const std::optional<int> sign = signs.sign(sheet_of_factor[f], mode, index);
+      edge.decided = edge.decided && sign;
+      if (sign != std::optional<int>(0)) continue;
       (factor.role == FactorRole::reaction ? reactions : vanishing).push_back(&factor);
       singular = singular || factor.role == FactorRole::direct_singularity;
       idle = idle || factor.may_be_idle;

@@ -28,6 +28,7 @@ struct EdgeLabel {
 struct EdgeInMode {
   bool in_workspace = false;  ///< every Q_j >= 0
   bool interior = false;      ///< every Q_j > 0
+  bool decided = true;        ///< false: some sign was not decided, and is taken for one that says nothing of the edge
   std::vector<EdgeLabel> labels;
 };
 

@@ -212,6 +212,14 @@ class ExactTrace {
   void trace_mode(const WorkingMode& mode) {
     const std::vector<EdgeInMode> edges = label_edges(problem_, mode, arrangement_, list_.of_factor, signs_, sheets_);
     const VertexMarks marks = mark_vertices(edges);
+    const auto open =
+        std::find_if(edges.begin(), edges.end(), [](const EdgeInMode& edge) { return !edge.decided; }) - edges.begin();
+    const bool decided = open == static_cast<std::ptrdiff_t>(edges.size());
+    if (!decided) {
+      const Point2& at = position(arrangement_.edges()[static_cast<std::size_t>(open)].from);
+      map_.notes.push_back("a sign on an arc from (" + std::to_string(at[0]) + ", " + std::to_string(at[1]) +
+                           ") could not be decided");
+    }
 
     struct Group {
       int curve;
@@ -237,7 +245,7 @@ class ExactTrace {
       curve.implicit = arrangement_.curves()[static_cast<std::size_t>(group.curve)];
       curve.closed_form = forms_[static_cast<std::size_t>(group.curve)];
       curve.mode = mode;
-      curve.certified = group.label.proven;
+      curve.certified = group.label.proven && decided;
       curve.excited = group.label.excited;
       const bool ends_on_singularities = curve.kind < LocusKind::direct_singularity;
       const VertexMarks own = without_boundary_of(group.curve, marks, edges);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.hpp"
 #include "loci/tower_algebra.hpp"
 
 namespace clearloci::loci {
@@ -71,15 +70,14 @@ int SheetSigns::build(const Polynomial& p) {
   return static_cast<int>(nodes_.size()) - 1;
 }
 
-int SheetSigns::sign(int sheet, const core::WorkingMode& mode, int edge) {
+std::optional<int> SheetSigns::sign(int sheet, const core::WorkingMode& mode, int edge) {
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    if (const auto decided = node_sign(sheet, mode, edge, attempt)) return *decided;
+    if (const auto decided = node_sign(sheet, mode, edge, attempt)) return decided;
   }
-  core::ensure(false, "a sign decided at one of several points of an edge");
-  return 0;
+  return std::nullopt;
 }
 
-int SheetSigns::square_sign(int root, const core::WorkingMode& mode, int edge) {
+std::optional<int> SheetSigns::square_sign(int root, const core::WorkingMode& mode, int edge) {
   return sign(squares_[static_cast<std::size_t>(root)], mode, edge);
 }
 

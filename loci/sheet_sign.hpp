@@ -26,11 +26,12 @@ class SheetSigns {
   /// Registers a sheet polynomial, in (x, y, s1...sm).
   int add(const core::Polynomial& sheet);
 
-  /// -1, 0 or +1 in the interior of an edge; 0 means 0 all along it. Required: the mode's squares are >= 0 there.
-  int sign(int sheet, const core::WorkingMode& mode, int edge);
+  /// -1, 0 or +1 in the interior of an edge; 0 means 0 all along it. None: not decided at any of several points with
+  /// the digits that intervals have. Required: the mode's squares are >= 0 there.
+  std::optional<int> sign(int sheet, const core::WorkingMode& mode, int edge);
 
   /// Sign of the j-th root's square in the interior of an edge; required: those of earlier roots are >= 0.
-  int square_sign(int root, const core::WorkingMode& mode, int edge);
+  std::optional<int> square_sign(int root, const core::WorkingMode& mode, int edge);
 
  private:
   struct Leaf {

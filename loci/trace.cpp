@@ -111,6 +111,7 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
       map.curves.push_back(std::move(curve));
   }
   for (core::IsolatedPoint& point : exact.isolated_points) map.isolated_points.push_back(std::move(point));
+  for (std::string& note : exact.notes) map.notes.push_back(std::move(note));
   for (SheetShare* share : open) share->settled = true;
 }
 
