@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <type_traits>
 
 namespace clearloci::loci {
 
-PlaneCurve::PlaneCurve(const core::Polynomial& implicit) {
+PlaneCurve::PlaneCurve(const core::Polynomial& implicit) : implicit_(implicit) {
   // A common scale keeps huge integer coefficients within the range of doubles.
-  core::Rational scale = 1;
-  for (const core::Term& term : implicit.terms) scale = std::max(scale, core::Rational(abs(term.coefficient)));
+  for (const core::Term& term : implicit.terms) scale_ = std::max(scale_, core::Rational(abs(term.coefficient)));
   for (const core::Term& term : implicit.terms) {
     const int i = term.exponents[0], j = term.exponents[1];
-    const double c = core::to_double(term.coefficient / scale);
+    const double c = core::to_double(term.coefficient / scale_);
     terms_.push_back({i, j, c, Interval(c - std::abs(c) * 0x1p-52, c + std::abs(c) * 0x1p-52)});
     degree_x_ = std::max(degree_x_, i);
     degree_y_ = std::max(degree_y_, j);
@@ -53,7 +53,7 @@ PlaneCurve::Jet PlaneCurve::jet(const core::Point2& at) const { return {derivati
 
 core::Point2 PlaneCurve::project(core::Point2 near) const {
   const core::Point2 start = near;
-  double last = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity(), slope = 0;
   for (int i = 0; i < 8; ++i) {
     const Jet at = jet(near);
     const double g2 = at.fx * at.fx + at.fy * at.fy;
@@ -61,7 +61,24 @@ core::Point2 PlaneCurve::project(core::Point2 near) const {
     const double step = std::abs(at.f) / std::sqrt(g2);
     if (step >= last) break;  // rounding
     last = step;
+    slope = std::sqrt(g2);
     near = {near[0] - at.f * at.fx / g2, near[1] - at.f * at.fy / g2};
+  }
+  // Next to a double point the rounding errors of the terms, over the small gradient, are more than the coordinates
+  // resolve: the value is taken exactly there. Twice, because the first step may still be a long one.
+  double terms = 0;
+  for (const Term& term : terms_)
+    terms += std::abs(term.coefficient * std::pow(near[0], term.i) * std::pow(near[1], term.j));
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  constexpr double spacings = 16;  // exact values are dear: where a few spacings are at stake, doubles will do
+  const double resolved = spacings * epsilon * std::max(std::abs(near[0]), std::abs(near[1]));
+  for (int i = 0; i < 2 && (degree_x_ + degree_y_) * epsilon * terms > resolved * slope; ++i) {
+    const Jet at = jet(near);
+    const double g2 = at.fx * at.fx + at.fy * at.fy;
+    const std::array<core::Rational, 2> place = {core::Rational(near[0]), core::Rational(near[1])};
+    const double f = core::to_double(core::Rational(core::evaluate(implicit_, std::span(place)) / scale_));
+    if (g2 == 0 || f == 0) break;
+    near = {near[0] - f * at.fx / g2, near[1] - f * at.fy / g2};
   }
   return near;
 }

@@ -29,6 +29,7 @@ class PlaneCurve {
   Jet jet(const core::Point2& at) const;
 
   /// The point of the curve nearest to `near` by Newton along the gradient; `near` itself where that leads nowhere.
+  /// On the curve to rounding of the coordinates, however small the gradient is beside the terms of the polynomial.
   core::Point2 project(core::Point2 near) const;
 
   /// Proves that the branch through `a` reaches `b` without leaving their neighbourhood, so that both lie on one
@@ -46,6 +47,8 @@ class PlaneCurve {
     double coefficient;
     Interval enclosure;
   };
+  core::Polynomial implicit_;
+  core::Rational scale_ = 1;  ///< by which its coefficients are divided
   std::vector<Term> terms_;
   int degree_x_ = 0, degree_y_ = 0;
 };
