@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "loci/arc_stretches.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/plane_curve.hpp"
 #include "loci/sheet/apex.hpp"
@@ -161,6 +162,19 @@ core::Arc finished(const TracedArc& traced, const core::ClosedForm& form, double
   return arc;
 }
 
+/// Vertices of a finished arc close enough together to see where roots come close to zero along it.
+core::Polyline close_vertices(const core::Polyline& points, const core::ClosedForm& form) {
+  if (!std::holds_alternative<core::LineForm>(form)) return points;
+  constexpr int pieces = 256;
+  core::Polyline line;
+  const Point2 &a = points.front(), &b = points.back();
+  for (int i = 0; i <= pieces; ++i) {
+    const double t = static_cast<double>(i) / pieces;
+    line.push_back({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
+  }
+  return line;
+}
+
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
                               sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
@@ -200,9 +214,16 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
       cutters.push_back({{other->sheet, other->line}, core::ArcEnd::direct_singularity});
     traced = trace();
   }
-  for (TracedArc& arc : traced.arcs)
-    if (const auto colour = static_cast<std::size_t>(arc.colour); colour < forms.size())
-      arc.arc = finished(arc, forms[colour], problem.tolerance);
+  for (TracedArc& arc : traced.arcs) {
+    const auto colour = static_cast<std::size_t>(arc.colour);
+    if (colour >= forms.size()) continue;
+    arc.arc = finished(arc, forms[colour], problem.tolerance);
+    // What vanishes along it must do so all along; else it is left to the exact engine.
+    if (same_orders_all_along(problem, mode, factor.implicit[colour], close_vertices(arc.arc.points, forms[colour])))
+      continue;
+    traced.certified = false;
+    traced.undecided.push_back({arc.inner[0], arc.inner[0], arc.inner[1], arc.inner[1]});
+  }
   return traced;
 }
 
