@@ -151,15 +151,16 @@ class ExactTrace {
     }
     // Where the ends of a leg of equal lengths meet the sheet ends in a point.
     for (const ArrangementPoint& point : arrangement_.isolated_points()) {
-      if (!owned_by(point.curve, FactorRole::construction) || !is_cone(point.at)) continue;
-      for (std::size_t v = 0; v < count; ++v) {
-        if (std::hypot(arrangement_.vertices()[v].at[0] - point.at[0], arrangement_.vertices()[v].at[1] - point.at[1]) <
-            1e-14 * scale()) {
-          marks.boundary[v] = true;
-        }
-      }
+      if (owned_by(point.curve, FactorRole::construction) && is_cone(point.at)) mark_at(point.at, marks.boundary);
     }
     return marks;
+  }
+
+  void mark_at(const Point2& at, std::vector<bool>& list) const {
+    for (std::size_t v = 0; v < list.size(); ++v) {
+      const Point2& vertex = arrangement_.vertices()[v].at;
+      if (std::hypot(vertex[0] - at[0], vertex[1] - at[1]) < 1e-14 * scale()) list[v] = true;
+    }
   }
 
   /// A root vanishes in the point where a construction is undefined.
@@ -211,7 +212,15 @@ class ExactTrace {
 
   void trace_mode(const WorkingMode& mode) {
     const std::vector<EdgeInMode> edges = label_edges(problem_, mode, arrangement_, list_.of_factor, signs_, sheets_);
-    const VertexMarks marks = mark_vertices(edges);
+    VertexMarks marks = mark_vertices(edges);
+    const std::size_t known = map_.isolated_points.size();
+    add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, map_);
+    // Where the sheet ends in a point that is a direct singularity too, that is the graver of the two.
+    for (std::size_t i = known; i < map_.isolated_points.size(); ++i) {
+      const core::IsolatedPoint& point = map_.isolated_points[i];
+      if (const Point2 at = {point.at[0], point.at[1]}; point.kind == LocusKind::direct_singularity && is_cone(at))
+        mark_at(at, marks.direct_singularity);
+    }
     const auto open =
         std::find_if(edges.begin(), edges.end(), [](const EdgeInMode& edge) { return !edge.decided; }) - edges.begin();
     const bool decided = open == static_cast<std::ptrdiff_t>(edges.size());
@@ -256,7 +265,6 @@ class ExactTrace {
       map_.curves.push_back(std::move(curve));
     }
     add_workspace(mode, edges);
-    add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, map_);
   }
 
   /// The edges between workspace and outside, joined to rings.

@@ -33,16 +33,19 @@ void expect_certified(const core::LocusMap& map) {
   for (const std::string& note : map.notes) {
     EXPECT_EQ(note.find("undecided"), std::string::npos) << note;
     EXPECT_EQ(note.find("neither proven"), std::string::npos) << note;
+    EXPECT_EQ(note.find("withheld"), std::string::npos) << note;
   }
 }
 
-void expect_agreement(const mechanism::Mechanism& mechanism, LociRequest request) {
+void expect_agreement(const mechanism::Mechanism& mechanism, LociRequest request,
+                      test::EndsOnSides ends = test::EndsOnSides::strict) {
   request.engine = loci::Engine::adaptive;
   const core::LocusMap adaptive = trace_loci(mechanism, request);
   request.engine = loci::Engine::exact;
   const core::LocusMap exact = trace_loci(mechanism, request);
   expect_certified(adaptive);
-  for (const std::string& difference : test::differences(exact, adaptive)) ADD_FAILURE() << difference;
+  expect_certified(exact);
+  for (const std::string& difference : test::differences(exact, adaptive, ends)) ADD_FAILURE() << difference;
 }
 
 class EnginesOnExamples : public testing::TestWithParam<std::string> {};
@@ -75,7 +78,10 @@ TEST(Engines, AgreeOnRandomDesigns) {
   for (int i = 0; i < designs(4); ++i) {
     const test::FiveBarDesign design = test::random_five_bar(random, false);
     SCOPED_TRACE(design.text());
-    expect_agreement(mechanism::parse_mechanism(design.text(), "random.yaml"), all_modes(loci::Engine::adaptive));
+    // On the lattice a side of the box passes where boundaries and singularities end arcs too. All that meets there is
+    // a true name of the end; which of them an engine sees inside the box is another matter.
+    expect_agreement(mechanism::parse_mechanism(design.text(), "random.yaml"), all_modes(loci::Engine::adaptive),
+                     test::EndsOnSides::by_place);
   }
 }
 
