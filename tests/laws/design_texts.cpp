@@ -1,7 +1,5 @@
 #include "tests/laws/design_texts.hpp"
 
-#include <cstdlib>
-
 namespace clearloci::test {
 
 std::string FiveBarDesign::text() const {
@@ -58,9 +56,7 @@ FiveBarDesign five_bar_on_the_lattice(std::mt19937& random, bool with_weights) {
 }  // namespace
 
 FiveBarDesign random_five_bar(std::mt19937& random, bool with_weights) {
-  // The laws do not hold on all of the lattice yet (docs/limitations.md).
-  if (std::getenv("CLEARLOCI_LATTICE") != nullptr && random() % 2 == 0)
-    return five_bar_on_the_lattice(random, with_weights);
+  if (random() % 2 == 0) return five_bar_on_the_lattice(random, with_weights);
   const auto in = [&random](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
   const auto quotient = [&](int low, int high, int denominator) {
     return std::to_string(in(low, high)) + "/" + std::to_string(denominator);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 #include "analysis/loci.hpp"
 #include "tests/laws/design_texts.hpp"
@@ -83,6 +85,49 @@ TEST(Engines, AgreeOnRandomDesigns) {
     expect_agreement(mechanism::parse_mechanism(design.text(), "random.yaml"), all_modes(loci::Engine::adaptive),
                      test::EndsOnSides::by_place);
   }
+}
+
+/// Lengths of the arcs, of all modes, of one kind on a circle.
+std::vector<double> lengths(const core::LocusMap& map, core::LocusKind kind,
+                            const std::array<core::Rational, 2>& centre, const core::Rational& radius) {
+  std::vector<double> list;
+  for (const core::LocusCurve& curve : map.curves) {
+    const auto* circle = std::get_if<core::CircleForm>(&curve.closed_form);
+    if (curve.kind != kind || circle == nullptr || circle->centre != centre) continue;
+    if (circle->radius_squared != radius * radius) continue;
+    for (const core::Arc& arc : curve.arcs) list.push_back(arc.length);
+  }
+  return list;
+}
+
+// Once wrong, each in one of the engines.
+TEST(Engines, AgreeOnDesignsOfTheCorpus) {
+  const auto kept = [](const std::string& name) {
+    return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
+  };
+  const LociRequest request = all_modes(loci::Engine::adaptive);
+  for (const std::string name : {"five_bar_node_at_touching_rims", "five_bar_singularity_leaves_the_box",
+                                 "five_bar_parallel_singularity", "five_bar_rim_half_singular"}) {
+    SCOPED_TRACE(name);
+    expect_agreement(kept(name), request, test::EndsOnSides::by_place);
+  }
+  // On the rim where leg 1 is folded, |P - A1| = 1/2, B2 may stand on A1, in line with B1 and P: in either mode of leg
+  // 2 |A| vanishes on one half of it. On the other the couple in A1 does.
+  const core::Rational quarter(1, 4);
+  const core::LocusMap half = trace_loci(kept("five_bar_rim_half_singular"), request);
+  const std::vector<double> halves = lengths(half, core::LocusKind::backlash, {quarter, quarter}, 2 * quarter);
+  EXPECT_EQ(halves.size(), 4u);
+  for (const double length : halves) EXPECT_NEAR(length, std::numbers::pi / 2, 1e-9);
+  // B1B2 is as long as A1A2 and stays parallel to it: P is on the circle of radius 3/4 about (-1/2, 1/4), with both
+  // elbows to the left on its lower half, to the right on the upper one, which the box cuts at y = 3/4.
+  const core::LocusMap parallel = trace_loci(kept("five_bar_parallel_singularity"), request);
+  std::vector<double> arcs =
+      lengths(parallel, core::LocusKind::direct_singularity, {-2 * quarter, quarter}, 3 * quarter);
+  std::sort(arcs.begin(), arcs.end());
+  ASSERT_EQ(arcs.size(), 3u);
+  EXPECT_NEAR(arcs[0], 0.75 * std::asin(0.5 / 0.75), 1e-9);
+  EXPECT_NEAR(arcs[1], arcs[0], 1e-9);
+  EXPECT_NEAR(arcs[2], 0.75 * std::numbers::pi, 1e-9);
 }
 
 /// Both boundaries' circles touch, from outside or from inside, on bases of several inclinations.

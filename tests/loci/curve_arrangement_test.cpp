@@ -60,6 +60,14 @@ TEST(CurveArrangement, WhatLeavesTheBoxAndComesBackIsCut) {
   }
 }
 
+TEST(CurveArrangement, AnEdgeFromASideToThatSideIsKeptWhereItRunsInside) {
+  // Below y = -3/4 the circle runs outside, below y = 3/4 inside: neither piece has a vertical tangent.
+  const CurveArrangement outside({circle(0, 0, 1)}, {-2, Rational(-3, 4)}, {2, 2});
+  EXPECT_EQ(edges_on(outside, 0), 3);  // the upper half, and from its ends down to the side
+  const CurveArrangement inside({circle(0, 0, 1)}, {-2, Rational(3, 4)}, {2, 2});
+  EXPECT_EQ(edges_on(inside, 0), 1);
+}
+
 TEST(CurveArrangement, AnIsolatedPointIsFoundEvenOnAnotherCurve) {
   // x^2 (x - 1) = y^2 has an isolated point in the origin, which lies on the line y = 0.
   const Polynomial cubic = core::primitive_part(x * x * (x - number(1)) - y * y);
