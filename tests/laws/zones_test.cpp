@@ -97,6 +97,56 @@ void expect_one_sign_a_zone(const mechanism::Mechanism& mechanism, const core::Z
   }
 }
 
+/// The zones of each mode, and what is said to be in doubt, make up its workspace as reached poses of a grid measure
+/// it; a pose that is not beside a curve lies in one zone if it is reached, and in none if not.
+void expect_partition(const mechanism::Mechanism& mechanism, const core::ZoneMap& map, std::mt19937& random) {
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  const core::LocusMap& loci = map.loci;
+  core::Point2 low{}, high{};
+  for (std::size_t c = 0; c < 2; ++c) low[c] = core::to_double(loci.lower[c]), high[c] = core::to_double(loci.upper[c]);
+  for (const core::ModeArea& account : map.areas) {
+    const std::vector<int> sides = numeric::dyad_signs(model, loci.tower, account.mode);
+    const auto reached = [&](const core::Point2& at) { return numeric::reachable(model, at, sides); };
+    // The error of counting nodes is half a cell for every cell that the rim crosses, and on the average far less.
+    constexpr int n = 200;
+    const double dx = (high[0] - low[0]) / n, dy = (high[1] - low[1]) / n;
+    int inside_it = 0, rim = 0;
+    std::vector<bool> row(n), below(n);
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < n; ++k) {
+        const auto here = static_cast<std::size_t>(k);
+        row[here] = reached({low[0] + (k + 0.5) * dx, low[1] + (i + 0.5) * dy});
+        inside_it += row[here] ? 1 : 0;
+        if (i > 0 && row[here] != below[here]) ++rim;
+        if (k > 0 && row[here] != row[here - 1]) ++rim;
+      }
+      below = row;
+    }
+    const double counted = inside_it * dx * dy, doubt = (0.25 * rim + 4) * dx * dy;
+    EXPECT_NEAR(account.workspace, counted, doubt);
+    EXPECT_NEAR(total_area(map, account.mode), counted, doubt);
+    EXPECT_EQ(account.in_doubt, 0);
+    const double size = std::max(high[0] - low[0], high[1] - low[1]);
+    for (int i = 0; i < 200; ++i) {
+      const auto between = [&](std::size_t c) {
+        return std::uniform_real_distribution<double>(low[c], high[c])(random);
+      };
+      const core::Point2 at = {between(0), between(1)};
+      const auto count = std::count_if(map.zones.begin(), map.zones.end(), [&](const core::Zone& zone) {
+        return zone.mode == account.mode && inside(zone, at);
+      });
+      const long wanted = reached(at) ? 1 : 0;
+      const bool beside = std::any_of(loci.curves.begin(), loci.curves.end(), [&](const core::LocusCurve& curve) {
+        return std::any_of(curve.arcs.begin(), curve.arcs.end(),
+                           [&](const core::Arc& arc) { return distance_to(arc.points, at) < 1e-4 * size; });
+      });
+      if (!beside) {
+        EXPECT_EQ(count, wanted) << at[0] << " " << at[1];
+      }
+    }
+  }
+}
+
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
   const core::ZoneMap map = find_zones(example("five_bar"));
   const auto home = std::find_if(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) {
@@ -136,6 +186,7 @@ TEST_P(ZonesOfExamples, HaveOneSignEachInEveryMode) {
   EXPECT_TRUE(certified(map));
   std::mt19937 random(20110577);
   expect_one_sign_a_zone(mechanism, map, random);
+  expect_partition(mechanism, map, random);
   // However many loci cut it, a workspace has one area.
   request.joints = {mechanism.joints.front().name};
   request.quantities = {core::Quantity::M};
@@ -151,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(All, ZonesOfExamples,
                                          "five_bar_isolated", "five_bar_weights"),
                          [](const auto& test) { return test.param; });
 
-TEST(ZonesOfRandomDesigns, HaveOneSignEach) {
+TEST(ZonesOfRandomDesigns, PartitionTheWorkspaceAndHaveOneSignEach) {
   const char* wanted = std::getenv("CLEARLOCI_DESIGNS");
   const int designs = wanted != nullptr ? std::atoi(wanted) : 12;
   std::mt19937 random(20110578);
@@ -161,7 +212,8 @@ TEST(ZonesOfRandomDesigns, HaveOneSignEach) {
     SCOPED_TRACE(design.text());
     const mechanism::Mechanism mechanism = mechanism::parse_mechanism(design.text(), "random.yaml");
     const core::ZoneMap map = find_zones(mechanism);
-    if (certified(map)) ++proven, expect_one_sign_a_zone(mechanism, map, random);
+    if (certified(map))
+      ++proven, expect_one_sign_a_zone(mechanism, map, random), expect_partition(mechanism, map, random);
   }
   // A weighted design in a hundred or so has curves that run closer together than doubles can tell.
   EXPECT_GE(proven, designs - designs / 50 - 1);
