@@ -15,6 +15,11 @@ constexpr double most_offset = 0.06;
 // Below this size, relative to the patch, multi-precision is worth its price where rounding is what hides a sign.
 constexpr double worth_precision = 1e-4;
 constexpr int cells_between_stops = 256;
+// Where cells cannot be decided, as along a double curve, halving all of them twice doubles their number. Where there
+// are no more than this many for each that there was, enclosures have begun to tell, and the budget is so many times as
+// large.
+constexpr double growth_in_sight = 1.7;
+constexpr int extended_budget = 8;
 
 /// A fixed sequence that looks random: in [-1, 1].
 double scatter(unsigned index, unsigned attempt) {
@@ -23,6 +28,27 @@ double scatter(unsigned index, unsigned attempt) {
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
   return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
 }
+
+/// The budget, while cells are examined generation by generation: the children of all cells that one of them left.
+class Budget {
+ public:
+  explicit Budget(int most_cells) : most_cells_(static_cast<std::size_t>(most_cells)) {}
+
+  /// Before cell `next` is examined, of `all` that there are.
+  void reach(std::size_t next, std::size_t all) {
+    if (next < end_of_generation_) return;
+    const std::size_t own = all - next;
+    in_sight_ = static_cast<double>(own) <= growth_in_sight * static_cast<double>(last_but_one_);
+    last_but_one_ = last_;
+    last_ = own;
+    end_of_generation_ = all;
+  }
+  bool allows(std::size_t all) const { return all < (in_sight_ ? extended_budget : 1) * most_cells_; }
+
+ private:
+  std::size_t most_cells_, end_of_generation_ = 0, last_ = 0, last_but_one_ = 0;
+  bool in_sight_ = false;
+};
 
 struct Judgement {
   LeafKind kind = LeafKind::undecided;
@@ -106,9 +132,11 @@ CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, c
 void CellTree::build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions& options) {
   const double size = std::max(domain().x.width(), domain().y.width());
   bool stopped = false;
+  Budget budget(options.most_cells);
   // Breadth first: a budget that runs out leaves cells of one size undecided instead of one corner.
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node node = nodes_[i];
+    budget.reach(i, nodes_.size());
     if (options.stop && i % cells_between_stops == 0) stopped = stopped || options.stop();
     Leaf leaf{node.cell};
     bool split = false;
@@ -126,7 +154,7 @@ void CellTree::build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions
       leaf.along = judgement.along;
       const double widths[2] = {node.cell.x.width(), node.cell.y.width()};
       const bool divisible = judgement.kind == LeafKind::undecided && std::max(widths[0], widths[1]) > smallest_;
-      const bool may_split = !stopped && static_cast<int>(nodes_.size()) < options.most_cells;
+      const bool may_split = !stopped && budget.allows(nodes_.size());
       cut_short_ = cut_short_ || (divisible && !may_split);
       if (divisible && may_split) {
         split = true;

@@ -262,7 +262,8 @@ class GraphBuilder {
     }
   }
 
-  /// Undecided leaves that touch: two branches that reach them are taken for one that passes, more for a node.
+  /// Undecided leaves that touch: two branches that reach them are taken for one that passes, more for a node. Where
+  /// they are no place but a region, branches end at it.
   void join_clusters(int patch) {
     const std::vector<Leaf>& leaves = graph_.patches[patch].tree->leaves();
     std::vector<int> parent(leaves.size());
@@ -289,6 +290,9 @@ class GraphBuilder {
       }
       graph_.undecided.push_back(chart.to_plane(place));
       graph_.clusters.push_back({patch, place, -1, branches.empty()});
+      const Cell& domain = graph_.patches[patch].domain;
+      if (std::max(place.x.width(), place.y.width()) > widest_place * std::max(domain.x.width(), domain.y.width()))
+        continue;
       if (branches.size() == 2) {
         graph_.stretches.push_back(
             {patch,

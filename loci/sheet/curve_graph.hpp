@@ -47,6 +47,9 @@ struct Stretch {
   StretchEnd ends[2];  ///< in ascending order of variable `along`
 };
 
+/// An undecided cluster wider than this, relative to the patch, is what a spent budget left: nothing to be seen yet.
+inline constexpr double widest_place = 1e-6;
+
 /// An undecided cluster: of size rounding, or what a spent budget left.
 struct Cluster {
   int patch = 0;

@@ -430,7 +430,7 @@ class Tracer {
       const Patch& patch = graph_.patches[cluster.patch];
       const double width = std::max(cluster.cell.x.width(), cluster.cell.y.width());
       const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
-      if (width > 1e-6 * size) continue;  // left by a spent budget: nothing to be seen yet
+      if (width > widest_place * size) continue;
       const std::optional<core::Point2> place = critical_point(*patch.program, own_.mode, cluster.cell, size);
       if (!place) continue;
       const core::Point2 at = patch.chart.to_plane((*place)[0], (*place)[1]);
