@@ -20,32 +20,45 @@ constexpr double share_of_length = 1e-3, least_distance = 1e-6;
 /// Exponents of t are multiples of a half: nearer than this to one they are taken for it.
 constexpr double exponent_doubt = 0.2;
 
-/// Interior points of an arc that are on its curve: vertices, or where there are but two the chord between them, for
-/// that arc is straight. With the direction of the arc.
+/// A point of an arc that is on its curve, with the direction of the arc there.
 struct ArcPlace {
   core::Point2 at{}, along{};
 };
 
-std::vector<ArcPlace> places_of(const core::Arc& arc) {
+ArcPlace place_between(const core::Point2& a, const core::Point2& b, const core::Point2& at) {
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+  return {at, {(b[0] - a[0]) / length, (b[1] - a[1]) / length}};
+}
+
+/// Inside of a single chord the curve is known to the map's tolerance only, where it is neither a line nor a circle.
+std::vector<ArcPlace> places_on_chord(const core::LocusCurve& curve, const core::Point2& a, const core::Point2& b,
+                                      std::span<const double> shares) {
+  const bool line = std::holds_alternative<core::LineForm>(curve.closed_form);
+  const std::optional<core::Circle> circle = core::circle_through(curve.closed_form, {a, b});
   std::vector<ArcPlace> places;
-  const auto& points = arc.points;
-  if (points.size() < 2) return places;
-  const auto along = [](const core::Point2& a, const core::Point2& b) {
-    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
-    return core::Point2{(b[0] - a[0]) / length, (b[1] - a[1]) / length};
-  };
+  for (const double share : shares) {
+    const core::Point2 at = {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+    if (line) places.push_back(place_between(a, b, at));
+    if (!circle) continue;
+    const double x = at[0] - circle->centre[0], y = at[1] - circle->centre[1], r = std::hypot(x, y);
+    places.push_back(
+        {{circle->centre[0] + circle->radius * x / r, circle->centre[1] + circle->radius * y / r}, {-y / r, x / r}});
+  }
+  return places;
+}
+
+/// Inner vertices, which are on the curve; or points of a single chord.
+std::vector<ArcPlace> places_of(const core::LocusCurve& curve, const core::Polyline& points) {
   // Off the middle, where symmetric designs have special poses.
-  for (const double share : {0.237, 0.419, 0.683}) {
-    if (points.size() == 2) {
-      places.push_back(
-          {{points[0][0] + share * (points[1][0] - points[0][0]), points[0][1] + share * (points[1][1] - points[0][1])},
-           along(points[0], points[1])});
-      continue;
-    }
-    const auto last = points.size() - 2;
+  constexpr std::array shares = {0.237, 0.419, 0.683};
+  if (points.size() < 2) return {};
+  if (points.size() == 2) return places_on_chord(curve, points[0], points[1], shares);
+  std::vector<ArcPlace> places;
+  const auto last = points.size() - 2;
+  for (const double share : shares) {
     const auto i =
         std::clamp<std::size_t>(static_cast<std::size_t>(share * static_cast<double>(points.size())), 1, last);
-    places.push_back({points[i], along(points[i - 1], points[i + 1])});
+    places.push_back(place_between(points[i - 1], points[i + 1], points[i]));
   }
   return places;
 }
@@ -67,15 +80,15 @@ Size size_of(const BoundedNumerators& at, const WitnessColumns& columns) {
 
 }  // namespace
 
-std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::Arc& arc,
-                                 double size) {
+std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::LocusCurve& curve,
+                                 const core::Arc& arc, double size) {
   std::vector<Approach> ways;
   double length = 0;
   for (std::size_t i = 1; i < arc.points.size(); ++i)
     length += std::hypot(arc.points[i][0] - arc.points[i - 1][0], arc.points[i][1] - arc.points[i - 1][1]);
   const double nearer = std::min(1.0, share_of_length * length / (distances.front() * size));
   if (nearer * distances.front() < least_distance) return ways;
-  for (const ArcPlace& place : places_of(arc)) {
+  for (const ArcPlace& place : places_of(curve, arc.points)) {
     for (const double side : {1.0, -1.0}) {
       Approach way{place.at, {-place.along[1], place.along[0]}, {}};
       for (const double distance : distances) {

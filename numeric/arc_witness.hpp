@@ -24,9 +24,10 @@ struct Approach {
 
 inline constexpr double approach_step = 1e-2;
 
-/// The ways to a few points of an arc, from either side. `size`: of the box, m.
-std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::Arc& arc,
-                                 double size);
+/// The ways to a few points of an arc of the curve, from either side; none where the arc is too short, or a single
+/// chord of which no point is known to be on the curve. `size`: of the box, m.
+std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::LocusCurve& curve,
+                                 const core::Arc& arc, double size);
 
 /// The reaction turns round between the two sides of the arc, `reach` away from it: the arc stands for a zero near by.
 bool turns_round(const NumericModel& model, std::span<const int> mode, const Approach& way,

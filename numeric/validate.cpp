@@ -268,8 +268,7 @@ class ModeValidation {
       const LocusCurve& curve = map_.curves[c];
       if (curve.mode != mode_ || curve.kind == LocusKind::margin) continue;
       for (const core::Arc& arc : curve.arcs) {
-        const std::vector<Approach> ways = approaches(model_, signs_, arc, diagonal_);
-        if (ways.empty()) continue;
+        const std::vector<Approach> ways = approaches(model_, signs_, curve, arc, diagonal_);
         const bool context = curve.kind == LocusKind::direct_singularity || curve.kind == LocusKind::workspace_boundary;
         for (std::size_t r = 0; r < reactions_.size(); ++r)
           if (!zero_[r]) judge_arc(c, ways, reactions_[r], context, report);
@@ -296,7 +295,8 @@ class ModeValidation {
   void judge_arc(std::size_t c, const std::vector<Approach>& ways, const CheckedReaction& checked, bool context,
                  ValidationReport& report) const {
     const bool claimed = checked.weights[c] != 0;
-    if (!claimed && !context) return;
+    if (ways.empty() && claimed) ++report.arcs_undecided;
+    if (ways.empty() || (!claimed && !context)) return;
     const Tally tally = tally_of(ways, checked.columns);
     const auto most = [&](std::size_t count) { return 2 * count > ways.size(); };
     const auto dispute = [&](const core::Point2& at) {
