@@ -147,6 +147,20 @@ class Squares {
     return result;
   }
 
+  /// In the field; nothing where it is no polynomial over the tower.
+  std::optional<Poly> quotient(Poly p, Poly divisor) const {
+    for (auto next = roots_.rbegin(); next != roots_.rend(); ++next) {
+      if (!divisor.depends_on(next->variable)) continue;
+      const auto [a, b] = split(divisor, *next);
+      const Poly conjugate = a - b * Poly::variable(p.ring(), next->variable);
+      p = reduce(p * conjugate);
+      divisor = reduce(a * a - b * b * next->square);
+    }
+    if (divisor.is_zero()) return std::nullopt;
+    Poly result(p.ring());
+    return p.divides(divisor, result) ? std::optional(result) : std::nullopt;
+  }
+
  private:
   static std::pair<Poly, Poly> split(const Poly& p, const TowerRoot& root) {
     std::vector<Poly> parts = p.coefficients(root.variable);
@@ -175,20 +189,6 @@ class Squares {
       constant = 1;
     }
     return SquareClass{constant, root.scaled(size)};
-  }
-
-  /// In the field; nothing where it is no polynomial over the tower.
-  std::optional<Poly> quotient(Poly p, Poly divisor) const {
-    for (auto next = roots_.rbegin(); next != roots_.rend(); ++next) {
-      if (!divisor.depends_on(next->variable)) continue;
-      const auto [a, b] = split(divisor, *next);
-      const Poly conjugate = a - b * Poly::variable(p.ring(), next->variable);
-      p = reduce(p * conjugate);
-      divisor = reduce(a * a - b * b * next->square);
-    }
-    if (divisor.is_zero()) return std::nullopt;
-    Poly result(p.ring());
-    return p.divides(divisor, result) ? std::optional(result) : std::nullopt;
   }
 
   const std::vector<TowerRoot>& roots_;
@@ -236,6 +236,10 @@ SquareTest square_class(const Poly& p, int coordinates, const std::vector<TowerR
     core::ensure(squares.reduce(found->root * found->root).scaled(found->constant) == p, "a root's square is its own");
   const bool open = !found && squares.open();
   return {std::move(found), open};
+}
+
+std::optional<Poly> quotient_over_tower(const Poly& p, const Poly& divisor, const std::vector<TowerRoot>& roots) {
+  return Squares(roots).quotient(p, divisor);
 }
 
 int sign_over_box(const core::Polynomial& p, const std::vector<Rational>& lower, const std::vector<Rational>& upper) {

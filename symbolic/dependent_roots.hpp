@@ -30,6 +30,9 @@ struct SquareTest {
 };
 SquareTest square_class(const Poly& p, int coordinates, const std::vector<TowerRoot>& roots);
 
+/// p / divisor over a tower of such roots, both reduced; nothing where that is no polynomial over the tower.
+std::optional<Poly> quotient_over_tower(const Poly& p, const Poly& divisor, const std::vector<TowerRoot>& roots);
+
 /// +1 or -1 where a polynomial in the coordinates keeps that sign all over a box, as far as enclosures tell; 0 where it
 /// is not known to.
 int sign_over_box(const core::Polynomial& p, const std::vector<core::Rational>& lower,

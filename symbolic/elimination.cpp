@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "symbolic/dependent_roots.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -31,6 +32,8 @@ Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
   // What vanishes nowhere is divided out like a denominator, but is no place where the mode may change.
   const auto& units = geometry.positive_units();
   known_denominators_.insert(known_denominators_.end(), units.begin(), units.end());
+  for (const TowerRoot& root : geometry.roots())
+    if (!root.value || root.square.constant() != 1) independent_roots_.push_back(root);
 }
 
 const Poly& Elimination::over_tower(const Poly& natural) const {
@@ -91,10 +94,27 @@ Poly Elimination::strip_denominators(Poly p) const {
   return p;
 }
 
+std::vector<PolyFactor> Elimination::split_at_folds(Poly sheet) const {
+  Rational constant;
+  std::vector<PolyFactor> folds;
+  for (const Fold& fold : geometry_->folds())
+    for (const PolyFactor& part : fold.where.factors(constant)) {
+      PolyFactor found{part.poly, 0};
+      while (std::optional<Poly> rest = quotient_over_tower(sheet, part.poly, independent_roots_)) {
+        sheet = strip_denominators(std::move(*rest));
+        ++found.multiplicity;
+      }
+      if (found.multiplicity > 0) folds.push_back(std::move(found));
+    }
+  std::vector<PolyFactor> factors = sheet.factors(constant);
+  factors.insert(factors.end(), folds.begin(), folds.end());
+  return factors;
+}
+
 std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with_implicit) const {
   std::vector<SheetFactor> result;
-  Rational constant;
-  for (const PolyFactor& factor : strip_denominators(sheet).factors(constant)) {
+  std::vector<PolyFactor> factors = split_at_folds(strip_denominators(sheet));
+  for (const PolyFactor& factor : factors) {
     if (!has_free_coordinate(factor.poly) || is_denominator(factor.poly)) continue;
     SheetFactor entry{factor.poly, factor.multiplicity, {}};
     if (with_implicit && is_too_heavy(factor.poly)) {

@@ -58,14 +58,19 @@ class Elimination {
 
  private:
   void eliminate(Poly p, std::vector<Poly>& found) const;
+  /// The factors of a sheet polynomial. Over a tower elements have no unique factors, but where a root depends on
+  /// earlier ones numerators and |A| share the element in whose sign it differs: that is divided out as often as it
+  /// goes.
+  std::vector<PolyFactor> split_at_folds(Poly sheet) const;
   bool is_denominator(const Poly& irreducible) const;
   bool has_free_coordinate(const Poly& p) const;
   Poly strip_denominators(Poly p) const;
 
   const Geometry* geometry_;
   mutable std::list<std::pair<Poly, Poly>> over_tower_;  ///< what has been asked for: many numerators share factors
-  std::vector<Poly> known_denominators_;                 ///< over the tower
-  std::vector<Poly> denominator_factors_;                ///< irreducible, in the free coordinates
+  std::vector<TowerRoot> independent_roots_;
+  std::vector<Poly> known_denominators_;   ///< over the tower
+  std::vector<Poly> denominator_factors_;  ///< irreducible, in the free coordinates
 };
 
 }  // namespace clearloci::symbolic
