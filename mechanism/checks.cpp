@@ -282,15 +282,15 @@ void check_axes(const Mechanism& mechanism) {
         throw InputError(joint.where, name + " of joint " + joint.name + " is zero in every pose",
                          "write a vector with a direction");
       // An axis that the ground holds stands still: of a universal joint the ground's own, of others the one axis.
-      const LinkIndex holder = joint.type == JointType::universal ? (i == 0 ? joint.from : joint.to)
-                               : joint.from == ground             ? joint.from
-                                                                  : joint.to;
+      const LinkIndex holder = joint.axes.size() == 2 ? (i == 0 ? joint.from : joint.to)
+                               : joint.from == ground ? joint.from
+                                                      : joint.to;
       if (sampled && holder == ground && greatest - least > 1e-9)
         throw InputError(joint.where,
                          name + " of joint " + joint.name + " is fixed in the ground, but turns over the workspace",
                          "write a direction that stands still");
     }
-    if (joint.type == JointType::universal) check_cross(mechanism, joint, spread_poses(mechanism, poses));
+    if (joint.axes.size() == 2) check_cross(mechanism, joint, spread_poses(mechanism, poses));
   }
 }
 

@@ -4,11 +4,12 @@
 
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
 
 namespace clearloci::mechanism {
 
 bool has_guide_ends(const Mechanism& mechanism, const Joint& joint) {
-  return mechanism.space == Space::planar && joint.type == JointType::prismatic && joint.clearance &&
+  return is_guide(mechanism, joint) && joint.clearance &&
          core::to_double(value_of(joint.clearance->half_length, mechanism)) > 0;
 }
 

@@ -1,5 +1,7 @@
 #include "mechanism/mechanism.hpp"
 
+#include "mechanism/joint_traits.hpp"
+
 namespace clearloci::mechanism {
 
 using core::Quantity;
@@ -12,46 +14,37 @@ const Joint& joint_of(const Mechanism& mechanism, JointIndex joint) {
 
 }  // namespace
 
-std::string to_string(JointType type) {
-  switch (type) {
-    case JointType::revolute:
-      return "revolute";
-    case JointType::prismatic:
-      return "prismatic";
-    case JointType::universal:
-      return "universal";
-    case JointType::spherical:
-      return "spherical";
-    case JointType::cylindrical:
-      return "cylindrical";
-  }
-  return {};
-}
+std::string to_string(JointType type) { return std::string(traits(type).name); }
 
 std::vector<Quantity> force_components(const Mechanism& mechanism, const Joint& joint) {
-  if (joint.type == JointType::prismatic) return {};
-  if (joint.type == JointType::cylindrical) return {Quantity::f1, Quantity::f2};
+  if (!traits(joint).pinned) return {};
+  if (traits(joint).slides) return {Quantity::f1, Quantity::f2};
   if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
   return {Quantity::fx, Quantity::fy, Quantity::fz};
 }
 
 std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint) {
-  if (mechanism.space == Space::planar && joint.type == JointType::prismatic) return {Quantity::N, Quantity::T};
-  std::vector<Quantity> components = force_components(mechanism, joint);
-  if (joint.type == JointType::prismatic && joint.actuated) components = {Quantity::fx, Quantity::fy, Quantity::fz};
-  if (joint.type == JointType::prismatic && !joint.actuated) components = {Quantity::f1, Quantity::f2};
-  if (mechanism.space == Space::planar || joint.type == JointType::spherical) return components;
-  std::vector<Quantity> couple = {Quantity::mx, Quantity::my, Quantity::mz};
-  if (joint.type == JointType::universal) couple = {Quantity::T};
-  if (joint.type == JointType::cylindrical || (joint.type == JointType::revolute && !joint.actuated))
-    couple = {Quantity::m1, Quantity::m2};
-  components.insert(components.end(), couple.begin(), couple.end());
+  if (is_guide(mechanism, joint)) return {Quantity::N, Quantity::T};
+  if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
+  const JointTraits& own = traits(joint);
+  // An actuator takes the place of what the joint does not bear along or about its axis.
+  const bool whole_force = !own.slides || joint.actuated;
+  const bool whole_couple = own.couple == BorneCouple::any || (!own.slides && joint.actuated);
+  std::vector<Quantity> components = {Quantity::f1, Quantity::f2};
+  if (whole_force) components = {Quantity::fx, Quantity::fy, Quantity::fz};
+  const auto add = [&](std::initializer_list<Quantity> couple) {
+    components.insert(components.end(), couple.begin(), couple.end());
+  };
+  if (whole_couple)
+    add({Quantity::mx, Quantity::my, Quantity::mz});
+  else if (own.couple == BorneCouple::across_axis)
+    add({Quantity::m1, Quantity::m2});
+  else if (own.couple == BorneCouple::cross)
+    add({Quantity::T});
   return components;
 }
 
-Quantity actuator_quantity(const Joint& joint) {
-  return joint.type == JointType::prismatic ? Quantity::F : Quantity::M;
-}
+Quantity actuator_quantity(const Joint& joint) { return traits(joint).actuator.value_or(Quantity::M); }
 
 std::vector<Unknown> unknowns(const Mechanism& mechanism) {
   std::vector<Unknown> columns;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
@@ -9,27 +10,22 @@ namespace {
 
 using core::InputError;
 
-const std::vector<JointType> joint_types = {JointType::revolute, JointType::prismatic, JointType::universal,
-                                            JointType::spherical, JointType::cylindrical};
-
 std::string link_text(const Mechanism& mechanism, LinkIndex link) {
   return link == ground ? "ground" : "link " + mechanism.links[static_cast<std::size_t>(link)].name;
 }
 
 /// The type of a joint, by the key that names its links.
 JointType read_type(const Mechanism& mechanism, const Entry& entry) {
-  std::vector<std::string> known;
   std::optional<JointType> found;
-  for (const JointType type : joint_types) {
-    known.push_back(to_string(type));
+  for (const JointTraits& type : joint_types()) {
     if (!entry.value.is_map()) continue;
     for (const Entry& part : entries(entry.value)) {
-      if (part.key != known.back()) continue;
+      if (part.key != type.name) continue;
       if (found)
         throw InputError(part.where, "joint " + entry.key + " is " + to_string(*found) + " and " + part.key,
                          "describe one joint an entry");
-      found = type;
-      if (mechanism.space == Space::planar && type != JointType::revolute && type != JointType::prismatic)
+      found = type.type;
+      if (mechanism.space == Space::planar && !type.in_plane)
         throw InputError(part.where, "joint " + entry.key + " is " + part.key + ", a joint of spatial mechanisms",
                          "use revolute and prismatic joints in the plane, or write space: spatial");
     }
@@ -45,51 +41,37 @@ JointType read_type(const Mechanism& mechanism, const Entry& entry) {
   return found.value_or(JointType::revolute);
 }
 
-std::vector<std::string> joint_keys(const Mechanism& mechanism, JointType type) {
-  std::vector<std::string> keys = {to_string(type), "at"};
-  const bool planar = mechanism.space == Space::planar;
-  if (type == JointType::universal)
-    keys.emplace_back("axes");
-  else if (type == JointType::prismatic || (!planar && type != JointType::spherical))
-    keys.emplace_back("axis");
-  if (type == JointType::revolute || type == JointType::prismatic) keys.emplace_back("actuated");
+std::size_t axes_of(const Mechanism& mechanism, const JointTraits& type) {
+  return mechanism.space == Space::planar ? type.planar_axes : type.axes;
+}
+
+std::vector<std::string> joint_keys(const Mechanism& mechanism, const JointTraits& type) {
+  std::vector<std::string> keys = {std::string(type.name), "at"};
+  const std::size_t axes = axes_of(mechanism, type);
+  if (axes > 0) keys.emplace_back(axes == 1 ? "axis" : "axes");
+  if (type.actuator) keys.emplace_back("actuated");
   keys.emplace_back("clearance");
   return keys;
 }
 
 std::vector<VectorExpression> read_axes(const Mechanism& mechanism, const Joint& joint, const Mapping& mapping) {
-  if (joint.type == JointType::spherical) return {};
-  if (mechanism.space == Space::planar && joint.type == JointType::revolute) return {};
-  if (joint.type != JointType::universal) {
+  const std::size_t count = axes_of(mechanism, traits(joint));
+  if (count == 0) return {};
+  if (count == 1) {
     Value axis = mapping.at("axis");
     return {read_vector_expression(mechanism, axis)};
   }
   std::vector<VectorExpression> axes;
-  for (Value& axis : elements(mapping.at("axes"), 2)) {
+  for (Value& axis : elements(mapping.at("axes"), static_cast<int>(count))) {
     axis.what = "an axis of joint " + joint.name;
     axes.push_back(read_vector_expression(mechanism, axis));
   }
   return axes;
 }
 
-/// Which clearances a joint may have.
-std::vector<std::string> clearance_keys(const Mechanism& mechanism, const Joint& joint) {
-  switch (joint.type) {
-    case JointType::revolute:
-      return {"radial", "angular"};
-    case JointType::prismatic:
-      if (mechanism.space == Space::planar) return {"gap", "half_length", "axial"};
-      return {"axial"};
-    case JointType::universal:
-    case JointType::spherical:
-    case JointType::cylindrical:
-      return {"radial"};
-  }
-  return {};
-}
-
 Clearance read_clearance(const Mechanism& mechanism, const Value& value, const Joint& joint) {
-  const std::vector<std::string> keys = clearance_keys(mechanism, joint);
+  const bool planar = mechanism.space == Space::planar;
+  const std::vector<std::string>& keys = planar ? traits(joint).planar_clearances : traits(joint).clearances;
   const Mapping mapping(value, keys);
   const auto part = [&](const std::string& key) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) return Expression();
@@ -98,8 +80,8 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const J
     written->what = "the " + key + " clearance of joint " + joint.name;
     return read_number(mechanism, *written, key == "half_length" ? Sign::positive : Sign::not_negative).expression;
   };
-  if (joint.type == JointType::prismatic && mechanism.space == Space::planar && mapping.find("gap") &&
-      !mapping.find("half_length"))
+  const auto has = [&](const char* key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+  if (has("gap") && mapping.find("gap") && !mapping.find("half_length"))
     throw InputError(value.where, "joint " + joint.name + " has a gap but no half_length",
                      "add half_length: the distance from its point to either end of its contact, m");
   return {part("radial"), part("angular"), part("gap"), part("half_length"), part("axial")};
@@ -119,9 +101,8 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const J
 
 /// A pin is a point of both links that it joins; a slider's point travels along one of them.
 void check_place(const Mechanism& mechanism, const Joint& joint, const Value& at) {
-  const bool slides = joint.type == JointType::prismatic || joint.type == JointType::cylindrical;
   const bool on_from = is_on_link(mechanism, joint.at, joint.from), on_to = is_on_link(mechanism, joint.at, joint.to);
-  if (slides ? on_from || on_to : on_from && on_to) return;
+  if (traits(joint).slides ? on_from || on_to : on_from && on_to) return;
   refuse_joint_point(mechanism, joint, on_from ? joint.to : joint.from, at);
 }
 
@@ -132,7 +113,7 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   joint.where = entry.where;
   Value described = entry.value;
   described.what = "joint " + entry.key;
-  const Mapping mapping(described, joint_keys(mechanism, joint.type));
+  const Mapping mapping(described, joint_keys(mechanism, traits(joint)));
   const Value links = mapping.at(to_string(joint.type));
   std::vector<Value> names = elements(links, 2);
   for (Value& name : names) name.what = described.what;
@@ -146,8 +127,7 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   joint.at = read_point_name(mechanism, at);
   check_place(mechanism, joint, at);
   joint.axes = read_axes(mechanism, joint, mapping);
-  const bool may_be_actuated = joint.type == JointType::revolute || joint.type == JointType::prismatic;
-  if (const auto actuated = may_be_actuated ? mapping.find("actuated") : std::nullopt)
+  if (const auto actuated = traits(joint).actuator ? mapping.find("actuated") : std::nullopt)
     joint.actuated = boolean_of(*actuated);
   if (const auto clearance = mapping.find("clearance")) joint.clearance = read_clearance(mechanism, *clearance, joint);
   return joint;

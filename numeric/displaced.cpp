@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "mechanism/joint_traits.hpp"
 
 namespace clearloci::numeric {
 
@@ -207,7 +208,7 @@ class Iteration {
 ActualPose actual_pose(const NumericModel& model, const Posture& posture, const Accuracy& linear) {
   core::ensure(posture.reachable(), "the posture is reachable");
   for (const mechanism::Joint& joint : model.mechanism.joints) {
-    if (joint.type == mechanism::JointType::revolute) continue;
+    if (!mechanism::traits(joint).slides) continue;
     ActualPose refused;
     refused.reason = "joint " + joint.name + " is prismatic, and only revolute joints are closed with their clearances";
     return refused;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/reactions.hpp"
 
 namespace clearloci::numeric {
@@ -76,7 +77,7 @@ int crossings(const NumericModel& model, const Posture& posture) {
 std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture& posture, std::size_t joint_index) {
   const auto& m = model.mechanism;
   const mechanism::Joint& joint = m.joints[joint_index];
-  if (joint.type != mechanism::JointType::prismatic) return std::nullopt;
+  if (!mechanism::traits(joint).slides) return std::nullopt;
   const Point2& u = posture.axes[joint_index];
   const Point2& at = point_of(posture, joint.at);
   if (joint.from == mechanism::ground || joint.to == mechanism::ground) {
@@ -138,8 +139,8 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     if (const auto drawn = slide(model, p, j)) result.slides.push_back(*drawn);
   for (const auto& joint : m.joints) {
     // A slider on the ground has its rail.
-    const bool on_ground = joint.type != mechanism::JointType::prismatic &&
-                           (joint.from == mechanism::ground || joint.to == mechanism::ground);
+    const bool on_ground =
+        !mechanism::traits(joint).slides && (joint.from == mechanism::ground || joint.to == mechanism::ground);
     result.joints.push_back({joint.name, point_of(p, joint.at), on_ground, joint.actuated});
   }
   for (const auto& load : p.loads) {

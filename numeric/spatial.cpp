@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/tape.hpp"
 
 namespace clearloci::numeric {
@@ -16,7 +17,6 @@ namespace clearloci::numeric {
 namespace {
 
 using Eigen::Vector3d;
-using mechanism::JointType;
 using mechanism::Mechanism;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -97,7 +97,7 @@ class Solver {
       SpatialJoint& joint = result.joints[j];
       if (!m_.joints[j].axes.empty()) joint.axis = axis(m_.joints[j], 0);
       const SpatialReaction& r = result.posture.reactions[j];
-      const bool slides = joint.type == JointType::prismatic;
+      const bool slides = mechanism::traits(joint.type).slides;
       const Vector3d share = r.actuator * joint.axis;
       result.take_up.push_back(take_up(joint, {slides ? Vector3d(r.force + share) : r.force, r.couple + share},
                                        lost.empty() ? LostContact{} : lost[j]));
@@ -239,18 +239,18 @@ class Solver {
     const std::array<Vector3d, 3> unit = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
     const Vector3d u = joint.axes.empty() ? none : axis(joint, 0);
     const std::array<Vector3d, 2> across = {u.unitOrthogonal(), u.cross(u.unitOrthogonal())};
-    const bool slides = joint.type == JointType::prismatic || joint.type == JointType::cylindrical;
-    if (slides)
+    const mechanism::JointTraits& own = mechanism::traits(joint);
+    if (own.slides)
       for (const Vector3d& v : across) force(v);
     else
       for (const Vector3d& v : unit) force(v);
-    if (joint.actuated && slides) columns_.push_back({j, u, none, true});
-    if (joint.type == JointType::prismatic)
+    if (joint.actuated && own.slides) columns_.push_back({j, u, none, true});
+    if (own.couple == mechanism::BorneCouple::any)
       for (const Vector3d& v : unit) couple(v);
-    if (joint.type == JointType::revolute || joint.type == JointType::cylindrical)
+    if (own.turns_about_axis())
       for (const Vector3d& v : across) couple(v);
-    if (joint.type == JointType::universal) couple(u.cross(axis(joint, 1)).normalized());
-    if (joint.actuated && !slides) columns_.push_back({j, none, u, true});
+    if (own.couple == mechanism::BorneCouple::cross) couple(u.cross(axis(joint, 1)).normalized());
+    if (joint.actuated && !own.slides) columns_.push_back({j, none, u, true});
   }
 
   Eigen::VectorXd loads(Eigen::Index size) const {

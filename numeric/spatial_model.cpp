@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/evaluator.hpp"
 #include "numeric/named_tape.hpp"
 
@@ -12,7 +13,6 @@ namespace clearloci::numeric {
 namespace {
 
 using core::Quantity;
-using mechanism::JointType;
 using mechanism::Mechanism;
 using Triple = std::array<Register, 3>;
 using Wrench = std::array<Register, 6>;
@@ -201,10 +201,10 @@ class SpatialModelBuilder {
     const Triple r = arm(joint.at);
     const auto first = static_cast<int>(unknowns_.size());
     for (std::size_t c = 0; c < 3; ++c) add_unknown(j, forces[c], force_at(r, direction(c)));
-    const bool slides = joint.type == JointType::prismatic || joint.type == JointType::cylindrical;
-    if (slides) add_side_equation(j, first, Quantity::F, joint.actuated);
-    if (joint.type == JointType::spherical) return;
-    if (joint.type == JointType::universal) {
+    const mechanism::JointTraits& own = mechanism::traits(joint);
+    if (own.slides) add_side_equation(j, first, Quantity::F, joint.actuated);
+    if (own.couple == mechanism::BorneCouple::none) return;
+    if (own.couple == mechanism::BorneCouple::cross) {
       const Triple n = unit(cross(vector(joint.axes.at(0)), vector(joint.axes.at(1))));
       add_unknown(j, Quantity::T, {zero_, zero_, zero_, n[0], n[1], n[2]});
       return;
@@ -214,8 +214,7 @@ class SpatialModelBuilder {
       const Triple e = direction(c);
       add_unknown(j, couples[c], {zero_, zero_, zero_, e[0], e[1], e[2]});
     }
-    if (joint.type == JointType::revolute) add_side_equation(j, couple, Quantity::M, joint.actuated);
-    if (joint.type == JointType::cylindrical) add_side_equation(j, couple, Quantity::M, false);
+    if (own.turns_about_axis()) add_side_equation(j, couple, Quantity::M, joint.actuated && !own.slides);
   }
 
   void add(SparseEquations& e, int link, int component, int column, Register value) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanism/joint_traits.hpp"
 #include "numeric/evaluator.hpp"
 
 namespace clearloci::numeric {
@@ -17,11 +18,8 @@ namespace {
 using core::Quantity;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using mechanism::JointType;
 
-bool slides(const SpatialJoint& joint) {
-  return joint.type == JointType::prismatic || joint.type == JointType::cylindrical;
-}
+bool slides(const SpatialJoint& joint) { return mechanism::traits(joint.type).slides; }
 
 /// One clearance: the end effector moves by `way` times any vector of length up to one.
 using Reach = Eigen::Matrix<double, 6, 3>;
@@ -30,7 +28,7 @@ std::vector<Reach> reaches(const std::vector<SpatialJoint>& joints, const std::v
   std::vector<Reach> all;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const SpatialJoint& joint = joints[j];
-    const bool about_axis = joint.type == JointType::revolute || joint.type == JointType::cylindrical;
+    const bool about_axis = mechanism::traits(joint.type).turns_about_axis();
     const Matrix3d across =
         Matrix3d::Identity() - (about_axis ? Matrix3d(joint.axis * joint.axis.transpose()) : Matrix3d::Zero());
     if (joint.presses()) all.emplace_back(joint.clearance.radial * influence[j].force * across);
@@ -188,7 +186,7 @@ double farthest(const Support& support, double accuracy) {
 }  // namespace
 
 Vector3d SpatialJoint::pressing(const Vector3d& force) const {
-  const bool about_axis = type == JointType::revolute || type == JointType::cylindrical;
+  const bool about_axis = mechanism::traits(type).turns_about_axis();
   return about_axis ? Vector3d(force - axis.dot(force) * axis) : force;
 }
 
@@ -235,7 +233,7 @@ std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<cons
   for (std::size_t j = 0; j < joints.size() && !singular; ++j) {
     const SpatialJoint& joint = joints[j];
     std::array<Bounded, 3> force = {part(j, Quantity::fx), part(j, Quantity::fy), part(j, Quantity::fz)};
-    if (joint.type == JointType::revolute || joint.type == JointType::cylindrical) {
+    if (mechanism::traits(joint.type).turns_about_axis()) {
       std::array<Bounded, 3> u;
       for (std::size_t c = 0; c < 3; ++c) u[c] = evaluator.value((*model.space_axes[j])[c], 0);
       const Bounded along = force[0] * u[0] + force[1] * u[1] + force[2] * u[2];

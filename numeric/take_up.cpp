@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
 
 namespace clearloci::numeric {
 
@@ -13,9 +14,9 @@ std::vector<JointClearance> joint_clearances(const mechanism::Mechanism& mechani
     JointClearance clearance;
     if (joint.clearance) {
       const auto value = [&](const core::Expression& e) { return core::to_double(mechanism::value_of(e, mechanism)); };
-      const bool prismatic = joint.type == mechanism::JointType::prismatic;
       clearance.radial = value(joint.clearance->radial);
-      if (joint.actuated) clearance.angular = value(prismatic ? joint.clearance->axial : joint.clearance->angular);
+      if (joint.actuated)
+        clearance.angular = value(mechanism::traits(joint).slides ? joint.clearance->axial : joint.clearance->angular);
       clearance.gap = value(joint.clearance->gap);
       clearance.half_length = value(joint.clearance->half_length);
     }

@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/take_up.hpp"
 
 namespace clearloci::numeric {
@@ -56,9 +57,8 @@ std::vector<Bounded> TaskWitness::parts_of(const core::TaskDemand& demand, const
   }
   std::vector<Quantity> quantities = {demand.quantity};
   if (demand.quantity == Quantity::f)
-    quantities = joint->type == mechanism::JointType::prismatic
-                     ? mechanism::reaction_components(model.mechanism, *joint)
-                     : std::vector{Quantity::fx, Quantity::fy, Quantity::fz};
+    quantities = mechanism::is_guide(model.mechanism, *joint) ? mechanism::reaction_components(model.mechanism, *joint)
+                                                              : std::vector{Quantity::fx, Quantity::fy, Quantity::fz};
   std::vector<Bounded> parts;
   for (const Quantity quantity : quantities)
     if (column_of(model, index, quantity) >= 0) parts.push_back(value(quantity));

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/fold.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "symbolic/angle_range.hpp"
 #include "symbolic/causes.hpp"
 #include "symbolic/determinants.hpp"
@@ -141,7 +142,7 @@ class Derivation {
       result_.problem.joint_order.push_back(joint.name);
       result_.problem.force_components.push_back(mechanism::force_components(m, joint));
       // A guide whose ends are not known loses its contact where it bears nothing at all.
-      const bool guide = m.space == mechanism::Space::planar && joint.type == mechanism::JointType::prismatic;
+      const bool guide = mechanism::is_guide(m, joint);
       if (guide && numerator(reactions_, joint.name, Quantity::end_ahead) == nullptr)
         result_.problem.force_components.back() = mechanism::reaction_components(m, joint);
     }

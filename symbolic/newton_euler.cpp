@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "mechanism/joint_traits.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -104,7 +105,7 @@ Wrench unit_wrench(const Geometry& geometry, const mechanism::Joint& joint, Quan
     case Quantity::M:
       return couple(axis_vector(2));
     case Quantity::T:
-      if (joint.type != mechanism::JointType::universal) return couple(axis_vector(2));
+      if (mechanism::traits(joint).couple != mechanism::BorneCouple::cross) return couple(axis_vector(2));
       return couple(cross(axis(0), axis(1)));
     case Quantity::N:
       return force_at(r, cross(axis_vector(2), axis(0)));
@@ -133,7 +134,7 @@ class Equations {
     result_.unknowns = mechanism::unknowns(m_);
     const auto size = static_cast<unsigned>(m_.links.size() * rows_.components.size());
     const auto columns = static_cast<unsigned>(result_.unknowns.size());
-    check_square(size, columns);
+    core::ensure(size == columns, "mechanisms whose equations are not square are not read");
     result_.matrix = GiNaC::matrix(size, columns);
     result_.loads = GiNaC::matrix(size, 1);
     for (unsigned column = 0; column < columns; ++column) write_column(column);
@@ -144,15 +145,6 @@ class Equations {
   }
 
  private:
-  void check_square(unsigned rows, unsigned columns) const {
-    if (rows == columns) return;
-    throw core::InputError({m_.file},
-                           "the equations are not square: " + std::to_string(columns) + " unknown reactions, " +
-                               std::to_string(rows) + " equations (" + std::to_string(m_.links.size()) + " links)",
-                           columns > rows ? "remove constraints or actuators: the mechanism is over-constrained"
-                                          : "add actuators or joints: the mechanism is under-actuated");
-  }
-
   void add(GiNaC::matrix& matrix, LinkIndex link, unsigned column, const Wrench& wrench, int sign) const {
     if (link == mechanism::ground) return;
     const auto first = static_cast<unsigned>(static_cast<std::size_t>(link) * rows_.components.size());

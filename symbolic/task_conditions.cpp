@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/guide_ends.hpp"
@@ -49,7 +50,7 @@ class Conditions {
   void add(const TaskDemand& demand) {
     const mechanism::Joint& joint = joint_named(demand.joint);
     std::vector<Quantity> quantities = {demand.quantity};
-    const bool guide = mechanism_.space == mechanism::Space::planar && joint.type == mechanism::JointType::prismatic;
+    const bool guide = mechanism::is_guide(mechanism_, joint);
     if (demand.quantity == Quantity::f)
       quantities =
           guide ? mechanism::reaction_components(mechanism_, joint) : mechanism::force_components(mechanism_, joint);

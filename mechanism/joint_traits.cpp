@@ -1,0 +1,47 @@
+#include "mechanism/joint_traits.hpp"
+
+#include <array>
+
+namespace clearloci::mechanism {
+
+std::span<const JointTraits> joint_types() {
+  using core::Quantity;
+  static const std::array<JointTraits, 5> table = {{
+      {.type = JointType::revolute,
+       .name = "revolute",
+       .in_plane = true,
+       .axes = 1,
+       .couple = BorneCouple::across_axis,
+       .actuator = Quantity::M,
+       .planar_clearances = {"radial", "angular"},
+       .clearances = {"radial", "angular"}},
+      {.type = JointType::prismatic,
+       .name = "prismatic",
+       .in_plane = true,
+       .planar_axes = 1,
+       .axes = 1,
+       .slides = true,
+       .pinned = false,
+       .couple = BorneCouple::any,
+       .actuator = Quantity::F,
+       .planar_clearances = {"gap", "half_length", "axial"},
+       .clearances = {"axial"}},
+      {.type = JointType::universal,
+       .name = "universal",
+       .axes = 2,
+       .couple = BorneCouple::cross,
+       .clearances = {"radial"}},
+      {.type = JointType::spherical, .name = "spherical", .clearances = {"radial"}},
+      {.type = JointType::cylindrical,
+       .name = "cylindrical",
+       .axes = 1,
+       .slides = true,
+       .couple = BorneCouple::across_axis,
+       .clearances = {"radial"}},
+  }};
+  return table;
+}
+
+const JointTraits& traits(JointType type) { return joint_types()[static_cast<std::size_t>(type)]; }
+
+}  // namespace clearloci::mechanism
