@@ -1,0 +1,27 @@
+# Makes the Debian packages, unpacks them into an empty folder and runs the program, an outside project and the module
+# from there. SOURCE/programs as of consumer.cmake.
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+file(REMOVE_RECURSE "${WORK}")
+file(MAKE_DIRECTORY "${WORK}/packages" "${WORK}/root")
+run(cpack --config "${BUILD}/CPackConfig.cmake" -B "${WORK}/packages")
+file(GLOB packages "${WORK}/packages/*.deb")
+list(LENGTH packages count)
+if(NOT count EQUAL PACKAGES)
+  message(FATAL_ERROR "${count} packages instead of ${PACKAGES}: ${packages}")
+endif()
+foreach(package IN LISTS packages)
+  run(dpkg-deb --extract "${package}" "${WORK}/root")
+endforeach()
+
+run("${WORK}/root/usr/bin/clearloci" loci "${MODEL}" -o "${WORK}/out" --quiet)
+if(NOT EXISTS "${WORK}/out/loci.svg")
+  message(FATAL_ERROR "the packaged program wrote no picture")
+endif()
+outside_project("${WORK}/root/usr")
+if(PACKAGES EQUAL 3)
+  run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${WORK}/root/usr/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1
+    "${PYTHON}" "${SOURCE}/zones_of.py" "${MODEL}")
+  if(NOT output MATCHES "[1-9][0-9]* zones")
+    message(FATAL_ERROR "the packaged module printed:\n${output}")
+  endif()
+endif()
