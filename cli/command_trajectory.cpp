@@ -4,24 +4,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "analysis/singular_modes.hpp"
+#include "analysis/trajectory.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "cli/time_limit.hpp"
-#include "cli/trajectory_pictures.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
-#include "mechanism/trajectory.hpp"
-#include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/trajectory.hpp"
 
 namespace clearloci::cli {
 namespace {
@@ -66,13 +63,11 @@ std::vector<double> parse_periods(const std::string& text, const mechanism::Mech
   return periods;
 }
 
-TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechanism& mechanism,
-                             const mechanism::Trajectory& trajectory) {
+TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
   TrajectoryRequest request;
-  request.mode = arguments.working_mode.empty() ? mechanism::working_mode(mechanism)
-                                                : parse_working_mode(arguments.working_mode, mechanism);
-  request.period = core::to_double(arguments.period.empty() ? trajectory.period
-                                                            : parse_positive(arguments.period, "--period", mechanism));
+  if (!arguments.working_mode.empty()) request.working_mode = parse_working_mode(arguments.working_mode, mechanism);
+  if (!arguments.period.empty())
+    request.period = core::to_double(parse_positive(arguments.period, "--period", mechanism));
   if (arguments.samples < 10 || arguments.samples > 10000000)
     throw core::InputError({.file = "--samples"}, fmt::format("{} instants a cycle", arguments.samples),
                            "give a number from 10 to 10000000");
@@ -89,60 +84,29 @@ TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechan
   return request;
 }
 
-std::vector<std::string> write_files(const std::set<std::string>& formats, const std::filesystem::path& folder,
-                                     const TrajectoryResult& result, const std::string& json, Progress& progress) {
-  std::vector<std::string> names;
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    report::write_atomically(folder / name, bytes);
-    names.push_back(name);
-  };
-  write("trajectory.json", json);
-  if (formats.contains("csv")) {
-    write("trajectory.csv", report::table_csv(result.columns.names, result.columns.columns));
-    if (result.sweep) {
-      const Columns table = sweep_columns(*result.sweep);
-      write("periods.csv", report::table_csv(table.names, table.columns));
-    }
-  }
-  const std::vector<report::NamedChart> charts = trajectory_charts(result);
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    progress.show(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(charts.size()), "pictures");
-    const auto draw = [&](const char* format, report::PictureFormat as) {
-      if (formats.contains(format)) write(charts[i].name + "." + format, report::chart(charts[i].chart, as));
-    };
-    draw("png", report::PictureFormat::png);
-    draw("svg", report::PictureFormat::svg);
-    draw("pdf", report::PictureFormat::pdf);
-  }
-  return names;
-}
-
 int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  if (mechanism.space == mechanism::Space::spatial)
-    throw core::InputError({.file = mechanism.file},
-                           "the mechanism is spatial, and trajectories are those of the plane",
-                           "solve single poses of it with clearloci pose");
+  require_plane_motion(mechanism);
   const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "trajectory.json", incomplete_body(name, "the motion was"));
   });
   Progress progress(arguments.common.quiet);
   progress.show(0, "dynamics");
-  const auto request = request_of(arguments, mechanism, trajectory);
-  require_regular(mechanism, request.mode);
-  const TrajectoryResult result = follow_trajectory(mechanism, trajectory, request);
-  const std::string json = report::json_text(trajectory_json(result));
+  const TrajectoryResult result = follow_trajectory(mechanism, trajectory, request_of(arguments, mechanism));
   limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
-  const std::vector<std::string> names = write_files(formats, folder, result, json, progress);
+  const std::vector<std::filesystem::path> files = report::write_trajectory(
+      result, folder, formats, [&](double fraction, std::string_view stage) { progress.show(fraction, stage); });
   progress.clear();
   if (arguments.common.json) {
-    fmt::print("{}", json);
+    fmt::print("{}", report::json_text(report::trajectory_object(result)));
   } else if (!arguments.common.quiet) {
-    print_trajectory(result);
-    fmt::print("\nWritten to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+    fmt::print("{}\nWritten to {}: {}\n", report::trajectory_text(result), core::printable(folder.string()),
+               fmt::join(names, ", "));
   }
   return exit_done;
 }

@@ -1,16 +1,16 @@
-// The pictures of `clearloci trajectory`.
+// The pictures of a trajectory.
+// Private to report/.
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "cli/trajectory_result.hpp"
+#include "clearloci/trajectory.hpp"
 #include "report/chart.hpp"
 
-namespace clearloci::cli {
+namespace clearloci::report {
 
 /// The path, nominal and actual; the error over distance; take-up angles, reactions and the motion over time; with a
 /// sweep, the error over distance and period. The charts refer to `result`, which must outlive them.
-std::vector<report::NamedChart> trajectory_charts(const TrajectoryResult& result);
+std::vector<NamedChart> trajectory_charts(const core::TrajectoryResult& result);
 
-}  // namespace clearloci::cli
+}  // namespace clearloci::report

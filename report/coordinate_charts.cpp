@@ -5,24 +5,23 @@
 #include <cmath>
 #include <numbers>
 
-#include "cli/coordinate_errors.hpp"
+#include "report/chart_lines.hpp"
+#include "report/coordinate_charts.hpp"
 #include "report/wording.hpp"
 
-namespace clearloci::cli {
+namespace clearloci::report {
 namespace {
-
-using report::Chart;
-using report::ChartPanel;
 
 enum MarkStyle { contact_mark, couple_mark, singularity_mark, boundary_mark };
 
 class ModeCharts {
  public:
-  ModeCharts(const CoordinateResult& result, const CoordinateErrors& errors) : result_(result), errors_(errors) {
-    const bool angle = result.mechanism.coordinates.front().angle;
+  ModeCharts(const core::CoordinateErrors& result, const core::CoordinateModeErrors& errors)
+      : result_(result), errors_(errors) {
+    const bool angle = result.angle;
     to_axis_ = angle ? 180 / std::numbers::pi : 1;
-    axis_ = report::printable(result.mechanism.coordinates.front().name) + (angle ? " (deg)" : " (m)");
-    for (const double value : errors.columns.columns.front()) at_.push_back(to_axis_ * value);
+    axis_ = printable(result.coordinate) + (angle ? " (deg)" : " (m)");
+    for (const double value : errors.samples.columns.front()) at_.push_back(to_axis_ * value);
   }
 
   Chart error() const {
@@ -31,12 +30,12 @@ class ModeCharts {
       ChartPanel panel;
       panel.y_label = unit;
       const std::string worst = std::string("worst_") + column;
-      if (errors_.columns.has(worst)) {
-        core::Polyline above = line(at_, errors_.columns.at(worst), 1e3), below = above;
+      if (errors_.samples.has(worst)) {
+        core::Polyline above = line(at_, errors_.samples.at(worst), 1e3), below = above;
         for (core::Point2& point : below) point[1] = -point[1];
         panel.series.push_back({"bound under any load", {std::move(above), std::move(below)}, -1, true});
       }
-      panel.series.push_back({label, {line(at_, errors_.columns.at(column), 1e3)}, number});
+      panel.series.push_back({label, {line(at_, errors_.samples.at(column), 1e3)}, number});
       panel.y_range = clipped_range(panel);
       chart.panels.push_back(std::move(panel));
     };
@@ -48,8 +47,8 @@ class ModeCharts {
 
   Chart take_up() const {
     Chart chart = frame("take-up");
-    for (std::size_t j = 0; j < result_.mechanism.joints.size(); ++j) {
-      const std::string& name = result_.mechanism.joints[j].name;
+    for (std::size_t j = 0; j < result_.joints.size(); ++j) {
+      const std::string& name = result_.joints[j];
       add_take_up(chart, "beta_" + name, "β of " + name, "β (deg)", 0, static_cast<int>(j));
       add_take_up(chart, "theta_" + name, "play of the drive " + name, "mrad", 1e3, static_cast<int>(j));
       add_take_up(chart, "travel_" + name, "play of the drive " + name, "µm", 1e6, static_cast<int>(j));
@@ -65,19 +64,17 @@ class ModeCharts {
     ChartPanel forces, couples;
     forces.y_label = "|f| (N)";
     couples.y_label = "N, N m";
-    const auto& joints = result_.mechanism.joints;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const std::string& name = joints[j].name;
-      if (errors_.columns.has("f" + name + "x")) {
-        const std::vector<double>&fx = errors_.columns.at("f" + name + "x"), &fy = errors_.columns.at("f" + name + "y");
-        std::vector<double> size;
-        for (std::size_t i = 0; i < fx.size(); ++i) size.push_back(std::hypot(fx[i], fy[i]));
+    for (std::size_t j = 0; j < result_.joints.size(); ++j) {
+      const std::string& name = result_.joints[j];
+      if (errors_.samples.has("f" + name + "x")) {
+        const std::vector<double> size =
+            lengths(errors_.samples.at("f" + name + "x"), errors_.samples.at("f" + name + "y"));
         forces.series.push_back({"f_" + name, {line(at_, size)}, static_cast<int>(j)});
       }
       for (const std::string quantity : {"M", "F", "N", "T"})
-        if (errors_.columns.has(quantity + name))
+        if (errors_.samples.has(quantity + name))
           couples.series.push_back(
-              {quantity + "_" + name, {line(at_, errors_.columns.at(quantity + name))}, static_cast<int>(j)});
+              {quantity + "_" + name, {line(at_, errors_.samples.at(quantity + name))}, static_cast<int>(j)});
     }
     for (ChartPanel* panel : {&forces, &couples}) {
       if (panel->series.empty()) continue;
@@ -91,14 +88,14 @@ class ModeCharts {
  private:
   Chart frame(const std::string& what) const {
     Chart chart;
-    chart.title = result_.mechanism.name + ": " + what;
-    chart.subtitle = report::mode_words(result_.loci.tower, errors_.mode);
+    chart.title = result_.mechanism + ": " + what;
+    chart.subtitle = mode_words(result_.loci.tower, errors_.mode);
     chart.x_label = axis_;
-    chart.degrees = result_.mechanism.coordinates.front().angle;
+    chart.degrees = result_.angle;
     const std::vector<double>& values = at_;
     chart.x_range = {values.front(), values.back()};
     chart.mark_labels = {"contact lost", "M = 0: backlash crossed", "direct singularity", "end of the reach"};
-    for (const CoordinateEvent& event : errors_.events) {
+    for (const core::ErrorEvent& event : errors_.events) {
       const core::LocusKind kind = event.point.kind;
       const int style = kind == core::LocusKind::contact_loss         ? contact_mark
                         : kind == core::LocusKind::backlash           ? couple_mark
@@ -112,8 +109,8 @@ class ModeCharts {
   /// A panel where the joint has that take-up; `factor` 0: an angle to be drawn in degrees.
   void add_take_up(Chart& chart, const std::string& column, const std::string& label, const char* unit, double factor,
                    int number) const {
-    if (!errors_.columns.has(column)) return;
-    const std::vector<double>& values = errors_.columns.at(column);
+    if (!errors_.samples.has(column)) return;
+    const std::vector<double>& values = errors_.samples.at(column);
     ChartPanel panel;
     panel.y_label = unit;
     panel.series.push_back({label, {factor == 0 ? angle_line(at_, values) : line(at_, values, factor)}, number});
@@ -134,7 +131,7 @@ class ModeCharts {
     constexpr double typical_part = 0.85, most = 4, room = 2;
     std::vector<double> sizes;
     bool signs[2] = {false, false};
-    for (const report::ChartSeries& series : panel.series)
+    for (const ChartSeries& series : panel.series)
       for (const core::Polyline& points : series.lines)
         for (const core::Point2& point : points)
           if (std::isfinite(point[1])) {
@@ -148,8 +145,8 @@ class ModeCharts {
     return std::array<double, 2>{signs[0] ? -room * typical : 0, signs[1] ? room * typical : 0};
   }
 
-  const CoordinateResult& result_;
-  const CoordinateErrors& errors_;
+  const core::CoordinateErrors& result_;
+  const core::CoordinateModeErrors& errors_;
   double to_axis_ = 1;
   std::string axis_;
   std::vector<double> at_;
@@ -157,12 +154,11 @@ class ModeCharts {
 
 }  // namespace
 
-std::vector<report::NamedChart> coordinate_charts(const CoordinateResult& result) {
-  std::vector<report::NamedChart> charts;
-  for (const CoordinateErrors& mode : result.modes) {
+std::vector<NamedChart> coordinate_charts(const core::CoordinateErrors& result) {
+  std::vector<NamedChart> charts;
+  for (const core::CoordinateModeErrors& mode : result.modes) {
     const ModeCharts own(result, mode);
-    const std::string which =
-        result.modes.size() > 1 ? "-" + report::mode_slug(result.loci.tower, mode.mode) : std::string();
+    const std::string which = result.modes.size() > 1 ? "-" + mode_slug(result.loci.tower, mode.mode) : std::string();
     charts.push_back({"error" + which, own.error()});
     charts.push_back({"take-up" + which, own.take_up()});
     charts.push_back({"reactions" + which, own.reactions()});
@@ -170,4 +166,4 @@ std::vector<report::NamedChart> coordinate_charts(const CoordinateResult& result
   return charts;
 }
 
-}  // namespace clearloci::cli
+}  // namespace clearloci::report

@@ -1,55 +1,53 @@
-#include "cli/trajectory_pictures.hpp"
+#include "report/trajectory_charts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace clearloci::cli {
-namespace {
+#include "report/chart_lines.hpp"
+#include "report/wording.hpp"
 
-using report::Chart;
-using report::ChartPanel;
-using report::NamedChart;
+namespace clearloci::report {
+namespace {
 
 enum MarkStyle { stop_mark, couple_mark, force_mark, jump_mark };
 
-std::string subtitle(const TrajectoryResult& result) {
-  const mechanism::Trajectory& trajectory = result.motion.timeline.trajectory;
-  return fmt::format("{}, {} law, period {:.4g} s", trajectory.name, to_string(trajectory.law.kind), result.period);
+std::string subtitle(const core::TrajectoryResult& result) {
+  return fmt::format("{}, {} law, period {:.4g} s", result.trajectory, result.law, result.period);
 }
 
-Chart frame(const TrajectoryResult& result, const std::string& what) {
+Chart frame(const core::TrajectoryResult& result, const std::string& what) {
   Chart chart;
-  chart.title = result.motion.model.mechanism.name + ": " + what;
+  chart.title = result.mechanism + ": " + what;
   chart.subtitle = subtitle(result);
   return chart;
 }
 
 /// Stops and contact losses, over time or distance.
-void add_marks(const TrajectoryResult& result, Chart& chart, bool over_time) {
-  chart.mark_labels = {"stop", "M = 0: backlash crossed", fmt::format("|f| down to {:.3g} N", result.thresholds.force),
+void add_marks(const core::TrajectoryResult& result, Chart& chart, bool over_time) {
+  chart.mark_labels = {"stop", "M = 0: backlash crossed", fmt::format("|f| down to {:.3g} N", result.min_force),
                        "reaction reversed at once"};
-  for (const numeric::Stage& stage : result.motion.timeline.stages)
-    chart.marks.push_back({over_time ? stage.end * result.period : stage.to, stop_mark});
-  for (const numeric::ContactLoss& loss : result.losses) {
-    const int style = loss.kind == numeric::LossKind::zero      ? couple_mark
-                      : loss.kind == numeric::LossKind::minimum ? force_mark
-                                                                : jump_mark;
+  for (const core::TrajectoryStage& stage : result.stages)
+    chart.marks.push_back({over_time ? stage.ends : stage.stops_at, stop_mark});
+  for (const core::ContactLoss& loss : result.losses) {
+    const int style = loss.kind == core::LossKind::zero      ? couple_mark
+                      : loss.kind == core::LossKind::minimum ? force_mark
+                                                             : jump_mark;
     chart.marks.push_back({over_time ? loss.time : loss.distance, style});
   }
 }
 
-NamedChart path_chart(const TrajectoryResult& result) {
+NamedChart path_chart(const core::TrajectoryResult& result) {
   Chart chart = frame(result, "path, nominal and actual");
   chart.x_label = "x (m)";
   chart.equal_scales = true;
   ChartPanel panel;
   panel.y_label = "y (m)";
-  const Columns& c = result.columns;
+  const core::Table& c = result.samples;
   panel.series.push_back({"nominal", {line(c.at("px"), c.at("py"))}, -1, true});
   const auto &x = c.at("actual_px"), &y = c.at("actual_py"), &stage = c.at("stage");
-  for (std::size_t k = 0; k < result.motion.timeline.stages.size(); ++k) {
+  for (std::size_t k = 0; k < result.stages.size(); ++k) {
     core::Polyline points;
     for (std::size_t i = 0; i < x.size(); ++i)
       if (stage[i] == static_cast<double>(k + 1)) points.push_back({x[i], y[i]});
@@ -59,10 +57,10 @@ NamedChart path_chart(const TrajectoryResult& result) {
   return {"trajectory-path", std::move(chart)};
 }
 
-NamedChart error_chart(const TrajectoryResult& result) {
+NamedChart error_chart(const core::TrajectoryResult& result) {
   Chart chart = frame(result, "pose error");
   chart.x_label = "distance along the path (m)";
-  const Columns& c = result.columns;
+  const core::Table& c = result.samples;
   const auto add = [&](const char* column, const char* label, const char* y_label, int number) {
     ChartPanel panel;
     panel.y_label = y_label;
@@ -76,13 +74,13 @@ NamedChart error_chart(const TrajectoryResult& result) {
   return {"trajectory-error", std::move(chart)};
 }
 
-NamedChart take_up_chart(const TrajectoryResult& result) {
+NamedChart take_up_chart(const core::TrajectoryResult& result) {
   Chart chart = frame(result, "direction of the take-up");
   chart.x_label = "time (s)";
-  const Columns& c = result.columns;
-  for (std::size_t j = 0; j < result.motion.columns.size(); ++j) {
-    if (!(result.motion.clearances[j].radial > 0)) continue;
-    const std::string& name = result.motion.model.mechanism.joints[j].name;
+  const core::Table& c = result.samples;
+  for (std::size_t j = 0; j < result.joints.size(); ++j) {
+    const std::string& name = result.joints[j];
+    if (!c.has("beta_" + name)) continue;
     ChartPanel panel;
     panel.y_label = "β (deg)";
     panel.degrees = true;
@@ -95,28 +93,20 @@ NamedChart take_up_chart(const TrajectoryResult& result) {
   return {"trajectory-take-up", std::move(chart)};
 }
 
-NamedChart reactions_chart(const TrajectoryResult& result) {
+NamedChart reactions_chart(const core::TrajectoryResult& result) {
   Chart chart = frame(result, "reactions");
   chart.x_label = "time (s)";
-  const Columns& c = result.columns;
+  const core::Table& c = result.samples;
   ChartPanel forces, couples;
   forces.y_label = "|f| (N)";
   couples.y_label = "M (N m)";
-  const auto& joints = result.motion.model.mechanism.joints;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const int fx = result.motion.columns[j].fx, fy = result.motion.columns[j].fy;
-    const int couple = result.motion.columns[j].couple;
-    const auto column = [&](int k) -> const std::vector<double>& {
-      return c.at(
-          unknown_name(result.motion.model.mechanism, result.motion.model.unknowns[static_cast<std::size_t>(k)]));
-    };
-    if (fx >= 0 && fy >= 0) {
-      std::vector<double> size;
-      for (std::size_t i = 0; i < column(fx).size(); ++i) size.push_back(std::hypot(column(fx)[i], column(fy)[i]));
-      forces.series.push_back({"f_" + joints[j].name, {line(c.at("time"), size)}, static_cast<int>(j)});
-    }
-    if (couple >= 0)
-      couples.series.push_back({"M_" + joints[j].name, {line(c.at("time"), column(couple))}, static_cast<int>(j)});
+  for (std::size_t j = 0; j < result.joints.size(); ++j) {
+    const std::string &name = result.joints[j], fx = "f" + name + "x", fy = "f" + name + "y";
+    if (c.has(fx) && c.has(fy))
+      forces.series.push_back({"f_" + name, {line(c.at("time"), lengths(c.at(fx), c.at(fy)))}, static_cast<int>(j)});
+    for (const char* const actuator : {"M", "F"})
+      if (c.has(actuator + name))
+        couples.series.push_back({"M_" + name, {line(c.at("time"), c.at(actuator + name))}, static_cast<int>(j)});
   }
   chart.panels.push_back(std::move(forces));
   if (!couples.series.empty()) chart.panels.push_back(std::move(couples));
@@ -125,10 +115,10 @@ NamedChart reactions_chart(const TrajectoryResult& result) {
   return {"trajectory-reactions", std::move(chart)};
 }
 
-NamedChart motion_chart(const TrajectoryResult& result) {
+NamedChart motion_chart(const core::TrajectoryResult& result) {
   Chart chart = frame(result, "motion of the end effector");
   chart.x_label = "time (s)";
-  const Columns& c = result.columns;
+  const core::Table& c = result.samples;
   const auto add = [&](const char* y_label, const std::string& ending, const std::string& what) {
     ChartPanel panel;
     panel.y_label = y_label;
@@ -143,7 +133,7 @@ NamedChart motion_chart(const TrajectoryResult& result) {
 }
 
 /// The sample at a distance: of the two at a seam, the one on that side.
-std::size_t sample_at(const numeric::PeriodSweep& sweep, double distance) {
+std::size_t sample_at(const core::PeriodSweep& sweep, double distance) {
   const auto right = std::upper_bound(sweep.distance.begin(), sweep.distance.end(), distance);
   if (right == sweep.distance.begin()) return 0;
   const auto k = static_cast<std::size_t>(right - sweep.distance.begin());
@@ -151,19 +141,21 @@ std::size_t sample_at(const numeric::PeriodSweep& sweep, double distance) {
   return distance - sweep.distance[k - 1] < sweep.distance[k] - distance ? k - 1 : k;
 }
 
-NamedChart sweep_chart(const TrajectoryResult& result, const std::string& name, const std::string& label,
+NamedChart sweep_chart(const core::TrajectoryResult& result, const std::string& name, const std::string& label,
                        const std::vector<double>& values, bool is_signed, const std::string& unit) {
-  const numeric::PeriodSweep& sweep = *result.sweep;
+  const core::PeriodSweep& sweep = *result.sweep;
   Chart chart = frame(result, label);
   chart.subtitle = "Free of contact loss above";
-  for (std::size_t k = 0; k < result.critical.size(); ++k)
-    chart.subtitle += std::isfinite(result.critical[k].period)
-                          ? fmt::format("{} {:.3g} s (stage {})", k == 0 ? "" : ",", result.critical[k].period, k + 1)
+  for (std::size_t k = 0; k < result.stages.size(); ++k) {
+    const double critical = result.stages[k].critical_period;
+    chart.subtitle += std::isfinite(critical)
+                          ? fmt::format("{} {:.3g} s (stage {})", k == 0 ? "" : ",", critical, k + 1)
                           : fmt::format("{} no period (stage {})", k == 0 ? "" : ",", k + 1);
+  }
   chart.x_label = "distance along the path (m)";
   const double half = sweep.periods.size() > 1 ? (sweep.periods[1] - sweep.periods[0]) / 2 : 0.5 * sweep.periods[0];
   const double lowest = sweep.periods.front() - half, highest = sweep.periods.back() + half;
-  chart.x_range = {0, result.motion.timeline.path.length()};
+  chart.x_range = {0, result.length};
   ChartPanel panel;
   panel.y_label = "period (s)";
   panel.y_range = {lowest, highest};
@@ -174,32 +166,32 @@ NamedChart sweep_chart(const TrajectoryResult& result, const std::string& name, 
                    return values[sweep.index(row, sample_at(sweep, x))];
                  }};
   int number = 0;
-  for (const numeric::LossCurve& curve : result.loss_curves) {
-    const std::string what = loss_name(result, curve.joint, curve.quantity);
+  for (const core::LossCurve& curve : result.loss_curves) {
+    const std::string what = reaction_name({curve.joint, curve.quantity});
     const bool is_number = curve.quantity != core::Quantity::f;
-    const std::string words = is_number ? what + " = 0" : fmt::format("|{}| = {:.3g} N", what, result.thresholds.force);
-    panel.series.push_back({words, curve.lines, is_number ? number++ : 2 + curve.joint, !is_number});
+    const std::string words = is_number ? what + " = 0" : fmt::format("|{}| = {:.3g} N", what, result.min_force);
+    const auto joint = std::find(result.joints.begin(), result.joints.end(), curve.joint) - result.joints.begin();
+    panel.series.push_back({words, curve.lines, is_number ? number++ : 2 + static_cast<int>(joint), !is_number});
   }
   chart.panels.push_back(std::move(panel));
-  for (const numeric::Stage& stage : result.motion.timeline.stages) chart.marks.push_back({stage.to, stop_mark});
+  for (const core::TrajectoryStage& stage : result.stages) chart.marks.push_back({stage.stops_at, stop_mark});
   chart.mark_labels = {"stop"};
   return {name, std::move(chart)};
 }
 
 }  // namespace
 
-std::vector<report::NamedChart> trajectory_charts(const TrajectoryResult& result) {
+std::vector<NamedChart> trajectory_charts(const core::TrajectoryResult& result) {
   std::vector<NamedChart> charts = {path_chart(result), error_chart(result), take_up_chart(result),
                                     reactions_chart(result), motion_chart(result)};
   if (!result.sweep) return charts;
-  const numeric::PeriodSweep& sweep = *result.sweep;
-  std::vector<double> distance;
-  for (std::size_t i = 0; i < sweep.dx.size(); ++i) distance.push_back(std::hypot(sweep.dx[i], sweep.dy[i]));
+  const core::PeriodSweep& sweep = *result.sweep;
   charts.push_back(sweep_chart(result, "periods-dx", "error in x", sweep.dx, true, "m"));
   charts.push_back(sweep_chart(result, "periods-dy", "error in y", sweep.dy, true, "m"));
   charts.push_back(sweep_chart(result, "periods-dalpha", "error in orientation", sweep.dalpha, true, "rad"));
-  charts.push_back(sweep_chart(result, "periods-dp", "distance from the nominal place", distance, false, "m"));
+  charts.push_back(
+      sweep_chart(result, "periods-dp", "distance from the nominal place", lengths(sweep.dx, sweep.dy), false, "m"));
   return charts;
 }
 
-}  // namespace clearloci::cli
+}  // namespace clearloci::report

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "analysis/error.hpp"
+#include "analysis/model.hpp"
+#include "analysis/singular_modes.hpp"
+#include "analysis/table_rows.hpp"
+#include "core/errors.hpp"
+#include "numeric/error_range.hpp"
+
+namespace clearloci {
+namespace {
+
+using numeric::RangePose;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+// How near to an event the lines are drawn, as a part of the range.
+constexpr double beside_event = 1e-9;
+
+/// The second half is the worst case.
+const std::array<ErrorComponent, 8> all_components = {
+    {{"dx", "error in x", "m"},
+     {"dy", "error in y", "m"},
+     {"dalpha", "error in orientation", "rad"},
+     {"dp", "distance from the nominal place", "m"},
+     {"worst_dx", "largest error in x under any load", "m"},
+     {"worst_dy", "largest error in y under any load", "m"},
+     {"worst_dalpha", "largest error in orientation under any load", "rad"},
+     {"worst_dp", "largest distance from the nominal place under any load", "m"}}};
+
+/// A jump this much smaller than the errors is none, but rounding.
+constexpr double least_jump = 1e-8;
+
+/// Where an error may jump: what vanishes there has its take-up reversed.
+bool jumps(const core::IsolatedPoint& point) {
+  return point.kind == core::LocusKind::contact_loss || point.kind == core::LocusKind::backlash;
+}
+
+std::vector<core::IsolatedPoint> events_of(const core::LocusMap& loci, const core::WorkingMode& mode) {
+  std::vector<core::IsolatedPoint> events;
+  for (const core::IsolatedPoint& point : loci.isolated_points)
+    if (point.mode == mode && point.kind != core::LocusKind::component && point.kind != core::LocusKind::margin)
+      events.push_back(point);
+  std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+  return events;
+}
+
+/// The range in equal steps, every event, and both sides of those at which the error may jump.
+std::vector<double> values_of(const std::array<double, 2>& range, int steps,
+                              const std::vector<core::IsolatedPoint>& events) {
+  const double width = range[1] - range[0], beside = beside_event * width;
+  std::vector<double> values;
+  for (int i = 0; i <= steps; ++i) values.push_back(i == steps ? range[1] : range[0] + width * i / steps);
+  for (const core::IsolatedPoint& event : events) {
+    const double at = event.at.front();
+    values.erase(std::remove_if(values.begin(), values.end(), [&](double v) { return std::abs(v - at) <= beside; }),
+                 values.end());
+    values.push_back(at);
+    if (!jumps(event)) continue;  // near a singularity values say how near, and nothing else
+    for (const double value : {at - beside, at + beside})
+      if (range[0] <= value && value <= range[1]) values.push_back(value);
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+void put_reactions(TableRows& row, const numeric::NumericModel& model, const RangePose& pose) {
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+    const double value = pose.reachable ? pose.accuracy.reactions.values(static_cast<Eigen::Index>(k)) : nan;
+    row.put(mechanism::unknown_name(model.mechanism, model.unknowns[k]), core::unit_of(model.unknowns[k].quantity),
+            std::isfinite(value) ? value : nan);
+  }
+}
+
+void put_take_up(TableRows& row, const numeric::NumericModel& model, const RangePose& pose) {
+  const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(model.mechanism);
+  const std::vector<numeric::JointColumns> unknowns = numeric::joint_columns(model);
+  for (std::size_t j = 0; j < clearances.size(); ++j) {
+    const std::string& name = model.mechanism.joints[j].name;
+    const numeric::TakeUp* own = pose.reachable ? &pose.accuracy.take_up[j] : nullptr;
+    const bool guide = unknowns[j].normal >= 0;
+    if (clearances[j].radial > 0) row.put("beta_" + name, "rad", own != nullptr && own->beta ? *own->beta : nan);
+    if (clearances[j].angular > 0 && unknowns[j].couple >= 0)
+      row.put((guide ? "travel_" : "theta_") + name, guide ? "m" : "rad",
+              own != nullptr && !own->couple_vanishes ? own->rotation : nan);
+    if (clearances[j].gap > 0) {
+      const bool known = own != nullptr && !own->guide_vanishes;
+      row.put("normal_" + name, "m", known ? own->normal : nan);
+      row.put("tilt_" + name, "rad", known ? own->tilt : nan);
+    }
+  }
+}
+
+core::Table table_of(const numeric::NumericModel& model, const std::vector<RangePose>& poses,
+                     const std::vector<core::IsolatedPoint>& events, const std::vector<ErrorComponent>& components) {
+  core::Table table;
+  TableRows row(table);
+  const mechanism::Coordinate& coordinate = model.mechanism.coordinates.front();
+  for (RangePose pose : poses) {
+    // On an event nothing is told: what has a limit there has the same one in the rows beside it.
+    const bool on_event = std::any_of(events.begin(), events.end(), [&](const auto& e) { return e.at[0] == pose.at; });
+    pose.reachable = pose.reachable && !on_event;
+    const numeric::PoseError& error = pose.accuracy.error;
+    const numeric::WorstCase& worst = pose.accuracy.worst;
+    const std::array values = {error.dx, error.dy, error.dalpha, error.dp(),
+                               worst.dx, worst.dy, worst.dalpha, worst.dp};
+    row.put(coordinate.name, coordinate.angle ? "rad" : "m", pose.at);
+    put_reactions(row, model, pose);
+    put_take_up(row, model, pose);
+    for (std::size_t c = 0; c < components.size(); ++c)
+      row.put(components[c].name, components[c].unit, pose.reachable && std::isfinite(values[c]) ? values[c] : nan);
+    row.end_row();
+  }
+  return table;
+}
+
+/// The error is smooth from an event to its neighbours, or to the ends of the range.
+double free_beside(const std::vector<core::IsolatedPoint>& events, std::size_t i, const std::array<double, 2>& range) {
+  const double at = events[i].at.front();
+  double free = range[1] - range[0];
+  for (const double end : range)
+    if (end != at) free = std::min(free, std::abs(end - at));
+  for (const core::IsolatedPoint& other : events)
+    if (other.at.front() != at) free = std::min(free, std::abs(other.at.front() - at));
+  return free;
+}
+
+/// The jump without what is rounding only.
+numeric::PoseError without_noise(numeric::PoseError jump, const core::Table& table) {
+  const auto largest = [&](const char* column) {
+    double most = 0;
+    for (const double value : table.at(column))
+      if (std::isfinite(value)) most = std::max(most, std::abs(value));
+    return most;
+  };
+  const double place = std::max(largest("dx"), largest("dy"));
+  for (double* part : {&jump.dx, &jump.dy})
+    if (std::abs(*part) <= least_jump * place) *part = 0;
+  if (std::abs(jump.dalpha) <= least_jump * largest("dalpha")) jump.dalpha = 0;
+  return jump;
+}
+
+}  // namespace
+
+CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
+  if (mechanism.coordinates.size() != 1)
+    throw core::InputError({mechanism.file}, "errors over a range need one free coordinate",
+                           "write the others as parameters");
+  CoordinateErrors all;
+  all.loci = loci_below(mechanism, request);
+  const std::vector<DyadSides> modes =
+      regular_modes(mechanism, requested_modes(mechanism, request.loci), all.loci.notes);
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  all.mechanism = mechanism.name;
+  all.coordinate = mechanism.coordinates.front().name;
+  all.angle = mechanism.coordinates.front().angle;
+  all.range = model.box.front();
+  all.steps = request.steps;
+  for (const mechanism::Joint& joint : mechanism.joints) all.joints.push_back(joint.name);
+  all.components.assign(all_components.begin(), all_components.begin() + (request.worst_case ? 8 : 4));
+  for (const DyadSides& sides : modes) {
+    CoordinateModeErrors own;
+    own.mode = mode_in(all.loci, sides);
+    const std::vector<core::IsolatedPoint> events = events_of(all.loci, own.mode);
+    const std::vector<RangePose> poses = numeric::error_range(model, sides, values_of(all.range, all.steps, events));
+    own.samples = table_of(model, poses, events, all.components);
+    for (const ErrorComponent& component : all.components)
+      own.sizes.push_back(sizes_of(own.samples.at(component.name)));
+    own.never_loaded = numeric::never_loaded(model, poses);
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      const numeric::PoseError jump = without_noise(
+          numeric::error_jump(model, sides, events[i].at.front(), free_beside(events, i, all.range)), own.samples);
+      own.events.push_back({events[i], jumps(events[i]), jump.dx, jump.dy, jump.dalpha});
+    }
+    all.modes.push_back(std::move(own));
+  }
+  return all;
+}
+
+CoordinateErrors coordinate_errors(const Model& model, const ErrorRequest& request) {
+  return coordinate_errors(model.content().mechanism, request);
+}
+
+}  // namespace clearloci

@@ -1,0 +1,323 @@
+#include "analysis/pose.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "analysis/model.hpp"
+#include "analysis/singular_modes.hpp"
+#include "core/errors.hpp"
+#include "core/rational.hpp"
+#include "numeric/displaced.hpp"
+#include "numeric/pose_error.hpp"
+#include "numeric/spatial.hpp"
+
+namespace clearloci {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A pose that was written in decimals stands for its exact value, which is no double: a pose on a locus is one.
+std::vector<numeric::Bounded> with_rounding(const std::vector<core::Rational>& exact) {
+  std::vector<numeric::Bounded> pose;
+  for (const core::Rational& value : exact) {
+    const double nearest = core::to_double(value);
+    pose.emplace_back(nearest, core::Rational(nearest) == value ? 0.0 : numeric::unit_roundoff * std::abs(nearest));
+  }
+  return pose;
+}
+
+/// The shortest decimal that reads back as the same double.
+core::Rational written(double value) {
+  if (!std::isfinite(value)) throw core::InputError({}, "a value of the pose is no finite number", "give m and rad");
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return core::rational_from_decimal({text.data(), static_cast<std::size_t>(end - text.data())});
+}
+
+void require_values(const mechanism::Mechanism& mechanism, std::size_t count) {
+  const std::size_t wanted = mechanism.coordinates.size();
+  if (count == wanted) return;
+  std::string names;
+  for (const mechanism::Coordinate& own : mechanism.coordinates) names += (names.empty() ? "" : ", ") + own.name;
+  throw core::InputError({mechanism.file},
+                         "a pose has " + std::to_string(wanted) + " values, not " + std::to_string(count),
+                         "give one for each free coordinate: " + names);
+}
+
+std::vector<PosePoint> named_points(const mechanism::Mechanism& mechanism, const auto& places) {
+  std::vector<PosePoint> points;
+  for (std::size_t i = 0; i < mechanism.points.size(); ++i)
+    if (!mechanism.points[i].auxiliary)
+      points.push_back({mechanism.points[i].name, std::vector<double>(places[i].begin(), places[i].end())});
+  return points;
+}
+
+std::string name_of(const mechanism::Mechanism& mechanism, mechanism::PointIndex point) {
+  return mechanism.points[static_cast<std::size_t>(point)].name;
+}
+
+// ---- Plane
+
+PoseError plane_error(const numeric::PoseError& error) { return {{error.dx, error.dy}, {error.dalpha}}; }
+
+/// Of the joints with a clearance.
+std::vector<JointTakeUp> plane_take_up(const mechanism::Mechanism& mechanism,
+                                       const std::vector<numeric::TakeUp>& take_up) {
+  const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
+  std::vector<JointTakeUp> list;
+  for (std::size_t j = 0; j < take_up.size(); ++j) {
+    const numeric::TakeUp& t = take_up[j];
+    const auto& [radial, angular, gap, half_length] = clearances[j];
+    if (radial == 0 && angular == 0 && gap == 0) continue;
+    JointTakeUp own;
+    own.joint = mechanism.joints[j].name;
+    if (mechanism.joints[j].type == mechanism::JointType::prismatic) {
+      if (gap > 0) own.normal = t.guide_vanishes ? nan : t.normal;
+      if (gap > 0) own.tilt = t.guide_vanishes ? nan : t.tilt;
+      if (angular > 0) own.axial = t.couple_vanishes ? nan : t.rotation;
+    } else {
+      const bool lost = t.force_vanishes && radial > 0;
+      own.displacement = {lost ? nan : t.displacement[0], lost ? nan : t.displacement[1]};
+      own.beta = t.beta.value_or(nan);
+      if (angular > 0) own.rotation = t.couple_vanishes ? nan : t.rotation;
+    }
+    list.push_back(std::move(own));
+  }
+  return list;
+}
+
+std::vector<JointReaction> plane_reactions(const numeric::NumericModel& model, const Eigen::VectorXd& values) {
+  std::vector<JointReaction> list;
+  for (const mechanism::Joint& joint : model.mechanism.joints) list.push_back({joint.name, {}});
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k)
+    list[static_cast<std::size_t>(model.unknowns[k].joint)].components.push_back(
+        {model.unknowns[k].quantity, values[static_cast<Eigen::Index>(k)]});
+  return list;
+}
+
+ActualPose actual_of(const numeric::NumericModel& model, const numeric::ActualPose& found) {
+  ActualPose actual;
+  actual.converged = found.converged;
+  actual.reason = found.reason;
+  if (!found.converged) return actual;
+  actual.error = plane_error(found.error);
+  actual.beyond_linear = plane_error(found.beyond_linear);
+  actual.take_up = plane_take_up(model.mechanism, found.take_up);
+  actual.iterations = found.iterations;
+  actual.residual = found.residual;
+  for (std::size_t i = 0; i < model.mechanism.links.size(); ++i) {
+    const mechanism::Link& link = model.mechanism.links[i];
+    DisplacedLink own{link.name, {}};
+    for (std::size_t k = 0; k < link.points.size(); ++k) {
+      const numeric::Point2& place = found.link_points[i][k];
+      own.points.push_back({name_of(model.mechanism, link.points[k]), {place[0], place[1]}});
+    }
+    actual.links.push_back(std::move(own));
+  }
+  return actual;
+}
+
+void solve_in_plane(const mechanism::Mechanism& mechanism, const std::vector<numeric::Bounded>& at,
+                    const DyadSides& sides, bool iterate, Pose& pose) {
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  const numeric::Posture posture = numeric::posture(model, pose.at, sides);
+  if (posture.unreachable) {
+    pose.unreachable = name_of(mechanism, *posture.unreachable);
+    return;
+  }
+  const numeric::Accuracy accuracy =
+      numeric::pose_accuracy(model, posture, numeric::vanishing_unknowns(model, at, sides));
+  const numeric::Bounded determinant = numeric::bounded_numerators(model, at, sides).determinant;
+  pose.points = named_points(mechanism, posture.points);
+  pose.reactions = plane_reactions(model, accuracy.reactions.values);
+  pose.determinant = accuracy.reactions.determinant;
+  pose.condition = accuracy.reactions.condition;
+  pose.singular = !(std::abs(determinant.value) > determinant.error);
+  pose.take_up = plane_take_up(mechanism, accuracy.take_up);
+  if (accuracy.undefined.empty()) pose.error = plane_error(accuracy.error);
+  const numeric::WorstCase& worst = accuracy.worst;
+  pose.worst = {{worst.dx, worst.dy}, {worst.dalpha}, worst.dp, worst.dalpha};
+  pose.undefined = accuracy.undefined;
+  pose.vanishing = numeric::lost_reactions(model, numeric::joint_clearances(mechanism), accuracy.take_up);
+  if (iterate) pose.actual = actual_of(model, numeric::actual_pose(model, posture, accuracy));
+}
+
+// ---- Space
+
+std::vector<double> components(const Eigen::Vector3d& v) { return {v(0), v(1), v(2)}; }
+
+std::vector<JointTakeUp> space_take_up(const mechanism::Mechanism& mechanism,
+                                       const numeric::SpatialAccuracy& accuracy) {
+  std::vector<JointTakeUp> list;
+  for (std::size_t j = 0; j < accuracy.joints.size(); ++j) {
+    const numeric::SpatialJoint& joint = accuracy.joints[j];
+    const numeric::SpatialTakeUp& t = accuracy.take_up[j];
+    if (!joint.presses() && !joint.plays()) continue;
+    JointTakeUp own;
+    own.joint = mechanism.joints[j].name;
+    if (joint.presses()) own.displacement = t.force_vanishes ? std::vector<double>(3, nan) : components(t.displacement);
+    if (joint.plays())
+      (joint.type == mechanism::JointType::prismatic ? own.axial : own.rotation) =
+          t.actuator_vanishes ? nan : t.actuator;
+    list.push_back(std::move(own));
+  }
+  return list;
+}
+
+JointReaction space_reaction(const mechanism::Joint& joint, const numeric::SpatialReaction& r) {
+  constexpr std::array forces = {core::Quantity::fx, core::Quantity::fy, core::Quantity::fz};
+  constexpr std::array couples = {core::Quantity::mx, core::Quantity::my, core::Quantity::mz};
+  JointReaction own{joint.name, {}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    own.components.push_back({forces[c], r.force(static_cast<Eigen::Index>(c))});
+    if (joint.type != mechanism::JointType::spherical)
+      own.components.push_back({couples[c], r.couple(static_cast<Eigen::Index>(c))});
+  }
+  if (joint.actuated) own.components.push_back({mechanism::actuator_quantity(joint), r.actuator});
+  return own;
+}
+
+std::vector<core::Vanishing> lost_in_space(const mechanism::Mechanism& mechanism,
+                                           const std::vector<numeric::SpatialTakeUp>& take_up) {
+  std::vector<core::Vanishing> lost;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
+    const mechanism::Joint& joint = mechanism.joints[j];
+    if (take_up[j].force_vanishes) lost.push_back({joint.name, core::Quantity::f});
+    if (take_up[j].actuator_vanishes) lost.push_back({joint.name, mechanism::actuator_quantity(joint)});
+  }
+  return lost;
+}
+
+void solve_in_space(const mechanism::Mechanism& mechanism, const std::vector<numeric::Bounded>& at,
+                    const DyadSides& sides, Pose& pose) {
+  if (const auto point = numeric::spatial_posture(mechanism, pose.at, sides).unreachable) {
+    pose.unreachable = name_of(mechanism, *point);
+    return;
+  }
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  const numeric::SpatialAccuracy accuracy =
+      numeric::spatial_accuracy(mechanism, pose.at, numeric::lost_contacts(model, sides, at), sides);
+  const numeric::Bounded determinant = numeric::bounded_numerators(model, at, sides).determinant;
+  pose.points = named_points(mechanism, accuracy.posture.points);
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    pose.reactions.push_back(space_reaction(mechanism.joints[j], accuracy.posture.reactions[j]));
+  pose.determinant = accuracy.posture.determinant;
+  pose.condition = accuracy.posture.condition;
+  pose.singular = !(std::abs(determinant.value) > determinant.error);
+  pose.take_up = space_take_up(mechanism, accuracy);
+  if (accuracy.undefined.empty()) pose.error = {components(accuracy.error.dp), components(accuracy.error.dalpha)};
+  pose.worst = {components(accuracy.worst.dp), components(accuracy.worst.dalpha), accuracy.worst.distance,
+                accuracy.worst.rotation};
+  pose.undefined = accuracy.undefined;
+  pose.vanishing = lost_in_space(mechanism, accuracy.take_up);
+}
+
+// ---- Many poses
+
+void add_column(const mechanism::Mechanism& mechanism, const mechanism::Unknown& unknown, std::vector<double> values,
+                Reactions& all) {
+  all.table.names.push_back(mechanism::unknown_name(mechanism, unknown));
+  all.table.units.push_back(core::unit_of(unknown.quantity));
+  all.table.columns.push_back(std::move(values));
+  all.joints.push_back(mechanism.joints[static_cast<std::size_t>(unknown.joint)].name);
+  all.quantities.push_back(unknown.quantity);
+}
+
+Reactions reactions_in_plane(const mechanism::Mechanism& mechanism, std::span<const double> poses,
+                             const DyadSides& sides) {
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  numeric::ReactionField field;
+  numeric::reaction_field(model, poses, sides, field);
+  Reactions all;
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+    std::vector<double> values(field.poses);
+    for (std::size_t i = 0; i < field.poses; ++i) values[i] = field.reaction(static_cast<int>(k), i);
+    add_column(mechanism, model.unknowns[k], std::move(values), all);
+  }
+  return all;
+}
+
+/// Pose by pose: the compiled equations of space have the actuator's share in the joint's force and couple.
+Reactions reactions_in_space(const mechanism::Mechanism& mechanism, std::span<const double> poses,
+                             const DyadSides& sides) {
+  const std::size_t count = poses.size() / mechanism.coordinates.size();
+  Reactions all;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (const ReactionComponent& component : space_reaction(mechanism.joints[j], {}).components)
+      add_column(mechanism, {static_cast<mechanism::JointIndex>(j), component.quantity},
+                 std::vector<double>(count, nan), all);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t width = mechanism.coordinates.size();
+    const numeric::SpatialPosture posture = numeric::spatial_posture(mechanism, poses.subspan(i * width, width), sides);
+    if (posture.unreachable) continue;
+    std::size_t column = 0;
+    for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+      for (const ReactionComponent& component : space_reaction(mechanism.joints[j], posture.reactions[j]).components)
+        all.table.columns[column++][i] = component.value;
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> named_mode(const mechanism::Mechanism& mechanism,
+                                                            const DyadSides& sides) {
+  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(mechanism);
+  std::vector<std::pair<std::string, std::string>> mode;
+  for (std::size_t j = 0; j < points.size(); ++j)
+    mode.emplace_back(name_of(mechanism, points[j]), mechanism::side_name(mechanism, points[j], sides[j]));
+  return mode;
+}
+
+DyadSides sides_of(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
+  DyadSides own = mechanism::working_mode(mechanism);
+  if (sides.empty()) return own;
+  const bool signs = std::all_of(sides.begin(), sides.end(), [](int side) { return side == 1 || side == -1; });
+  if (sides.size() != own.size() || !signs)
+    throw core::InputError({mechanism.file}, "the working mode is none of this mechanism",
+                           "give +1 or -1 for each of its " + std::to_string(own.size()) + " dyads and sliders");
+  return sides;
+}
+
+Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                const PoseRequest& request) {
+  const bool spatial = mechanism.space == mechanism::Space::spatial;
+  if (spatial && request.iterate)
+    throw core::InputError({mechanism.file}, "the pose error of a spatial mechanism is not iterated",
+                           "ask for the linear error");
+  require_values(mechanism, at.size());
+  const std::vector<numeric::Bounded> values = with_rounding(at);
+  const DyadSides sides = sides_of(mechanism, request.working_mode);
+  require_regular(mechanism, sides);
+  Pose pose;
+  pose.mechanism = mechanism.name;
+  for (const numeric::Bounded& value : values) pose.at.push_back(value.value);
+  pose.working_mode = named_mode(mechanism, sides);
+  if (spatial)
+    solve_in_space(mechanism, values, sides, pose);
+  else
+    solve_in_plane(mechanism, values, sides, request.iterate, pose);
+  return pose;
+}
+
+Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseRequest& request) {
+  std::vector<core::Rational> exact;
+  for (const double value : at) exact.push_back(written(value));
+  return solve_pose(model.content().mechanism, exact, request);
+}
+
+Reactions reactions(const Model& model, std::span<const double> poses, const DyadSides& working_mode) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  const std::size_t width = mechanism.coordinates.size();
+  if (width == 0 || poses.size() % width != 0)
+    require_values(mechanism, width == 0 ? poses.size() : poses.size() % width);
+  const DyadSides sides = sides_of(mechanism, working_mode);
+  require_regular(mechanism, sides);
+  return mechanism.space == mechanism::Space::spatial ? reactions_in_space(mechanism, poses, sides)
+                                                      : reactions_in_plane(mechanism, poses, sides);
+}
+
+}  // namespace clearloci

@@ -1,0 +1,26 @@
+// The posture of a mechanism with its reactions, take-up and pose error (clearloci/pose.hpp):
+//     Mechanism -> numeric::posture -> reactions -> take-up -> pose error
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clearloci/pose.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci {
+
+/// `at`: exact values, of which one that is no double gets the error of its rounding: a pose on a locus is told to be
+/// on it. Throws as the public one.
+Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                const PoseRequest& request = {});
+
+/// {{"B1", "right"}, ...}.
+std::vector<std::pair<std::string, std::string>> named_mode(const mechanism::Mechanism& mechanism,
+                                                            const DyadSides& sides);
+
+/// The sides that are meant: the file's where none are given. Throws core::InputError where their number is wrong.
+DyadSides sides_of(const mechanism::Mechanism& mechanism, const DyadSides& sides);
+
+}  // namespace clearloci

@@ -1,0 +1,219 @@
+#include "analysis/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "analysis/model.hpp"
+#include "analysis/pose.hpp"
+#include "analysis/singular_modes.hpp"
+#include "analysis/table_rows.hpp"
+#include "core/errors.hpp"
+#include "numeric/period_sweep.hpp"
+
+namespace clearloci {
+namespace {
+
+using numeric::Instant;
+using Samples = std::vector<std::vector<Instant>>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+const std::string& joint_name(const numeric::Motion& motion, mechanism::JointIndex joint) {
+  return motion.model.mechanism.joints[static_cast<std::size_t>(joint)].name;
+}
+
+/// "m", "rad", or nothing where coordinates of both kinds are free.
+std::string distance_unit(const mechanism::Mechanism& mechanism) {
+  const auto angles = std::count_if(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                                    [](const mechanism::Coordinate& own) { return own.angle; });
+  if (angles == 0) return "m";
+  return static_cast<std::size_t>(angles) == mechanism.coordinates.size() ? "rad" : "";
+}
+
+// ---- Samples
+
+void put_motion(TableRows& row, const numeric::Motion& motion, const Instant& at, double period) {
+  const auto put = [&](const std::string& name, const std::string& unit, const numeric::Series& s) {
+    row.put(name, unit, s.c[0]);
+    row.put(name + "_rate", unit + "/s", s.c[1] / period);
+    row.put(name + "_acceleration", unit + "/s^2", 2 * s.c[2] / (period * period));
+  };
+  for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
+    const mechanism::Coordinate& own = motion.model.mechanism.coordinates[c];
+    put("q_" + own.name, own.angle ? "rad" : "m", at.coordinates[c]);
+  }
+  const auto& p = at.points[static_cast<std::size_t>(motion.model.mechanism.end_effector_point)];
+  put("px", "m", p[0]);
+  put("py", "m", p[1]);
+}
+
+void put_joints(TableRows& row, const numeric::Motion& motion, const Instant& at, double period,
+                const std::vector<numeric::TakeUp>& take_up) {
+  const Eigen::VectorXd w = at.reactions(period), rates = at.reaction_rates(period);
+  for (std::size_t k = 0; k < motion.model.unknowns.size(); ++k)
+    row.put(mechanism::unknown_name(motion.model.mechanism, motion.model.unknowns[k]),
+            core::unit_of(motion.model.unknowns[k].quantity), w(static_cast<Eigen::Index>(k)));
+  for (std::size_t j = 0; j < motion.columns.size(); ++j) {
+    if (!(motion.clearances[j].radial > 0)) continue;
+    const int fx = motion.columns[j].fx, fy = motion.columns[j].fy;
+    const std::string& name = motion.model.mechanism.joints[j].name;
+    const double size = w(fx) * w(fx) + w(fy) * w(fy);
+    row.put("beta_" + name, "rad", take_up[j].beta ? *take_up[j].beta : nan);
+    // tan β = f_x / f_y
+    row.put("beta_rate_" + name, "rad/s", size > 0 ? (rates(fx) * w(fy) - w(fx) * rates(fy)) / size : nan);
+  }
+}
+
+core::Table table_of(const numeric::Motion& motion, const Samples& samples, double period) {
+  core::Table table;
+  TableRows row(table);
+  const std::string along = distance_unit(motion.model.mechanism);
+  for (const auto& instants : samples) {
+    for (const Instant& at : instants) {
+      const numeric::InstantError e = numeric::instant_error(motion, at, period);
+      row.put("time", "s", at.tau * period);
+      row.put("distance", along, at.distance.value());
+      const int stage = motion.timeline.intervals[at.interval].stage;
+      row.put("stage", "", stage < 0 ? 0 : stage + 1);  // 0: dwelling
+      put_motion(row, motion, at, period);
+      const auto& p = at.points[static_cast<std::size_t>(motion.model.mechanism.end_effector_point)];
+      row.put("actual_px", "m", p[0].value() + e.error.dx);
+      row.put("actual_py", "m", p[1].value() + e.error.dy);
+      row.put("dx", "m", e.error.dx);
+      row.put("dy", "m", e.error.dy);
+      row.put("dalpha", "rad", e.error.dalpha);
+      put_joints(row, motion, at, period, e.take_up);
+      row.end_row();
+    }
+  }
+  return table;
+}
+
+// ---- Stages and losses
+
+std::string waypoint_name(const numeric::Motion& motion, int waypoint) {
+  const std::string& name = motion.timeline.trajectory.waypoints[static_cast<std::size_t>(waypoint)].name;
+  return name.empty() ? std::to_string(waypoint + 1) : name;
+}
+
+std::vector<TrajectoryStage> stages_of(const numeric::Motion& motion, double period,
+                                       const std::vector<numeric::CriticalPeriod>& critical) {
+  std::vector<TrajectoryStage> stages;
+  for (std::size_t k = 0; k < motion.timeline.stages.size(); ++k) {
+    const numeric::Stage& stage = motion.timeline.stages[k];
+    TrajectoryStage own;
+    own.from = waypoint_name(motion, stage.from_waypoint);
+    own.to = waypoint_name(motion, stage.to_waypoint);
+    own.begins = stage.begin * period;
+    own.ends = stage.end * period;
+    own.starts_at = stage.from;
+    own.stops_at = stage.to;
+    for (const int p : stage.carried)
+      own.carried += core::to_double(motion.timeline.trajectory.payloads[static_cast<std::size_t>(p)].mass);
+    own.critical_period = critical[k].period;
+    if (critical[k].joint >= 0)
+      own.lost_last = LostLast{joint_name(motion, critical[k].joint), critical[k].quantity, critical[k].distance};
+    stages.push_back(std::move(own));
+  }
+  return stages;
+}
+
+LossKind kind_of(numeric::LossKind kind) {
+  switch (kind) {
+    case numeric::LossKind::zero:
+      return LossKind::zero;
+    case numeric::LossKind::minimum:
+      return LossKind::minimum;
+    case numeric::LossKind::jump:
+      break;
+  }
+  return LossKind::jump;
+}
+
+std::vector<ContactLoss> losses_of(const numeric::Motion& motion, const std::vector<numeric::ContactLoss>& found) {
+  std::vector<ContactLoss> losses;
+  for (const numeric::ContactLoss& loss : found)
+    losses.push_back({kind_of(loss.kind), joint_name(motion, loss.joint), loss.quantity, loss.time, loss.distance,
+                      loss.stage + 1, loss.force, loss.from, loss.to, loss.payload});
+  return losses;
+}
+
+void add_sweep(const numeric::Motion& motion, const Samples& samples, const numeric::LossThresholds& thresholds,
+               const std::vector<double>& periods, TrajectoryResult& result) {
+  numeric::PeriodSweep sweep = numeric::period_sweep(motion, samples, periods);
+  result.sweep = PeriodSweep{std::move(sweep.periods), std::move(sweep.distance), std::move(sweep.dx),
+                             std::move(sweep.dy), std::move(sweep.dalpha)};
+  for (numeric::LossCurve& curve : numeric::loss_curves(motion, samples, thresholds, periods.front(), periods.back()))
+    result.loss_curves.push_back({joint_name(motion, curve.joint), curve.quantity, std::move(curve.lines)});
+}
+
+// ---- Request
+
+void require_positive(const std::optional<double>& value, const std::string& what, const std::string& unit) {
+  if (value && !(*value > 0 && std::isfinite(*value)))
+    throw core::InputError({}, "the " + what + " is no positive number", "give " + unit + ", more than 0");
+}
+
+void check(const TrajectoryRequest& request) {
+  require_positive(request.period, "period", "s");
+  require_positive(request.min_force, "least force", "N");
+  for (const double period : request.periods) require_positive(period, "period of a sweep", "s");
+  if (!std::is_sorted(request.periods.begin(), request.periods.end()))
+    throw core::InputError({}, "the periods of a sweep are not in order", "give them ascending");
+  if (request.samples < 10)
+    throw core::InputError({}, std::to_string(request.samples) + " instants a cycle", "give 10 at least");
+}
+
+}  // namespace
+
+void require_plane_motion(const mechanism::Mechanism& mechanism) {
+  if (mechanism.space == mechanism::Space::spatial)
+    throw core::InputError({.file = mechanism.file},
+                           "the mechanism is spatial, and trajectories are those of the plane",
+                           "solve single poses of it with clearloci pose");
+}
+
+TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
+                                   const TrajectoryRequest& request) {
+  require_plane_motion(mechanism);
+  check(request);
+  const DyadSides sides = sides_of(mechanism, request.working_mode);
+  require_regular(mechanism, sides);
+  const double period = request.period.value_or(core::to_double(trajectory.period));
+  const numeric::Motion motion = numeric::compile_motion(mechanism, trajectory, sides);
+  const Samples samples = numeric::sample(motion, request.samples);
+  numeric::LossThresholds thresholds = numeric::default_thresholds(motion, samples);
+  if (request.min_force) thresholds.force = *request.min_force;
+
+  TrajectoryResult result;
+  result.mechanism = mechanism.name;
+  result.trajectory = trajectory.name;
+  result.law = mechanism::to_string(trajectory.law.kind);
+  result.period = period;
+  result.length = motion.timeline.path.length();
+  result.distance_unit = distance_unit(mechanism);
+  result.min_force = thresholds.force;
+  for (const mechanism::Joint& joint : mechanism.joints) result.joints.push_back(joint.name);
+  result.losses = losses_of(motion, numeric::contact_losses(motion, samples, period, thresholds));
+  result.stages = stages_of(motion, period, numeric::critical_periods(motion, samples, thresholds));
+  result.samples = table_of(motion, samples, period);
+  if (!request.periods.empty()) add_sweep(motion, samples, thresholds, request.periods, result);
+  return result;
+}
+
+TrajectoryResult follow_trajectory(const Model& model, const std::string& path, const TrajectoryRequest& request) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  require_plane_motion(mechanism);
+  return follow_trajectory(mechanism, mechanism::read_trajectory(path, mechanism), request);
+}
+
+TrajectoryResult follow_trajectory_text(const Model& model, const std::string& text, const TrajectoryRequest& request,
+                                        const std::string& file) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  require_plane_motion(mechanism);
+  return follow_trajectory(mechanism, mechanism::parse_trajectory(text, file, mechanism), request);
+}
+
+}  // namespace clearloci

@@ -1,0 +1,137 @@
+// What do the joints bear at one pose, and how far is the end effector from where it should be? Posture, reactions, the
+// take-up of the clearances and the pose error that follows from it (docs/method.md sections 1, 2 and 6;
+// docs/results.md, pose --json), of mechanisms of the plane and of space alike.
+//
+//     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
+//     const clearloci::Pose pose = clearloci::solve_pose(model, {0.25, -0.7});
+//     if (pose.error) std::cout << "dx " << pose.error->displacement[0] << " m\n";
+//     for (const clearloci::Vanishing& lost : pose.vanishing) std::cout << "contact is lost at " << lost.joint << "\n";
+//
+// Places and displacements have two components in the plane and three in space, in m; rotations one (counter-clockwise)
+// and three (about x, y, z), in rad; forces are in N, couples in N m.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clearloci/mechanism.hpp"
+#include "clearloci/quantity.hpp"
+#include "clearloci/table.hpp"
+
+namespace clearloci::inline core {
+
+struct PosePoint {
+  std::string name;
+  std::vector<double> at;  ///< m
+};
+
+/// One component of what a joint's link `from` exerts on its link `to`.
+struct ReactionComponent {
+  Quantity quantity = Quantity::fx;
+  double value = 0;  ///< N or N m, by unit_of(quantity); infinite or NaN where |A| = 0
+};
+
+/// In the plane fx, fy or, of a prismatic joint, N, T; then the actuator's M or F. In space the force and the couple
+/// without the actuator's share, and that as M or F.
+struct JointReaction {
+  std::string joint;
+  std::vector<ReactionComponent> components;
+};
+
+/// How one joint takes up its clearance: `to` relative to `from`. A part that the joint has no play for is empty or
+/// absent; it is NaN where it has, and the reaction that would decide it vanishes.
+struct JointTakeUp {
+  std::string joint;
+  std::vector<double> displacement;  ///< of the pin, m
+  std::optional<double> beta;        ///< direction of a planar pin's displacement, from the y axis towards x, rad
+  std::optional<double> rotation;    ///< play of an actuator that turns, rad
+  std::optional<double> normal;      ///< across a planar guide, m
+  std::optional<double> tilt;        ///< in a planar guide, rad
+  std::optional<double> axial;       ///< play of an actuator that slides, m
+};
+
+/// Of the end effector.
+struct PoseError {
+  std::vector<double> displacement;  ///< of its point, m
+  std::vector<double> rotation;      ///< rad
+};
+
+/// Upper bounds over all take-ups: for a designer who does not know the load. Infinite at a direct singularity.
+struct WorstCase {
+  std::vector<double> displacement;  ///< of each component, m
+  std::vector<double> rotation;      ///< of each component, rad
+  double distance = 0;               ///< of the displacement's length, m
+  double angle = 0;                  ///< of the rotation's size, rad
+};
+
+/// Where a link's points are with the clearances taken up.
+struct DisplacedLink {
+  std::string link;
+  std::vector<PosePoint> points;
+};
+
+/// Beyond the linear step: the pose in which the mechanism closes with its clearances taken up, its reactions being
+/// those of that same displaced geometry. Planar.
+struct ActualPose {
+  bool converged = false;
+  std::string reason;  ///< why not, as a clause; then nothing else is known
+  PoseError error;
+  PoseError beyond_linear;  ///< `error` minus that of the linear step
+  std::vector<JointTakeUp> take_up;
+  std::vector<DisplacedLink> links;
+  int iterations = 0;
+  double residual = 0;  ///< what is left open of the closure: the largest of all distances in m and turns in rad
+};
+
+struct Pose {
+  std::string mechanism;
+  std::vector<double> at;                                         ///< of each coordinate: rad of an angle, else m
+  std::vector<std::pair<std::string, std::string>> working_mode;  ///< {"B1", "right"}, ...
+  /// The first point that cannot be placed: the pose is out of reach, and nothing below is known. Else empty.
+  std::string unreachable;
+  std::vector<PosePoint> points;
+  std::vector<JointReaction> reactions;  ///< of every joint in the file's order
+  double determinant = 0;                ///< |A|, of the equations in SI units
+  double condition = 0;                  ///< 2-norm condition number of A
+  bool singular = false;                 ///< |A| cannot be told from zero
+  std::vector<JointTakeUp> take_up;      ///< of the joints with a clearance
+  std::optional<PoseError> error;        ///< to the first order; absent where a take-up is undefined
+  WorstCase worst;
+  std::vector<std::string> undefined;  ///< joints whose take-up is
+  std::vector<Vanishing> vanishing;    ///< reactions that leave it so
+  std::optional<ActualPose> actual;    ///< where it is asked for
+};
+
+/// Scalar reactions at many poses.
+struct Reactions {
+  /// One a column: "fA1x", "fA1y", ..., "MA1", as the equations name their unknowns; N or N m. NaN where a pose is out
+  /// of reach, infinite or NaN where |A| = 0.
+  Table table;
+  std::vector<std::string> joints;   ///< of each column
+  std::vector<Quantity> quantities;  ///< of each column
+};
+
+}  // namespace clearloci::inline core
+
+namespace clearloci {
+
+struct PoseRequest {
+  DyadSides working_mode = {};  ///< empty: the file's
+  bool iterate = false;         ///< also `actual`; of planar mechanisms
+};
+
+/// `at`: one value a free coordinate, m or, of an angle (Model::coordinates), rad. A double stands for the shortest
+/// decimal that reads back as it: 0.1 is 1/10, and a pose on a locus there is told to be on it.
+/// Throws InputError where the number of values or of sides is wrong, a value is no finite number, the equations are
+/// not square, |A| vanishes in every pose of the working mode, or a spatial mechanism is to be iterated.
+Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseRequest& request = {});
+
+/// `poses`: pose after pose, each with one value a free coordinate as of solve_pose. Planar mechanisms by the compiled
+/// elimination, some million poses a second. Throws as solve_pose.
+Reactions reactions(const Model& model, std::span<const double> poses, const DyadSides& working_mode = {});
+
+}  // namespace clearloci

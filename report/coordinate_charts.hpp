@@ -1,0 +1,15 @@
+// The pictures of the errors over a single free coordinate.
+// Private to report/.
+#pragma once
+
+#include <vector>
+
+#include "clearloci/error.hpp"
+#include "report/chart.hpp"
+
+namespace clearloci::report {
+
+/// error, take-up, reactions of every mode, over the coordinate.
+std::vector<NamedChart> coordinate_charts(const core::CoordinateErrors& result);
+
+}  // namespace clearloci::report

@@ -1,0 +1,135 @@
+#include "report/coordinate_errors.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "report/coordinate_charts.hpp"
+#include "report/error.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/table_json.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json sizes_json(const core::CoordinateModeErrors& mode, std::size_t component, const std::string& unit) {
+  const std::optional<core::ErrorSizes>& sizes = mode.sizes[component];
+  if (!sizes) return {{"unit", unit}, {"median", nullptr}};
+  return {{"unit", unit},
+          {"median", sizes->median},
+          {"percentile_90", sizes->percentile_90},
+          {"largest", sizes->largest},
+          {"at", {mode.samples.columns.front()[sizes->at]}}};
+}
+
+Json mode_json(const core::CoordinateErrors& result, const core::CoordinateModeErrors& mode) {
+  Json fields = Json::object();
+  for (std::size_t c = 0; c < result.components.size(); ++c)
+    fields[result.components[c].name] = sizes_json(mode, c, result.components[c].unit);
+  Json jumps = Json::array();
+  for (const core::ErrorEvent& event : mode.events) {
+    if (!event.jumps) continue;
+    jumps.push_back({{"at", event.point.at},
+                     {"kind", core::to_string(event.point.kind)},
+                     {"vanishing", vanishing_array(event.point.vanishing)},
+                     {"dx", number_json(event.dx)},
+                     {"dy", number_json(event.dy)},
+                     {"dalpha", number_json(event.dalpha)}});
+  }
+  return {{"working_mode", mode_object(result.loci.tower, mode.mode)},
+          {"never_loaded", mode.never_loaded},
+          {"fields", std::move(fields)},
+          {"jumps", std::move(jumps)},
+          {"samples", table_object(mode.samples)}};
+}
+
+/// In tables angles are in degrees.
+double shown(const core::CoordinateErrors& result) { return result.angle ? 180 / std::numbers::pi : 1; }
+
+std::string shown_coordinate(const core::CoordinateErrors& result) {
+  return result.coordinate + (result.angle ? "/deg" : "/m");
+}
+
+std::string jumps_text(const core::CoordinateErrors& result, const core::CoordinateModeErrors& mode) {
+  std::string text;
+  for (const core::ErrorEvent& event : mode.events) {
+    if (!event.jumps) continue;
+    if (text.empty())
+      text = fmt::format("{:>14}{:>14}{:>14}{:>16}  what lets go\n", shown_coordinate(result), "jump in x/m",
+                         "jump in y/m", "turn/rad");
+    text += fmt::format("{:>14.9g}{:>14.4g}{:>14.4g}{:>16.4g}  {}\n", shown(result) * event.point.at.front(), event.dx,
+                        event.dy, event.dalpha, vanishing_words(event.point.kind, event.point.vanishing));
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+/// Of a mode in the names of files; empty where there is one alone.
+std::string which_mode(const core::CoordinateErrors& result, const core::CoordinateModeErrors& mode) {
+  return result.modes.size() > 1 ? "-" + mode_slug(result.loci.tower, mode.mode) : std::string();
+}
+
+}  // namespace
+
+Json coordinate_errors_object(const core::CoordinateErrors& result) {
+  Json modes = Json::array();
+  for (const core::CoordinateModeErrors& mode : result.modes) modes.push_back(mode_json(result, mode));
+  return {{"format", 1},
+          {"mechanism", result.mechanism},
+          {"coordinates", {result.coordinate}},
+          {"complete", result.loci.complete},
+          {"units", {result.angle ? "rad" : "m"}},
+          {"box", {{result.range[0], result.range[1]}}},
+          {"steps", result.steps},
+          {"modes", std::move(modes)}};
+}
+
+std::string coordinate_errors_text(const core::CoordinateErrors& result) {
+  std::string text;
+  for (const core::CoordinateModeErrors& one : result.modes) {
+    const std::string mode = mode_words(result.loci.tower, one.mode);
+    text += fmt::format("{}: pose error over {} in {} steps{}\n\n", result.mechanism, result.coordinate, result.steps,
+                        mode.empty() ? "" : "; " + mode);
+    if (!one.never_loaded.empty()) text += never_loaded_words(one.never_loaded) + "\n";
+    text += fmt::format("{:<66}{:>12}{:>12}{:>12}  at {}\n", "absolute values", "median", "90 %", "largest",
+                        shown_coordinate(result));
+    for (std::size_t c = 0; c < result.components.size(); ++c) {
+      const std::optional<core::ErrorSizes>& sizes = one.sizes[c];
+      if (!sizes) continue;
+      text += fmt::format("{:<66}{:>12.4g}{:>12.4g}{:>12.4g}  {:.6g}\n",
+                          fmt::format("{} [{}]", result.components[c].label, result.components[c].unit), sizes->median,
+                          sizes->percentile_90, std::abs(sizes->largest),
+                          shown(result) * one.samples.columns.front()[sizes->at]);
+    }
+    text += "\n" + jumps_text(result, one);
+  }
+  return text;
+}
+
+std::vector<std::filesystem::path> write_coordinate_errors(const core::CoordinateErrors& result,
+                                                           const std::filesystem::path& directory,
+                                                           const std::set<std::string>& formats) {
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    write_atomically(directory / name, bytes);
+    files.push_back(directory / name);
+  };
+  write("error.json", json_text(coordinate_errors_object(result)));
+  for (const core::CoordinateModeErrors& one : result.modes)
+    if (formats.contains("csv"))
+      write("error" + which_mode(result, one) + ".csv", table_csv(one.samples.names, one.samples.columns));
+  for (const NamedChart& one : coordinate_charts(result)) {
+    if (formats.contains("png")) write(one.name + ".png", chart(one.chart, PictureFormat::png));
+    if (formats.contains("svg")) write(one.name + ".svg", chart(one.chart, PictureFormat::svg));
+    if (formats.contains("pdf")) write(one.name + ".pdf", chart(one.chart, PictureFormat::pdf));
+  }
+  return files;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,141 @@
+#include "report/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/field_exports.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/picture.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The middle of a cell.
+core::Point2 place(const core::FieldMap& map, std::size_t cell) {
+  const auto width = static_cast<std::size_t>(map.nx);
+  return {map.x(static_cast<int>(cell % width)), map.y(static_cast<int>(cell / width))};
+}
+
+Json sizes_json(const core::FieldMap& map, const std::vector<std::optional<core::ErrorSizes>>& sizes) {
+  Json all = Json::object();
+  for (std::size_t f = 0; f < map.fields.size(); ++f) {
+    const core::Field& field = map.fields[f];
+    if (!sizes[f]) {
+      all[field.name] = {{"unit", field.unit}, {"median", nullptr}};
+      continue;
+    }
+    all[field.name] = {{"unit", field.unit},
+                       {"median", sizes[f]->median},
+                       {"percentile_90", sizes[f]->percentile_90},
+                       {"percentile_99", sizes[f]->percentile_99},
+                       {"largest", sizes[f]->largest},
+                       {"at", place(map, sizes[f]->at)}};
+  }
+  return all;
+}
+
+std::string sizes_row(const std::string& name, const core::FieldMap& map, const core::ErrorSizes& sizes) {
+  const core::Point2 at = place(map, sizes.at);
+  return fmt::format("{:<60}{:>12.4g}{:>12.4g}{:>12.4g}  ({:.4g}, {:.4g})\n", name, sizes.median, sizes.percentile_90,
+                     std::abs(sizes.largest), at[0], at[1]);
+}
+
+/// The bound that counts where the load is not known, zone by zone.
+std::string zones_text(const core::ModeErrors& one) {
+  std::string text;
+  for (std::size_t f = 0; f < one.map.fields.size(); ++f) {
+    const core::Field& field = one.map.fields[f];
+    if (field.name != "dp" && field.name != "worst_dp") continue;
+    text += fmt::format("{:<60}{:>12}{:>12}{:>12}  at\n", fmt::format("{} [{}], zone by zone", field.label, field.unit),
+                        "median", "90 %", "largest");
+    for (const core::ZoneErrors& zone : one.zones) {
+      const std::string name = fmt::format("{}, {} cells", zone.zone, zone.cells.size());
+      text += zone.sizes[f] ? sizes_row(name, one.map, *zone.sizes[f]) : fmt::format("{:<60}{:>12}\n", name, "none");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string never_loaded_words(const std::vector<std::string>& joints) {
+  return fmt::format("No error under the load: {} bear{} nothing in any pose, so the take-up is undefined.\n",
+                     fmt::join(joints, ", "), joints.size() == 1 ? "s" : "");
+}
+
+Json error_object(const core::ErrorMap& errors) {
+  Json all = Json::array();
+  for (const core::ModeErrors& one : errors.modes) {
+    all.push_back({{"working_mode", mode_object(errors.loci.tower, one.mode)},
+                   {"reachable", one.reachable},
+                   {"undefined", one.undefined},
+                   {"never_loaded", one.never_loaded},
+                   {"fields", sizes_json(one.map, one.sizes)}});
+    for (const core::ZoneErrors& zone : one.zones)
+      all.back()["zones"].push_back(
+          {{"id", zone.zone}, {"cells", zone.cells.size()}, {"fields", sizes_json(one.map, zone.sizes)}});
+  }
+  const core::FieldMap& map = errors.modes.front().map;
+  return {{"format", 1},
+          {"mechanism", map.mechanism},
+          {"coordinates", map.coordinates},
+          {"box", {{map.lower[0], map.upper[0]}, {map.lower[1], map.upper[1]}}},
+          {"grid", {map.nx, map.ny}},
+          {"complete", errors.loci.complete},
+          {"modes", std::move(all)}};
+}
+
+std::string error_text(const core::ErrorMap& errors) {
+  std::string text;
+  for (const core::ModeErrors& one : errors.modes) {
+    const core::FieldMap& map = one.map;
+    const std::string mode = mode_words(errors.loci.tower, one.mode);
+    text += fmt::format("{}: pose error over {} x {} cells{}\n", map.mechanism, map.nx, map.ny,
+                        mode.empty() ? "" : "; " + mode);
+    if (!one.never_loaded.empty()) text += never_loaded_words(one.never_loaded);
+    text += fmt::format("\n{:<60}{:>12}{:>12}{:>12}  at\n", "absolute values", "median", "90 %", "largest");
+    for (std::size_t f = 0; f < map.fields.size(); ++f)
+      if (one.sizes[f])
+        text += sizes_row(fmt::format("{} [{}]", map.fields[f].label, map.fields[f].unit), map, *one.sizes[f]);
+    text += fmt::format("\n{} cells in the workspace, {} on a locus to the last bit\n\n", one.reachable, one.undefined);
+    if (!one.zones.empty()) text += zones_text(one);
+  }
+  return text;
+}
+
+std::vector<std::filesystem::path> write_error(const core::ErrorMap& errors, const std::filesystem::path& directory,
+                                               const std::set<std::string>& formats) {
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    write_atomically(directory / name, bytes);
+    files.push_back(directory / name);
+  };
+  write("error.json", json_text(error_object(errors)));
+  for (const core::ModeErrors& one : errors.modes) {
+    const std::string which = errors.modes.size() > 1 ? "-" + mode_slug(errors.loci.tower, one.mode) : "";
+    for (const core::Field& field : one.map.fields) {
+      const auto picture = [&](const char* ending, PictureFormat format) {
+        std::string name = field.name;
+        std::replace(name.begin(), name.end(), '_', '-');
+        write("error-" + name + which + ending, field_picture(errors.loci, one.mode, one.map, field, format));
+      };
+      if (formats.contains("png")) picture(".png", PictureFormat::png);
+      if (formats.contains("svg")) picture(".svg", PictureFormat::svg);
+      if (formats.contains("pdf")) picture(".pdf", PictureFormat::pdf);
+    }
+    if (formats.contains("csv")) write("error" + which + ".csv", field_csv(one.map));
+    if (formats.contains("vtk")) write("error" + which + ".vti", vti(one.map));
+  }
+  return files;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,105 @@
+#include "report/pose.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/table_json.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* axes = "xyz";
+
+bool in_space(const core::Pose& pose) { return pose.worst.displacement.size() == 3; }
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number_json(value));
+  return list;
+}
+
+void put_displacement(Json& object, const std::vector<double>& displacement) {
+  for (std::size_t c = 0; c < displacement.size(); ++c)
+    object[std::string("d") + axes[c]] = number_json(displacement[c]);
+}
+
+/// {"dalpha", "dx", "dy"}, in space {"dx", "dy", "dz", "dalpha_x", "dalpha_y", "dalpha_z"}.
+Json error_json(const std::vector<double>& displacement, const std::vector<double>& rotation) {
+  Json error = Json::object();
+  if (rotation.size() == 1) error["dalpha"] = number_json(rotation.front());
+  put_displacement(error, displacement);
+  for (std::size_t c = 0; rotation.size() == 3 && c < 3; ++c)
+    error[std::string("dalpha_") + axes[c]] = number_json(rotation[c]);
+  return error;
+}
+
+Json error_json(const core::PoseError& error) { return error_json(error.displacement, error.rotation); }
+
+/// null where the take-up is undefined.
+Json take_up_json(const std::vector<core::JointTakeUp>& take_up) {
+  Json all = Json::object();
+  for (const core::JointTakeUp& own : take_up) {
+    Json& joint = all[own.joint] = Json::object();
+    put_displacement(joint, own.displacement);
+    const auto put = [&](const char* key, const std::optional<double>& value) {
+      if (value) joint[key] = number_json(*value);
+    };
+    put("beta", own.beta);
+    put("normal", own.normal);
+    put("tilt", own.tilt);
+    put("axial", own.axial);
+    put("dtheta", own.rotation);
+  }
+  return all;
+}
+
+Json actual_json(const core::ActualPose& actual) {
+  return {{"pose_error", error_json(actual.error)},
+          {"beyond_linear", error_json(actual.beyond_linear)},
+          {"take_up", take_up_json(actual.take_up)},
+          {"iterations", actual.iterations},
+          {"residual", actual.residual}};
+}
+
+}  // namespace
+
+Json pose_object(const core::Pose& pose) {
+  Json mode = Json::object(), points = Json::object(), reactions = Json::object();
+  for (const auto& [point, side] : pose.working_mode) mode[point] = side;
+  for (const core::PosePoint& point : pose.points) points[point.name] = numbers(point.at);
+  for (const core::JointReaction& own : pose.reactions) {
+    Json& joint = reactions[own.joint] = Json::object();
+    for (const core::ReactionComponent& c : own.components) joint[core::to_string(c.quantity)] = number_json(c.value);
+  }
+  Json worst = error_json(pose.worst.displacement, pose.worst.rotation);
+  worst["dp"] = number_json(pose.worst.distance);
+  if (in_space(pose)) worst["dalpha"] = number_json(pose.worst.angle);
+  Json result = {{"format", 1},
+                 {"mechanism", pose.mechanism},
+                 {"at", pose.at},
+                 {"working_mode", std::move(mode)},
+                 {"posture", std::move(points)},
+                 {"reactions", std::move(reactions)},
+                 {"determinant", pose.determinant},
+                 {"condition", number_json(pose.condition)},
+                 {"take_up", take_up_json(pose.take_up)},
+                 {"pose_error", pose.error ? error_json(*pose.error) : Json(nullptr)},
+                 {"undefined_take_up", pose.undefined},
+                 {"vanishing", vanishing_array(pose.vanishing)},
+                 {"singular", pose.singular},
+                 {"worst_case", std::move(worst)}};
+  if (pose.actual) result["iterated"] = actual_json(*pose.actual);
+  return result;
+}
+
+std::vector<std::filesystem::path> write_pose(const core::Pose& pose, const std::filesystem::path& directory,
+                                              const std::set<std::string>& /*formats*/) {
+  const std::filesystem::path file = directory / "pose.json";
+  write_atomically(file, json_text(pose_object(pose)));
+  return {file};
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,161 @@
+#include "report/trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/chart.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/table_json.hpp"
+#include "report/trajectory_charts.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json losses_json(const core::TrajectoryResult& result) {
+  Json all = Json::array();
+  for (const core::ContactLoss& loss : result.losses) {
+    Json one = {{"time", loss.time},
+                {"distance", loss.distance},
+                {"stage", loss.stage},
+                {"joint", loss.joint},
+                {"quantity", core::to_string(loss.quantity)},
+                {"kind", core::to_string(loss.kind)}};
+    if (loss.kind == core::LossKind::minimum) {
+      one["force"] = loss.force;
+      one["from"] = loss.from;
+      one["to"] = loss.to;
+    }
+    if (loss.kind == core::LossKind::jump) one["by"] = loss.payload ? "payload" : "acceleration";
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+Json stages_json(const core::TrajectoryResult& result) {
+  Json all = Json::array();
+  for (const core::TrajectoryStage& stage : result.stages) {
+    Json one = {{"from", stage.from},
+                {"to", stage.to},
+                {"begins", stage.begins},
+                {"ends", stage.ends},
+                {"length", stage.stops_at - stage.starts_at},
+                {"carried", stage.carried},
+                {"critical_period", number_json(stage.critical_period)}};
+    if (stage.lost_last)
+      one["lost_last"] = {{"joint", stage.lost_last->joint},
+                          {"quantity", core::to_string(stage.lost_last->quantity)},
+                          {"distance", stage.lost_last->distance}};
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+std::string loss_words(const core::ContactLoss& loss) {
+  const std::string what = reaction_name({loss.joint, loss.quantity});
+  switch (loss.kind) {
+    case core::LossKind::zero:
+      return what + " = 0";
+    case core::LossKind::minimum:
+      return what + fmt::format(" down to {:.4g} N", loss.force);
+    case core::LossKind::jump:
+      break;
+  }
+  return what + (loss.payload ? " reversed by the payload" : " reversed as the acceleration jumps");
+}
+
+}  // namespace
+
+Json trajectory_object(const core::TrajectoryResult& result) {
+  Json json = {{"format", 1},
+               {"mechanism", result.mechanism},
+               {"trajectory", result.trajectory},
+               {"law", result.law},
+               {"period", result.period},
+               {"length", result.length},
+               {"min_force", result.min_force},
+               {"stages", stages_json(result)},
+               {"contact_losses", losses_json(result)}};
+  if (result.sweep) {
+    const std::vector<double>& periods = result.sweep->periods;
+    json["periods"] = {{"from", periods.front()}, {"to", periods.back()}, {"count", periods.size()}};
+  }
+  json["samples"] = table_object(result.samples);
+  return json;
+}
+
+core::Table sweep_table(const core::TrajectoryResult& result) {
+  const core::PeriodSweep& sweep = *result.sweep;
+  core::Table table{{"period", "distance", "dx", "dy", "dalpha"},
+                    {"s", result.distance_unit, "m", "m", "rad"},
+                    std::vector<std::vector<double>>(5)};
+  for (const double period : sweep.periods) {
+    table.columns[0].insert(table.columns[0].end(), sweep.distance.size(), period);
+    table.columns[1].insert(table.columns[1].end(), sweep.distance.begin(), sweep.distance.end());
+  }
+  table.columns[2] = sweep.dx;
+  table.columns[3] = sweep.dy;
+  table.columns[4] = sweep.dalpha;
+  return table;
+}
+
+std::string trajectory_text(const core::TrajectoryResult& result) {
+  std::string text = fmt::format("{}: {}, {} law, period {:.6g} s, length {:.6g} m\n\n", result.mechanism,
+                                 result.trajectory, result.law, result.period, result.length);
+  text += fmt::format("{:<6}{:<18}{:>12}{:>12}{:>14}{:>16}  lost last\n", "stage", "from - to", "begins [s]",
+                      "ends [s]", "carried [kg]", "free above [s]");
+  for (std::size_t k = 0; k < result.stages.size(); ++k) {
+    const core::TrajectoryStage& s = result.stages[k];
+    const std::string critical = std::isfinite(s.critical_period) ? fmt::format("{:.6g}", s.critical_period) : "never";
+    text += fmt::format("{:<6}{:<18}{:>12.6g}{:>12.6g}{:>14.6g}{:>16}  {}\n", k + 1, s.from + " - " + s.to, s.begins,
+                        s.ends, s.carried, critical,
+                        s.lost_last ? reaction_name({s.lost_last->joint, s.lost_last->quantity}) +
+                                          fmt::format(" at {:.4g} m", s.lost_last->distance)
+                                    : "");
+  }
+  text += fmt::format(
+      "\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {:.4g} N: {} times\n",
+      result.min_force, result.losses.size());
+  if (result.losses.empty()) return text;
+  text += fmt::format("{:>14}{:>14}{:>8}  {:<10}\n", "time [s]", "distance [m]", "stage", "what");
+  for (const core::ContactLoss& loss : result.losses)
+    text += fmt::format("{:>14.9f}{:>14.6f}{:>8}  {}\n", loss.time, loss.distance, loss.stage, loss_words(loss));
+  return text;
+}
+
+std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult& result,
+                                                    const std::filesystem::path& directory,
+                                                    const std::set<std::string>& formats,
+                                                    const std::function<void(double, std::string_view)>& progress) {
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    write_atomically(directory / name, bytes);
+    files.push_back(directory / name);
+  };
+  write("trajectory.json", json_text(trajectory_object(result)));
+  if (formats.contains("csv")) {
+    write("trajectory.csv", table_csv(result.samples.names, result.samples.columns));
+    if (result.sweep) {
+      const core::Table table = sweep_table(result);
+      write("periods.csv", table_csv(table.names, table.columns));
+    }
+  }
+  const std::vector<NamedChart> charts = trajectory_charts(result);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    if (progress) progress(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(charts.size()), "pictures");
+    const auto draw = [&](const char* format, PictureFormat as) {
+      if (formats.contains(format)) write(charts[i].name + "." + format, chart(charts[i].chart, as));
+    };
+    draw("png", PictureFormat::png);
+    draw("svg", PictureFormat::svg);
+    draw("pdf", PictureFormat::pdf);
+  }
+  return files;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,95 @@
+// Maps of the pose error through the public headers.
+#include "clearloci/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clearloci/mechanism.hpp"
+#include "clearloci/pose.hpp"
+
+namespace clearloci {
+namespace {
+
+Model five_bar() { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml"); }
+
+std::size_t field(const FieldMap& map, const std::string& name) {
+  const auto found = std::find_if(map.fields.begin(), map.fields.end(), [&](const Field& f) { return f.name == name; });
+  EXPECT_NE(found, map.fields.end()) << name;
+  return static_cast<std::size_t>(found - map.fields.begin());
+}
+
+TEST(ErrorMapOfAModel, HoldsWhatSinglePosesSay) {
+  const Model model = five_bar();
+  const ErrorMap errors = error_map(model, {.nx = 9, .ny = 7});
+  ASSERT_EQ(errors.modes.size(), 1U);
+  const ModeErrors& own = errors.modes.front();
+  EXPECT_FALSE(errors.loci.curves.empty());
+  std::size_t reachable = 0;
+  for (int j = 0; j < 7; ++j)
+    for (int i = 0; i < 9; ++i) {
+      const Pose pose = solve_pose(model, {own.map.x(i), own.map.y(j)});
+      const auto value = [&](const char* name) {
+        return own.map.fields[field(own.map, name)].values[own.map.index(i, j)];
+      };
+      if (!pose.unreachable.empty()) {
+        EXPECT_TRUE(std::isnan(value("worst_dp")));
+        continue;
+      }
+      ++reachable;
+      EXPECT_NEAR(value("worst_dp"), pose.worst.distance, 1e-8 * pose.worst.distance);
+      if (pose.error && std::isfinite(value("dx")))
+        EXPECT_NEAR(value("dx"), pose.error->displacement[0], 1e-8 * pose.worst.distance);
+    }
+  EXPECT_EQ(own.reachable, reachable);
+}
+
+TEST(ErrorMapOfAModel, HasSizesOfEveryField) {
+  const ErrorMap errors = error_map(five_bar(), {.nx = 20, .ny = 20, .with_loci = false});
+  const ModeErrors& own = errors.modes.front();
+  EXPECT_TRUE(errors.loci.curves.empty());
+  ASSERT_EQ(own.sizes.size(), own.map.fields.size());
+  for (std::size_t f = 0; f < own.sizes.size(); ++f) {
+    ASSERT_TRUE(own.sizes[f]);
+    const ErrorSizes& sizes = *own.sizes[f];
+    EXPECT_LE(sizes.median, sizes.percentile_90);
+    EXPECT_LE(sizes.percentile_90, sizes.percentile_99);
+    EXPECT_LE(sizes.percentile_99, std::abs(sizes.largest));
+    const std::vector<double>& values = own.map.fields[f].values;
+    EXPECT_EQ(values[sizes.at], sizes.largest);
+    EXPECT_TRUE(
+        std::all_of(values.begin(), values.end(), [&](double v) { return !(std::abs(v) > std::abs(sizes.largest)); }));
+  }
+}
+
+TEST(ErrorMapOfAModel, SharesItsCellsOutAmongTheZones) {
+  const ErrorMap errors = error_map(five_bar(), {.nx = 30, .ny = 40, .worst_case = false, .with_zones = true});
+  const ModeErrors& own = errors.modes.front();
+  ASSERT_GT(own.zones.size(), 1U);
+  std::vector<std::size_t> cells;
+  for (const ZoneErrors& zone : own.zones) {
+    EXPECT_EQ(zone.sizes.size(), own.map.fields.size());
+    cells.insert(cells.end(), zone.cells.begin(), zone.cells.end());
+  }
+  std::sort(cells.begin(), cells.end());
+  EXPECT_EQ(std::adjacent_find(cells.begin(), cells.end()), cells.end()) << "a cell lies in one zone";
+  for (const std::size_t cell : cells) EXPECT_LT(cell, 30U * 40U);
+  // All but the cells whose middle is on a locus to rounding.
+  EXPECT_LE(cells.size(), own.reachable);
+  EXPECT_GE(cells.size() + 5, own.reachable);
+}
+
+TEST(ErrorMapOfAModel, IsMadeForEveryModeAskedFor) {
+  const ErrorMap errors =
+      error_map(five_bar(), {.nx = 8, .ny = 8, .with_loci = false, .loci = {.all_working_modes = true}});
+  ASSERT_EQ(errors.modes.size(), 4U);
+  for (const ModeErrors& own : errors.modes) EXPECT_EQ(describe_mode(errors.loci.tower, own.mode).size(), 2U);
+}
+
+TEST(ErrorMapOfAModel, RefusesZonesWithoutLoci) {
+  EXPECT_THROW(error_map(five_bar(), {.with_loci = false, .with_zones = true}), InputError);
+}
+
+}  // namespace
+}  // namespace clearloci

@@ -1,0 +1,157 @@
+// Poses, errors and trajectories as JSON and as texts.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "report/coordinate_errors.hpp"
+#include "report/error.hpp"
+#include "report/pose.hpp"
+#include "report/trajectory.hpp"
+#include "tests/report/scratch_folder.hpp"
+
+namespace clearloci::report {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+core::Pose lost_contact() {
+  core::Pose pose;
+  pose.mechanism = "Crank";
+  pose.at = {0.5};
+  pose.working_mode = {{"B", "left"}};
+  pose.points = {{"A", {0, 0}}, {"B", {1, -0.0}}};
+  pose.reactions = {{"A", {{core::Quantity::fx, 3}, {core::Quantity::fy, 4}, {core::Quantity::M, 2}}},
+                    {"G", {{core::Quantity::N, infinity}, {core::Quantity::T, 1}, {core::Quantity::F, 5}}}};
+  core::JointTakeUp pin{"A", {nan, nan}, nan, 1e-3, {}, {}, {}}, guide{"G", {}, {}, {}, 1e-5, 2e-4, nan};
+  pose.take_up = {pin, guide};
+  pose.worst = {{1e-5, 2e-5}, {3e-4}, 2.5e-5, 3e-4};
+  pose.undefined = {"A", "G"};
+  pose.vanishing = {{"A", core::Quantity::f}, {"G", core::Quantity::F}};
+  return pose;
+}
+
+TEST(PoseObject, HasNullWhereNothingIsDefined) {
+  const nlohmann::ordered_json json = pose_object(lost_contact());
+  EXPECT_TRUE(json["take_up"]["A"]["dx"].is_null());
+  EXPECT_TRUE(json["take_up"]["A"]["beta"].is_null());
+  EXPECT_EQ(json["take_up"]["A"]["dtheta"], 1e-3);
+  EXPECT_FALSE(json["take_up"]["G"].contains("dx"));
+  EXPECT_EQ(json["take_up"]["G"]["tilt"], 2e-4);
+  EXPECT_TRUE(json["take_up"]["G"]["axial"].is_null());
+  EXPECT_TRUE(json["reactions"]["G"]["N"].is_null());
+  EXPECT_TRUE(json["pose_error"].is_null());
+  EXPECT_EQ(json["worst_case"]["dp"], 2.5e-5);
+  EXPECT_FALSE(json.contains("iterated"));
+}
+
+TEST(PoseText, SaysWhatIsUndefinedAndWhy) {
+  const std::string text = pose_text(lost_contact());
+  EXPECT_TRUE(contains(text, "Crank at (0.5), B left\n")) << text;
+  EXPECT_TRUE(contains(text, "undefined: contact is lost at A; F = 0 at G\n")) << text;
+  EXPECT_TRUE(contains(text, "N unbounded N, T 1 N m, F 5 N")) << text;
+  EXPECT_TRUE(contains(text, "normal 1e-05 m, tilt 0.0002 rad, axial undefined m")) << text;
+  EXPECT_FALSE(contains(text, "-0 ")) << text;
+  core::Pose singular = lost_contact();
+  singular.singular = true;
+  EXPECT_TRUE(contains(pose_text(singular), "undefined: |A| = 0 here"));
+}
+
+TEST(PoseText, HasTheColumnsOfSpace) {
+  core::Pose pose = lost_contact();
+  pose.points = {{"A", {0, 0, 1}}};
+  pose.reactions = {{"A", {{core::Quantity::fx, 3}, {core::Quantity::mz, 2}, {core::Quantity::F, 7}}}};
+  pose.take_up = {{"A", {1e-5, 2e-5, 3e-5}, {}, {}, {}, {}, 1e-6}};
+  pose.error = core::PoseError{{1e-5, 2e-5, 3e-5}, {1e-4, 2e-4, 3e-4}};
+  pose.worst = {{1, 2, 3}, {4, 5, 6}, 7, 8};
+  const std::string text = pose_text(pose);
+  EXPECT_TRUE(contains(text, "dalpha_z [rad]")) << text;
+  EXPECT_TRUE(contains(text, "  F 7 N\n")) << text;
+  EXPECT_TRUE(contains(text, "  axial 1e-06 m\n")) << text;
+  EXPECT_EQ(pose_object(pose)["pose_error"]["dalpha_z"], 3e-4);
+  EXPECT_EQ(pose_object(pose)["worst_case"]["dalpha"], 8);
+}
+
+core::TrajectoryResult two_losses() {
+  core::TrajectoryResult result;
+  result.mechanism = "Crank";
+  result.trajectory = "round";
+  result.law = "cycloidal";
+  result.period = 2;
+  result.length = 3;
+  result.distance_unit = "m";
+  result.min_force = 5;
+  result.joints = {"A", "B"};
+  core::TrajectoryStage stage{"1", "2", 0, 2, 0, 3, 1, infinity, core::LostLast{"A", core::Quantity::M, 0.25}};
+  result.stages = {stage};
+  result.losses = {{core::LossKind::minimum, "B", core::Quantity::f, 0.5, 0.1, 1, 4.5, 0.4, 0.6, false},
+                   {core::LossKind::jump, "A", core::Quantity::M, 1.5, 0.2, 0, 0, 0, 0, true}};
+  result.samples = {{"time", "dx"}, {"s", "m"}, {{0, 1}, {1e-5, nan}}};
+  return result;
+}
+
+TEST(TrajectoryText, SaysHowContactIsLost) {
+  const std::string text = trajectory_text(two_losses());
+  EXPECT_TRUE(contains(text, "f_B down to 4.5 N\n")) << text;
+  EXPECT_TRUE(contains(text, "M_A reversed by the payload\n")) << text;
+  EXPECT_TRUE(contains(text, "never  M_A at 0.25 m\n")) << text;
+}
+
+TEST(TrajectoryObject, HasWhatConcernsTheKindOfALoss) {
+  const nlohmann::ordered_json json = trajectory_object(two_losses());
+  EXPECT_EQ(json["contact_losses"][0]["force"], 4.5);
+  EXPECT_FALSE(json["contact_losses"][0].contains("by"));
+  EXPECT_EQ(json["contact_losses"][1]["by"], "payload");
+  EXPECT_EQ(json["contact_losses"][1]["stage"], 0);
+  EXPECT_TRUE(json["stages"][0]["critical_period"].is_null());
+  EXPECT_TRUE(json["samples"]["dx"][1].is_null());
+  EXPECT_FALSE(json.contains("periods"));
+}
+
+TEST(SweepTable, HasARowForEverySampleOfEveryPeriod) {
+  core::TrajectoryResult result = two_losses();
+  result.sweep = core::PeriodSweep{{1, 2}, {0, 0.5, 1}, {1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}};
+  const core::Table table = sweep_table(result);
+  EXPECT_EQ(table.at("period"), (std::vector<double>{1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(table.at("distance"), (std::vector<double>{0, 0.5, 1, 0, 0.5, 1}));
+  EXPECT_EQ(table.units, (std::vector<std::string>{"s", "m", "m", "m", "rad"}));
+  EXPECT_EQ(trajectory_object(result)["periods"]["count"], 2);
+}
+
+core::ErrorMap one_field() {
+  core::ErrorMap errors;
+  errors.loci.tower.coordinates = {"x", "y"};
+  core::ModeErrors mode;
+  mode.map = {"Crank", {"x", "y"}, {0, 0}, {2, 2}, 2, 2, {{"dp", "distance", "m", false, {1, 2, nan, 4}}}};
+  mode.sizes = {core::ErrorSizes{2, 4, 4, 4, 3}};
+  mode.reachable = 3;
+  mode.zones = {{"z1", {0, 1}, {core::ErrorSizes{1, 2, 2, 2, 1}}}, {"z2", {2}, {std::nullopt}}};
+  errors.modes = {mode};
+  return errors;
+}
+
+TEST(ErrorText, SaysWhereTheLargestIs) {
+  const std::string text = error_text(one_field());
+  EXPECT_TRUE(contains(text, "  (1.5, 1.5)\n")) << text;
+  EXPECT_TRUE(contains(text, "z1, 2 cells")) << text;
+  EXPECT_TRUE(contains(text, "none\n")) << "a zone without a value: " << text;
+}
+
+TEST(WriteError, WritesWhatIsAskedForAndNoMore) {
+  const fixture::ScratchFolder folder;
+  const auto files = write_error(one_field(), folder.path(), {"csv", "vtk"});
+  ASSERT_EQ(files.size(), 3U);
+  EXPECT_EQ(files[0].filename(), "error.json");
+  EXPECT_EQ(files[1].filename(), "error.csv");
+  EXPECT_EQ(files[2].filename(), "error.vti");
+  for (const std::filesystem::path& file : files) EXPECT_TRUE(std::filesystem::exists(file));
+  const nlohmann::ordered_json json = error_object(one_field());
+  EXPECT_TRUE(json["modes"][0]["zones"][1]["fields"]["dp"]["median"].is_null());
+  EXPECT_EQ(json["modes"][0]["fields"]["dp"]["at"][0], 1.5);
+}
+
+}  // namespace
+}  // namespace clearloci::report
