@@ -151,7 +151,7 @@ std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::
   return wrong;
 }
 
-void withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map) {
+bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map) {
   std::vector<WrongArc> wrong = wrong_arcs(problem, map);
   for (const auto& [c, a, fault] : wrong) {
     core::LocusCurve& curve = map.curves[c];
@@ -165,6 +165,7 @@ void withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map)
     arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(last->arc));
   }
   std::erase_if(map.curves, [](const core::LocusCurve& curve) { return curve.arcs.empty(); });
+  return !wrong.empty();
 }
 
 }  // namespace clearloci::loci

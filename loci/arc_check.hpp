@@ -53,6 +53,7 @@ std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::
 bool owns(const core::LocusFactor& factor, const core::LocusCurve& curve);
 
 /// Withholds arcs of the map that are proven to be wrong: their curves are not certified then, and a note says so.
-void withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map);
+/// True: there were some.
+bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map);
 
 }  // namespace clearloci::loci

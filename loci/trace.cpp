@@ -162,22 +162,24 @@ bool reopen(const LocusProblem& problem, const std::vector<WrongArc>& wrong, con
   return any;
 }
 
-/// The adaptive engine, with the exact one behind it where that is wanted.
-void trace_adaptively(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
+/// The adaptive engine, with the exact one behind it where that is wanted. True: arcs had to be withheld.
+bool trace_adaptively(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
   std::vector<SheetShare> shares = trace_on_sheets(problem, options);
   if (options.certificate != nullptr) {
     *options.certificate = {problem, {}, {}};
     for (const SheetShare& share : shares) options.certificate->open.push_back({share.mode, share.factor});
   }
   map = gathered(problem, options, shares);
+  bool withheld = false;
   // The last check. What fails it is traced again by the exact engine; what fails it then is not handed out.
   if (const std::vector<WrongArc> wrong = wrong_arcs(problem, map); !wrong.empty()) {
     if (reopen(problem, wrong, map, shares)) map = gathered(problem, options, shares);
-    withhold_wrong_arcs(problem, map);
+    withheld = withhold_wrong_arcs(problem, map);
   }
   if (options.certificate != nullptr) certify(problem, shares, *options.certificate);
   for (const core::WorkingMode& mode : problem.modes)
     map.workspace.push_back({mode, workspace_faces(problem, mode, map).rings});
+  return withheld;
 }
 
 }  // namespace
@@ -186,15 +188,17 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
   const std::size_t coordinates = problem.tower.coordinates.size();
   core::ensure(coordinates == 1 || coordinates == 2, "one or two free coordinates");
   LocusMap map;
+  bool withheld = false;
   try {
     if (coordinates == 1) {
       add_points_of_one_coordinate(problem, options, map);
     } else if (options.engine == Engine::exact) {
       map = trace_exactly_in_time(problem, options);
-      withhold_wrong_arcs(problem, map);
+      withheld = withhold_wrong_arcs(problem, map);
     } else {
-      trace_adaptively(problem, options, map);
+      withheld = trace_adaptively(problem, options, map);
     }
+    const std::size_t known = map.isolated_points.size();
     const std::function<bool()> stop = [&] {
       return options.deadline && std::chrono::steady_clock::now() > *options.deadline;
     };
@@ -204,6 +208,9 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
       add_contact_loss_points(problem, mode, map, stop);
       add_touching_points(problem, mode, map);
     }
+    // A point that lies on an arc which is withheld looks isolated.
+    for (std::size_t i = known; withheld && i < map.isolated_points.size(); ++i)
+      map.isolated_points[i].certified = false;
   } catch (const core::LimitReached&) {
     map.complete = false;
   }
