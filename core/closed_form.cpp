@@ -123,14 +123,18 @@ std::vector<Circle> circles_of(const ClosedForm& form) {
 
 std::optional<Circle> circle_through(const ClosedForm& form, const Polyline& points) {
   constexpr double rounding = 1e-9;
+  // Circles of a pair may nearly coincide: the nearest one.
+  std::optional<Circle> nearest;
+  double least = rounding;
   for (const Circle& circle : circles_of(form)) {
-    const bool on_it = std::all_of(points.begin(), points.end(), [&](const Point2& p) {
-      const double distance = std::hypot(p[0] - circle.centre[0], p[1] - circle.centre[1]);
-      return std::abs(distance - circle.radius) <= rounding * circle.radius;
-    });
-    if (on_it) return circle;
+    double off = 0;
+    for (const Point2& p : points)
+      off = std::max(off, std::abs(std::hypot(p[0] - circle.centre[0], p[1] - circle.centre[1]) / circle.radius - 1));
+    if (off > least) continue;
+    least = off;
+    nearest = circle;
   }
-  return std::nullopt;
+  return nearest;
 }
 
 }  // namespace clearloci::inline core

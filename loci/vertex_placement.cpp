@@ -9,6 +9,9 @@ namespace {
 
 using core::Point2;
 
+// Angles between points that are known to rounding, on circles that are not much larger than the box.
+constexpr double angle_rounding = 1e-9, small_gap = 1e-6;
+
 double distance(const Point2& a, const Point2& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
 class Placement {
@@ -163,6 +166,12 @@ core::Polyline circle_arc(const Point2& centre, double radius, const Point2& sta
   const double to_via = positive(angle(via) - from);
   double sweep = closed ? turn : positive(angle(end) - from);
   if (!closed && to_via > sweep) sweep -= turn;  // clockwise
+  // Ends that are close together leave a small arc or all but one, and rounding must not choose.
+  const double gap = std::min(std::abs(sweep), turn - std::abs(sweep));
+  if (!closed && gap < small_gap) {
+    const bool short_way = std::min(to_via, turn - to_via) <= gap + angle_rounding;
+    if (short_way != (std::abs(sweep) < std::numbers::pi)) sweep += sweep > 0 ? -turn : turn;
+  }
   const double widest = 2 * std::acos(std::max(0.0, 1 - tolerance / radius));
   const int chords = std::max({1, static_cast<int>(std::ceil(std::abs(sweep) / widest)), closed ? 3 : 1});
   core::Polyline line{start};
