@@ -152,13 +152,17 @@ std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::
 }
 
 bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map) {
-  std::vector<WrongArc> wrong = wrong_arcs(problem, map);
-  for (const auto& [c, a, fault] : wrong) {
-    core::LocusCurve& curve = map.curves[c];
+  const std::vector<WrongArc> wrong = wrong_arcs(problem, map);
+  for (std::size_t first = 0, next = 0; first < wrong.size(); first = next) {
+    while (next < wrong.size() && wrong[next].curve == wrong[first].curve) ++next;
+    core::LocusCurve& curve = map.curves[wrong[first].curve];
     curve.certified = false;
-    map.notes.push_back("an arc of " + (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
-                        " failed its last check and is withheld: " + fault.what + " near (" +
-                        std::to_string(fault.at[0]) + ", " + std::to_string(fault.at[1]) + ")");
+    const ArcFault& fault = wrong[first].fault;
+    map.notes.push_back((next - first == 1 ? "an arc" : std::to_string(next - first) + " arcs") + " of " +
+                        (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
+                        " failed the last check and " + (next - first == 1 ? "is" : "are") +
+                        " withheld: " + fault.what + " near (" + std::to_string(fault.at[0]) + ", " +
+                        std::to_string(fault.at[1]) + ")");
   }
   for (auto last = wrong.rbegin(); last != wrong.rend(); ++last) {
     std::vector<core::Arc>& arcs = map.curves[last->curve].arcs;

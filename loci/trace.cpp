@@ -79,6 +79,22 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
     });
     if (is_open) open.push_back(&share);
   }
+  // A curve beyond the engine's reach stays open, and so does what would have to be told together with it.
+  const auto is_too_heavy = [](const LocusFactor& factor) {
+    return highest_degree(factor) > bearable_degree || factor.implicit_too_heavy;
+  };
+  for (bool left = true; left;) {
+    left = false;
+    for (const SheetShare* heavy : open) {
+      const LocusFactor& factor = factor_of(*heavy);
+      if (!is_too_heavy(factor)) continue;
+      std::erase_if(open, [&](const SheetShare* share) {
+        return share->mode == heavy->mode && (share == heavy || shares_curve(factor_of(*share), factor));
+      });
+      left = true;
+      break;
+    }
+  }
   if (open.empty()) return;
   if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
     throw core::LimitReached("the time limit was reached");
@@ -96,7 +112,7 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
       rest.factors.back().implicit_too_heavy = false;
       continue;
     }
-    if (highest_degree(problem.factors[f]) > bearable_degree || problem.factors[f].implicit_too_heavy) return;
+    if (is_too_heavy(problem.factors[f])) return;
     rest.factors.push_back(problem.factors[f]);
   }
   for (const SheetShare* share : open) {
