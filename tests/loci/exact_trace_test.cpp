@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "loci/vertex_placement.hpp"
+
 namespace clearloci::loci {
 namespace {
 
@@ -187,6 +189,32 @@ TEST(ExactTrace, EachModeHasItsHalf) {
       EXPECT_EQ(arcs, 1);
     }
   }
+}
+
+// Ends of an arc that are one point to rounding: where it passes tells which of the two arcs it is.
+TEST(CircleArc, OfNearlyNoneOrAllOfTheCircle) {
+  const core::Point2 centre = {0.25, -0.5};
+  const auto at = [&](double angle) { return core::Point2{centre[0] + std::cos(angle), centre[1] + std::sin(angle)}; };
+  const auto length = [](const core::Polyline& line) {
+    double sum = 0;
+    for (std::size_t i = 1; i < line.size(); ++i)
+      sum += std::hypot(line[i][0] - line[i - 1][0], line[i][1] - line[i - 1][1]);
+    return sum;
+  };
+  const double turn = 2 * std::acos(-1.0);
+  for (const double gap : {0.0, 1e-16, 1e-12, 1e-9, -1e-16, -1e-12, -1e-9})
+    for (const double from : {0.0, 1.0, 3.14159, 5.0}) {
+      const core::Polyline none =
+          circle_arc(centre, 1, at(from), at(from + gap / 2 + 1e-16), at(from + gap), false, 1e-6);
+      EXPECT_LT(length(none), 1e-8) << gap;
+      for (const double via : {0.5, 3.0, 6.0}) {
+        const core::Polyline all = circle_arc(centre, 1, at(from), at(from + via), at(from + gap), false, 1e-6);
+        EXPECT_NEAR(length(all), turn, 1e-4) << gap << " " << via;
+      }
+    }
+  // A quarter and the three others.
+  EXPECT_NEAR(length(circle_arc(centre, 1, at(0), at(0.1), at(turn / 4), false, 1e-6)), turn / 4, 1e-4);
+  EXPECT_NEAR(length(circle_arc(centre, 1, at(0), at(3), at(turn / 4), false, 1e-6)), 3 * turn / 4, 1e-4);
 }
 
 }  // namespace
