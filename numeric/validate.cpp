@@ -97,8 +97,11 @@ WitnessColumns columns_of(const NumericModel& model, const TracedReaction& react
 }
 
 std::vector<Quantity> force_parts(const NumericModel& model, const TracedReaction& reaction) {
-  const int joint = joint_of(model, reaction);
-  return mechanism::force_components(model.mechanism, model.mechanism.joints[static_cast<std::size_t>(joint)]);
+  const mechanism::Joint& joint = model.mechanism.joints[static_cast<std::size_t>(joint_of(model, reaction))];
+  // A guide whose ends are not known loses its contact where it bears nothing at all.
+  if (model.mechanism.space == mechanism::Space::planar && joint.type == mechanism::JointType::prismatic)
+    return mechanism::reaction_components(model.mechanism, joint);
+  return mechanism::force_components(model.mechanism, joint);
 }
 
 GridAxis axis(double lower, double upper, int nodes, double shift) {

@@ -133,6 +133,17 @@ TEST(Vanishing, TheWitnessDisputesWhatNumeratorsAloneWouldClaim) {
   }
 }
 
+// Telescopes whose ends are not known bear a normal force alone: where it vanishes their contact is lost, and the arcs
+// that say so are those on which the witness sees it change its sign.
+TEST(Vanishing, TheWitnessCountsLostContactOfGuidesForTheirForce) {
+  const mechanism::Mechanism legs = corpus("rprpr_heavy_cylinders.yaml");
+  core::LocusMap map = trace_loci(legs);
+  const std::vector<numeric::TracedReaction> force = {{"S2", Quantity::N}};
+  EXPECT_EQ(numeric::validate(legs, map, {40, 40}, force).disputed, 0u);
+  std::erase_if(map.curves, [](const LocusCurve& curve) { return names(curve, "S2", Quantity::f); });
+  EXPECT_GT(numeric::validate(legs, map, {40, 40}, force).disputed, 0u);
+}
+
 TEST(Vanishing, TheWitnessMissesWhatIsNotNamed) {
   const mechanism::Mechanism rail = corpus("prr2.yaml");
   core::LocusMap map = trace_loci(rail);
