@@ -181,6 +181,9 @@ class Geometry {
   /// On a line or in a plane of constant direction fewer symbols do than there are coordinates.
   void keep_on_line(mechanism::PointIndex point, mechanism::PointIndex base, const std::array<Poly, 3>& along);
   void keep_in_plane(mechanism::PointIndex point, mechanism::PointIndex base, const std::array<Poly, 3>& normal);
+  /// Nor does a point that is placed at a constant way from another one, as in a parallelogram, have coordinates of its
+  /// own: factors show what numerators and |A| share.
+  void keep_beside_another(mechanism::PointIndex point);
   /// to - from and a + way over the least denominator, as far as its factors are known to be positive.
   TowerPoint difference(const TowerPoint& to, const TowerPoint& from) const;
   TowerPoint sum(const TowerPoint& a, const TowerPoint& way) const;

@@ -157,6 +157,28 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   lighten(step);
   tower_[index(point)] = sum(a, step);
   if (form.axis) keep_in_plane(point, form.from, n);
+  if (roots_.back().value) keep_beside_another(point);
+}
+
+void Geometry::keep_beside_another(PointIndex point) {
+  const auto beside = [&](PointIndex other) {
+    const auto [x, y, w, z] = difference(tower(point), tower(other));
+    auto own = natural(other);
+    const Vector way = {x, y, z};
+    bool same = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      Poly step(*ring_);
+      if (!way[i].is_zero() && (!way[i].divides(w, step) || !step.is_constant())) return false;
+      same = same && step.is_zero();
+      own[i] += number(step.constant());
+    }
+    // A point in the place of another one makes modes that are singular in every pose, of which its own factor tells
+    // why.
+    if (!same) natural_[index(point)] = own;
+    return !same;
+  };
+  for (PointIndex other = 0; other < point; ++other)
+    if (beside(other)) return;
 }
 
 void Geometry::keep_in_plane(PointIndex point, PointIndex base, const Vector& normal) {
