@@ -5,8 +5,9 @@
 //     const clearloci::Model model = clearloci::Model::read("manipulator.yaml");
 //     const clearloci::TrajectoryResult motion =
 //         clearloci::follow_trajectory(model, "path.yaml", {.period = 0.8, .periods = {0.5, 1.0, 1.5}});
-//     for (const clearloci::ContactLoss& loss : motion.losses) std::cout << loss.joint << " at " << loss.time << "
-//     s\n"; const std::vector<double>& dx = motion.samples.at("dx");
+//     for (const clearloci::ContactLoss& loss : motion.losses)
+//       std::cout << loss.joint << " at " << loss.time << " s\n";
+//     std::cout << motion.samples.at("dx").size() << " samples\n";
 //
 // Times in s, lengths in m, angles in rad, forces in N, couples in N m. Distances along the path are those of the free
 // coordinates: in m where these are lengths, in rad where they are angles (TrajectoryResult::distance_unit).

@@ -54,4 +54,5 @@ PYBIND11_MODULE(_clearloci, module) {
   bind_loci(module);
   bind_zones(module);
   bind_verify(module);
+  bind_motion(module);
 }

@@ -14,14 +14,19 @@ Units are SI throughout: m, rad, N, N m. Names and defaults are those of the com
 from ._clearloci import InputError, LimitReached, __version__
 from .answers import Curve, Loci, Surface, Verification, Zone, Zones
 from .model import Model, parse, read
+from .motion import CoordinateErrors, ErrorMap, Pose, Trajectory
 
 __all__ = [
+    "CoordinateErrors",
     "Curve",
+    "ErrorMap",
     "InputError",
     "LimitReached",
     "Loci",
     "Model",
+    "Pose",
     "Surface",
+    "Trajectory",
     "Verification",
     "Zone",
     "Zones",

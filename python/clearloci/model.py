@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Mapping, Union
+from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
 
 import numpy as np
 
 from . import _clearloci
 from .answers import Loci, Verification, Zones
+from .motion import CoordinateErrors, ErrorMap, Pose, Trajectory
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 Number = Union[int, float, str]
 Task = Union[str, "os.PathLike[str]", Mapping[str, Any], np.ndarray]
@@ -83,6 +87,52 @@ class Model:
         points, m, which is a path. `fit`: "nearest" or "best", to move it where it fails.
         """
         return Verification(self, task, fit, options)
+
+    def pose(self, at: Sequence[float], iterate: bool = False, **options: Any) -> Pose:
+        """Posture, reactions, take-up and pose error at one pose: a value a free coordinate, m or, of an angle, rad.
+        A float stands for the shortest decimal that reads back as it.
+        """
+        return Pose(**_clearloci.solve_pose(self._handle, [float(value) for value in at], iterate, **options))
+
+    def reactions(self, poses: ArrayLike, **options: Any) -> dict[str, np.ndarray]:
+        """Scalar reactions, N and N m, at poses (n, coordinates): name -> (n,), NaN where a pose is out of reach."""
+        return _clearloci.reactions(self._handle, np.asarray(poses, dtype=float), **options)
+
+    def error_map(
+        self, grid: tuple[int, int] = (400, 400), worst_case: bool = True, **options: Any
+    ) -> ErrorMap | list[ErrorMap]:
+        """The pose error over two coordinates, on a grid of (nx, ny) cells; one map a working mode, of a single one
+        that map.
+        """
+        answer = _clearloci.error_map(self._handle, *grid, worst_case, False, **options)
+        maps = [ErrorMap(coordinates=answer["coordinates"], **own) for own in answer["modes"]]
+        return maps[0] if options.get("working_mode") != "all" else maps
+
+    def coordinate_errors(
+        self, steps: int = 720, worst_case: bool = True, **options: Any
+    ) -> CoordinateErrors | list[CoordinateErrors]:
+        """The pose error over a single coordinate, with its jumps at the loci; one a working mode."""
+        answer = _clearloci.coordinate_errors(self._handle, steps, worst_case, **options)
+        all_modes = [CoordinateErrors(coordinate=answer["coordinate"], **own) for own in answer["modes"]]
+        return all_modes[0] if options.get("working_mode") != "all" else all_modes
+
+    def trajectory(
+        self,
+        path: str | os.PathLike[str],
+        period: float | None = None,
+        samples: int = 2000,
+        min_force: float | None = None,
+        periods: Sequence[float] = (),
+        **options: Any,
+    ) -> Trajectory:
+        """What happens along a motion file: reactions with inertia, take-up, contact losses, critical periods; over
+        `periods` (s) the error of each.
+        """
+        return Trajectory(
+            **_clearloci.follow_trajectory(
+                self._handle, os.fspath(path), period, samples, min_force, [float(p) for p in periods], **options
+            )
+        )
 
     def __repr__(self) -> str:
         return f"<clearloci.Model {self.name!r}>"

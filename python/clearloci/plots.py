@@ -81,6 +81,41 @@ def plot_zones(zones: Zones, ax: Axes | None, working_mode: dict[str, str] | Non
     return ax
 
 
+def plot_field(errors: Any, field: str, ax: Axes | None) -> Axes:
+    """Magnitudes in viridis, signed errors from blue to red; the colours end at the 90th percentile."""
+    ax = _axes(ax, errors.coordinates)
+    values = errors.fields[field]
+    known = np.abs(values[np.isfinite(values)])
+    most = float(np.percentile(known, 90)) if known.size else 1.0
+    signed = bool(np.nanmin(values) < 0) if known.size else False
+    image = ax.pcolormesh(
+        errors.x,
+        errors.y,
+        values,
+        cmap="coolwarm" if signed else "viridis",
+        vmin=-most if signed else 0,
+        vmax=most,
+        shading="nearest",
+    )
+    ax.figure.colorbar(image, ax=ax, label=f"{field} ({errors.units[field]})", extend="both" if signed else "max")
+    return ax
+
+
+def plot_trajectory(motion: Any, columns: list[str], ax: Axes | None) -> Axes:
+    """Columns over time; contact losses as vertical lines."""
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        ax = plt.subplots()[1]
+    for column in columns:
+        ax.plot(motion.samples["time"], motion.samples[column], label=f"{column} ({motion.units[column]})")
+    for loss in motion.losses:
+        ax.axvline(loss["time"], color="0.7", linewidth=0.8, zorder=0)
+    ax.set_xlabel("time (s)")
+    ax.legend(fontsize="small")
+    return ax
+
+
 def _fill(ax: Axes, rings: list[np.ndarray], **style: Any) -> None:
     """Rings filled by the even-odd rule, whichever way they turn."""
     from matplotlib.patches import PathPatch

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 #include "core/errors.hpp"
 #include "tests/laws/lattice_designs.hpp"
 

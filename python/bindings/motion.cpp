@@ -1,0 +1,250 @@
+// Poses, reactions, errors and trajectories.
+#include <cmath>
+#include <limits>
+
+#include "bindings/bindings.hpp"
+#include "bindings/maps.hpp"
+#include "clearloci/error.hpp"
+#include "clearloci/pose.hpp"
+#include "clearloci/trajectory.hpp"
+
+namespace clearloci::python {
+namespace {
+
+using PyPoses = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+py::array_t<double> column(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::dict dict_of(const Table& table) {
+  py::dict all;
+  for (std::size_t i = 0; i < table.names.size(); ++i) all[py::str(table.names[i])] = column(table.columns[i]);
+  return all;
+}
+
+py::dict units_of(const Table& table) {
+  py::dict all;
+  for (std::size_t i = 0; i < table.names.size(); ++i) all[py::str(table.names[i])] = table.units[i];
+  return all;
+}
+
+py::dict dict_of(const PoseError& error) {
+  py::dict one;
+  one["displacement"] = error.displacement;
+  one["rotation"] = error.rotation;
+  return one;
+}
+
+py::dict dict_of(const std::vector<JointTakeUp>& all) {
+  py::dict joints;
+  for (const JointTakeUp& own : all) {
+    py::dict one;
+    one["displacement"] = own.displacement;
+    one["beta"] = own.beta;
+    one["rotation"] = own.rotation;
+    one["normal"] = own.normal;
+    one["tilt"] = own.tilt;
+    one["axial"] = own.axial;
+    joints[py::str(own.joint)] = one;
+  }
+  return joints;
+}
+
+py::dict dict_of(const Pose& pose) {
+  py::dict mode, points, reactions, worst, all;
+  for (const auto& [point, side] : pose.working_mode) mode[py::str(point)] = side;
+  for (const PosePoint& point : pose.points) points[py::str(point.name)] = point.at;
+  for (const JointReaction& joint : pose.reactions) {
+    py::dict one;
+    for (const ReactionComponent& part : joint.components) one[py::str(to_string(part.quantity))] = part.value;
+    reactions[py::str(joint.joint)] = one;
+  }
+  worst["displacement"] = pose.worst.displacement;
+  worst["rotation"] = pose.worst.rotation;
+  worst["distance"] = pose.worst.distance;
+  worst["angle"] = pose.worst.angle;
+  all["at"] = pose.at;
+  all["working_mode"] = mode;
+  all["unreachable"] = pose.unreachable.empty() ? py::object(py::none()) : py::cast(pose.unreachable);
+  all["points"] = points;
+  all["reactions"] = reactions;
+  all["determinant"] = pose.determinant;
+  all["condition"] = pose.condition;
+  all["singular"] = pose.singular;
+  all["take_up"] = dict_of(pose.take_up);
+  all["error"] = pose.error ? py::object(dict_of(*pose.error)) : py::none();
+  all["worst"] = worst;
+  all["undefined"] = pose.undefined;
+  all["vanishing"] = names_of(pose.vanishing);
+  all["actual"] = pose.actual && pose.actual->converged ? py::object(dict_of(pose.actual->error)) : py::none();
+  return all;
+}
+
+py::array_t<double> grid_of(const FieldMap& map, const Field& field) {
+  py::array_t<double> array({static_cast<py::ssize_t>(map.ny), static_cast<py::ssize_t>(map.nx)});
+  std::copy(field.values.begin(), field.values.end(), array.mutable_data());
+  return array;
+}
+
+py::dict dict_of(const ErrorMap& map) {
+  py::list modes;
+  for (const ModeErrors& own : map.modes) {
+    py::dict fields, units, one;
+    for (const Field& field : own.map.fields) {
+      fields[py::str(field.name)] = grid_of(own.map, field);
+      units[py::str(field.name)] = field.unit;
+    }
+    std::vector<double> x, y;
+    for (int i = 0; i < own.map.nx; ++i) x.push_back(own.map.x(i));
+    for (int j = 0; j < own.map.ny; ++j) y.push_back(own.map.y(j));
+    one["working_mode"] = mode_of(map.loci.tower, own.mode);
+    one["fields"] = fields;
+    one["units"] = units;
+    one["x"] = column(x);
+    one["y"] = column(y);
+    one["reachable"] = own.reachable;
+    one["undefined"] = own.undefined;
+    one["never_loaded"] = own.never_loaded;
+    modes.append(one);
+  }
+  py::dict all;
+  all["modes"] = modes;
+  all["coordinates"] = map.loci.tower.coordinates;
+  all["complete"] = map.loci.complete;
+  return all;
+}
+
+py::dict dict_of(const CoordinateErrors& errors) {
+  py::list modes;
+  for (const CoordinateModeErrors& own : errors.modes) {
+    py::list events;
+    for (const ErrorEvent& event : own.events) {
+      py::dict one;
+      one["at"] = event.point.at.front();
+      one["kind"] = to_string(event.point.kind);
+      one["vanishing"] = names_of(event.point.vanishing);
+      one["jumps"] = event.jumps;
+      one["dx"] = event.dx;
+      one["dy"] = event.dy;
+      one["dalpha"] = event.dalpha;
+      events.append(one);
+    }
+    py::dict one;
+    one["working_mode"] = mode_of(errors.loci.tower, own.mode);
+    one["samples"] = dict_of(own.samples);
+    one["units"] = units_of(own.samples);
+    one["events"] = events;
+    one["never_loaded"] = own.never_loaded;
+    modes.append(one);
+  }
+  py::dict all;
+  all["modes"] = modes;
+  all["coordinate"] = errors.coordinate;
+  all["complete"] = errors.loci.complete;
+  return all;
+}
+
+py::dict dict_of(const TrajectoryResult& result) {
+  py::list losses, stages;
+  for (const ContactLoss& loss : result.losses) {
+    py::dict one;
+    one["kind"] = to_string(loss.kind);
+    one["joint"] = loss.joint;
+    one["quantity"] = to_string(loss.quantity);
+    one["time"] = loss.time;
+    one["distance"] = loss.distance;
+    one["stage"] = loss.stage;
+    losses.append(one);
+  }
+  for (const TrajectoryStage& stage : result.stages) {
+    py::dict one;
+    one["from"] = stage.from;
+    one["to"] = stage.to;
+    one["begins"] = stage.begins;
+    one["ends"] = stage.ends;
+    one["critical_period"] = stage.critical_period;
+    stages.append(one);
+  }
+  py::dict all;
+  all["period"] = result.period;
+  all["length"] = result.length;
+  all["samples"] = dict_of(result.samples);
+  all["units"] = units_of(result.samples);
+  all["losses"] = losses;
+  all["stages"] = stages;
+  if (result.sweep) {
+    const PeriodSweep& sweep = *result.sweep;
+    const auto grid = [&](const std::vector<double>& values) {
+      py::array_t<double> array(
+          {static_cast<py::ssize_t>(sweep.periods.size()), static_cast<py::ssize_t>(sweep.distance.size())});
+      std::copy(values.begin(), values.end(), array.mutable_data());
+      return array;
+    };
+    py::dict one;
+    one["periods"] = column(sweep.periods);
+    one["distance"] = column(sweep.distance);
+    one["dx"] = grid(sweep.dx);
+    one["dy"] = grid(sweep.dy);
+    one["dalpha"] = grid(sweep.dalpha);
+    all["sweep"] = one;
+  } else {
+    all["sweep"] = py::none();
+  }
+  return all;
+}
+
+DyadSides only_mode(const Model& model, const py::kwargs& options) {
+  const LociRequest request = request_of(model, options);
+  return request.working_modes.empty() ? DyadSides{} : request.working_modes.front();
+}
+
+}  // namespace
+
+void bind_motion(py::module_& module) {
+  module.def("solve_pose",
+             [](const Model& model, const std::vector<double>& at, bool iterate, const py::kwargs& options) {
+               return dict_of(solve_pose(model, at, {.working_mode = only_mode(model, options), .iterate = iterate}));
+             });
+  module.def("reactions", [](const Model& model, const PyPoses& poses, const py::kwargs& options) {
+    const DyadSides sides = only_mode(model, options);
+    const std::span<const double> values(poses.data(), static_cast<std::size_t>(poses.size()));
+    const Reactions own = [&] {
+      const py::gil_scoped_release free;
+      return reactions(model, values, sides);
+    }();
+    return dict_of(own.table);
+  });
+  module.def("error_map",
+             [](const Model& model, int nx, int ny, bool worst_case, bool loci, const py::kwargs& options) {
+               ErrorRequest request{
+                   .nx = nx, .ny = ny, .worst_case = worst_case, .with_loci = loci, .loci = request_of(model, options)};
+               LociRequest own = request.loci;
+               return dict_of(unlocked(own, [&](const LociRequest& with_signals) {
+                 request.loci = with_signals;
+                 return error_map(model, request);
+               }));
+             });
+  module.def("coordinate_errors", [](const Model& model, int steps, bool worst_case, const py::kwargs& options) {
+    ErrorRequest request{.steps = steps, .worst_case = worst_case, .loci = request_of(model, options)};
+    LociRequest own = request.loci;
+    return dict_of(unlocked(own, [&](const LociRequest& with_signals) {
+      request.loci = with_signals;
+      return coordinate_errors(model, request);
+    }));
+  });
+  module.def("follow_trajectory", [](const Model& model, const std::string& path, const py::object& period, int samples,
+                                     const py::object& min_force, const std::vector<double>& periods,
+                                     const py::kwargs& options) {
+    TrajectoryRequest request{.working_mode = only_mode(model, options), .samples = samples, .periods = periods};
+    if (!period.is_none()) request.period = period.cast<double>();
+    if (!min_force.is_none()) request.min_force = min_force.cast<double>();
+    const TrajectoryResult result = [&] {
+      const py::gil_scoped_release free;
+      return follow_trajectory(model, path, request);
+    }();
+    return dict_of(result);
+  });
+}
+
+}  // namespace clearloci::python

@@ -1,0 +1,96 @@
+"""Answers about poses, errors and motions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True)
+class Pose:
+    """One pose: places in m, reactions in N and N m, errors in m and rad."""
+
+    at: list[float]
+    working_mode: dict[str, str]
+    unreachable: str | None  #: the first point that cannot be placed; then nothing below is known
+    points: dict[str, list[float]]
+    reactions: dict[str, dict[str, float]]  #: joint -> {"fx": N, "fy": N, "M": N m}
+    determinant: float
+    condition: float
+    singular: bool
+    take_up: dict[str, dict[str, Any]]
+    error: dict[str, list[float]] | None  #: to the first order: "displacement" (m), "rotation" (rad); None if undefined
+    worst: dict[str, Any]  #: bounds over all take-ups
+    undefined: list[str]  #: joints whose take-up is
+    vanishing: list[str]
+    actual: dict[str, list[float]] | None  #: beyond the linear step, where it was asked for
+
+    @property
+    def pose_error(self) -> dict[str, list[float]] | None:
+        """`error` by its name on the command line."""
+        return self.error
+
+
+@dataclass(frozen=True)
+class ErrorMap:
+    """The pose error of one working mode over two coordinates; every field is an array (ny, nx), NaN where none is."""
+
+    working_mode: dict[str, str]
+    coordinates: list[str]
+    fields: dict[str, np.ndarray]  #: "dx", "dy", "dalpha", "dp", "worst_dx", ...
+    units: dict[str, str]
+    x: np.ndarray  #: middles of the cells, m or, of an angle, rad
+    y: np.ndarray
+    reachable: int
+    undefined: int
+    never_loaded: list[str]
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self.fields[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+    def plot(self, field: str = "dp", ax: Axes | None = None) -> Axes:
+        """One field in colours, in the Axes given or in new ones."""
+        from .plots import plot_field
+
+        return plot_field(self, field, ax)
+
+
+@dataclass(frozen=True)
+class CoordinateErrors:
+    """The pose error of one working mode over a single coordinate."""
+
+    working_mode: dict[str, str]
+    coordinate: str
+    samples: dict[str, np.ndarray]  #: the coordinate, reactions, take-up, errors; NaN at events
+    units: dict[str, str]
+    events: list[dict[str, Any]]  #: what vanishes where, and by how much the end effector jumps
+    never_loaded: list[str]
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """A motion: times in s, lengths in m, angles in rad, forces in N, couples in N m."""
+
+    period: float
+    length: float
+    samples: dict[str, np.ndarray]  #: "time", "distance", "stage", "dx", ..., "fA1x", ...
+    units: dict[str, str]
+    losses: list[dict[str, Any]]  #: where the parts of a joint lose contact, in order of time
+    stages: list[dict[str, Any]]
+    sweep: dict[str, np.ndarray] | None  #: with periods: "periods", "distance", and (periods, samples) of "dx", ...
+
+    def plot(self, columns: list[str] | None = None, ax: Axes | None = None) -> Axes:
+        """Columns of the samples (the pose error) over time, in the Axes given or in new ones."""
+        from .plots import plot_trajectory
+
+        return plot_trajectory(self, columns or ["dx", "dy"], ax)
