@@ -56,6 +56,12 @@ bool is_same(const LocusCurve& a, const LocusCurve& b) {
          a.mode == b.mode && a.implicit == b.implicit;
 }
 
+/// The sides of a fold may have other words for what happens on it.
+bool is_same_on_fold(const LocusCurve& a, const LocusCurve& b) {
+  return a.kind == b.kind && a.kind != core::LocusKind::margin && a.vanishing == b.vanishing && a.mode == b.mode &&
+         a.implicit == b.implicit;
+}
+
 bool is_same(const core::IsolatedPoint& a, const core::IsolatedPoint& b, double near) {
   if (a.kind != b.kind || a.vanishing != b.vanishing || a.mode != b.mode) return false;
   for (std::size_t i = 0; i < a.at.size(); ++i)
@@ -119,14 +125,17 @@ LocusMap join_sheets(const std::vector<const LocusProblem*>& problems, std::vect
       append_sheets(joined, std::move(maps[m]));
     for (LocusCurve& curve : curves) {
       curve.mode.resize(kept, 1);
-      const auto known = std::find_if(joined.curves.begin(), joined.curves.end(),
-                                      [&](const LocusCurve& other) { return is_same(other, curve); });
+      const bool twice = may_be_on_fold(curve, *problems[m]);
+      auto known = std::find_if(joined.curves.begin(), joined.curves.end(),
+                                [&](const LocusCurve& other) { return is_same(other, curve); });
+      if (known == joined.curves.end() && twice && m > 0)
+        known = std::find_if(joined.curves.begin(), joined.curves.end(),
+                             [&](const LocusCurve& other) { return is_same_on_fold(other, curve); });
       if (known == joined.curves.end()) {
         joined.curves.push_back(std::move(curve));
         continue;
       }
       known->certified = known->certified && curve.certified;
-      const bool twice = may_be_on_fold(curve, *problems[m]);
       const auto before = static_cast<std::ptrdiff_t>(known->arcs.size());
       for (core::Arc& arc : curve.arcs) {
         if (twice && std::any_of(known->arcs.begin(), known->arcs.begin() + before,
@@ -146,8 +155,11 @@ LocusMap join_sheets(const std::vector<const LocusProblem*>& problems, std::vect
 }
 
 std::string name_in(const LocusMap& joined, const LocusCurve& curve) {
-  const auto known = std::find_if(joined.curves.begin(), joined.curves.end(),
-                                  [&](const LocusCurve& other) { return is_same(other, curve); });
+  auto known = std::find_if(joined.curves.begin(), joined.curves.end(),
+                            [&](const LocusCurve& other) { return is_same(other, curve); });
+  if (known == joined.curves.end())
+    known = std::find_if(joined.curves.begin(), joined.curves.end(),
+                         [&](const LocusCurve& other) { return is_same_on_fold(other, curve); });
   return known == joined.curves.end() ? curve.id : known->id;
 }
 

@@ -40,6 +40,10 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
     if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&m.points[i].form); dyad != nullptr && dyad->axis)
       add(stretched(static_cast<PointIndex>(i), *dyad), stretched_wording(static_cast<PointIndex>(i), *dyad));
   if (m.space == mechanism::Space::spatial) return;  // the conditions below are those of the plane
+  // The point of a dependent root may be placed beside another one: where its leg is stretched is a fold, whatever else
+  // it is on this side of it.
+  for (const TowerRoot& root : geometry.roots())
+    if (root.value) add_alignments_along_chains(root.point);
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < m.links.size(); ++i) {
     const auto& points = m.links[i].points;
@@ -129,14 +133,14 @@ void Causes::add_load_conditions(const std::vector<Edge>& edges, const std::vect
   }
 }
 
-void Causes::add_alignments() {
+void Causes::add_alignments_along_chains(std::optional<PointIndex> at) {
   const Mechanism& m = geometry_->mechanism();
   const auto name = [&](PointIndex i) { return m.points[static_cast<std::size_t>(i)].name; };
-  // Along the chains first, the shared point in the middle: "A1, B1, P aligned".
   for (std::size_t i = 0; i < m.links.size(); ++i) {
     for (std::size_t k = i + 1; k < m.links.size(); ++k) {
       for (const PointIndex shared : m.links[i].points) {
         if (std::count(m.links[k].points.begin(), m.links[k].points.end(), shared) == 0) continue;
+        if (at && *at != shared) continue;
         for (const PointIndex a : m.links[i].points) {
           for (const PointIndex b : m.links[k].points) {
             if (a == shared || b == shared || a == b) continue;
@@ -146,6 +150,12 @@ void Causes::add_alignments() {
       }
     }
   }
+}
+
+void Causes::add_alignments() {
+  const Mechanism& m = geometry_->mechanism();
+  const auto name = [&](PointIndex i) { return m.points[static_cast<std::size_t>(i)].name; };
+  add_alignments_along_chains(std::nullopt);
   std::vector<PointIndex> named;
   for (std::size_t i = 0; i < m.points.size(); ++i) {
     if (!m.points[i].auxiliary) named.push_back(static_cast<PointIndex>(i));

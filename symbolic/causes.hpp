@@ -1,6 +1,7 @@
 // Physical names for factors: "link PB2 parallel to the load", "A1, B1, P aligned". Private to symbolic/.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,8 @@ class Causes {
   void add(const Poly& condition, std::string wording);
   std::array<Poly, 3> vector(const mechanism::VectorExpression& vector) const;
   void add_load_conditions(const std::vector<Edge>& edges, const std::vector<Direction>& directions);
+  /// The shared point of two links in the middle, "A1, B1, P aligned": all, or those with the given one.
+  void add_alignments_along_chains(std::optional<mechanism::PointIndex> at);
   void add_alignments();
   void add_link_pairs(const std::vector<Edge>& edges);
 

@@ -105,6 +105,19 @@ TEST(Parallelogram, OnALegIsCutWhereThatLegLiesOnTheBase) {
   ASSERT_EQ(geometry.folds().size(), 1u);
   EXPECT_TRUE(geometry.folds().front().where.depends_on(geometry.roots().front().variable));
   EXPECT_EQ(locus_problems(m, {}).size(), 2u);
+  // On one side it is a parallelogram, C beside B as D is beside A; on the other one it is crossed.
+  const auto point = [&](const char* name) {
+    return static_cast<mechanism::PointIndex>(
+        std::find_if(m.points.begin(), m.points.end(), [&](const auto& p) { return p.name == name; }) -
+        m.points.begin());
+  };
+  int beside = 0;
+  for (const int half : {1, -1}) {
+    const Geometry side(m, false, {}, {{}, {half}});
+    const auto &b = side.natural(point("B")), &c = side.natural(point("C"));
+    if ((c[0] - b[0]).expand() == GiNaC::numeric(-3, 10) && (c[1] - b[1]).expand().is_zero()) ++beside;
+  }
+  EXPECT_EQ(beside, 1);
 }
 
 }  // namespace

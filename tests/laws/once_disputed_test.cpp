@@ -1,0 +1,56 @@
+// Designs that the numeric witness once disputed (tests/corpus/witness, tests/corpus/modes): the curves were wrong in
+// some, the witness in others. Now it disputes nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cli/pipeline.hpp"
+
+namespace clearloci {
+namespace {
+
+mechanism::Mechanism corpus(const std::string& name) {
+  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/" + name + ".yaml");
+}
+
+/// `certified`: every curve is to be.
+void hold(const std::string& name, bool certified, LociRequest request = {}) {
+  SCOPED_TRACE(name);
+  const LociValidation validation = validate_loci(corpus(name), request, {60, 60});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.held, 100u);
+  for (const core::LocusCurve& curve : validation.map.curves)
+    EXPECT_TRUE(curve.certified || !certified) << curve.id << " " << curve.factor;
+}
+
+// They take more cells than the budget that curves have at first.
+TEST(OnceDisputed, CurvesThatTakeManyCells) {
+  hold("witness/coupler_five_bar", true);
+  LociRequest request;
+  request.selection.joints = {"A2"};
+  request.selection.quantities = {core::Quantity::fx};
+  hold("witness/stacked_5r", true, request);
+}
+
+// Numerators and |A| vanish together where the parallelogram is flat.
+TEST(OnceDisputed, AParallelogramOnALeg) {
+  hold("modes/five_bar_parallelogram", true);
+  // Either side of the fold has the other's curves there, under one name.
+  const core::LocusMap map = trace_loci(corpus("modes/five_bar_parallelogram"));
+  const auto flat = [&](core::LocusKind kind) {
+    return std::count_if(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
+      return curve.kind == kind && curve.cause == "B, C, D aligned";
+    });
+  };
+  EXPECT_EQ(flat(core::LocusKind::direct_singularity), 2);  // the two circles on which B is on the line A, D
+  EXPECT_EQ(flat(core::LocusKind::workspace_boundary), 2);
+}
+
+// The middle of an arc's single chord is not on the curve.
+TEST(OnceDisputed, AShortArc) { hold("witness/mirrored_short_arc", true); }
+
+// Bases a billionth of the legs apart: the exact engine cannot tell signs there and says so.
+TEST(OnceDisputed, LegsThatAreNearlyCoaxial) { hold("witness/kite_near_coaxial", false); }
+
+}  // namespace
+}  // namespace clearloci
