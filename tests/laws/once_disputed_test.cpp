@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cli/pipeline.hpp"
+#include "analysis/loci.hpp"
 
 namespace clearloci {
 namespace {
