@@ -339,7 +339,8 @@ class Laws {
                   p);
         }
         if (!in_box) continue;
-        if (length <= 1e-9 * size()) fault("an arc of no length", arc.points.front());
+        // Engines drop arcs that are shorter than 1e-10 of the box.
+        if (length <= 1e-10 * size()) fault("an arc of no length", arc.points.front());
         if (!(std::abs(arc.length - length) <= 1e-3 * length + 10 * map.tolerance))
           fault("length " + std::to_string(arc.length) + " for " + std::to_string(length), arc.points.front());
         for (const std::size_t end : {0u, 1u}) {
