@@ -108,6 +108,10 @@ void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, dou
   map.isolated_points.push_back(point);
 }
 
+/// Relative to the box: Newton's method in doubles finds multiple zeros no better, such as the place where the axis of
+/// a guide is undefined and every numerator vanishes.
+constexpr double multiple_zero = 1e-7;
+
 /// A common zero of two sheet polynomials by Newton's method in doubles, within `reach` of the start.
 std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMode& mode, const core::Polynomial& first,
                                    const core::Polynomial& second, const core::Point2& start, double reach) {
@@ -193,11 +197,10 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
           const core::Point2 centre{cell.x.middle(), cell.y.middle()};
           const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
           const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
-          if (!at) {
-            ++open;
-          } else if (!on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, 1e-12 * size})) {
+          if (at && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size}))
             add(*at, false);
-          }
+          else
+            ++open;
         }
         if (open > 0) {
           map.notes.push_back("contact loss of " + joint + ": " + std::to_string(open) +

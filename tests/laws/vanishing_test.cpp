@@ -144,6 +144,16 @@ TEST(Vanishing, TheWitnessCountsLostContactOfGuidesForTheirForce) {
   EXPECT_GT(numeric::validate(legs, map, {40, 40}, force).disputed, 0u);
 }
 
+// Where P meets A2 the guide's axis is undefined and every numerator vanishes: Newton's method found the place to 1e-8,
+// where |A| seemed to be none, and contact was said to be lost.
+TEST(Vanishing, NoContactIsLostWhereAnAxisIsUndefined) {
+  const mechanism::Mechanism leg = corpus("rrrpr_box_through_base.yaml");
+  const core::LocusMap map = trace_loci(leg);
+  EXPECT_FALSE(map.curves.empty());
+  for (const core::IsolatedPoint& point : map.isolated_points)
+    EXPECT_GT(std::hypot(point.at[0] - 1.25, point.at[1] - 0.25), 1e-3) << to_string(point.kind);
+}
+
 TEST(Vanishing, TheWitnessMissesWhatIsNotNamed) {
   const mechanism::Mechanism rail = corpus("prr2.yaml");
   core::LocusMap map = trace_loci(rail);
