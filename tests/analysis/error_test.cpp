@@ -39,9 +39,8 @@ TEST(ErrorMapOfAModel, HoldsWhatSinglePosesSay) {
       }
       ++reachable;
       EXPECT_NEAR(value("worst_dp"), pose.worst.distance, 1e-8 * pose.worst.distance);
-      if (pose.error && std::isfinite(value("dx"))) {
-        EXPECT_NEAR(value("dx"), pose.error->displacement[0], 1e-8 * pose.worst.distance);
-      }
+      if (!pose.error || !std::isfinite(value("dx"))) continue;
+      EXPECT_NEAR(value("dx"), pose.error->displacement[0], 1e-8 * pose.worst.distance);
     }
   EXPECT_EQ(own.reachable, reachable);
 }
