@@ -3,11 +3,9 @@
 // cycle times (docs/method.md section 7). Of planar mechanisms.
 //
 //     const clearloci::Model model = clearloci::Model::read("manipulator.yaml");
-//     const clearloci::TrajectoryResult motion =
-//         clearloci::follow_trajectory(model, "path.yaml", {.period = 0.8, .periods = {0.5, 1.0, 1.5}});
-//     for (const clearloci::ContactLoss& loss : motion.losses)
-//       std::cout << loss.joint << " at " << loss.time << " s\n";
-//     std::cout << motion.samples.at("dx").size() << " samples\n";
+//     const clearloci::TrajectoryResult motion = follow_trajectory(model, "path.yaml", {.period = 0.8});
+//     for (const auto& loss : motion.losses) std::cout << loss.joint << " at " << loss.time << " s\n";
+//     std::cout << "error in x at the start: " << motion.samples.at("dx").front() << " m\n";
 //
 // Times in s, lengths in m, angles in rad, forces in N, couples in N m. Distances along the path are those of the free
 // coordinates: in m where these are lengths, in rad where they are angles (TrajectoryResult::distance_unit).
