@@ -27,8 +27,8 @@ void hold(const std::string& name, bool certified, LociRequest request = {}) {
 TEST(OnceDisputed, CurvesThatTakeManyCells) {
   hold("witness/coupler_five_bar", true);
   LociRequest request;
-  request.selection.joints = {"A2"};
-  request.selection.quantities = {core::Quantity::fx};
+  request.joints = {"A2"};
+  request.quantities = {core::Quantity::fx};
   hold("witness/stacked_5r", true, request);
 }
 
