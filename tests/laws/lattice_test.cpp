@@ -387,8 +387,11 @@ class Laws {
           return Point2{point.at[0] + by * size() * std::cos(direction),
                         point.at[1] + by * size() * std::sin(direction)};
         };
-        const auto a = witness_.at(beside(1e-4), sides), b = witness_.at(beside(1e-7), sides);
+        const auto a = witness_.at(beside(1e-4), sides);
+        auto b = witness_.at(beside(1e-7), sides);
         if (!a || !b) continue;
+        // On the boundary a force goes with the root of the distance, and may be small by chance at the first place.
+        if (const auto c = witness_.at(beside(1e-10), sides)) b = c;
         ++tally_.claims;
         for (const core::Vanishing& what : point.vanishing) {
           const double wa = std::abs(witness_.value_of(*a, what)), wb = std::abs(witness_.value_of(*b, what));
@@ -435,7 +438,8 @@ class Laws {
       const double scale = b->values.cwiseAbs().maxCoeff();
       grows = grows || scale > 5 * a->values.cwiseAbs().maxCoeff();
       // Where bases nearly coincide reactions grow in the last thousandth of that way.
-      if (const auto c = witness_.at(beside(nearest), sides)) grows = grows || c->values.cwiseAbs().maxCoeff() > 5 * scale;
+      if (const auto c = witness_.at(beside(nearest), sides))
+        grows = grows || c->values.cwiseAbs().maxCoeff() > 5 * scale;
       if (curve.kind == core::LocusKind::direct_singularity &&
           !(std::abs(b->determinant) <= 0.2 * std::abs(a->determinant)))
         fault << "|A| is " << a->determinant << " and " << b->determinant;

@@ -98,7 +98,7 @@ TEST(Node, IsNotCertifiedByTheSheetAloneButByTheExactEngineBehindIt) {
   const core::LocusProblem problem = opened_node(0);
   for (const SheetShare& share : trace_on_sheets(problem, {}))
     EXPECT_EQ(share.traced.certified, share.factor != 0) << share.factor;
-  const core::LocusMap map = trace(problem, {.engine = Engine::adaptive});
+  const core::LocusMap map = trace(problem, {.engine = Engine::adaptive_then_exact});
   EXPECT_TRUE(map.notes.empty());
   int crossings = 0, curves = 0;
   for (const core::LocusCurve& curve : map.curves) {
