@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "check/arcs.hpp"
 #include "check/certificate.hpp"
 #include "check/curves.hpp"
 #include "check/identity.hpp"
@@ -25,18 +26,12 @@ namespace {
 using core::FactorRole;
 using core::Quantity;
 
+constexpr int no_pose = -2;  // of an arc of a mode that could not be looked at
 constexpr std::size_t most_bytes = 400'000'000;
-
-std::string names(const std::set<Reaction>& reactions) {
-  std::string text;
-  for (const auto& [joint, quantity] : reactions)
-    text += (text.empty() ? "" : ", ") + core::to_string(quantity) + "_" + joint;
-  return text.empty() ? "nothing" : text;
-}
 
 class Check {
  public:
-  Check(const mechanism::Mechanism& m, const CertificateFile& c) : m_(m), c_(c) {}
+  Check(const mechanism::Mechanism& m, CertificateFile c) : m_(m), c_(std::move(c)) {}
 
   Verdict run() {
     check_header();
@@ -47,24 +42,14 @@ class Check {
       if (!orders.known) {
         verdict_.unchecked.push_back(fmt::format("mode {}: hardly a pose of it is in the box", mode + 1));
         for (KnownArc& arc : arcs_)
-          if (arc.curve->mode == mode) arc.sheet = 0;
+          if (arc.curve->mode == mode) arc.sheet = no_pose;
         continue;
       }
       check_mode(mode, orders);
     }
-    check_arcs();
-    for (const ZoneClaim& zone : c_.zones) {
-      if (!zone.certified) {
-        verdict_.unchecked.push_back("zone " + zone.id + ": not claimed to be certain");
-        continue;
-      }
-      check_zone(m_, c_, zone);
-      ++verdict_.zones;
-    }
-    verdict_.cells = tally_.cells;
-    verdict_.graphs = tally_.graphs;
-    verdict_.crossings = tally_.crossings;
-    verdict_.open_share = tally_.area > 0 ? tally_.open_area / tally_.area : 0;
+    check_labels();
+    check_zones(m_, c_, verdict_);
+    verdict_.open_share = area_ > 0 ? open_area_ / area_ : 0;
     verdict_.accepted = true;
     return verdict_;
   }
@@ -93,53 +78,96 @@ class Check {
         throw FalseClaim("joints: '" + joint.substr(0, 40) + "' is none of the model's");
   }
 
-  const std::string& name(int function) const { return c_.functions[static_cast<std::size_t>(function)].name; }
+  std::string name(int function) const { return c_.functions[static_cast<std::size_t>(function)].name; }
+
+  bool has_zeros(const std::optional<Exponents>& exponents, int f) const {
+    return exponents && (*exponents)[static_cast<std::size_t>(f)] > 0;
+  }
+
+  /// Roots of dyads and sliders in the order of the model, as numbers of the certificate's roots.
+  std::vector<int> mode_roots() const {
+    std::vector<int> roots;
+    for (std::size_t j = 0; j < c_.root_roles.size(); ++j)
+      if (c_.root_roles[j] == core::RootRole::working_mode) roots.push_back(static_cast<int>(j));
+    return roots;
+  }
 
   void check_mode(int mode, const Orders& orders) {
-    // What the certificate says of a function holds for all with the same zeros.
-    std::map<int, std::set<FactorRole>> claimed;
-    std::set<int> open, singular;
-    const auto same = [&](int function) { return orders.same_zeros[static_cast<std::size_t>(function)]; };
+    // What the certificate says of a function holds for all that it is made of.
+    const auto makers = [&](int function) -> const auto& { return orders.makers[static_cast<std::size_t>(function)]; };
+    std::vector<SheetCells> sheets;
+    std::set<std::pair<int, FactorRole>> claimed;
+    std::vector<int> singular;
     for (const SheetCells& sheet : c_.sheets)
-      if (sheet.mode == mode) claimed[same(sheet.function)].insert(sheet.role);
+      if (sheet.mode == mode) sheets.push_back(sheet);
     for (const OpenClaim& claim : c_.open)
-      if (claim.mode == mode) {
-        open.insert(same(claim.function));
-        const core::Rational area = (c_.box[1] - c_.box[0]) * (c_.box[3] - c_.box[2]);
-        tally_.area += area.get_d();
-        tally_.open_area += area.get_d();
-        verdict_.unchecked.push_back(
-            fmt::format("{} in mode {}: no cells, left to the exact engine", name(claim.function), mode + 1));
-      }
+      if (claim.mode == mode) sheets.push_back(without_cells(claim, orders));
+    for (const SheetCells& sheet : sheets)
+      for (const int maker : makers(sheet.function)) claimed.emplace(maker, sheet.role);
     const auto need = [&](int function, FactorRole role, const std::string& what) {
-      if (claimed[function].contains(role) || open.contains(function)) return;
-      throw FalseClaim(
-          fmt::format("{} in mode {}: {} vanishes with it, but no cells tell where", name(function), mode + 1, what));
+      if (!claimed.contains({function, role}))
+        throw FalseClaim(
+            fmt::format("{} in mode {}: {} vanishes with it, but no cells tell where", name(function), mode + 1, what));
     };
-    for (int f = 0; f < static_cast<int>(c_.functions.size()); ++f)
+    const std::vector<int> roots = mode_roots();
+    for (int f = 0; f < static_cast<int>(orders.determinant.size()); ++f) {
       if (orders.determinant[static_cast<std::size_t>(f)] != 0) {
-        singular.insert(f);
+        singular.push_back(f);
         need(f, FactorRole::direct_singularity, "|A|");
       }
-    need_reactions(orders, need);
-    for (int s = 0; s < static_cast<int>(c_.sheets.size()); ++s) {
-      const SheetCells& sheet = c_.sheets[static_cast<std::size_t>(s)];
-      if (sheet.mode != mode) continue;
-      if (sheet.role == FactorRole::margin) {
-        verdict_.unchecked.push_back(fmt::format("margin {} in mode {}: its function is not held against the model",
-                                                 name(sheet.function).substr(0, 60), mode + 1));
-        for (KnownArc& arc : arcs_)
-          if (arc.curve->mode == mode && arc.curve->kind == core::LocusKind::margin) arc.sheet = s;
-        continue;
-      }
-      // |A| does not cut a curve that is its own.
-      std::vector<int> cutters;
-      std::copy_if(singular.begin(), singular.end(), std::back_inserter(cutters),
-                   [&](int f) { return f != same(sheet.function); });
-      check_chains(s, check_sheet(c_, s, cutters, arcs_, tally_));
+      for (std::size_t j = 0; j < roots.size(); ++j)
+        if (has_zeros(orders.squares[j], f)) need(f, FactorRole::workspace_boundary, "a root");
     }
+    for (std::size_t j = 0; j < roots.size(); ++j)
+      if (!orders.squares[j])
+        throw FalseClaim("functions: the boundary made by " + c_.root_points[static_cast<std::size_t>(roots[j])] +
+                         " is not among them");
+    need_reactions(orders, need);
     check_points(m_, c_, mode, orders, verdict_);
+    for (SheetCells& sheet : sheets) {
+      for (const int j : sheet.at_zero) {
+        const auto own = std::find(roots.begin(), roots.end(), j) - roots.begin();
+        if (own == static_cast<std::ptrdiff_t>(roots.size()) ||
+            !std::all_of(makers(sheet.function).begin(), makers(sheet.function).end(),
+                         [&](int maker) { return has_zeros(orders.squares[static_cast<std::size_t>(own)], maker); }))
+          throw FalseClaim(name(sheet.function) + ": it does not vanish with the root that is said to be zero");
+      }
+      check_sheet(sheet, singular);
+    }
     if (c_.task && c_.task->mode == mode) check_task(m_, c_, orders, verdict_);
+  }
+
+  void check_sheet(const SheetCells& sheet, const std::vector<int>& singular) {
+    Curve curve(c_, sheet);
+    verdict_.cells += curve.cells;
+    verdict_.graphs += curve.graphs;
+    verdict_.crossings += curve.ends;
+    area_ += curve.area;
+    open_area_ += curve.open_area;
+    if (sheet.role == FactorRole::margin)
+      verdict_.unchecked.push_back(fmt::format("margin {} in mode {}: its function is not held against the model",
+                                               name(sheet.function).substr(0, 60), sheet.mode + 1));
+    sheets_.push_back(sheet);
+    check_arcs(m_, curve, static_cast<int>(sheets_.size()) - 1, singular, arcs_, verdict_.unchecked);
+  }
+
+  /// A function that was left to the exact engine: all of its cells are the checker's.
+  SheetCells without_cells(const OpenClaim& claim, const Orders& orders) {
+    SheetCells sheet{claim.mode, claim.function, c_.functions[static_cast<std::size_t>(claim.function)].role, {}, {},
+                     {}};
+    const std::vector<int> roots = mode_roots();
+    for (std::size_t j = 0; j < roots.size(); ++j)
+      if (core::depends_on(c_.functions[static_cast<std::size_t>(claim.function)].program, 2 + roots[j]) &&
+          std::any_of(orders.makers[static_cast<std::size_t>(claim.function)].begin(),
+                      orders.makers[static_cast<std::size_t>(claim.function)].end(),
+                      [&](int maker) { return has_zeros(orders.squares[j], maker); }))
+        sheet.at_zero.push_back(roots[j]);
+    // Off the box and off what designs like.
+    const double w = core::Rational(c_.box[1] - c_.box[0]).get_d(), h = core::Rational(c_.box[3] - c_.box[2]).get_d();
+    sheet.domain = {c_.box[0].get_d() - 0.0011 * w, c_.box[1].get_d() + 0.0009 * w, c_.box[2].get_d() - 0.0013 * h,
+                    c_.box[3].get_d() + 0.0007 * h};
+    sheet.cells = {{core::CellNode::Kind::open, 0, 0, 0}};
+    return sheet;
   }
 
   template <class Need>
@@ -168,24 +196,6 @@ class Check {
     }
   }
 
-  /// Chains without an arc are parts of reactions' functions on which nothing wanted vanishes; on others a reaction may
-  /// vanish too, and then an arc of its own says so.
-  void check_chains(int s, const std::vector<Chain>& chains) {
-    const SheetCells& sheet = c_.sheets[static_cast<std::size_t>(s)];
-    for (const Chain& chain : chains) {
-      const bool is_reaction = sheet.role == FactorRole::reaction;
-      if (chain.has_arc && is_reaction) continue;
-      const std::string place = fmt::format("{} in mode {}: near ({}, {}) ", name(sheet.function), sheet.mode + 1,
-                                            chain.inner[0], chain.inner[1]);
-      if (!chain.has_arc && !is_reaction) throw FalseClaim(place + "there is no arc for a piece of it");
-      const auto label = label_at(m_, c_, sheet, chain.inner);
-      if (!label)
-        verdict_.unchecked.push_back(place + "what vanishes was not told");
-      else if (!label->empty() && (is_reaction || !has_reaction_arc(sheet.mode, chain.inner)))
-        throw FalseClaim(place + names(*label) + " vanish, but no arc says so");
-    }
-  }
-
   bool has_reaction_arc(int mode, const core::Point2& at) const {
     for (const KnownArc& known : arcs_) {
       if (known.curve->mode != mode || known.curve->kind > core::LocusKind::component) continue;
@@ -195,46 +205,43 @@ class Check {
   }
 
   /// No arc is left over, and what each says vanishes on it does.
-  void check_arcs() {
-    std::size_t uncertain = 0, open_arcs = 0;
+  void check_labels() {
+    std::size_t uncertain = 0;
     for (const KnownArc& known : arcs_) {
       const CurveClaim& curve = *known.curve;
-      const core::Arc& arc = *known.arc;
-      const core::Point2 middle = arc.points.size() > 2 ? arc.points[arc.points.size() / 2]
-                                                        : core::Point2{0.5 * (arc.points[0][0] + arc.points[1][0]),
-                                                                       0.5 * (arc.points[0][1] + arc.points[1][1])};
+      const core::Polyline& points = known.arc->points;
+      const core::Point2 middle =
+          points.size() > 2 ? points[points.size() / 2]
+                            : core::Point2{0.5 * (points[0][0] + points[1][0]), 0.5 * (points[0][1] + points[1][1])};
+      const std::string place = fmt::format("near ({}, {})", middle[0], middle[1]);
+      if (known.sheet == no_pose) continue;
       if (!curve.certified) {
         ++uncertain;
         continue;
       }
-      if (known.sheet < 0) {
-        const bool open =
-            std::any_of(c_.open.begin(), c_.open.end(), [&](const OpenClaim& o) { return o.mode == curve.mode; });
-        if (!open)
-          throw FalseClaim(
-              fmt::format("an arc through ({}, {}) is on no curve that the cells prove", middle[0], middle[1]));
-        ++open_arcs;
-        continue;
-      }
+      if (known.sheet < 0) throw FalseClaim("an arc " + place + " is on no curve that the cells prove");
       ++verdict_.arcs;
-      if (curve.kind > core::LocusKind::component) continue;
-      const auto label = label_at(m_, c_, c_.sheets[static_cast<std::size_t>(known.sheet)], middle);
+      if (curve.kind == core::LocusKind::margin) continue;
+      const bool is_reaction = curve.kind <= core::LocusKind::component;
+      const auto label = label_at(m_, c_, sheets_[static_cast<std::size_t>(known.sheet)], middle);
       const std::set<Reaction> said(curve.vanishing.begin(), curve.vanishing.end());
       if (!label)
-        verdict_.unchecked.push_back(fmt::format("what vanishes near ({}, {})", middle[0], middle[1]));
-      else if (*label != said)
-        throw FalseClaim(fmt::format("an arc through ({}, {}) is said to make {} vanish; it is {}", middle[0],
-                                     middle[1], names(said), names(*label)));
+        verdict_.unchecked.push_back("what vanishes " + place);
+      else if (is_reaction && *label != said)
+        throw FalseClaim(
+            fmt::format("an arc {} is said to make {} vanish; it is {}", place, names(said), names(*label)));
+      else if (!is_reaction && !label->empty() && !has_reaction_arc(curve.mode, middle))
+        throw FalseClaim(names(*label) + " vanish " + place + ", but no arc says so");
     }
-    if (open_arcs > 0) verdict_.unchecked.push_back(fmt::format("{} arcs of functions without cells", open_arcs));
     if (uncertain > 0)
       verdict_.unchecked.push_back(fmt::format("{} arcs that are not claimed to be certain", uncertain));
   }
 
   const mechanism::Mechanism& m_;
-  const CertificateFile& c_;
+  CertificateFile c_;
   std::vector<KnownArc> arcs_;
-  Tally tally_;
+  std::vector<SheetCells> sheets_;   // looked at so far
+  double area_ = 0, open_area_ = 0;  // of all sheets, and of the cells of which nothing is known
   Verdict verdict_;
 };
 

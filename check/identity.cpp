@@ -17,6 +17,8 @@ Interval log_of(const Interval& a) {
   return r;
 }
 
+bool is_nothing(const Interval& a) { return a.is_finite() && std::max(-a.lower(), a.upper()) < nothing; }
+
 /// A fixed sequence of numbers that look random, in (0, 1), each with 40 bits.
 class Scatter {
  public:
@@ -32,9 +34,7 @@ class Scatter {
   std::uint64_t state_ = 2011;
 };
 
-bool is_nothing(const Interval& a) { return a.is_finite() && std::max(-a.lower(), a.upper()) < nothing; }
-
-/// Rows of logarithms at one pose each: columns that may explain, then columns to be explained.
+/// Rows of logarithms at one pose each: columns that may explain, the first of them 1, then columns to be explained.
 struct LogSystem {
   std::vector<std::vector<Interval>> rows;
   std::size_t columns = 0;
@@ -43,8 +43,8 @@ struct LogSystem {
   /// To reduced row echelon form, column by column; columns that depend on earlier ones stay.
   void eliminate() {
     const std::size_t width = rows.front().size();
-    std::size_t next = 0;
     for (std::size_t column = 0; column < columns; ++column) {
+      const std::size_t next = pivots.size();
       std::size_t pivot = next;
       double best = 0;
       for (std::size_t i = next; i < rows.size(); ++i)
@@ -62,24 +62,25 @@ struct LogSystem {
         for (std::size_t j = column; j < width; ++j) rows[i][j] = rows[i][j] - factor * rows[next][j];
       }
       pivots.push_back(column);
-      ++next;
     }
   }
 
-  /// Twice the exponents of the columns in a column to be explained, all but the constant's, by column.
-  std::vector<int> exponents(std::size_t column, const std::string& what) const {
+  bool is_pivot(std::size_t column) const { return std::find(pivots.begin(), pivots.end(), column) != pivots.end(); }
+
+  /// Twice the exponents of the columns in another, all but the constant's, by column; none: they do not make it up.
+  std::optional<std::vector<int>> exponents(std::size_t column) const {
     std::vector<int> result(columns, 0);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Interval& entry = rows[i][column];
       if (i >= pivots.size()) {
-        if (!is_nothing(entry)) throw FalseClaim("functions: they do not make up " + what);
+        if (!is_nothing(entry)) return std::nullopt;
         continue;
       }
       if (pivots[i] == 0) continue;  // the constant
       const double twice = std::nearbyint(2 * entry.middle());
       if (!(std::abs(twice) < 1e6) ||
           !is_nothing(Interval(2.0, identity_bits) * entry - Interval(twice, identity_bits)))
-        throw FalseClaim("functions: they do not make up " + what);
+        return std::nullopt;
       result[pivots[i]] = static_cast<int>(twice);
     }
     return result;
@@ -88,17 +89,19 @@ struct LogSystem {
 
 class Fit {
  public:
-  Fit(const mechanism::Mechanism& m, const CertificateFile& c, int mode) : m_(m), c_(c), mode_(mode) {
-    // First those that cells tell of: what others add to them are divisors, which explain more when they come before
-    // all.
-    std::vector<bool> told(c.functions.size(), false);
+  Fit(const mechanism::Mechanism& m, const CertificateFile& c, int mode)
+      : m_(m), c_(c), mode_(mode), unknowns_(reactions_of(m)), dyads_(mechanism::dyad_points(m).size()) {
+    // First those that cells tell of, the boundary's before all: others are made up of them.
+    std::vector<int> rank(c.functions.size(), 2);
     for (const SheetCells& sheet : c.sheets)
-      if (sheet.mode == mode) told[static_cast<std::size_t>(sheet.function)] = true;
+      if (sheet.mode == mode) rank[static_cast<std::size_t>(sheet.function)] = 1;
     for (const OpenClaim& open : c.open)
-      if (open.mode == mode) told[static_cast<std::size_t>(open.function)] = true;
-    for (const bool first : {true, false})
-      for (std::size_t f = 0; f < told.size(); ++f)
-        if (told[f] == first) order_.push_back(f);
+      if (open.mode == mode) rank[static_cast<std::size_t>(open.function)] = 1;
+    for (std::size_t f = 0; f < rank.size(); ++f) {
+      if (rank[f] == 1 && c.functions[f].role == core::FactorRole::workspace_boundary) rank[f] = 0;
+      order_.push_back(f);
+    }
+    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return rank[a] < rank[b]; });
   }
 
   Orders run() {
@@ -107,23 +110,36 @@ class Fit {
     orders.known = true;
     check_roots();
     system_.eliminate();
-    orders.same_zeros = same_zeros();
-    const std::size_t first = system_.columns;
-    orders.determinant = exponents(first, "the direct singularity |A|");
-    const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
-    for (std::size_t k = 0; k < unknowns.size(); ++k) {
-      if (always_zero_[k] || !is_wanted(unknowns[k]))
-        orders.reactions.emplace_back();
+    orders.makers = makers();
+    const auto found = [&](std::size_t column, const std::string& what) {
+      auto exponents = exponents_of(column);
+      if (!exponents) throw FalseClaim("functions: they do not make up " + what);
+      return std::move(*exponents);
+    };
+    orders.determinant = found(system_.columns, "the direct singularity |A|");
+    for (std::size_t k = 0; k < unknowns_.size(); ++k) {
+      const std::size_t column = system_.columns + 1 + k;
+      orders.reactions.emplace_back();
+      if (always_zero_[k]) continue;
+      if (is_wanted(unknowns_[k]))
+        orders.reactions.back() = found(column, core::to_string(unknowns_[k].quantity) + "_" +
+                                                    m_.joints[static_cast<std::size_t>(unknowns_[k].joint)].name);
       else
-        orders.reactions.emplace_back(exponents(
-            first + 1 + k,
-            core::to_string(unknowns[k].quantity) + "_" + m_.joints[static_cast<std::size_t>(unknowns[k].joint)].name));
+        (void)exponents_of(column);
     }
+    for (std::size_t j = 0; j < dyads_; ++j) {
+      const std::size_t column = first_ + order_.size() + j;
+      orders.squares.push_back(system_.is_pivot(column) ? std::nullopt : exponents_of(column));
+    }
+    for (std::size_t i = 0; i < order_.size(); ++i)
+      if (system_.is_pivot(first_ + i) && !used_[order_[i]] && c_.functions[order_[i]].role != core::FactorRole::margin)
+        throw FalseClaim("functions: " + c_.functions[order_[i]].name + " (" + std::to_string(order_[i]) +
+                         ") is part of no reaction and not of |A|");
     return orders;
   }
 
  private:
-  /// Rows of logarithms: 1, the functions, the model's own, then |A| and the reactions.
+  /// Rows of logarithms: 1, the model's divisors, the functions, the model's squares, then |A| and the reactions.
   bool sample() {
     std::vector<const core::StraightLine*> programs;
     for (const Function& f : c_.functions) programs.push_back(&f.program);
@@ -136,9 +152,8 @@ class Fit {
     for (const core::StraightLine& variable : variables) programs.push_back(&variable);
     Sheet sheet(parts_of(c_, mode_), programs, identity_bits);
     const Sides sides = sides_of(c_, mode_);
-    const std::size_t unknowns = reactions_of(m_).size();
-    always_zero_.assign(unknowns, true);
-    std::vector<std::vector<bool>> zero;
+    always_zero_.assign(unknowns_.size(), true);
+    used_.assign(order_.size(), false);
     Scatter scatter;
     for (std::size_t tries = 0; tries < most_tries; ++tries) {
       const Interval x(core::Rational(c_.box[0] + (c_.box[1] - c_.box[0]) * scatter.next()), identity_bits);
@@ -151,20 +166,27 @@ class Fit {
       if (!solved) continue;
       std::vector<Interval> row = {Interval(1.0, identity_bits)};
       for (const Interval& d : here->divisors) row.push_back(log_of(d));
+      std::vector<Interval> root_row = row;
+      roots_.columns = root_row.size();
       first_ = row.size();
       for (const std::size_t f : order_) row.push_back(log_of(sheet.value(static_cast<int>(f))));
       for (const Interval& q : here->squares) row.push_back(log_of(q));
-      for (int j = 0; j < static_cast<int>(c_.squares.size()); ++j)
-        if (sheet.uses(j)) row.push_back(log_of(sheet.square(j)));
+      std::size_t own = 0;
+      for (std::size_t j = 0; j < c_.squares.size(); ++j) {
+        const Interval square = log_of(sheet.square(static_cast<int>(j)));
+        row.push_back(square);
+        if (c_.root_roles[j] == core::RootRole::working_mode) root_row.push_back(square - log_of(here->squares[own++]));
+      }
       system_.columns = row.size();
       row.push_back(log_of(solved->determinant));
-      for (std::size_t k = 0; k < unknowns; ++k) {
-        if (solved->reactions[k].sign() != 0) always_zero_[k] = false;
-        row.push_back(solved->reactions[k].sign() != 0 ? log_of(solved->reactions[k]) : Interval(identity_bits));
+      for (std::size_t k = 0; k < unknowns_.size(); ++k) {
+        const bool zero = solved->reactions[k].sign() == 0;
+        always_zero_[k] = always_zero_[k] && zero;
+        row.push_back(zero ? Interval(identity_bits) : log_of(solved->reactions[k]));
       }
       if (!std::all_of(row.begin(), row.end(), [](const Interval& v) { return v.is_finite(); })) continue;
       system_.rows.push_back(std::move(row));
-      add_roots(sheet, *here);
+      roots_.rows.push_back(std::move(root_row));
       if (system_.rows.size() == system_.columns + spare_poses) return true;
     }
     return false;
@@ -181,48 +203,31 @@ class Fit {
                                              among(mechanism::force_components(m_, joint), unknown.quantity)));
   }
 
-  /// Twice the exponents of the functions.
-  std::vector<int> exponents(std::size_t column, const std::string& what) const {
-    const std::vector<int> all = system_.exponents(column, what);
-    std::vector<int> result(order_.size(), 0);
-    for (std::size_t i = 0; i < order_.size(); ++i) result[order_[i]] = all[first_ + i];
+  /// Of the functions alone; those are used, then.
+  std::optional<Exponents> exponents_of(std::size_t column) {
+    const auto all = system_.exponents(column);
+    if (!all) return std::nullopt;
+    Exponents result(order_.size(), 0);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      result[order_[i]] = (*all)[first_ + i];
+      used_[order_[i]] = used_[order_[i]] || (*all)[first_ + i] != 0;
+    }
     return result;
   }
 
   /// Every root of a dyad or slider is the model's, times what the closure divides by: both are real in the same poses.
   void check_roots() {
     roots_.eliminate();
-    std::size_t column = roots_.columns;
-    for (std::size_t j = 0; j < c_.squares.size(); ++j)
-      if (c_.root_roles[j] == core::RootRole::working_mode)
-        (void)roots_.exponents(column++, "the root of " + c_.root_points[j].substr(0, 40));
+    for (std::size_t column = roots_.columns; column < roots_.rows.front().size(); ++column)
+      if (!roots_.exponents(column)) throw FalseClaim("roots: one of them is not the model's");
   }
 
-  void add_roots(const Sheet& sheet, const Posture& here) {
-    std::vector<Interval> row = {Interval(1.0, identity_bits)};
-    for (const Interval& d : here.divisors) row.push_back(log_of(d));
-    roots_.columns = row.size();
-    std::size_t own = 0;
-    for (int j = 0; j < static_cast<int>(c_.squares.size()); ++j)
-      if (c_.root_roles[static_cast<std::size_t>(j)] == core::RootRole::working_mode)
-        row.push_back(log_of(sheet.square(j)) - log_of(here.squares[own++]));
-    roots_.rows.push_back(std::move(row));
-  }
-
-  std::vector<int> same_zeros() const {
-    std::vector<int> result(order_.size(), -1);
-    const auto is_function = [&](std::size_t column) { return first_ <= column && column < first_ + order_.size(); };
+  std::vector<std::vector<int>> makers() const {
+    std::vector<std::vector<int>> result(order_.size());
     for (std::size_t place = 0; place < order_.size(); ++place) {
-      const std::size_t column = first_ + place;
-      int found = -1;
-      bool single = true;
-      for (std::size_t i = 0; i < system_.pivots.size(); ++i) {
-        const std::size_t pivot = system_.pivots[i];
-        if (!is_function(pivot) || is_nothing(system_.rows[i][column])) continue;
-        single = single && found < 0;
-        found = static_cast<int>(order_[pivot - first_]);
-      }
-      if (single) result[order_[place]] = found;
+      const auto exponents = system_.exponents(first_ + place);
+      for (std::size_t i = 0; exponents && i < order_.size(); ++i)
+        if ((*exponents)[first_ + i] > 0) result[order_[place]].push_back(static_cast<int>(order_[i]));
     }
     return result;
   }
@@ -230,10 +235,12 @@ class Fit {
   const mechanism::Mechanism& m_;
   const CertificateFile& c_;
   int mode_;
+  std::vector<mechanism::Unknown> unknowns_;
+  std::size_t dyads_;
   std::vector<std::size_t> order_;  // of the functions among the columns, from first_ on
   std::size_t first_ = 0;
   LogSystem system_, roots_;
-  std::vector<bool> always_zero_;
+  std::vector<bool> always_zero_, used_;
 };
 
 }  // namespace

@@ -112,5 +112,6 @@ inline Interval middle_of(const Interval& a) {
 }
 /// a lies in the interior of b.
 inline bool inside(const Interval& a, const Interval& b) { return mpfi_is_strictly_inside(a.get(), b.get()) > 0; }
+inline bool contains(const Interval& b, const Interval& a) { return mpfi_is_inside(a.get(), b.get()) > 0; }
 
 }  // namespace clearloci::check

@@ -84,7 +84,7 @@ class PointCheck {
       break;
     }
     for (const Place& place : found.zeros) {
-      const Point2 at = {place.x.middle(), place.y.middle()};
+      const Point2 at = place.at();
       const double reach = same_point * size_;
       if (at[0] < box_[0] - reach || box_[1] + reach < at[0] || at[1] < box_[2] - reach || box_[3] + reach < at[1])
         continue;

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -48,11 +47,11 @@ class Sheet {
   /// Slopes over the cell and values at its middle; wanted by what follows.
   void differentiate();
   const Interval& slope(int f, int c) const {
-    return projected_[static_cast<std::size_t>(f)][static_cast<std::size_t>(c)];
+    return slopes_[results_[static_cast<std::size_t>(f)]][static_cast<std::size_t>(c)];
   }
   /// Of G_l, the l-th lifted root's.
   const Interval& bond(int l, int c) const { return bonds_[static_cast<std::size_t>(l)][static_cast<std::size_t>(c)]; }
-  const Interval& at_middle(int f) const { return middle_values_[static_cast<std::size_t>(f)]; }
+  const Interval& at_middle(int f) const { return middle_values_[results_[static_cast<std::size_t>(f)]]; }
   const Interval& bond_at_middle(int l) const { return middle_bonds_[static_cast<std::size_t>(l)]; }
   Interval middle(int c) const { return middle_of(local(c)); }
   /// f(m) + sum slope_c (X_c - m_c), met with the plain enclosure.
@@ -60,30 +59,28 @@ class Sheet {
   /// The minor of (slopes of f, slopes of G) without column c: where it is free of 0, every value of coordinate c is
   /// taken at most once on f = 0 in the cell.
   Interval tangent(int f, int c) const;
+  /// f has no zero in the cell that was entered, by its value or its slopes.
+  bool is_free(int f);
 
  private:
   struct Step {
     core::StraightLine::Operation operation;
     std::size_t first, second, result;
   };
-  void run(std::size_t begin, std::size_t end, std::vector<Interval>& values) const;
-  void run_slopes(std::size_t begin, std::size_t end);
   std::size_t append(const core::StraightLine& line);
+  void run(std::size_t stage, std::vector<Interval>& values) const;
+  void run_slopes(std::size_t stage);
   void set_root(std::size_t j, bool lift);
-  std::vector<Interval> along_local(std::vector<Interval> partials) const;
 
   SheetParts parts_;
   mpfr_prec_t bits_;
   std::vector<Step> steps_;
   std::vector<std::size_t> stage_end_;  // of every root, then of the functions
   std::vector<std::size_t> square_results_, results_;
-  std::vector<bool> used_, is_zero_;
-  std::vector<Interval> values_, scratch_, squares_;
-  std::vector<std::vector<Interval>> partials_;  // by every variable, roots like coordinates
-  std::vector<std::uint32_t> depends_;           // bit v: the partial by v is not 0
-  std::vector<std::vector<Interval>> square_partials_, projected_, bonds_;
+  std::vector<bool> used_, is_constant_;
+  std::vector<Interval> values_, middle_values_, squares_, local_, middle_bonds_;
+  std::vector<std::vector<Interval>> slopes_, bonds_;  // by local coordinate
   std::vector<int> lifted_;
-  std::vector<Interval> local_, middle_values_, middle_bonds_;
 };
 
 Interval determinant(const std::vector<std::vector<Interval>>& matrix);

@@ -263,6 +263,10 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
   Closure closure(m, sides, x, y);
   for (const mechanism::Point& point : m.points)
     if (!closure.place(point)) return std::nullopt;
+  const Pose pose(m, x, y);
+  for (const mechanism::Joint& joint : m.joints)
+    if (joint.type == mechanism::JointType::prismatic)
+      closure.result.divisors.push_back(square_of(pose.vector(joint.axes.at(0), closure.result.points)));
   return std::move(closure.result);
 }
 

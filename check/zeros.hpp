@@ -2,7 +2,7 @@
 // Private to check/.
 #pragma once
 
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "check/plane.hpp"
@@ -10,17 +10,13 @@
 
 namespace clearloci::check {
 
-/// Where a zero is: a tiny box.
+/// Where a zero is: a tiny box, and what the roots are there that are near 0.
 struct Place {
   Interval x, y;
+  std::vector<std::pair<int, Interval>> roots;
+
+  core::Point2 at() const { return {x.middle(), y.middle()}; }
 };
-
-/// Zeros of function 0 on the segment from `from` to `to` of the line on which coordinate `axis` is `at`, in order.
-/// None: they could not be told apart, or one is at an end.
-std::optional<std::vector<Place>> zeros_on_segment(Sheet& sheet, int axis, double at, double from, double to);
-
-/// Of function 0 at a point: +1, -1; 0: not known. None: outside the workspace.
-std::optional<int> sign_at(Sheet& sheet, double x, double y);
 
 struct CommonZeros {
   std::vector<Place> zeros;
@@ -28,7 +24,8 @@ struct CommonZeros {
   bool complete = true;  ///< false: not all cells were looked at
 };
 
-/// Common zeros of functions 0 and 1 in cells. `most`: cells looked at, at most.
+/// Common zeros of functions 0 and 1 in cells; of function 0 alone where the cells are segments, without width along
+/// one axis. Zeros beyond a cell's sides may be among them. `size`: of the box. `most`: cells looked at, at most.
 CommonZeros common_zeros(Sheet& sheet, std::vector<Rectangle> cells, double size, std::size_t most);
 
 }  // namespace clearloci::check

@@ -16,13 +16,21 @@ using core::Polyline;
 
 // Relative to the box: corners of zones are ends and crossings of arcs, computed apart from them.
 constexpr double on_border = 1e-7;
+// Poses of the box that are looked at in every mode: a lattice of so many either way, askew to what designs like.
+constexpr int poses_a_side = 23;
+
+std::vector<const Polyline*> rings_of(const ZoneClaim& zone) {
+  std::vector<const Polyline*> rings = {&zone.outer};
+  for (const Polyline& hole : zone.holes) rings.push_back(&hole);
+  return rings;
+}
 
 double area_of(const Polyline& ring) {
   double twice = 0;
   for (std::size_t i = 1; i < ring.size(); ++i)
     twice += (ring[i - 1][0] - ring[0][0]) * (ring[i][1] - ring[0][1]) -
              (ring[i][0] - ring[0][0]) * (ring[i - 1][1] - ring[0][1]);
-  return 0.5 * twice;
+  return 0.5 * std::abs(twice);
 }
 
 double length_of(const Polyline& ring) {
@@ -32,66 +40,153 @@ double length_of(const Polyline& ring) {
   return sum;
 }
 
-bool is_inside(const Polyline& ring, const Point2& at) {
+/// By how many rings the place is surrounded, odd or even.
+bool is_inside(const ZoneClaim& zone, const Point2& at) {
   bool in = false;
-  for (std::size_t i = 1; i < ring.size(); ++i) {
-    const Point2 &a = ring[i - 1], &b = ring[i];
-    if ((a[1] > at[1]) != (b[1] > at[1]) && at[0] < a[0] + (at[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) in = !in;
-  }
+  for (const Polyline* ring : rings_of(zone))
+    for (std::size_t i = 1; i < ring->size(); ++i) {
+      const Point2 &a = (*ring)[i - 1], &b = (*ring)[i];
+      if ((a[1] > at[1]) != (b[1] > at[1]) && at[0] < a[0] + (at[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) in = !in;
+    }
   return in;
 }
 
+bool is_near_border(const ZoneClaim& zone, const Point2& at, double reach) {
+  const auto rings = rings_of(zone);
+  return std::any_of(rings.begin(), rings.end(), [&](const Polyline* ring) { return passes_near(*ring, at, reach); });
+}
+
+class ZoneCheck {
+ public:
+  ZoneCheck(const mechanism::Mechanism& m, const CertificateFile& c, Verdict& verdict)
+      : m_(m), c_(c), verdict_(verdict), unknowns_(reactions_of(m)) {
+    for (std::size_t i = 0; i < 4; ++i) box_[i] = c.box[i].get_d();
+    reach_ = on_border * std::max(box_[1] - box_[0], box_[3] - box_[2]) + 2 * c.tolerance;
+  }
+
+  void run() {
+    for (const ZoneClaim& zone : c_.zones) {
+      if (!zone.certified) {
+        verdict_.unchecked.push_back("zone " + zone.id.substr(0, 40) + ": not claimed to be certain");
+        continue;
+      }
+      if (zone.outer.size() < 4 || !is_inside(zone, zone.sample)) fail(zone, "its sample is not inside");
+      if (!has_signs_of(zone, zone.sample)) fail(zone, "its sample is no pose of the mode");
+      check_border(zone);
+      check_arcs_within(zone);
+      ++verdict_.zones;
+    }
+    for (int mode = 0; mode < static_cast<int>(c_.modes.size()); ++mode) check_poses(mode);
+  }
+
+ private:
+  [[noreturn]] static void fail(const ZoneClaim& zone, const std::string& what) {
+    throw FalseClaim("zone " + zone.id.substr(0, 40) + ": " + what);
+  }
+
+  std::optional<Solution> solve_at(int mode, const Point2& at) const {
+    const Interval x(at[0], cell_bits), y(at[1], cell_bits);
+    const auto here = posture(m_, sides_of(c_, mode), x, y);
+    return here ? solve(m_, *here, x, y) : std::nullopt;
+  }
+
+  /// Throws where a sign is another; false: no pose of the mode.
+  bool has_signs_of(const ZoneClaim& zone, const Point2& at) const {
+    const auto solved = solve_at(zone.mode, at);
+    if (!solved) return false;
+    const std::string place = fmt::format(" at ({}, {})", at[0], at[1]);
+    if (solved->determinant.sign() != zone.assembly_mode) fail(zone, "|A| has another sign" + place);
+    for (const auto& [reaction, sign] : zone.signs) {
+      bool known = false;
+      for (std::size_t k = 0; k < unknowns_.size(); ++k) {
+        if (m_.joints[static_cast<std::size_t>(unknowns_[k].joint)].name != reaction.first ||
+            unknowns_[k].quantity != reaction.second)
+          continue;
+        known = true;
+        if (solved->reactions[k].sign() != sign)
+          fail(zone,
+               core::to_string(reaction.second) + "_" + reaction.first.substr(0, 40) + " has another sign" + place);
+      }
+      if (!known) fail(zone, "it has the sign of no reaction");
+    }
+    return true;
+  }
+
+  bool is_on_arc(int mode, const Point2& at) const {
+    return std::any_of(c_.curves.begin(), c_.curves.end(), [&](const CurveClaim& curve) {
+      return curve.mode == mode && std::any_of(curve.arcs.begin(), curve.arcs.end(), [&](const core::Arc& arc) {
+               return passes_near(arc.points, at, reach_);
+             });
+    });
+  }
+
+  void check_border(const ZoneClaim& zone) const {
+    double area = 2 * area_of(zone.outer), length = 0;
+    for (const Polyline* ring : rings_of(zone)) {
+      area -= area_of(*ring);
+      length += length_of(*ring);
+      if (ring->front() != ring->back()) fail(zone, "a ring is not closed");
+      for (std::size_t i = 1; i < ring->size(); ++i) {
+        const Point2 &a = (*ring)[i - 1], &b = (*ring)[i];
+        for (const Point2& at : {b, Point2{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}}) {
+          const bool on_box = std::min({std::abs(at[0] - box_[0]), std::abs(at[0] - box_[1]), std::abs(at[1] - box_[2]),
+                                        std::abs(at[1] - box_[3])}) <= reach_;
+          if (!on_box && !is_on_arc(zone.mode, at))
+            fail(zone, fmt::format("its border leaves the arcs at ({}, {})", at[0], at[1]));
+        }
+      }
+    }
+    if (!(std::abs(area - zone.area) <= 2 * c_.tolerance * length)) fail(zone, "its area is another");
+  }
+
+  /// One that ends within does not divide the zone.
+  void check_arcs_within(const ZoneClaim& zone) const {
+    const auto within = [&](const Point2& at) { return is_inside(zone, at) && !is_near_border(zone, at, reach_); };
+    for (const CurveClaim& curve : c_.curves) {
+      const bool bounds = curve.kind <= core::LocusKind::backlash || curve.kind == core::LocusKind::direct_singularity;
+      if (curve.mode != zone.mode || !bounds || !curve.certified) continue;
+      for (const core::Arc& arc : curve.arcs) {
+        const Point2& middle = arc.points[arc.points.size() / 2];
+        if (arc.points.size() > 2 && within(middle) &&
+            (arc.closed || (!within(arc.points.front()) && !within(arc.points.back()))))
+          fail(zone, fmt::format("an arc passes through it at ({}, {})", middle[0], middle[1]));
+      }
+    }
+  }
+
+  void check_poses(int mode) const {
+    const bool all =
+        std::all_of(c_.zones.begin(), c_.zones.end(), [](const ZoneClaim& zone) { return zone.certified; });
+    if (std::none_of(c_.zones.begin(), c_.zones.end(), [&](const ZoneClaim& zone) { return zone.mode == mode; }))
+      return;
+    for (int i = 0; i < poses_a_side; ++i)
+      for (int k = 0; k < poses_a_side; ++k) {
+        const Point2 at = {box_[0] + (i + 0.3719) / poses_a_side * (box_[1] - box_[0]),
+                           box_[2] + (k + 0.6173) / poses_a_side * (box_[3] - box_[2])};
+        if (!solve_at(mode, at) || is_on_arc(mode, at)) continue;
+        int zones = 0;
+        for (const ZoneClaim& zone : c_.zones) {
+          if (zone.mode != mode || !is_inside(zone, at)) continue;
+          ++zones;
+          if (zone.certified) (void)has_signs_of(zone, at);
+        }
+        if (zones > 1 || (zones == 0 && all))
+          throw FalseClaim(fmt::format("zones: the pose ({}, {}) is in {} of them", at[0], at[1], zones));
+      }
+  }
+
+  const mechanism::Mechanism& m_;
+  const CertificateFile& c_;
+  Verdict& verdict_;
+  std::vector<mechanism::Unknown> unknowns_;
+  std::array<double, 4> box_{};
+  double reach_ = 0;
+};
+
 }  // namespace
 
-void check_zone(const mechanism::Mechanism& m, const CertificateFile& c, const ZoneClaim& zone) {
-  const auto fail = [&](const std::string& what) { throw FalseClaim("zone " + zone.id.substr(0, 40) + ": " + what); };
-  const Interval x(zone.sample[0], cell_bits), y(zone.sample[1], cell_bits);
-  const auto here = posture(m, sides_of(c, zone.mode), x, y);
-  const auto solved = here ? solve(m, *here, x, y) : std::nullopt;
-  if (!solved) fail("its sample is no pose of the mode");
-  if (solved->determinant.sign() != zone.assembly_mode) fail("|A| has another sign at its sample");
-  const std::vector<mechanism::Unknown> unknowns = reactions_of(m);
-  for (const auto& [reaction, sign] : zone.signs) {
-    bool known = false;
-    for (std::size_t k = 0; k < unknowns.size(); ++k) {
-      const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(unknowns[k].joint)];
-      if (joint.name != reaction.first || unknowns[k].quantity != reaction.second) continue;
-      known = true;
-      if (solved->reactions[k].sign() != sign)
-        fail(core::to_string(reaction.second) + "_" + joint.name + " has another sign");
-    }
-    if (!known) fail("it has the sign of no reaction");
-  }
-  if (zone.outer.size() < 4 || !is_inside(zone.outer, zone.sample)) fail("its sample is not inside");
-  double area = area_of(zone.outer), length = length_of(zone.outer);
-  for (const Polyline& hole : zone.holes) {
-    if (is_inside(hole, zone.sample)) fail("its sample is in a hole");
-    area -= std::abs(area_of(hole));
-    length += length_of(hole);
-  }
-  if (!(std::abs(area - zone.area) <= 2 * c.tolerance * length)) fail("its area is another");
-
-  std::array<double, 4> box{};
-  for (std::size_t i = 0; i < 4; ++i) box[i] = c.box[i].get_d();
-  const double reach = on_border * std::max(box[1] - box[0], box[3] - box[2]) + 2 * c.tolerance;
-  const auto on_arc = [&](const Point2& at) {
-    for (const CurveClaim& curve : c.curves)
-      if (curve.mode == zone.mode)
-        for (const core::Arc& arc : curve.arcs)
-          if (passes_near(arc.points, at, reach)) return true;
-    return false;
-  };
-  const auto check_border = [&](const Polyline& ring) {
-    const std::size_t stride = std::max<std::size_t>(1, ring.size() / 64);
-    for (std::size_t i = 1; i < ring.size(); i += stride) {
-      const Point2 at = {0.5 * (ring[i][0] + ring[i - 1][0]), 0.5 * (ring[i][1] + ring[i - 1][1])};
-      const bool on_box = std::min({std::abs(at[0] - box[0]), std::abs(at[0] - box[1]), std::abs(at[1] - box[2]),
-                                    std::abs(at[1] - box[3])}) <= reach;
-      if (!on_box && !on_arc(at)) fail(fmt::format("its border leaves the arcs at ({}, {})", at[0], at[1]));
-    }
-  };
-  check_border(zone.outer);
-  for (const Polyline& hole : zone.holes) check_border(hole);
+void check_zones(const mechanism::Mechanism& m, const CertificateFile& certificate, Verdict& verdict) {
+  if (!certificate.zones.empty()) ZoneCheck(m, certificate, verdict).run();
 }
 
 }  // namespace clearloci::check

@@ -1,13 +1,14 @@
-// A zone's claims: its signs at the sample, its area, and that its border runs along arcs and the box.
-// Private to check/.
+// Zones against the model and the arcs of their mode. Private to check/.
 #pragma once
 
 #include "check/certificate.hpp"
+#include "check/check.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci::check {
 
-/// Throws FalseClaim.
-void check_zone(const mechanism::Mechanism& m, const CertificateFile& certificate, const ZoneClaim& zone);
+/// Signs at the samples, borders along arcs and the box, areas; no arc passes through a zone; and poses all over the
+/// box lie in one zone each, whose signs are theirs. Throws FalseClaim.
+void check_zones(const mechanism::Mechanism& m, const CertificateFile& certificate, Verdict& verdict);
 
 }  // namespace clearloci::check
