@@ -189,8 +189,15 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
                     {"function", functions.add(factor.role, factor.expression,
                                                factor.line.empty() ? line_of(factor.sheet) : factor.line)}});
   }
+  // Factors without curves make up components of forces; of the others the sheets tell.
+  const auto has_sheet = [&](const core::LocusFactor& factor) {
+    return std::any_of(certificate.sheets.begin(), certificate.sheets.end(), [&](const core::SheetClaim& claim) {
+      return claim.role == factor.role && claim.name == factor.expression;
+    });
+  };
   for (const core::LocusFactor& factor : problem.factors)
-    functions.add(factor.role, factor.expression, factor.line.empty() ? line_of(factor.sheet) : factor.line);
+    if (factor.role != core::FactorRole::construction && !has_sheet(factor))
+      functions.add(factor.role, factor.expression, factor.line.empty() ? line_of(factor.sheet) : factor.line);
   root["functions"] = std::move(functions.list);
   root["sheets"] = std::move(sheets);
   root["open"] = std::move(open);
