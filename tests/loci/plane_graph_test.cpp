@@ -25,9 +25,9 @@ TEST(PointsAllOverFace, AreInEveryPartThatIsWide) {
   const Polyline points = points_all_over_face({u, hole}, 0.01);
   EXPECT_TRUE(std::all_of(points.begin(), points.end(), inside));
   for (const Point2& part : {Point2{0.125, 2}, {0.875, 2}, {2.5, 2}, {1.5, 0.5}, {0.5, 2.75}})
-    EXPECT_TRUE(
-        std::any_of(points.begin(), points.end(),
-                    [&](const Point2& p) { return std::abs(p[0] - part[0]) < 0.15 && std::abs(p[1] - part[1]) < 0.25; }))
+    EXPECT_TRUE(std::any_of(
+        points.begin(), points.end(),
+        [&](const Point2& p) { return std::abs(p[0] - part[0]) < 0.15 && std::abs(p[1] - part[1]) < 0.25; }))
         << part[0] << " " << part[1];
   // Beside the hole the leg is narrower than this.
   for (const Point2& p : points_all_over_face({u, hole}, 0.3)) EXPECT_FALSE(p[0] < 1 && p[1] > 1.5 && p[1] < 2.5);
