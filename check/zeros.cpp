@@ -93,7 +93,7 @@ class Isolation {
         sum = sum + share * (sheet_.local(free[k]) - sheet_.middle(free[k]));
       }
       if (!sum.is_finite()) return {};
-      image[static_cast<std::size_t>(free[i])] = std::move(sum);
+      image[static_cast<std::size_t>(free[i])] = sum;
     }
     return image;
   }
