@@ -42,7 +42,9 @@ py::object nearest_of(const Verification& answer) {
 }  // namespace
 
 void bind_verify(py::module_& module) {
-  py::class_<Task>(module, "Task", "What a design is verified for.");
+  py::class_<Task>(module, "Task", "What a design is verified for.").def("__repr__", [](const Task& task) {
+    return "<clearloci task of '" + task.file + "'>";
+  });
   module.def("read_task", [](const std::string& path, const Model& model) { return read_task(path, model); });
   module.def("parse_task", [](const std::string& text, const Model& model) { return parse_task(text, model); });
   py::class_<Verification>(module, "Answer", "A verification as the library holds it.")
