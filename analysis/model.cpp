@@ -1,8 +1,6 @@
 #include "analysis/model.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "mechanism/read.hpp"
@@ -25,9 +23,7 @@ Model Model::parse(std::string text, std::string file, const std::vector<Value>&
 }
 
 Model Model::read(const std::string& path, const std::vector<Value>& values) {
-  (void)mechanism::read_mechanism(path, values);  // complains as usual where the file cannot be read
-  std::ifstream stream(path, std::ios::binary);
-  return parse({std::istreambuf_iterator<char>(stream), {}}, path, values);
+  return parse(mechanism::read_text(path, "the mechanism file"), path, values);
 }
 
 Model Model::with(const std::vector<Value>& values) const {

@@ -10,6 +10,7 @@
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/pose_error.hpp"
 #include "numeric/spatial.hpp"
@@ -74,7 +75,7 @@ std::vector<JointTakeUp> plane_take_up(const mechanism::Mechanism& mechanism,
     if (radial == 0 && angular == 0 && gap == 0) continue;
     JointTakeUp own;
     own.joint = mechanism.joints[j].name;
-    if (mechanism.joints[j].type == mechanism::JointType::prismatic) {
+    if (mechanism::traits(mechanism.joints[j]).slides) {
       if (gap > 0) own.normal = t.guide_vanishes ? nan : t.normal;
       if (gap > 0) own.tilt = t.guide_vanishes ? nan : t.tilt;
       if (angular > 0) own.axial = t.couple_vanishes ? nan : t.rotation;
@@ -160,8 +161,7 @@ std::vector<JointTakeUp> space_take_up(const mechanism::Mechanism& mechanism,
     own.joint = mechanism.joints[j].name;
     if (joint.presses()) own.displacement = t.force_vanishes ? std::vector<double>(3, nan) : components(t.displacement);
     if (joint.plays())
-      (joint.type == mechanism::JointType::prismatic ? own.axial : own.rotation) =
-          t.actuator_vanishes ? nan : t.actuator;
+      (mechanism::traits(joint.type).slides ? own.axial : own.rotation) = t.actuator_vanishes ? nan : t.actuator;
     list.push_back(std::move(own));
   }
   return list;
@@ -173,7 +173,7 @@ JointReaction space_reaction(const mechanism::Joint& joint, const numeric::Spati
   JointReaction own{joint.name, {}};
   for (std::size_t c = 0; c < 3; ++c) {
     own.components.push_back({forces[c], r.force(static_cast<Eigen::Index>(c))});
-    if (joint.type != mechanism::JointType::spherical)
+    if (mechanism::traits(joint).couple != mechanism::BorneCouple::none)
       own.components.push_back({couples[c], r.couple(static_cast<Eigen::Index>(c))});
   }
   if (joint.actuated) own.components.push_back({mechanism::actuator_quantity(joint), r.actuator});

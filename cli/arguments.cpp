@@ -196,8 +196,7 @@ std::vector<std::string> parse_joints(const std::vector<std::string>& words, con
   return joints;
 }
 
-std::set<std::string> parse_formats(const std::string& text, report::Answer answer) {
-  const std::vector<std::string> known = report::format_names(answer);
+std::set<std::string> parse_formats(const std::string& text, const std::vector<std::string>& known) {
   std::set<std::string> formats;
   for (const std::string& word : split(text)) {
     if (std::find(known.begin(), known.end(), word) == known.end())

@@ -13,7 +13,6 @@
 #include "analysis/loci.hpp"
 #include "core/rational.hpp"
 #include "mechanism/mechanism.hpp"
-#include "report/formats.hpp"
 
 namespace clearloci::cli {
 
@@ -64,7 +63,7 @@ int parse_steps(const std::string& text);
 /// `options.joints`, each of which may list several after commas; checked against the mechanism.
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism);
 
-/// --export: names after commas. Throws core::InputError for one that the answer has no format for.
-std::set<std::string> parse_formats(const std::string& text, report::Answer answer);
+/// --export: names after commas. Throws core::InputError for one that is not among those that the answer has.
+std::set<std::string> parse_formats(const std::string& text, const std::vector<std::string>& known);
 
 }  // namespace clearloci::cli

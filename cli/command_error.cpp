@@ -35,17 +35,6 @@ struct Arguments {
 
 const std::vector<std::string> format_names = {"png", "svg", "pdf", "csv", "vtk"};
 
-std::set<std::string> parse_formats(const std::string& text) {
-  std::set<std::string> formats;
-  for (const std::string& word : split(text)) {
-    if (std::find(format_names.begin(), format_names.end(), word) == format_names.end())
-      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
-                             fmt::format("choose from {}", fmt::join(format_names, ", ")));
-    formats.insert(word);
-  }
-  return formats;
-}
-
 /// What is printed: the JSON or the table, and where the files are.
 template <class Answer>
 void print(const Arguments& arguments, const Answer& errors, nlohmann::ordered_json (*object)(const Answer&),
@@ -96,7 +85,7 @@ double memory_of(int nx, int ny, const mechanism::Mechanism& mechanism, std::siz
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats);
+  const std::set<std::string> formats = parse_formats(arguments.formats, format_names);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "error.json", incomplete_body(name, "the errors were"));

@@ -39,7 +39,7 @@ void check_formats(const std::set<std::string>& formats, std::size_t coordinates
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats, report::Answer::loci);
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names(report::Answer::loci));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   check_formats(formats, mechanism.coordinates.size());
   if (!arguments.certificate.empty()) require_certifiable(mechanism);

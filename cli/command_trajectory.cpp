@@ -33,17 +33,6 @@ struct Arguments {
 
 const std::vector<std::string> format_names = {"png", "svg", "pdf", "csv"};
 
-std::set<std::string> parse_formats(const std::string& text) {
-  std::set<std::string> formats;
-  for (const std::string& word : split(text)) {
-    if (std::find(format_names.begin(), format_names.end(), word) == format_names.end())
-      throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
-                             fmt::format("choose from {}", fmt::join(format_names, ", ")));
-    formats.insert(word);
-  }
-  return formats;
-}
-
 /// "0.5:3:0.02": first, last, step.
 std::vector<double> parse_periods(const std::string& text, const mechanism::Mechanism& mechanism) {
   if (text.empty()) return {};
@@ -85,7 +74,7 @@ TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechan
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats);
+  const std::set<std::string> formats = parse_formats(arguments.formats, format_names);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   require_plane_motion(mechanism);
   const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);

@@ -60,7 +60,8 @@ void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, 
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats, report::Answer::verification);
+  const std::set<std::string> formats =
+      parse_formats(arguments.formats, report::format_names(report::Answer::verification));
   const std::optional<FitGoal> goal = parse_fit(arguments.fit);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   const core::Task task = mechanism::read_task(arguments.task, mechanism);

@@ -30,7 +30,7 @@ struct Arguments {
 };
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats, report::Answer::zones);
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names(report::Answer::zones));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (mechanism.coordinates.size() != 2)
     throw core::InputError(

@@ -19,6 +19,9 @@ Mechanism read_mechanism(const std::string& path, const std::vector<Override>& o
 Mechanism parse_mechanism(const std::string& text, const std::string& file,
                           const std::vector<Override>& overrides = {});
 
+/// A file's bytes. Throws core::InputError where it cannot be read or has more than 4 MB. `what`: "the mechanism file".
+std::string read_text(const std::string& path, const std::string& what);
+
 /// An expression by the rules of mechanism-file.md, e.g. "2*L + cos(30 deg)". `where`: its place, for errors.
 Expression parse_expression(const std::string& text, const core::SourcePosition& where);
 

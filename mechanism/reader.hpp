@@ -12,9 +12,6 @@
 
 namespace clearloci::mechanism {
 
-/// A file's bytes. Throws core::InputError where it cannot be read or has more than 4 MB. `what`: "the mechanism file".
-std::string read_text(const std::string& path, const std::string& what);
-
 /// What a file calls its mechanism or trajectory, or the file's name without folder and ending where it gives none: one
 /// printable line, since it stands in headings, titles and comments.
 std::string name_of(const std::optional<Value>& value, const std::string& file);

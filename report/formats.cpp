@@ -94,13 +94,24 @@ Files loci_stl(const LociSheet& loci) {
 
 constexpr PictureFormat svg = PictureFormat::svg, png = PictureFormat::png, pdf = PictureFormat::pdf;
 
-std::vector<std::filesystem::path> written(const Files& files, const std::filesystem::path& directory,
-                                           std::vector<std::filesystem::path> paths) {
-  for (const File& file : files) {
-    write_atomically(directory / file.name, file.bytes);
-    paths.push_back(directory / file.name);
+/// Writes what the formats that `wanted` picks make of an answer. `made`: the answer's column of the registry.
+template <class Answer, class Wanted>
+std::vector<std::filesystem::path> write_in(Files (*Format::*made)(const Answer&), const Answer& answer,
+                                            const std::filesystem::path& directory, Wanted wanted) {
+  std::vector<std::filesystem::path> paths;
+  for (const Format& format : formats()) {
+    if (format.*made == nullptr || !wanted(format)) continue;
+    for (const File& file : (format.*made)(answer)) {
+      write_atomically(directory / file.name, file.bytes);
+      paths.push_back(directory / file.name);
+    }
   }
   return paths;
+}
+
+/// json, and what is named.
+auto named(const std::set<std::string>& names) {
+  return [&names](const Format& format) { return format.name == "json" || names.contains(std::string(format.name)); };
 }
 
 }  // namespace
@@ -142,32 +153,21 @@ bool can_hold(std::string_view name, std::size_t coordinates) {
 std::vector<std::filesystem::path> write_loci(const LociSheet& loci, const std::filesystem::path& directory,
                                               const std::set<std::string>& names) {
   const std::size_t coordinates = loci.map.tower.coordinates.size();
-  std::vector<std::filesystem::path> paths;
-  for (const Format& format : formats()) {
-    const bool always = format.name == "json" || (coordinates == 3 && format.name == "obj");
-    if (format.loci == nullptr || !format.holds_coordinates(coordinates)) continue;
-    if (always || names.contains(std::string(format.name))) paths = written(format.loci(loci), directory, paths);
-  }
-  return paths;
+  const auto asked = named(names);
+  return write_in(&Format::loci, loci, directory, [&](const Format& format) {
+    return format.holds_coordinates(coordinates) && (asked(format) || (coordinates == 3 && format.name == "obj"));
+  });
 }
 
 std::vector<std::filesystem::path> write_zones(const core::ZoneMap& map, const std::filesystem::path& directory,
                                                const std::set<std::string>& names) {
-  std::vector<std::filesystem::path> paths;
-  for (const Format& format : formats())
-    if (format.zones != nullptr && (format.name == "json" || names.contains(std::string(format.name))))
-      paths = written(format.zones(map), directory, paths);
-  return paths;
+  return write_in(&Format::zones, map, directory, named(names));
 }
 
 std::vector<std::filesystem::path> write_verification(const core::Verification& result,
                                                       const std::filesystem::path& directory,
                                                       const std::set<std::string>& names) {
-  std::vector<std::filesystem::path> paths;
-  for (const Format& format : formats())
-    if (format.verification != nullptr && (format.name == "json" || names.contains(std::string(format.name))))
-      paths = written(format.verification(result), directory, paths);
-  return paths;
+  return write_in(&Format::verification, result, directory, named(names));
 }
 
 }  // namespace clearloci::report

@@ -13,6 +13,7 @@
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
 #include "report/verification.hpp"
+#include "report/wording.hpp"
 #include "report/zones.hpp"
 
 namespace clearloci {
@@ -61,6 +62,8 @@ std::string to_json(const Verification& answer) { return report::json_text(repor
 std::string to_table(const LocusMap& loci) { return report::loci_table(loci); }
 std::string to_table(const ZoneMap& zones) { return report::zones_table(zones); }
 std::string to_text(const Verification& answer) { return report::verification_text(answer, answer.by.has_value()); }
+
+std::vector<WorkingMode> modes_of(const LocusMap& loci) { return report::modes_of(loci); }
 
 std::string to_svg(const LocusMap& loci, const WorkingMode& mode) {
   return report::picture(loci, mode, nullptr, report::PictureFormat::svg);

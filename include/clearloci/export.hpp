@@ -46,6 +46,9 @@ std::string to_table(const LocusMap& loci);
 std::string to_table(const ZoneMap& zones);
 std::string to_text(const Verification& answer);
 
+/// The working modes that the map speaks of, each once.
+std::vector<WorkingMode> modes_of(const LocusMap& loci);
+
 /// The picture of one working mode of the map, as SVG.
 std::string to_svg(const LocusMap& loci, const WorkingMode& mode);
 std::string to_svg(const ZoneMap& zones, const WorkingMode& mode);

@@ -109,16 +109,10 @@ py::dict dict_of(const LocusMap& map) {
   return all;
 }
 
-std::vector<WorkingMode> modes_of(const LocusMap& map) {
-  std::vector<WorkingMode> modes;
-  const auto add = [&](const WorkingMode& mode) {
-    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
-  };
-  for (const LocusCurve& curve : map.curves) add(curve.mode);
-  for (const WorkspaceRegion& region : map.workspace) add(region.mode);
-  for (const IsolatedPoint& point : map.isolated_points) add(point.mode);
-  for (const LocusSurface& surface : map.surfaces) add(surface.mode);
-  return modes;
+std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files) names.push_back(file.string());
+  return names;
 }
 
 void bind_loci(py::module_& module) {
@@ -132,12 +126,9 @@ void bind_loci(py::module_& module) {
              for (const WorkingMode& mode : modes_of(map)) pictures.push_back(to_svg(map, mode));
              return pictures;
            })
-      .def("export", [](const LocusMap& map, const Model& model, const std::string& folder,
-                        const std::set<std::string>& formats) {
-        std::vector<std::string> files;
-        for (const auto& file : export_loci(model, map, folder, formats)) files.push_back(file.string());
-        return files;
-      });
+      .def("export",
+           [](const LocusMap& map, const Model& model, const std::string& folder,
+              const std::set<std::string>& formats) { return names_of(export_loci(model, map, folder, formats)); });
   module.def("trace_loci", [](const Model& model, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
     return unlocked(request, [&](const LociRequest& own) { return trace_loci(model, own); });

@@ -1,6 +1,8 @@
 // Maps as dictionaries of plain Python and NumPy values.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "bindings/bindings.hpp"
@@ -12,7 +14,7 @@ py::dict mode_of(const TowerNames& tower, const WorkingMode& mode);
 
 py::dict dict_of(const LocusMap& map);
 
-/// The modes of the map, each once, in order of appearance.
-std::vector<WorkingMode> modes_of(const LocusMap& map);
+/// Paths as text.
+std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files);
 
 }  // namespace clearloci::python

@@ -65,12 +65,9 @@ void bind_verify(py::module_& module) {
       .def("json", [](const Verification& answer) { return to_json(answer); })
       .def("table", [](const Verification& answer) { return to_text(answer); })
       .def("svgs", [](const Verification& answer) { return std::vector<std::string>{to_svg(answer)}; })
-      .def("export", [](const Verification& answer, const Model&, const std::string& folder,
-                        const std::set<std::string>& formats) {
-        std::vector<std::string> files;
-        for (const auto& file : export_verification(answer, folder, formats)) files.push_back(file.string());
-        return files;
-      });
+      .def("export",
+           [](const Verification& answer, const Model&, const std::string& folder,
+              const std::set<std::string>& formats) { return names_of(export_verification(answer, folder, formats)); });
   module.def(
       "verify_task",
       [](const Model& model, const Task& task, const py::object& fit, const py::kwargs& options) {

@@ -55,12 +55,8 @@ void bind_zones(py::module_& module) {
              for (const WorkingMode& mode : modes_of(map.loci)) pictures.push_back(to_svg(map, mode));
              return pictures;
            })
-      .def("export",
-           [](const ZoneMap& map, const Model&, const std::string& folder, const std::set<std::string>& formats) {
-             std::vector<std::string> files;
-             for (const auto& file : export_zones(map, folder, formats)) files.push_back(file.string());
-             return files;
-           });
+      .def("export", [](const ZoneMap& map, const Model&, const std::string& folder,
+                        const std::set<std::string>& formats) { return names_of(export_zones(map, folder, formats)); });
   module.def("find_zones", [](const Model& model, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
     return unlocked(request, [&](const LociRequest& own) { return find_zones(model, own); });
