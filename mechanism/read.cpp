@@ -7,6 +7,7 @@
 
 #include "core/text.hpp"
 #include "mechanism/reader.hpp"
+#include "mechanism/repeat.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -14,7 +15,9 @@ namespace {
 using core::InputError;
 
 const std::vector<std::string> top_keys = {"format", "name",   "space",        "parameters", "workspace", "points",
-                                           "links",  "joints", "end_effector", "loads",      "gravity"};
+                                           "links",  "joints", "end_effector", "loads",      "gravity",   "repeat"};
+/// What may be written once for parts that are alike.
+const std::vector<std::string> repeatable_keys = {"parameters", "points", "links", "joints", "loads"};
 
 void check_format(const Value& value) {
   const std::string text = text_of(value);
@@ -43,11 +46,10 @@ std::string name_of(const std::optional<Value>& value, const std::string& file) 
   return core::shortened(name, longest);
 }
 
-Mechanism parse_mechanism(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
-  const Value document = parse_document(text, file);
-  if (!document.is_map())
-    throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
-  const Mapping root(document, top_keys);
+namespace {
+
+Mechanism read_document(const Value& written, const std::string& file, const std::vector<Override>& overrides) {
+  const Mapping root(expand_repeat(written, repeatable_keys), top_keys);
   check_format(root.at("format"));
 
   Mechanism mechanism;
@@ -71,6 +73,19 @@ Mechanism parse_mechanism(const std::string& text, const std::string& file, cons
   check_axes(mechanism);
   check_rigidity(mechanism);
   return mechanism;
+}
+
+}  // namespace
+
+Mechanism parse_mechanism(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+  const Value document = parse_document(text, file);
+  if (!document.is_map())
+    throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
+  try {
+    return read_document(document, file, overrides);
+  } catch (const InputError& error) {
+    throw told_of_file(error, file);
+  }
 }
 
 std::string read_text(const std::string& path, const std::string& what) {

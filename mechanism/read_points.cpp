@@ -214,7 +214,7 @@ OffsetPoint read_offset(const Mechanism& mechanism, const Value& value) {
           read_number(mechanism, offset[1], Sign::any).expression};
 }
 
-bool has_key(const Value& value, const std::string& key) { return static_cast<bool>(value.node[key]); }
+bool has_key(const Value& value, const std::string& key) { return value.node.has(key); }
 
 /// Names that a point's form mentions, as far as it is written well enough to tell.
 std::vector<Value> mentioned_points(const Value& value) {

@@ -121,7 +121,7 @@ Value parameter_value(const Entry& entry, const std::vector<Override>& overrides
   value.what = "parameter " + entry.key;
   for (const Override& override : overrides) {
     if (override.first != entry.key) continue;
-    value.node = YAML::Node(override.second);
+    value.node = Node(override.second);
     value.where = place_of(override);
   }
   return value;

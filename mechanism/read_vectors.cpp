@@ -64,7 +64,7 @@ class VectorReader {
 
   Expression number(const std::string& text) const {
     Value part = value_;
-    part.node = YAML::Node(text);
+    part.node = Node(text);
     return read_number(mechanism_, part, Sign::any).expression;
   }
 
@@ -152,7 +152,7 @@ class VectorReader {
     VectorExpression result;
     result.kind = Kind::point;
     Value part = value_;
-    part.node = YAML::Node(text);
+    part.node = Node(text);
     result.point = read_point_name(mechanism_, part);
     return result;
   }

@@ -1,10 +1,7 @@
 #include "mechanism/yaml_input.hpp"
 
-#include <yaml-cpp/eventhandler.h>
-
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 namespace clearloci::mechanism {
 namespace {
@@ -15,19 +12,7 @@ using core::SourcePosition;
 // Of one mapping (points, links, parameters) and one list (a path): more is no mechanism that a person describes.
 constexpr std::size_t most_entries = 1000, longest_list = 10000;
 
-SourcePosition position(const YAML::Mark& mark, const std::string& file) {
-  if (mark.is_null()) return {file, 0, 0};
-  return {file, mark.line + 1, mark.column + 1};
-}
-
-/// Of the text itself: yaml-cpp marks a quoted scalar at its quote, which it gives the tag "!".
-SourcePosition position(const YAML::Node& node, const std::string& file) {
-  SourcePosition place = position(node.Mark(), file);
-  if (node.IsScalar() && node.Tag() == "!") ++place.column;
-  return place;
-}
-
-std::string kind_of(const YAML::Node& node) {
+std::string kind_of(const Node& node) {
   if (node.IsMap()) return "a mapping";
   if (node.IsSequence()) return "a list";
   if (node.IsScalar()) return "'" + node.Scalar() + "'";
@@ -56,57 +41,11 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Where a document begins, and whether it holds nothing. yaml-cpp's own LoadAll never ends on a text that begins with
-/// a stray comma: it reads one empty document after the other.
-class DocumentStart : public YAML::EventHandler {
- public:
-  YAML::Mark mark = YAML::Mark::null_mark();
-  bool is_null = false;
-
-  void OnDocumentStart(const YAML::Mark&) override {}
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& at, YAML::anchor_t) override {
-    if (mark.is_null()) is_null = true;
-    note(at);
-  }
-  void OnAlias(const YAML::Mark& at, YAML::anchor_t) override { note(at); }
-  void OnScalar(const YAML::Mark& at, const std::string&, YAML::anchor_t, const std::string&) override { note(at); }
-  void OnSequenceStart(const YAML::Mark& at, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
-    note(at);
-  }
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark& at, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
-    note(at);
-  }
-  void OnMapEnd() override {}
-
- private:
-  void note(const YAML::Mark& at) {
-    if (mark.is_null()) mark = at;
-  }
-};
-
 }  // namespace
 
 Value parse_document(const std::string& text, const std::string& file) {
-  try {
-    std::istringstream stream(text);
-    YAML::Parser parser(stream);
-    DocumentStart first, second;
-    if (!parser.HandleNextDocument(first))
-      throw InputError({file, 1, 1}, "the file is empty", "start with the line format: 1");
-    if (first.is_null)
-      throw InputError(position(first.mark, file), "no mechanism can be read from here",
-                       "start with the line format: 1");
-    if (parser.HandleNextDocument(second))
-      throw InputError(position(second.mark, file), "a second document in the file",
-                       "remove the line --- and keep one mechanism a file");
-    const YAML::Node document = YAML::Load(text);
-    return {document, "the file", position(document, file)};
-  } catch (const YAML::Exception& error) {
-    throw InputError(position(error.mark, file), "not YAML: " + error.msg,
-                     "check brackets, colons and indentation at this place");
-  }
+  const Node document = load_document(text, file);
+  return {document, "the file", document.where()};
 }
 
 std::vector<Entry> entries(const Value& value) {
@@ -118,10 +57,10 @@ std::vector<Entry> entries(const Value& value) {
                      "write 1000 at most");
   std::vector<Entry> result;
   std::map<std::string, SourcePosition> first;
-  for (const auto& pair : value.node) {
-    const SourcePosition where = position(pair.first, value.where.file);
-    if (!pair.first.IsScalar()) throw InputError(where, "a key of " + value.what + " is no name", "write a name");
-    const std::string& key = pair.first.Scalar();
+  for (const auto& [name, content] : value.node.pairs()) {
+    const SourcePosition& where = name.where();
+    if (!name.IsScalar()) throw InputError(where, "a key of " + value.what + " is no name", "write a name");
+    const std::string& key = name.Scalar();
     const auto [earlier, is_new] = first.emplace(key, where);
     if (!is_new)
       throw InputError(
@@ -129,8 +68,8 @@ std::vector<Entry> entries(const Value& value) {
           "'" + key + "' is there twice in " + value.what + ": first in line " + std::to_string(earlier->second.line),
           "rename or remove one of them");
     // An empty value has no place of its own.
-    const SourcePosition place = pair.second.IsNull() ? where : position(pair.second, value.where.file);
-    result.push_back({key, where, {pair.second, "'" + key + "'", place}});
+    const SourcePosition& place = content.IsNull() ? where : content.where();
+    result.push_back({key, where, {content, "'" + key + "'", place}});
   }
   return result;
 }
@@ -147,8 +86,7 @@ std::vector<Value> elements(const Value& value, int size) {
     throw InputError(value.where, value.what + " has " + std::to_string(value.node.size()) + " entries",
                      "write 10000 at most");
   std::vector<Value> result;
-  for (const YAML::Node& element : value.node)
-    result.push_back({element, value.what, position(element, value.where.file)});
+  for (const Node& element : value.node.items()) result.push_back({element, value.what, element.where()});
   return result;
 }
 

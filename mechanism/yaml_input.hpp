@@ -2,19 +2,18 @@
 // mend it. Private to mechanism/.
 #pragma once
 
-#include <yaml-cpp/yaml.h>
-
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/errors.hpp"
+#include "mechanism/yaml_tree.hpp"
 
 namespace clearloci::mechanism {
 
 /// A node of the tree. `what` names it in messages: "the mass of link A1B1".
 struct Value {
-  YAML::Node node;
+  Node node;
   std::string what;
   core::SourcePosition where;
 
