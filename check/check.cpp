@@ -33,14 +33,14 @@ class Check {
  public:
   Check(const mechanism::Mechanism& m, CertificateFile c) : m_(m), c_(std::move(c)) {}
 
-  Verdict run() {
+  Examination run() {
     check_header();
     for (const CurveClaim& curve : c_.curves)
       for (const core::Arc& arc : curve.arcs) arcs_.push_back({&curve, &arc});
     for (int mode = 0; mode < static_cast<int>(c_.modes.size()); ++mode) {
       const Orders orders = orders_of(m_, c_, mode);
       if (!orders.known) {
-        verdict_.unchecked.push_back(fmt::format("mode {}: hardly a pose of it is in the box", mode + 1));
+        examination_.unchecked.push_back(fmt::format("mode {}: hardly a pose of it is in the box", mode + 1));
         for (KnownArc& arc : arcs_)
           if (arc.curve->mode == mode) arc.sheet = no_pose;
         continue;
@@ -48,10 +48,10 @@ class Check {
       check_mode(mode, orders);
     }
     check_labels();
-    check_zones(m_, c_, verdict_);
-    verdict_.open_share = area_ > 0 ? open_area_ / area_ : 0;
-    verdict_.accepted = true;
-    return verdict_;
+    check_zones(m_, c_, examination_);
+    examination_.open_share = area_ > 0 ? open_area_ / area_ : 0;
+    examination_.accepted = true;
+    return examination_;
   }
 
  private:
@@ -123,7 +123,7 @@ class Check {
         throw FalseClaim("functions: the boundary made by " + c_.root_points[static_cast<std::size_t>(roots[j])] +
                          " is not among them");
     need_reactions(orders, need);
-    check_points(m_, c_, mode, orders, verdict_);
+    check_points(m_, c_, mode, orders, examination_);
     for (SheetCells& sheet : sheets) {
       for (const int j : sheet.at_zero) {
         const auto own = std::find(roots.begin(), roots.end(), j) - roots.begin();
@@ -134,21 +134,21 @@ class Check {
       }
       check_sheet(sheet, singular);
     }
-    if (c_.task && c_.task->mode == mode) check_task(m_, c_, orders, verdict_);
+    if (c_.task && c_.task->mode == mode) check_task(m_, c_, orders, examination_);
   }
 
   void check_sheet(const SheetCells& sheet, const std::vector<int>& singular) {
     Curve curve(c_, sheet);
-    verdict_.cells += curve.cells;
-    verdict_.graphs += curve.graphs;
-    verdict_.crossings += curve.ends;
+    examination_.cells += curve.cells;
+    examination_.graphs += curve.graphs;
+    examination_.crossings += curve.ends;
     area_ += curve.area;
     open_area_ += curve.open_area;
     if (sheet.role == FactorRole::margin)
-      verdict_.unchecked.push_back(fmt::format("margin {} in mode {}: its function is not held against the model",
-                                               name(sheet.function).substr(0, 60), sheet.mode + 1));
+      examination_.unchecked.push_back(fmt::format("margin {} in mode {}: its function is not held against the model",
+                                                   name(sheet.function).substr(0, 60), sheet.mode + 1));
     sheets_.push_back(sheet);
-    check_arcs(m_, curve, static_cast<int>(sheets_.size()) - 1, singular, arcs_, verdict_.unchecked);
+    check_arcs(m_, curve, static_cast<int>(sheets_.size()) - 1, singular, arcs_, examination_.unchecked);
   }
 
   /// A function that was left to the exact engine: all of its cells are the checker's.
@@ -220,13 +220,13 @@ class Check {
         continue;
       }
       if (known.sheet < 0) throw FalseClaim("an arc " + place + " is on no curve that the cells prove");
-      ++verdict_.arcs;
+      ++examination_.arcs;
       if (curve.kind == core::LocusKind::margin) continue;
       const bool is_reaction = curve.kind <= core::LocusKind::component;
       const auto label = label_at(m_, c_, sheets_[static_cast<std::size_t>(known.sheet)], middle);
       const std::set<Reaction> said(curve.vanishing.begin(), curve.vanishing.end());
       if (!label)
-        verdict_.unchecked.push_back("what vanishes " + place);
+        examination_.unchecked.push_back("what vanishes " + place);
       else if (is_reaction && *label != said)
         throw FalseClaim(
             fmt::format("an arc {} is said to make {} vanish; it is {}", place, names(said), names(*label)));
@@ -234,7 +234,7 @@ class Check {
         throw FalseClaim(names(*label) + " vanish " + place + ", but no arc says so");
     }
     if (uncertain > 0)
-      verdict_.unchecked.push_back(fmt::format("{} arcs that are not claimed to be certain", uncertain));
+      examination_.unchecked.push_back(fmt::format("{} arcs that are not claimed to be certain", uncertain));
   }
 
   const mechanism::Mechanism& m_;
@@ -242,7 +242,7 @@ class Check {
   std::vector<KnownArc> arcs_;
   std::vector<SheetCells> sheets_;   // looked at so far
   double area_ = 0, open_area_ = 0;  // of all sheets, and of the cells of which nothing is known
-  Verdict verdict_;
+  Examination examination_;
 };
 
 std::string bytes_of(const std::string& path) {
@@ -259,9 +259,9 @@ std::string bytes_of(const std::string& path) {
 
 }  // namespace
 
-Verdict check_certificate_text(const std::string& model_text, const std::string& model_file,
-                               const std::string& certificate_text, const std::string& certificate_file,
-                               const Deadline& deadline) {
+Examination check_certificate_text(const std::string& model_text, const std::string& model_file,
+                                   const std::string& certificate_text, const std::string& certificate_file,
+                                   const Deadline& deadline) {
   try {
     CertificateFile certificate = read_certificate(certificate_text, certificate_file);
     certificate.deadline = deadline;
@@ -270,13 +270,13 @@ Verdict check_certificate_text(const std::string& model_text, const std::string&
     const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model_text, model_file, certificate.overrides);
     return Check(mechanism, certificate).run();
   } catch (const FalseClaim& claim) {
-    Verdict verdict;
-    verdict.why = claim.what();
-    return verdict;
+    Examination examination;
+    examination.why = claim.what();
+    return examination;
   }
 }
 
-Verdict check_certificate(const std::string& model, const std::string& certificate, const Deadline& deadline) {
+Examination check_certificate(const std::string& model, const std::string& certificate, const Deadline& deadline) {
   return check_certificate_text(bytes_of(model), model, bytes_of(certificate), certificate, deadline);
 }
 

@@ -9,7 +9,7 @@
 
 namespace clearloci::check {
 
-struct Verdict {
+struct Examination {
   bool accepted = false;
   std::string why;  ///< the first claim that is false or could not be shown; empty where accepted
   std::size_t cells = 0, graphs = 0, crossings = 0, arcs = 0, points = 0, zones = 0;  ///< that were shown
@@ -22,11 +22,11 @@ using Deadline = std::optional<std::chrono::steady_clock::time_point>;
 
 /// `model`, `certificate`: the files. Throws core::InputError where one of them cannot be read, core::LimitReached
 /// where the deadline comes first.
-Verdict check_certificate(const std::string& model, const std::string& certificate, const Deadline& deadline = {});
+Examination check_certificate(const std::string& model, const std::string& certificate, const Deadline& deadline = {});
 
 /// The same for texts.
-Verdict check_certificate_text(const std::string& model_text, const std::string& model_file,
-                               const std::string& certificate_text, const std::string& certificate_file,
-                               const Deadline& deadline = {});
+Examination check_certificate_text(const std::string& model_text, const std::string& model_file,
+                                   const std::string& certificate_text, const std::string& certificate_file,
+                                   const Deadline& deadline = {});
 
 }  // namespace clearloci::check

@@ -20,8 +20,9 @@ constexpr std::size_t most_cells = 60'000;
 
 class PointCheck {
  public:
-  PointCheck(const mechanism::Mechanism& m, const CertificateFile& c, int mode, const Orders& orders, Verdict& verdict)
-      : m_(m), c_(c), mode_(mode), orders_(orders), verdict_(verdict), claimed_(c.points.size(), false) {
+  PointCheck(const mechanism::Mechanism& m, const CertificateFile& c, int mode, const Orders& orders,
+             Examination& examination)
+      : m_(m), c_(c), mode_(mode), orders_(orders), examination_(examination), claimed_(c.points.size(), false) {
     for (std::size_t i = 0; i < 4; ++i) box_[i] = c.box[i].get_d();
     size_ = std::max(box_[1] - box_[0], box_[3] - box_[2]);
   }
@@ -34,7 +35,7 @@ class PointCheck {
       if (point.mode != mode_ || claimed_[i]) continue;
       const std::string place = fmt::format("({}, {})", point.at[0], point.at[1]);
       if (!point.certified || point.kind != core::LocusKind::contact_loss || undecided_)
-        verdict_.unchecked.push_back("the isolated point " + place);
+        examination_.unchecked.push_back("the isolated point " + place);
       else
         throw FalseClaim("the isolated point " + place + ": no contact is lost there alone");
     }
@@ -72,14 +73,14 @@ class PointCheck {
     const CommonZeros& found = zeros_of(f, g);
     if (!found.complete) {
       undecided_ = true;
-      verdict_.unchecked.push_back(
+      examination_.unchecked.push_back(
           fmt::format("isolated contact losses of {} in mode {}: too many cells", joint, mode_ + 1));
     }
     for (const Rectangle& cell : found.undecided) {
       const Point2 at = {0.5 * (cell.x0 + cell.x1), 0.5 * (cell.y0 + cell.y1)};
       if (cell.size() < 1e-6 * size_ && (at_divisor(cell) || on_contact_loss(joint, at))) continue;
       undecided_ = true;
-      verdict_.unchecked.push_back(
+      examination_.unchecked.push_back(
           fmt::format("isolated contact loss of {} in mode {} near ({}, {})", joint, mode_ + 1, at[0], at[1]));
       break;
     }
@@ -99,7 +100,7 @@ class PointCheck {
             point.vanishing.end())
           continue;
         listed = true;
-        if (!claimed_[i]) ++verdict_.points;
+        if (!claimed_[i]) ++examination_.points;
         claimed_[i] = true;
       }
       if (!listed && !on_side)
@@ -135,7 +136,7 @@ class PointCheck {
   const CertificateFile& c_;
   int mode_;
   const Orders& orders_;
-  Verdict& verdict_;
+  Examination& examination_;
   std::vector<bool> claimed_;
   std::array<double, 4> box_{};
   double size_ = 0;
@@ -146,8 +147,8 @@ class PointCheck {
 }  // namespace
 
 void check_points(const mechanism::Mechanism& m, const CertificateFile& certificate, int mode, const Orders& orders,
-                  Verdict& verdict) {
-  PointCheck(m, certificate, mode, orders, verdict).run();
+                  Examination& examination) {
+  PointCheck(m, certificate, mode, orders, examination).run();
 }
 
 }  // namespace clearloci::check

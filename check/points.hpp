@@ -10,6 +10,6 @@ namespace clearloci::check {
 
 /// Throws FalseClaim where a point is missing or is none.
 void check_points(const mechanism::Mechanism& m, const CertificateFile& certificate, int mode, const Orders& orders,
-                  Verdict& verdict);
+                  Examination& examination);
 
 }  // namespace clearloci::check

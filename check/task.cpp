@@ -153,10 +153,10 @@ class TaskCheck {
 }  // namespace
 
 void check_task(const mechanism::Mechanism& m, const CertificateFile& certificate, const Orders& orders,
-                Verdict& verdict) {
-  verdict.task_cells = TaskCheck(m, certificate, orders).run();
+                Examination& examination) {
+  examination.task_cells = TaskCheck(m, certificate, orders).run();
   for (const std::string& what : certificate.task->unchecked)
-    verdict.unchecked.push_back("task: " + what.substr(0, 200));
+    examination.unchecked.push_back("task: " + what.substr(0, 200));
 }
 
 }  // namespace clearloci::check

@@ -10,6 +10,6 @@ namespace clearloci::check {
 
 /// Throws FalseClaim. `orders`: of the task's mode.
 void check_task(const mechanism::Mechanism& m, const CertificateFile& certificate, const Orders& orders,
-                Verdict& verdict);
+                Examination& examination);
 
 }  // namespace clearloci::check

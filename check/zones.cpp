@@ -58,8 +58,8 @@ bool is_near_border(const ZoneClaim& zone, const Point2& at, double reach) {
 
 class ZoneCheck {
  public:
-  ZoneCheck(const mechanism::Mechanism& m, const CertificateFile& c, Verdict& verdict)
-      : m_(m), c_(c), verdict_(verdict), unknowns_(reactions_of(m)) {
+  ZoneCheck(const mechanism::Mechanism& m, const CertificateFile& c, Examination& examination)
+      : m_(m), c_(c), examination_(examination), unknowns_(reactions_of(m)) {
     for (std::size_t i = 0; i < 4; ++i) box_[i] = c.box[i].get_d();
     reach_ = on_border * std::max(box_[1] - box_[0], box_[3] - box_[2]) + 2 * c.tolerance;
   }
@@ -67,14 +67,14 @@ class ZoneCheck {
   void run() {
     for (const ZoneClaim& zone : c_.zones) {
       if (!zone.certified) {
-        verdict_.unchecked.push_back("zone " + zone.id.substr(0, 40) + ": not claimed to be certain");
+        examination_.unchecked.push_back("zone " + zone.id.substr(0, 40) + ": not claimed to be certain");
         continue;
       }
       if (zone.outer.size() < 4 || !is_inside(zone, zone.sample)) fail(zone, "its sample is not inside");
       if (!has_signs_of(zone, zone.sample)) fail(zone, "its sample is no pose of the mode");
       check_border(zone);
       check_arcs_within(zone);
-      ++verdict_.zones;
+      ++examination_.zones;
     }
     for (int mode = 0; mode < static_cast<int>(c_.modes.size()); ++mode) check_poses(mode);
   }
@@ -177,7 +177,7 @@ class ZoneCheck {
 
   const mechanism::Mechanism& m_;
   const CertificateFile& c_;
-  Verdict& verdict_;
+  Examination& examination_;
   std::vector<mechanism::Unknown> unknowns_;
   std::array<double, 4> box_{};
   double reach_ = 0;
@@ -185,8 +185,8 @@ class ZoneCheck {
 
 }  // namespace
 
-void check_zones(const mechanism::Mechanism& m, const CertificateFile& certificate, Verdict& verdict) {
-  if (!certificate.zones.empty()) ZoneCheck(m, certificate, verdict).run();
+void check_zones(const mechanism::Mechanism& m, const CertificateFile& certificate, Examination& examination) {
+  if (!certificate.zones.empty()) ZoneCheck(m, certificate, examination).run();
 }
 
 }  // namespace clearloci::check

@@ -9,6 +9,6 @@ namespace clearloci::check {
 
 /// Signs at the samples, borders along arcs and the box, areas; no arc passes through a zone; and poses all over the
 /// box lie in one zone each, whose signs are theirs. Throws FalseClaim.
-void check_zones(const mechanism::Mechanism& m, const CertificateFile& certificate, Verdict& verdict);
+void check_zones(const mechanism::Mechanism& m, const CertificateFile& certificate, Examination& examination);
 
 }  // namespace clearloci::check

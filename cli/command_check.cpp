@@ -24,35 +24,35 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   limit.known([json = arguments.common.json] {
     if (json) fmt::print("{}", report::json_text({{"accepted", false}, {"complete", false}}));
   });
-  const check::Verdict verdict =
+  const check::Examination examination =
       check::check_certificate(arguments.common.model, arguments.certificate, limit.deadline());
   limit.writing();
-  const std::string why = report::printable(verdict.why);
+  const std::string why = report::printable(examination.why);
   if (arguments.common.json) {
-    fmt::print("{}", report::json_text({{"accepted", verdict.accepted},
+    fmt::print("{}", report::json_text({{"accepted", examination.accepted},
                                         {"why", why},
-                                        {"cells", verdict.cells},
-                                        {"graphs", verdict.graphs},
-                                        {"crossings", verdict.crossings},
-                                        {"arcs", verdict.arcs},
-                                        {"points", verdict.points},
-                                        {"zones", verdict.zones},
-                                        {"open_share", verdict.open_share},
-                                        {"unchecked", verdict.unchecked}}));
-  } else if (!verdict.accepted) {
+                                        {"cells", examination.cells},
+                                        {"graphs", examination.graphs},
+                                        {"crossings", examination.crossings},
+                                        {"arcs", examination.arcs},
+                                        {"points", examination.points},
+                                        {"zones", examination.zones},
+                                        {"open_share", examination.open_share},
+                                        {"unchecked", examination.unchecked}}));
+  } else if (!examination.accepted) {
     fmt::print("rejected: {}\n", why);
   } else {
-    fmt::print("accepted: {} cells, {} graphs, {} crossings, {} arcs, {} points", verdict.cells, verdict.graphs,
-               verdict.crossings, verdict.arcs, verdict.points);
-    if (verdict.zones > 0) fmt::print(", {} zones", verdict.zones);
-    if (verdict.open_share > 0)
+    fmt::print("accepted: {} cells, {} graphs, {} crossings, {} arcs, {} points", examination.cells, examination.graphs,
+               examination.crossings, examination.arcs, examination.points);
+    if (examination.zones > 0) fmt::print(", {} zones", examination.zones);
+    if (examination.open_share > 0)
       fmt::print(
           "; unchecked: {:.2g} % of the area (around places where a sheet is not smooth, or left to the exact engine)",
-          100 * verdict.open_share);
+          100 * examination.open_share);
     fmt::print("\n");
-    for (const std::string& what : verdict.unchecked) fmt::print("unchecked: {}\n", report::printable(what));
+    for (const std::string& what : examination.unchecked) fmt::print("unchecked: {}\n", report::printable(what));
   }
-  return verdict.accepted ? exit_done : exit_check_said_no;
+  return examination.accepted ? exit_done : exit_check_said_no;
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ Command add_check_command(CLI::App& program) {
   app->add_option("--time-limit", arguments->common.time_limit,
                   "Seconds; then nothing is said, and the exit status is 3")
       ->type_name("SECONDS");
-  app->add_flag("--json", arguments->common.json, "Print the verdict as JSON");
+  app->add_flag("--json", arguments->common.json, "Print the examination as JSON");
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --certificate out/five_bar.cert\n"
       "         clearloci check examples/five_bar.yaml out/five_bar.cert\n"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "report/coordinate_charts.hpp"
+#include "report/coordinate_plots.hpp"
 #include "report/error.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
@@ -124,10 +124,10 @@ std::vector<std::filesystem::path> write_coordinate_errors(const core::Coordinat
   for (const core::CoordinateModeErrors& one : result.modes)
     if (formats.contains("csv"))
       write("error" + which_mode(result, one) + ".csv", table_csv(one.samples.names, one.samples.columns));
-  for (const NamedChart& one : coordinate_charts(result)) {
-    if (formats.contains("png")) write(one.name + ".png", chart(one.chart, PictureFormat::png));
-    if (formats.contains("svg")) write(one.name + ".svg", chart(one.chart, PictureFormat::svg));
-    if (formats.contains("pdf")) write(one.name + ".pdf", chart(one.chart, PictureFormat::pdf));
+  for (const NamedPlot& one : coordinate_plots(result)) {
+    if (formats.contains("png")) write(one.name + ".png", plot(one.plot, PictureFormat::png));
+    if (formats.contains("svg")) write(one.name + ".svg", plot(one.plot, PictureFormat::svg));
+    if (formats.contains("pdf")) write(one.name + ".pdf", plot(one.plot, PictureFormat::pdf));
   }
   return files;
 }

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/chart.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/plot.hpp"
 #include "report/table_json.hpp"
-#include "report/trajectory_charts.hpp"
+#include "report/trajectory_plots.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -145,11 +145,11 @@ std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult
       write("periods.csv", table_csv(table.names, table.columns));
     }
   }
-  const std::vector<NamedChart> charts = trajectory_charts(result);
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    if (progress) progress(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(charts.size()), "pictures");
+  const std::vector<NamedPlot> plots = trajectory_plots(result);
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    if (progress) progress(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(plots.size()), "pictures");
     const auto draw = [&](const char* format, PictureFormat as) {
-      if (formats.contains(format)) write(charts[i].name + "." + format, chart(charts[i].chart, as));
+      if (formats.contains(format)) write(plots[i].name + "." + format, plot(plots[i].plot, as));
     };
     draw("png", PictureFormat::png);
     draw("svg", PictureFormat::svg);

@@ -55,7 +55,7 @@ bool approximate_inverse(SquareMatrix& matrix, int n, SquareMatrix& inverse) {
 
 }  // namespace
 
-Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interval>& image) {
+ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Interval>& image) {
   const int given = static_cast<int>(system.functions.size());
   const int n = given + static_cast<int>(cell.lifted().size());
   const auto coordinate = [&](int column) { return column < given ? system.free[column] : 2 + column - given; };
@@ -68,7 +68,7 @@ Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interv
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column) middle[row][column] = slope(row, column).middle();
   image.clear();
-  if (!approximate_inverse(middle, n, inverse)) return Verdict::unknown;
+  if (!approximate_inverse(middle, n, inverse)) return ZeroCount::unknown;
 
   bool contracted = true, none = false;
   for (int c = 0; c < cell.dimension(); ++c) image.push_back(cell.local(c));
@@ -89,7 +89,7 @@ Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interv
     contracted = contracted && inside(sum, cell.local(own));
     image[own] = sum;
   }
-  return none ? Verdict::none : contracted ? Verdict::unique : Verdict::unknown;
+  return none ? ZeroCount::none : contracted ? ZeroCount::unique : ZeroCount::unknown;
 }
 
 void narrow(SheetCell& cell, const System& system, const std::vector<Interval>& box, const std::vector<int>& lifted,
@@ -124,7 +124,7 @@ void narrow(SheetCell& cell, const System& system, const std::vector<Interval>& 
       if (!inside_box || !cell.enter_local(trial, lifted)) break;
       cell.differentiate();
       if (sharp) cell.sharpen_middle();
-      if (krawczyk(cell, system, image) != Verdict::unique) continue;
+      if (krawczyk(cell, system, image) != ZeroCount::unique) continue;
       narrow = true;
       for (std::size_t c = 0; c < point.size(); ++c) {
         enclosure[c] = meet(image[c], trial[c]);

@@ -10,7 +10,7 @@
 
 namespace clearloci::loci::sheet {
 
-enum class Verdict { none, unique, unknown };
+enum class ZeroCount { none, unique, unknown };
 
 /// As many functions as free plane coordinates (0: x, 1: y); lifted roots are free and bound by their G_l.
 struct System {
@@ -18,9 +18,9 @@ struct System {
   std::vector<int> free = {0, 1};
 };
 
-/// Verdict on the box that `cell` has entered and differentiated. `image`: K(X) in all local coordinates (those that
+/// Zeros in the box that `cell` has entered and differentiated. `image`: K(X) in all local coordinates (those that
 /// are not free stay as they are), or empty where the middle Jacobian is singular.
-Verdict krawczyk(const SheetCell& cell, const System& system, std::vector<Interval>& image);
+ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Interval>& image);
 
 /// Narrows the enclosure of the only zero in a box, which is thin in the coordinates that are not free: Newton's method
 /// from its middle, then the smallest box around the limit that is proven to hold a zero, which can only be this one;

@@ -91,7 +91,7 @@ std::optional<Touch> TouchSearch::settle(const std::vector<double>& at, const st
   if (!cell.enter_local(box, lifted)) return std::nullopt;
   cell.differentiate();
   std::vector<Interval> image;
-  if (krawczyk(cell, tangents, image) != Verdict::unique) return std::nullopt;
+  if (krawczyk(cell, tangents, image) != ZeroCount::unique) return std::nullopt;
   const Interval main = cell.tangent(0, along);
   if (main.sign() == 0) return std::nullopt;
   Interval bend(0.0);

@@ -109,11 +109,11 @@ void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
                     [&](int f) { return cell_.rounding_dominates(f); }))
       cell_.sharpen_middle();
     if (excluded([&](int f) { return cell_.centred(f); })) return;
-    Verdict verdict = krawczyk(cell_, system_, image_);
-    if (verdict == Verdict::none) return;
-    for (int trial = 0; verdict == Verdict::unknown && trial < most_widenings; ++trial)
-      verdict = try_wider(box_, lifted, image_);
-    if (verdict == Verdict::unique && accept(box_, lifted, image_, cell)) return;
+    ZeroCount count = krawczyk(cell_, system_, image_);
+    if (count == ZeroCount::none) return;
+    for (int trial = 0; count == ZeroCount::unknown && trial < most_widenings; ++trial)
+      count = try_wider(box_, lifted, image_);
+    if (count == ZeroCount::unique && accept(box_, lifted, image_, cell)) return;
   }
   if (settle_touch(cell, roots, lifted) && cell_.enter(cell.x, cell.y, live.roots) && known(cell)) return;
   if (width(cell) < limits_.smallest)
@@ -160,22 +160,22 @@ int ZeroSearch::axis_to_cut(const Cell& cell) const {
 }
 
 /// A box of the wrong proportions does not contract; one that also holds its image may. The box only grows, so that a
-/// verdict on it is one on the cell.
-Verdict ZeroSearch::try_wider(std::vector<Interval>& box, const std::vector<int>& lifted,
-                              std::vector<Interval>& image) {
-  if (image.empty()) return Verdict::unknown;
+/// count of it is one of the cell.
+ZeroCount ZeroSearch::try_wider(std::vector<Interval>& box, const std::vector<int>& lifted,
+                                std::vector<Interval>& image) {
+  if (image.empty()) return ZeroCount::unknown;
   for (std::size_t c = 0; c < box.size(); ++c)
     if (image[c].width() > hopeless * box[c].width()) {
       image.clear();
-      return Verdict::unknown;
+      return ZeroCount::unknown;
     }
   for (std::size_t c = 0; c < box.size(); ++c)
     if (box[c].width() > 0) box[c] = inflated(hull(box[c], image[c]), inflation);
   image.clear();
-  if (!cell_.enter_local(box, lifted)) return Verdict::unknown;
+  if (!cell_.enter_local(box, lifted)) return ZeroCount::unknown;
   cell_.differentiate();
-  const Verdict verdict = krawczyk(cell_, system_, image);
-  return verdict == Verdict::none ? Verdict::unknown : verdict;
+  const ZeroCount count = krawczyk(cell_, system_, image);
+  return count == ZeroCount::none ? ZeroCount::unknown : count;
 }
 
 /// The box of `zero` holds whatever zero lies in `all` (an enclosure of all variables).

@@ -67,7 +67,7 @@ class ZeroSearch {
   /// Second-order enclosures prove that no zero is in the cell.
   bool smoothly_excluded(const Cell& cell);
   int axis_to_cut(const Cell& cell) const;
-  Verdict try_wider(std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval>& image);
+  ZeroCount try_wider(std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval>& image);
   bool owns(const CertifiedZero& zero, const std::vector<Interval>& all) const;
   bool known(const Cell& cell) const;
   static void split(const Box& box, int axis, std::vector<Box>& next);

@@ -17,12 +17,12 @@ class Examples : public testing::TestWithParam<const char*> {};
 
 TEST_P(Examples, AreAccepted) {
   const std::string model = example(GetParam());
-  const check::Verdict verdict = verdict_of(model, certificate_of(model));
-  EXPECT_TRUE(verdict.accepted) << summary(verdict);
-  EXPECT_GT(verdict.cells, 0u);
-  EXPECT_GT(verdict.arcs, 0u);
-  EXPECT_LT(verdict.open_share, 1e-4);
-  RecordProperty("verdict", summary(verdict));
+  const check::Examination examination = examination_of(model, certificate_of(model));
+  EXPECT_TRUE(examination.accepted) << summary(examination);
+  EXPECT_GT(examination.cells, 0u);
+  EXPECT_GT(examination.arcs, 0u);
+  EXPECT_LT(examination.open_share, 1e-4);
+  RecordProperty("examination", summary(examination));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
@@ -39,15 +39,15 @@ TEST(Certificate, OfEveryWorkingModeIsAccepted) {
   const std::string model = example("five_bar_generic.yaml");
   LociRequest request;
   request.all_working_modes = true;
-  const check::Verdict verdict = verdict_of(model, certificate_of(model, request));
-  EXPECT_TRUE(verdict.accepted) << summary(verdict);
+  const check::Examination examination = examination_of(model, certificate_of(model, request));
+  EXPECT_TRUE(examination.accepted) << summary(examination);
 }
 
 TEST(Certificate, OfZonesIsAccepted) {
   const std::string model = example("five_bar.yaml");
-  const check::Verdict verdict = verdict_of(model, certificate_of(model, {}, true));
-  EXPECT_TRUE(verdict.accepted) << summary(verdict);
-  EXPECT_GT(verdict.zones, 3u);
+  const check::Examination examination = examination_of(model, certificate_of(model, {}, true));
+  EXPECT_TRUE(examination.accepted) << summary(examination);
+  EXPECT_GT(examination.zones, 3u);
 }
 
 TEST(Certificate, OfRandomDesignsIsAccepted) {
@@ -57,9 +57,9 @@ TEST(Certificate, OfRandomDesignsIsAccepted) {
   const int designs = count != nullptr ? std::atoi(count) : 6;
   for (int i = 0; i < designs; ++i) {
     const std::string model = random_five_bar(random, i % 2 == 1).text();
-    const check::Verdict verdict = verdict_of(model, certificate_of(model));
-    EXPECT_TRUE(verdict.accepted) << model << summary(verdict);
-    accepted += verdict.accepted ? 1 : 0;
+    const check::Examination examination = examination_of(model, certificate_of(model));
+    EXPECT_TRUE(examination.accepted) << model << summary(examination);
+    accepted += examination.accepted ? 1 : 0;
   }
   EXPECT_EQ(accepted, designs);
 }
@@ -80,9 +80,9 @@ class Mutations : public testing::Test {
   static Json certificate() { return Json::parse(*certificate_); }
 
   static void expect_rejected(const Json& changed, const std::string& word = "") {
-    const check::Verdict verdict = verdict_of(*model_, changed.dump());
-    EXPECT_FALSE(verdict.accepted);
-    EXPECT_NE(verdict.why.find(word), std::string::npos) << verdict.why;
+    const check::Examination examination = examination_of(*model_, changed.dump());
+    EXPECT_FALSE(examination.accepted);
+    EXPECT_NE(examination.why.find(word), std::string::npos) << examination.why;
   }
 
   /// The first arc of a curve of some kind.
@@ -99,8 +99,8 @@ std::string* Mutations::model_ = nullptr;
 std::string* Mutations::certificate_ = nullptr;
 
 TEST_F(Mutations, WithoutOneIsAccepted) {
-  const check::Verdict verdict = verdict_of(*model_, certificate().dump());
-  EXPECT_TRUE(verdict.accepted) << summary(verdict);
+  const check::Examination examination = examination_of(*model_, certificate().dump());
+  EXPECT_TRUE(examination.accepted) << summary(examination);
 }
 
 TEST_F(Mutations, ACellLeftOut) {
@@ -321,9 +321,9 @@ TEST_F(Mutations, ACrossingDropped) {
 }
 
 TEST_F(Mutations, AFileOfAnotherModel) {
-  const check::Verdict verdict = verdict_of(example("five_bar.yaml"), *certificate_);
-  EXPECT_FALSE(verdict.accepted);
-  EXPECT_NE(verdict.why.find("model"), std::string::npos) << verdict.why;
+  const check::Examination examination = examination_of(example("five_bar.yaml"), *certificate_);
+  EXPECT_FALSE(examination.accepted);
+  EXPECT_NE(examination.why.find("model"), std::string::npos) << examination.why;
 }
 
 TEST_F(Mutations, ARootChanged) {
@@ -351,9 +351,9 @@ TEST_F(Mutations, ABoxChanged) {
 TEST_F(Mutations, AModelChanged) {
   std::string model = *model_;
   model += "# another comment\n";
-  const check::Verdict verdict = verdict_of(model, *certificate_);
-  EXPECT_FALSE(verdict.accepted);
-  EXPECT_NE(verdict.why.find("model"), std::string::npos);
+  const check::Examination examination = examination_of(model, *certificate_);
+  EXPECT_FALSE(examination.accepted);
+  EXPECT_NE(examination.why.find("model"), std::string::npos);
 
   // Both the file and its copy in the certificate: another mechanism.
   Json changed = certificate();
@@ -362,32 +362,32 @@ TEST_F(Mutations, AModelChanged) {
   std::string other = *model_;
   other.replace(at, 8, "force: [7 + ");
   changed["model"]["text"] = other;
-  EXPECT_FALSE(verdict_of(other, changed.dump()).accepted);
+  EXPECT_FALSE(examination_of(other, changed.dump()).accepted);
 }
 
 TEST(Points, AreCounted) {
   const std::string model = example("five_bar_isolated.yaml");
   Json certificate = Json::parse(certificate_of(model));
   ASSERT_FALSE(certificate["points"].empty());
-  EXPECT_GT(verdict_of(model, certificate.dump()).points, 0u);
+  EXPECT_GT(examination_of(model, certificate.dump()).points, 0u);
 
   Json moved = certificate;
   moved["points"][0]["at"][0] = moved["points"][0]["at"][0].get<double>() + 1e-6;
-  EXPECT_FALSE(verdict_of(model, moved.dump()).accepted);
+  EXPECT_FALSE(examination_of(model, moved.dump()).accepted);
 
   Json fewer = certificate;
   fewer["points"].erase(0);
-  EXPECT_FALSE(verdict_of(model, fewer.dump()).accepted);
+  EXPECT_FALSE(examination_of(model, fewer.dump()).accepted);
 }
 
 TEST(Zones, AreHeldAgainstTheModel) {
   const std::string model = example("five_bar.yaml");
   const Json certificate = Json::parse(certificate_of(model, {}, true));
-  ASSERT_TRUE(verdict_of(model, certificate.dump()).accepted);
+  ASSERT_TRUE(examination_of(model, certificate.dump()).accepted);
   const auto rejected = [&](const std::function<void(Json&)>& change) {
     Json changed = certificate;
     change(changed["zones"][0]);
-    EXPECT_FALSE(verdict_of(model, changed.dump()).accepted);
+    EXPECT_FALSE(examination_of(model, changed.dump()).accepted);
   };
   rejected([](Json& zone) { zone["assembly_mode"] = -zone["assembly_mode"].get<int>(); });
   rejected([](Json& zone) { zone["signs"][0][2] = -zone["signs"][0][2].get<int>(); });
@@ -409,7 +409,7 @@ TEST(Zones, AreHeldAgainstTheModel) {
   };
   for (std::size_t zone = 0; zone < certificate["zones"].size(); ++zone)
     if (certificate["zones"][zone]["area"] > 0.02) {
-      EXPECT_FALSE(verdict_of(model, without(zone).dump()).accepted) << zone;
+      EXPECT_FALSE(examination_of(model, without(zone).dump()).accepted) << zone;
     }
 }
 

@@ -31,15 +31,15 @@ inline std::string certificate_of(const std::string& model, const LociRequest& r
   return report::certificate_text({"loci", model, {}}, certificate, map);
 }
 
-inline check::Verdict verdict_of(const std::string& model, const std::string& certificate) {
+inline check::Examination examination_of(const std::string& model, const std::string& certificate) {
   return check::check_certificate_text(model, "model.yaml", certificate, "certificate");
 }
 
-inline std::string summary(const check::Verdict& verdict) {
-  std::string text = verdict.accepted ? "accepted: " : "rejected: " + verdict.why + "; ";
-  text += std::to_string(verdict.cells) + " cells, " + std::to_string(verdict.arcs) + " arcs, open " +
-          std::to_string(verdict.open_share);
-  for (const std::string& what : verdict.unchecked) text += "\n  unchecked: " + what;
+inline std::string summary(const check::Examination& examination) {
+  std::string text = examination.accepted ? "accepted: " : "rejected: " + examination.why + "; ";
+  text += std::to_string(examination.cells) + " cells, " + std::to_string(examination.arcs) + " arcs, open " +
+          std::to_string(examination.open_share);
+  for (const std::string& what : examination.unchecked) text += "\n  unchecked: " + what;
   return text;
 }
 

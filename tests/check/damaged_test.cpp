@@ -12,7 +12,7 @@ namespace {
 /// True: accepted.
 bool is_accepted(const std::string& model, const std::string& certificate) {
   try {
-    return verdict_of(model, certificate).accepted;
+    return examination_of(model, certificate).accepted;
   } catch (const core::InputError&) {
     return false;
   }
@@ -24,7 +24,7 @@ TEST(Damaged, TextsAreUnreadable) {
   for (const std::string& text : {std::string(), std::string("{}"), std::string("[]"), std::string("null"), deep,
                                   std::string("{\"format\": \"clearloci-certificate\"}"),
                                   std::string("{\"format\": \"clearloci-certificate\", \"version\": 2}")})
-    EXPECT_THROW((void)verdict_of(model, text), core::InputError) << text.substr(0, 60);
+    EXPECT_THROW((void)examination_of(model, text), core::InputError) << text.substr(0, 60);
 }
 
 TEST(Damaged, BytesAreNotAccepted) {

@@ -317,8 +317,8 @@ class ErrorOverOneCoordinate(InOwnFolder):
         for folder in ("first", "second"):
             self.run_program("error", FOUR_BAR, "--export", "png,svg,pdf,csv", "-o", folder)
         names = sorted(path.name for path in (self.folder / "first").iterdir())
-        charts = ("error", "reactions", "take-up")
-        wanted = ["error.json", "error.csv"] + [f"{chart}.{kind}" for chart in charts for kind in ("png", "svg", "pdf")]
+        plots = ("error", "reactions", "take-up")
+        wanted = ["error.json", "error.csv"] + [f"{plot}.{kind}" for plot in plots for kind in ("png", "svg", "pdf")]
         self.assertEqual(names, sorted(wanted))
         for name in names:
             first, second = ((self.folder / folder / name).read_bytes() for folder in ("first", "second"))

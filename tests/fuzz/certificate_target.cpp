@@ -58,7 +58,7 @@ void certificate_target(std::string_view bytes) {
   try {
     const auto file = value_or_complaint([&] { return check::read_certificate(text, "c.json"); });
     if (file) check_accepted(*file);
-  } catch (const check::FalseClaim& claim) {  // read, and found to claim what cannot be: the verdict is no
+  } catch (const check::FalseClaim& claim) {  // read, and found to claim what cannot be: the answer is no
     require(*claim.what() != '\0', "a rejection says why");
   }
 }

@@ -1,4 +1,4 @@
-#include "report/chart_lines.hpp"
+#include "report/plot_lines.hpp"
 
 #include <cmath>
 #include <limits>

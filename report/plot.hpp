@@ -1,4 +1,4 @@
-// Charts of one quantity over another: lines in panels one above the other, with a common horizontal axis; or a field
+// Plots of one quantity over another: lines in panels one above the other, with a common horizontal axis; or a field
 // over two quantities in colours, with lines over it.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace clearloci::report {
 
 /// Lines are broken where a value is not a number. Series of one number in different panels look alike.
-struct ChartSeries {
+struct PlotSeries {
   std::string label;  ///< of the legend; empty: not in it
   std::vector<core::Polyline> lines;
   int number = 0;      ///< chooses the colour; -1: black
@@ -21,45 +21,45 @@ struct ChartSeries {
 };
 
 /// A vertical line: something happens there.
-struct ChartMark {
+struct PlotMark {
   double at = 0;
-  int style = 0;  ///< as the mark legend of the chart
+  int style = 0;  ///< as the mark legend of the plot
 };
 
 /// A field over the panel, drawn below its lines. NaN: nothing.
-struct ChartField {
+struct PlotField {
   std::string label, unit;
   bool is_signed = true;
   std::vector<double> values;  ///< all of them, to choose the colours by
   std::function<double(double x, double y)> at;
 };
 
-struct ChartPanel {
+struct PlotPanel {
   std::string y_label;
   bool degrees = false;  ///< the y axis bears degrees
-  std::vector<ChartSeries> series;
-  std::optional<ChartField> field;
+  std::vector<PlotSeries> series;
+  std::optional<PlotField> field;
   std::optional<std::array<double, 2>> y_range;  ///< else what the series need
 };
 
-struct Chart {
+struct Plot {
   std::string title, subtitle;
   std::string x_label;
   bool degrees = false;                          ///< the x axis bears degrees
   std::optional<std::array<double, 2>> x_range;  ///< else what the series need
-  std::vector<ChartPanel> panels;
-  std::vector<ChartMark> marks;
+  std::vector<PlotPanel> panels;
+  std::vector<PlotMark> marks;
   std::vector<std::string> mark_labels;  ///< by style
   bool equal_scales = false;             ///< one panel whose axes are of one kind
   double panel_height = 0;               ///< pt; 0: by the number of panels
 };
 
-struct NamedChart {
+struct NamedPlot {
   std::string name;  ///< of the file, without its ending
-  Chart chart;
+  Plot plot;
 };
 
-std::string chart(const Chart& chart, PictureFormat format);
+std::string plot(const Plot& plot, PictureFormat format);
 
 /// RFC 4180 with "\n": names, then rows of numbers that read back as the same doubles, empty where there is none.
 /// Columns are of equal length.

@@ -1,4 +1,4 @@
-// The lines that charts draw of a table's columns.
+// The lines that plots draw of a table's columns.
 // Private to report/.
 #pragma once
 

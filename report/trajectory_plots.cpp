@@ -1,11 +1,11 @@
-#include "report/trajectory_charts.hpp"
+#include "report/trajectory_plots.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/chart_lines.hpp"
+#include "report/plot_lines.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -17,32 +17,32 @@ std::string subtitle(const core::TrajectoryResult& result) {
   return fmt::format("{}, {} law, period {:.4g} s", result.trajectory, result.law, result.period);
 }
 
-Chart frame(const core::TrajectoryResult& result, const std::string& what) {
-  Chart chart;
-  chart.title = result.mechanism + ": " + what;
-  chart.subtitle = subtitle(result);
-  return chart;
+Plot frame(const core::TrajectoryResult& result, const std::string& what) {
+  Plot plot;
+  plot.title = result.mechanism + ": " + what;
+  plot.subtitle = subtitle(result);
+  return plot;
 }
 
 /// Stops and contact losses, over time or distance.
-void add_marks(const core::TrajectoryResult& result, Chart& chart, bool over_time) {
-  chart.mark_labels = {"stop", "M = 0: backlash crossed", fmt::format("|f| down to {:.3g} N", result.min_force),
-                       "reaction reversed at once"};
+void add_marks(const core::TrajectoryResult& result, Plot& plot, bool over_time) {
+  plot.mark_labels = {"stop", "M = 0: backlash crossed", fmt::format("|f| down to {:.3g} N", result.min_force),
+                      "reaction reversed at once"};
   for (const core::TrajectoryStage& stage : result.stages)
-    chart.marks.push_back({over_time ? stage.ends : stage.stops_at, stop_mark});
+    plot.marks.push_back({over_time ? stage.ends : stage.stops_at, stop_mark});
   for (const core::ContactLoss& loss : result.losses) {
     const int style = loss.kind == core::LossKind::zero      ? couple_mark
                       : loss.kind == core::LossKind::minimum ? force_mark
                                                              : jump_mark;
-    chart.marks.push_back({over_time ? loss.time : loss.distance, style});
+    plot.marks.push_back({over_time ? loss.time : loss.distance, style});
   }
 }
 
-NamedChart path_chart(const core::TrajectoryResult& result) {
-  Chart chart = frame(result, "path, nominal and actual");
-  chart.x_label = "x (m)";
-  chart.equal_scales = true;
-  ChartPanel panel;
+NamedPlot path_plot(const core::TrajectoryResult& result) {
+  Plot plot = frame(result, "path, nominal and actual");
+  plot.x_label = "x (m)";
+  plot.equal_scales = true;
+  PlotPanel panel;
   panel.y_label = "y (m)";
   const core::Table& c = result.samples;
   panel.series.push_back({"nominal", {line(c.at("px"), c.at("py"))}, -1, true});
@@ -53,51 +53,51 @@ NamedChart path_chart(const core::TrajectoryResult& result) {
       if (stage[i] == static_cast<double>(k + 1)) points.push_back({x[i], y[i]});
     panel.series.push_back({fmt::format("actual, stage {}", k + 1), {std::move(points)}, static_cast<int>(k)});
   }
-  chart.panels.push_back(std::move(panel));
-  return {"trajectory-path", std::move(chart)};
+  plot.panels.push_back(std::move(panel));
+  return {"trajectory-path", std::move(plot)};
 }
 
-NamedChart error_chart(const core::TrajectoryResult& result) {
-  Chart chart = frame(result, "pose error");
-  chart.x_label = "distance along the path (m)";
+NamedPlot error_plot(const core::TrajectoryResult& result) {
+  Plot plot = frame(result, "pose error");
+  plot.x_label = "distance along the path (m)";
   const core::Table& c = result.samples;
   const auto add = [&](const char* column, const char* label, const char* y_label, int number) {
-    ChartPanel panel;
+    PlotPanel panel;
     panel.y_label = y_label;
     panel.series.push_back({label, {line(c.at("distance"), c.at(column), 1e3)}, number});
-    chart.panels.push_back(std::move(panel));
+    plot.panels.push_back(std::move(panel));
   };
   add("dx", "error in x", "mm", 0);
   add("dy", "error in y", "mm", 1);
   add("dalpha", "error in orientation", "mrad", 2);
-  add_marks(result, chart, false);
-  return {"trajectory-error", std::move(chart)};
+  add_marks(result, plot, false);
+  return {"trajectory-error", std::move(plot)};
 }
 
-NamedChart take_up_chart(const core::TrajectoryResult& result) {
-  Chart chart = frame(result, "direction of the take-up");
-  chart.x_label = "time (s)";
+NamedPlot take_up_plot(const core::TrajectoryResult& result) {
+  Plot plot = frame(result, "direction of the take-up");
+  plot.x_label = "time (s)";
   const core::Table& c = result.samples;
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
     const std::string& name = result.joints[j];
     if (!c.has("beta_" + name)) continue;
-    ChartPanel panel;
+    PlotPanel panel;
     panel.y_label = "β (deg)";
     panel.degrees = true;
     panel.y_range = {-190, 190};
     panel.series.push_back({"β of " + name, {angle_line(c.at("time"), c.at("beta_" + name))}, static_cast<int>(j)});
-    chart.panels.push_back(std::move(panel));
+    plot.panels.push_back(std::move(panel));
   }
-  add_marks(result, chart, true);
-  chart.panel_height = 80;
-  return {"trajectory-take-up", std::move(chart)};
+  add_marks(result, plot, true);
+  plot.panel_height = 80;
+  return {"trajectory-take-up", std::move(plot)};
 }
 
-NamedChart reactions_chart(const core::TrajectoryResult& result) {
-  Chart chart = frame(result, "reactions");
-  chart.x_label = "time (s)";
+NamedPlot reactions_plot(const core::TrajectoryResult& result) {
+  Plot plot = frame(result, "reactions");
+  plot.x_label = "time (s)";
   const core::Table& c = result.samples;
-  ChartPanel forces, couples;
+  PlotPanel forces, couples;
   forces.y_label = "|f| (N)";
   couples.y_label = "M (N m)";
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
@@ -108,28 +108,28 @@ NamedChart reactions_chart(const core::TrajectoryResult& result) {
       if (c.has(actuator + name))
         couples.series.push_back({"M_" + name, {line(c.at("time"), c.at(actuator + name))}, static_cast<int>(j)});
   }
-  chart.panels.push_back(std::move(forces));
-  if (!couples.series.empty()) chart.panels.push_back(std::move(couples));
-  add_marks(result, chart, true);
-  chart.panel_height = 190;
-  return {"trajectory-reactions", std::move(chart)};
+  plot.panels.push_back(std::move(forces));
+  if (!couples.series.empty()) plot.panels.push_back(std::move(couples));
+  add_marks(result, plot, true);
+  plot.panel_height = 190;
+  return {"trajectory-reactions", std::move(plot)};
 }
 
-NamedChart motion_chart(const core::TrajectoryResult& result) {
-  Chart chart = frame(result, "motion of the end effector");
-  chart.x_label = "time (s)";
+NamedPlot motion_plot(const core::TrajectoryResult& result) {
+  Plot plot = frame(result, "motion of the end effector");
+  plot.x_label = "time (s)";
   const core::Table& c = result.samples;
   const auto add = [&](const char* y_label, const std::string& ending, const std::string& what) {
-    ChartPanel panel;
+    PlotPanel panel;
     panel.y_label = y_label;
     panel.series.push_back({what + " in x", {line(c.at("time"), c.at("px" + ending))}, 0});
     panel.series.push_back({what + " in y", {line(c.at("time"), c.at("py" + ending))}, 1});
-    chart.panels.push_back(std::move(panel));
+    plot.panels.push_back(std::move(panel));
   };
   add("m", "", "place");
   add("m/s", "_rate", "velocity");
   add("m/s²", "_acceleration", "acceleration");
-  return {"trajectory-motion", std::move(chart)};
+  return {"trajectory-motion", std::move(plot)};
 }
 
 /// The sample at a distance: of the two at a seam, the one on that side.
@@ -141,22 +141,21 @@ std::size_t sample_at(const core::PeriodSweep& sweep, double distance) {
   return distance - sweep.distance[k - 1] < sweep.distance[k] - distance ? k - 1 : k;
 }
 
-NamedChart sweep_chart(const core::TrajectoryResult& result, const std::string& name, const std::string& label,
-                       const std::vector<double>& values, bool is_signed, const std::string& unit) {
+NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& name, const std::string& label,
+                     const std::vector<double>& values, bool is_signed, const std::string& unit) {
   const core::PeriodSweep& sweep = *result.sweep;
-  Chart chart = frame(result, label);
-  chart.subtitle = "Free of contact loss above";
+  Plot plot = frame(result, label);
+  plot.subtitle = "Free of contact loss above";
   for (std::size_t k = 0; k < result.stages.size(); ++k) {
     const double critical = result.stages[k].critical_period;
-    chart.subtitle += std::isfinite(critical)
-                          ? fmt::format("{} {:.3g} s (stage {})", k == 0 ? "" : ",", critical, k + 1)
-                          : fmt::format("{} no period (stage {})", k == 0 ? "" : ",", k + 1);
+    plot.subtitle += std::isfinite(critical) ? fmt::format("{} {:.3g} s (stage {})", k == 0 ? "" : ",", critical, k + 1)
+                                             : fmt::format("{} no period (stage {})", k == 0 ? "" : ",", k + 1);
   }
-  chart.x_label = "distance along the path (m)";
+  plot.x_label = "distance along the path (m)";
   const double half = sweep.periods.size() > 1 ? (sweep.periods[1] - sweep.periods[0]) / 2 : 0.5 * sweep.periods[0];
   const double lowest = sweep.periods.front() - half, highest = sweep.periods.back() + half;
-  chart.x_range = {0, result.length};
-  ChartPanel panel;
+  plot.x_range = {0, result.length};
+  PlotPanel panel;
   panel.y_label = "period (s)";
   panel.y_range = {lowest, highest};
   const std::size_t rows = sweep.periods.size();
@@ -173,25 +172,25 @@ NamedChart sweep_chart(const core::TrajectoryResult& result, const std::string& 
     const auto joint = std::find(result.joints.begin(), result.joints.end(), curve.joint) - result.joints.begin();
     panel.series.push_back({words, curve.lines, is_number ? number++ : 2 + static_cast<int>(joint), !is_number});
   }
-  chart.panels.push_back(std::move(panel));
-  for (const core::TrajectoryStage& stage : result.stages) chart.marks.push_back({stage.stops_at, stop_mark});
-  chart.mark_labels = {"stop"};
-  return {name, std::move(chart)};
+  plot.panels.push_back(std::move(panel));
+  for (const core::TrajectoryStage& stage : result.stages) plot.marks.push_back({stage.stops_at, stop_mark});
+  plot.mark_labels = {"stop"};
+  return {name, std::move(plot)};
 }
 
 }  // namespace
 
-std::vector<NamedChart> trajectory_charts(const core::TrajectoryResult& result) {
-  std::vector<NamedChart> charts = {path_chart(result), error_chart(result), take_up_chart(result),
-                                    reactions_chart(result), motion_chart(result)};
-  if (!result.sweep) return charts;
+std::vector<NamedPlot> trajectory_plots(const core::TrajectoryResult& result) {
+  std::vector<NamedPlot> plots = {path_plot(result), error_plot(result), take_up_plot(result), reactions_plot(result),
+                                  motion_plot(result)};
+  if (!result.sweep) return plots;
   const core::PeriodSweep& sweep = *result.sweep;
-  charts.push_back(sweep_chart(result, "periods-dx", "error in x", sweep.dx, true, "m"));
-  charts.push_back(sweep_chart(result, "periods-dy", "error in y", sweep.dy, true, "m"));
-  charts.push_back(sweep_chart(result, "periods-dalpha", "error in orientation", sweep.dalpha, true, "rad"));
-  charts.push_back(
-      sweep_chart(result, "periods-dp", "distance from the nominal place", lengths(sweep.dx, sweep.dy), false, "m"));
-  return charts;
+  plots.push_back(sweep_plot(result, "periods-dx", "error in x", sweep.dx, true, "m"));
+  plots.push_back(sweep_plot(result, "periods-dy", "error in y", sweep.dy, true, "m"));
+  plots.push_back(sweep_plot(result, "periods-dalpha", "error in orientation", sweep.dalpha, true, "rad"));
+  plots.push_back(
+      sweep_plot(result, "periods-dp", "distance from the nominal place", lengths(sweep.dx, sweep.dy), false, "m"));
+  return plots;
 }
 
 }  // namespace clearloci::report

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "clearloci/error.hpp"
-#include "report/chart.hpp"
+#include "report/plot.hpp"
 
 namespace clearloci::report {
 
 /// error, take-up, reactions of every mode, over the coordinate.
-std::vector<NamedChart> coordinate_charts(const core::CoordinateErrors& result);
+std::vector<NamedPlot> coordinate_plots(const core::CoordinateErrors& result);
 
 }  // namespace clearloci::report

@@ -1,4 +1,4 @@
-#include "report/chart.hpp"
+#include "report/plot.hpp"
 
 #include <cairomm/pattern.h>
 #include <cairomm/surface.h>
@@ -59,11 +59,11 @@ void widen(std::array<double, 2>& range, double value) {
 }
 
 /// What the series of some panels reach along one axis, with a margin; never empty.
-std::array<double, 2> reach(const std::vector<ChartPanel>& panels, std::size_t axis, double part) {
+std::array<double, 2> reach(const std::vector<PlotPanel>& panels, std::size_t axis, double part) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::array<double, 2> range = {infinity, -infinity};
-  for (const ChartPanel& panel : panels)
-    for (const ChartSeries& series : panel.series)
+  for (const PlotPanel& panel : panels)
+    for (const PlotSeries& series : panel.series)
       for (const core::Polyline& line : series.lines)
         for (const Point2& point : line)
           if (std::isfinite(point[1 - axis])) widen(range, point[axis]);
@@ -73,21 +73,21 @@ std::array<double, 2> reach(const std::vector<ChartPanel>& panels, std::size_t a
   return {range[0] - room, range[1] + room};
 }
 
-class ChartDrawing {
+class PlotDrawing {
  public:
-  explicit ChartDrawing(const Chart& chart) : chart_(chart) {
-    for (const ChartPanel& panel : chart.panels)
+  explicit PlotDrawing(const Plot& plot) : plot_(plot) {
+    for (const PlotPanel& panel : plot.panels)
       scales_.push_back(panel.field ? scale_of(panel.field->values, panel.field->is_signed, panel.field->unit)
                                     : FieldScale{});
     lay_out();
   }
 
   Page page() const {
-    std::string description = chart_.subtitle;
-    for (const ChartPanel& panel : chart_.panels)
-      for (const ChartSeries& series : panel.series)
+    std::string description = plot_.subtitle;
+    for (const PlotPanel& panel : plot_.panels)
+      for (const PlotSeries& series : panel.series)
         if (!series.label.empty()) description += "\n" + printable(series.label);
-    return {width_, height_, printable(chart_.title), printable(description)};
+    return {width_, height_, printable(plot_.title), printable(description)};
   }
 
   void draw(const Context& context) const {
@@ -95,26 +95,26 @@ class ChartDrawing {
     context->rectangle(0, 0, width_, height_);
     context->fill();
     set_colour(context, ink);
-    write_text(context, printable(chart_.title), frames_.front().box.x, margin + 13, title_font);
-    write_text(context, printable(chart_.subtitle), frames_.front().box.x, margin + 28, subtitle_font);
+    write_text(context, printable(plot_.title), frames_.front().box.x, margin + 13, title_font);
+    write_text(context, printable(plot_.subtitle), frames_.front().box.x, margin + 28, subtitle_font);
     for (std::size_t i = 0; i < frames_.size(); ++i) draw_panel(context, i);
     const Box& last = frames_.back().box;
-    write_text(context, chart_.x_label, last.x + last.width / 2, last.bottom() + 29, label_font, Align::centre);
+    write_text(context, plot_.x_label, last.x + last.width / 2, last.bottom() + 29, label_font, Align::centre);
   }
 
  private:
   void lay_out() {
-    const auto x = chart_.x_range ? *chart_.x_range : reach(chart_.panels, 0, chart_.equal_scales ? 0.04 : 0);
+    const auto x = plot_.x_range ? *plot_.x_range : reach(plot_.panels, 0, plot_.equal_scales ? 0.04 : 0);
     double y = margin + 40;
     double labels = 0;
-    for (const ChartPanel& panel : chart_.panels) {
+    for (const PlotPanel& panel : plot_.panels) {
       Frame f;
       const auto range = panel.y_range ? *panel.y_range : reach({panel}, 1, 0.06);
       f.low = {x[0], range[0]};
       f.high = {x[1], range[1]};
-      const bool single = chart_.panels.size() == 1;
-      f.box = {0, y, plot_width, chart_.panel_height > 0 ? chart_.panel_height : single ? 280.0 : 120.0};
-      if (chart_.equal_scales) equalise(f);
+      const bool single = plot_.panels.size() == 1;
+      f.box = {0, y, plot_width, plot_.panel_height > 0 ? plot_.panel_height : single ? 280.0 : 120.0};
+      if (plot_.equal_scales) equalise(f);
       y = f.box.bottom() + gap;
       for (const Tick& tick : y_ticks(panel, f)) labels = std::max(labels, text_width(tick.label, tick_font));
       frames_.push_back(f);
@@ -139,7 +139,7 @@ class ChartDrawing {
   }
 
   void draw_panel(const Context& context, std::size_t i) const {
-    const ChartPanel& panel = chart_.panels[i];
+    const PlotPanel& panel = plot_.panels[i];
     const Frame& f = frames_[i];
     context->save();
     context->rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
@@ -148,8 +148,8 @@ class ChartDrawing {
       draw_field(context, *panel.field, scales_[i], f);
     else
       draw_grid(context, panel, f);
-    for (const ChartMark& mark : chart_.marks) draw_mark(context, f, mark);
-    for (const ChartSeries& series : panel.series) {
+    for (const PlotMark& mark : plot_.marks) draw_mark(context, f, mark);
+    for (const PlotSeries& series : panel.series) {
       if (panel.field) stroke(context, f, series, {{1, 1, 1}, 2.4, {}, true});
       stroke(context, f, series, stroke_of(series));
     }
@@ -158,7 +158,7 @@ class ChartDrawing {
     draw_legend(context, i);
   }
 
-  static Stroke stroke_of(const ChartSeries& series) {
+  static Stroke stroke_of(const PlotSeries& series) {
     if (series.faint) return {{0.55, 0.55, 0.55}, 0.9, {}, false};
     if (series.number < 0) return {{0, 0, 0}, 1.2, {}, false};
     return {palette[static_cast<std::size_t>(series.number) % palette.size()], 1.3, {}, false};
@@ -175,7 +175,7 @@ class ChartDrawing {
       context->set_dash(s.dash, 0);
   }
 
-  static void stroke(const Context& context, const Frame& f, const ChartSeries& series, const Stroke& s) {
+  static void stroke(const Context& context, const Frame& f, const PlotSeries& series, const Stroke& s) {
     set_stroke(context, s);
     for (const core::Polyline& line : series.lines) {
       context->begin_new_sub_path();
@@ -193,7 +193,7 @@ class ChartDrawing {
     }
   }
 
-  static void draw_field(const Context& context, const ChartField& field, const FieldScale& scale, const Frame& f) {
+  static void draw_field(const Context& context, const PlotField& field, const FieldScale& scale, const Frame& f) {
     constexpr int pixels_per_point = 2;
     const int width = static_cast<int>(std::lround(f.box.width * pixels_per_point));
     const int height = static_cast<int>(std::lround(f.box.height * pixels_per_point));
@@ -219,15 +219,15 @@ class ChartDrawing {
   }
 
   std::vector<Tick> x_ticks(const Frame& f) const {
-    const double least = (chart_.degrees ? 40 : 52) / f.box.width * (f.high[0] - f.low[0]);
-    return chart_.degrees ? angle_ticks(f.low[0], f.high[0], least) : ticks(f.low[0], f.high[0], least);
+    const double least = (plot_.degrees ? 40 : 52) / f.box.width * (f.high[0] - f.low[0]);
+    return plot_.degrees ? angle_ticks(f.low[0], f.high[0], least) : ticks(f.low[0], f.high[0], least);
   }
-  static std::vector<Tick> y_ticks(const ChartPanel& panel, const Frame& f) {
+  static std::vector<Tick> y_ticks(const PlotPanel& panel, const Frame& f) {
     const double least = 19 / f.box.height * (f.high[1] - f.low[1]);
     return panel.degrees ? angle_ticks(f.low[1], f.high[1], least) : ticks(f.low[1], f.high[1], least);
   }
 
-  void draw_grid(const Context& context, const ChartPanel& panel, const Frame& f) const {
+  void draw_grid(const Context& context, const PlotPanel& panel, const Frame& f) const {
     set_stroke(context, {grid, 0.4, {}, false});
     for (const Tick& tick : x_ticks(f)) {
       context->move_to(f.page({tick.at, 0})[0], f.box.y);
@@ -244,14 +244,14 @@ class ChartDrawing {
     return mark_dashes[static_cast<std::size_t>(style) % mark_dashes.size()];
   }
 
-  static void draw_mark(const Context& context, const Frame& f, const ChartMark& mark) {
+  static void draw_mark(const Context& context, const Frame& f, const PlotMark& mark) {
     set_stroke(context, {faded_ink, 0.7, dashes(mark.style), false});
     context->move_to(f.page({mark.at, 0})[0], f.box.y);
     context->line_to(f.page({mark.at, 0})[0], f.box.bottom());
     context->stroke();
   }
 
-  void draw_axes(const Context& context, const ChartPanel& panel, const Frame& f, bool with_x) const {
+  void draw_axes(const Context& context, const PlotPanel& panel, const Frame& f, bool with_x) const {
     constexpr double tick_length = 4;
     set_stroke(context, {frame, 0.8, {}, false});
     context->rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
@@ -294,13 +294,13 @@ class ChartDrawing {
         y += line_height;
       }
     };
-    if (const auto& field = chart_.panels[i].field) {
+    if (const auto& field = plot_.panels[i].field) {
       write(field->label + " (" + scales_[i].unit + ")", x, ink);
       if (scales_[i].saturated) write(saturation_words(scales_[i]), x, faded_ink);
       draw_colour_bar(context, scales_[i], {x, y, legend_width, colour_bar_room});
       y += colour_bar_room + 6;
     }
-    for (const ChartSeries& series : chart_.panels[i].series) {
+    for (const PlotSeries& series : plot_.panels[i].series) {
       if (series.label.empty()) continue;
       set_stroke(context, stroke_of(series));
       context->move_to(x, y + line_height / 2);
@@ -309,19 +309,19 @@ class ChartDrawing {
       write(printable(series.label), x + indent, ink);
     }
     if (i != 0) return;
-    for (std::size_t style = 0; style < chart_.mark_labels.size(); ++style) {
-      const bool used = std::any_of(chart_.marks.begin(), chart_.marks.end(),
-                                    [&](const ChartMark& m) { return m.style == static_cast<int>(style); });
+    for (std::size_t style = 0; style < plot_.mark_labels.size(); ++style) {
+      const bool used = std::any_of(plot_.marks.begin(), plot_.marks.end(),
+                                    [&](const PlotMark& m) { return m.style == static_cast<int>(style); });
       if (!used) continue;
       set_stroke(context, {faded_ink, 0.7, dashes(static_cast<int>(style)), false});
       context->move_to(x, y + line_height / 2);
       context->line_to(x + sample, y + line_height / 2);
       context->stroke();
-      write(chart_.mark_labels[style], x + indent, ink);
+      write(plot_.mark_labels[style], x + indent, ink);
     }
   }
 
-  const Chart& chart_;
+  const Plot& plot_;
   std::vector<FieldScale> scales_;
   std::vector<Frame> frames_;
   double width_ = 0, height_ = 0;
@@ -329,8 +329,8 @@ class ChartDrawing {
 
 }  // namespace
 
-std::string chart(const Chart& chart, PictureFormat format) {
-  const ChartDrawing drawing(chart);
+std::string plot(const Plot& plot, PictureFormat format) {
+  const PlotDrawing drawing(plot);
   return render(drawing.page(), format, [&](const Context& context) { drawing.draw(context); });
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/chart_lines.hpp"
-#include "report/coordinate_charts.hpp"
+#include "report/coordinate_plots.hpp"
+#include "report/plot_lines.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -14,9 +14,9 @@ namespace {
 
 enum MarkStyle { contact_mark, couple_mark, singularity_mark, boundary_mark };
 
-class ModeCharts {
+class ModePlots {
  public:
-  ModeCharts(const core::CoordinateErrors& result, const core::CoordinateModeErrors& errors)
+  ModePlots(const core::CoordinateErrors& result, const core::CoordinateModeErrors& errors)
       : result_(result), errors_(errors) {
     const bool angle = result.angle;
     to_axis_ = angle ? 180 / std::numbers::pi : 1;
@@ -24,10 +24,10 @@ class ModeCharts {
     for (const double value : errors.samples.columns.front()) at_.push_back(to_axis_ * value);
   }
 
-  Chart error() const {
-    Chart chart = frame("pose error");
+  Plot error() const {
+    Plot plot = frame("pose error");
     const auto add = [&](const char* column, const char* label, const char* unit, int number) {
-      ChartPanel panel;
+      PlotPanel panel;
       panel.y_label = unit;
       const std::string worst = std::string("worst_") + column;
       if (errors_.samples.has(worst)) {
@@ -37,31 +37,31 @@ class ModeCharts {
       }
       panel.series.push_back({label, {line(at_, errors_.samples.at(column), 1e3)}, number});
       panel.y_range = clipped_range(panel);
-      chart.panels.push_back(std::move(panel));
+      plot.panels.push_back(std::move(panel));
     };
     add("dx", "error in x", "mm", 0);
     add("dy", "error in y", "mm", 1);
     add("dalpha", "error in orientation", "mrad", 2);
-    return chart;
+    return plot;
   }
 
-  Chart take_up() const {
-    Chart chart = frame("take-up");
+  Plot take_up() const {
+    Plot plot = frame("take-up");
     for (std::size_t j = 0; j < result_.joints.size(); ++j) {
       const std::string& name = result_.joints[j];
-      add_take_up(chart, "beta_" + name, "β of " + name, "β (deg)", 0, static_cast<int>(j));
-      add_take_up(chart, "theta_" + name, "play of the drive " + name, "mrad", 1e3, static_cast<int>(j));
-      add_take_up(chart, "travel_" + name, "play of the drive " + name, "µm", 1e6, static_cast<int>(j));
-      add_take_up(chart, "normal_" + name, "across the guide " + name, "µm", 1e6, static_cast<int>(j));
-      add_take_up(chart, "tilt_" + name, "tilt in the guide " + name, "mrad", 1e3, static_cast<int>(j));
+      add_take_up(plot, "beta_" + name, "β of " + name, "β (deg)", 0, static_cast<int>(j));
+      add_take_up(plot, "theta_" + name, "play of the drive " + name, "mrad", 1e3, static_cast<int>(j));
+      add_take_up(plot, "travel_" + name, "play of the drive " + name, "µm", 1e6, static_cast<int>(j));
+      add_take_up(plot, "normal_" + name, "across the guide " + name, "µm", 1e6, static_cast<int>(j));
+      add_take_up(plot, "tilt_" + name, "tilt in the guide " + name, "mrad", 1e3, static_cast<int>(j));
     }
-    chart.panel_height = 80;
-    return chart;
+    plot.panel_height = 80;
+    return plot;
   }
 
-  Chart reactions() const {
-    Chart chart = frame("reactions");
-    ChartPanel forces, couples;
+  Plot reactions() const {
+    Plot plot = frame("reactions");
+    PlotPanel forces, couples;
     forces.y_label = "|f| (N)";
     couples.y_label = "N, N m";
     for (std::size_t j = 0; j < result_.joints.size(); ++j) {
@@ -76,42 +76,42 @@ class ModeCharts {
           couples.series.push_back(
               {quantity + "_" + name, {line(at_, errors_.samples.at(quantity + name))}, static_cast<int>(j)});
     }
-    for (ChartPanel* panel : {&forces, &couples}) {
+    for (PlotPanel* panel : {&forces, &couples}) {
       if (panel->series.empty()) continue;
       panel->y_range = clipped_range(*panel);
-      chart.panels.push_back(std::move(*panel));
+      plot.panels.push_back(std::move(*panel));
     }
-    chart.panel_height = 190;
-    return chart;
+    plot.panel_height = 190;
+    return plot;
   }
 
  private:
-  Chart frame(const std::string& what) const {
-    Chart chart;
-    chart.title = result_.mechanism + ": " + what;
-    chart.subtitle = mode_words(result_.loci.tower, errors_.mode);
-    chart.x_label = axis_;
-    chart.degrees = result_.angle;
+  Plot frame(const std::string& what) const {
+    Plot plot;
+    plot.title = result_.mechanism + ": " + what;
+    plot.subtitle = mode_words(result_.loci.tower, errors_.mode);
+    plot.x_label = axis_;
+    plot.degrees = result_.angle;
     const std::vector<double>& values = at_;
-    chart.x_range = {values.front(), values.back()};
-    chart.mark_labels = {"contact lost", "M = 0: backlash crossed", "direct singularity", "end of the reach"};
+    plot.x_range = {values.front(), values.back()};
+    plot.mark_labels = {"contact lost", "M = 0: backlash crossed", "direct singularity", "end of the reach"};
     for (const core::ErrorEvent& event : errors_.events) {
       const core::LocusKind kind = event.point.kind;
       const int style = kind == core::LocusKind::contact_loss         ? contact_mark
                         : kind == core::LocusKind::backlash           ? couple_mark
                         : kind == core::LocusKind::direct_singularity ? singularity_mark
                                                                       : boundary_mark;
-      chart.marks.push_back({to_axis_ * event.point.at.front(), style});
+      plot.marks.push_back({to_axis_ * event.point.at.front(), style});
     }
-    return chart;
+    return plot;
   }
 
   /// A panel where the joint has that take-up; `factor` 0: an angle to be drawn in degrees.
-  void add_take_up(Chart& chart, const std::string& column, const std::string& label, const char* unit, double factor,
+  void add_take_up(Plot& plot, const std::string& column, const std::string& label, const char* unit, double factor,
                    int number) const {
     if (!errors_.samples.has(column)) return;
     const std::vector<double>& values = errors_.samples.at(column);
-    ChartPanel panel;
+    PlotPanel panel;
     panel.y_label = unit;
     panel.series.push_back({label, {factor == 0 ? angle_line(at_, values) : line(at_, values, factor)}, number});
     if (factor == 0) {
@@ -123,15 +123,15 @@ class ModeCharts {
         if (std::isfinite(value)) most = std::max(most, factor * std::abs(value));
       if (most > 0) panel.y_range = {-1.25 * most, 1.25 * most};
     }
-    chart.panels.push_back(std::move(panel));
+    plot.panels.push_back(std::move(panel));
   }
 
   /// Near a direct singularity values grow without bound; the rest must still be seen. None: nothing is that large.
-  static std::optional<std::array<double, 2>> clipped_range(const ChartPanel& panel) {
+  static std::optional<std::array<double, 2>> clipped_range(const PlotPanel& panel) {
     constexpr double typical_part = 0.85, most = 4, room = 2;
     std::vector<double> sizes;
     bool signs[2] = {false, false};
-    for (const ChartSeries& series : panel.series)
+    for (const PlotSeries& series : panel.series)
       for (const core::Polyline& points : series.lines)
         for (const core::Point2& point : points)
           if (std::isfinite(point[1])) {
@@ -154,16 +154,16 @@ class ModeCharts {
 
 }  // namespace
 
-std::vector<NamedChart> coordinate_charts(const core::CoordinateErrors& result) {
-  std::vector<NamedChart> charts;
+std::vector<NamedPlot> coordinate_plots(const core::CoordinateErrors& result) {
+  std::vector<NamedPlot> plots;
   for (const core::CoordinateModeErrors& mode : result.modes) {
-    const ModeCharts own(result, mode);
+    const ModePlots own(result, mode);
     const std::string which = result.modes.size() > 1 ? "-" + mode_slug(result.loci.tower, mode.mode) : std::string();
-    charts.push_back({"error" + which, own.error()});
-    charts.push_back({"take-up" + which, own.take_up()});
-    charts.push_back({"reactions" + which, own.reactions()});
+    plots.push_back({"error" + which, own.error()});
+    plots.push_back({"take-up" + which, own.take_up()});
+    plots.push_back({"reactions" + which, own.reactions()});
   }
-  return charts;
+  return plots;
 }
 
 }  // namespace clearloci::report
