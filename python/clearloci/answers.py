@@ -170,7 +170,7 @@ class Zone:
 
     id: str
     working_mode: dict[str, str]
-    assembly_mode: int  #: sign of |A|
+    assembly_mode: int  #: sign of ``|A|``
     signs: dict[str, int]  #: of couples, axial and normal forces: {"M_A1": 1}
     area: float  #: m^2
     polygon: np.ndarray = field(repr=False)  #: (n, 2), m, counter-clockwise, first point repeated
