@@ -3,18 +3,71 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <type_traits>
 
 namespace clearloci::loci {
 
-PlaneCurve::PlaneCurve(const core::Polynomial& implicit) : implicit_(implicit) {
+namespace {
+
+/// A number as the unevaluated sum of two doubles, the second at most half a spacing of the first: T. J. Dekker, "A
+/// floating-point technique for extending the available precision", Numerische Mathematik 18 (1971).
+struct TwoDoubles {
+  TwoDoubles() = default;
+  TwoDoubles(double value) : high(value) {}  // NOLINT: a double is one of them
+  TwoDoubles(double first, double second) : high(first), low(second) {}
+  double high = 0, low = 0;
+};
+
+/// Required: |a| >= |b|, or a = 0.
+TwoDoubles quick_sum(double a, double b) {
+  const double sum = a + b;
+  return {sum, b - (sum - a)};
+}
+
+TwoDoubles operator+(const TwoDoubles& a, const TwoDoubles& b) {
+  const double sum = a.high + b.high, part = sum - a.high;
+  const double error = (a.high - (sum - part)) + (b.high - part);
+  return quick_sum(sum, error + a.low + b.low);
+}
+
+TwoDoubles operator*(const TwoDoubles& a, const TwoDoubles& b) {
+  const double product = a.high * b.high;
+  const double error = std::fma(a.high, b.high, -product);
+  return quick_sum(product, error + (a.high * b.low + a.low * b.high));
+}
+
+/// 1, base, base^2, ... up to a degree; of low degrees without memory from the heap.
+template <typename Number>
+class Powers {
+ public:
+  Powers(const Number& base, int degree) {
+    const auto size = static_cast<std::size_t>(degree) + 1;
+    if (size > near_.size()) far_.resize(size);
+    table_ = size > near_.size() ? far_.data() : near_.data();
+    table_[0] = Number(1.0);
+    for (std::size_t k = 1; k < size; ++k) table_[k] = table_[k - 1] * base;
+  }
+  Powers(const Powers&) = delete;
+  Powers& operator=(const Powers&) = delete;
+  const Number& operator[](int k) const { return table_[k]; }
+
+ private:
+  std::array<Number, 12> near_;
+  std::vector<Number> far_;
+  Number* table_;
+};
+
+}  // namespace
+
+PlaneCurve::PlaneCurve(const core::Polynomial& implicit) {
   // A common scale keeps huge integer coefficients within the range of doubles.
-  for (const core::Term& term : implicit.terms) scale_ = std::max(scale_, core::Rational(abs(term.coefficient)));
+  core::Rational scale = 1;
+  for (const core::Term& term : implicit.terms) scale = std::max(scale, core::Rational(abs(term.coefficient)));
   for (const core::Term& term : implicit.terms) {
     const int i = term.exponents[0], j = term.exponents[1];
-    const double c = core::to_double(term.coefficient / scale_);
-    terms_.push_back({i, j, c, Interval(c - std::abs(c) * 0x1p-52, c + std::abs(c) * 0x1p-52)});
+    const core::Rational exact = term.coefficient / scale;
+    const double c = core::to_double(exact), rest = core::to_double(exact - core::Rational(c));
+    terms_.push_back({i, j, c, rest, Interval(c - std::abs(c) * 0x1p-52, c + std::abs(c) * 0x1p-52)});
     degree_x_ = std::max(degree_x_, i);
     degree_y_ = std::max(degree_y_, j);
   }
@@ -22,15 +75,10 @@ PlaneCurve::PlaneCurve(const core::Polynomial& implicit) : implicit_(implicit) {
 
 template <typename Number>
 PlaneCurve::Derivatives<Number> PlaneCurve::derivatives(const Number& x, const Number& y) const {
-  const auto powers = [](const Number& base, int degree) {
-    std::vector<Number> table{Number(1.0)};
-    for (int k = 1; k <= degree; ++k) table.push_back(table.back() * base);
-    return table;
-  };
-  const std::vector<Number> xs = powers(x, degree_x_), ys = powers(y, degree_y_);
+  const Powers<Number> xs(x, degree_x_), ys(y, degree_y_);
   Derivatives<Number> d;
   for (const Term& term : terms_) {
-    const auto [i, j] = std::pair{static_cast<std::size_t>(term.i), static_cast<std::size_t>(term.j)};
+    const int i = term.i, j = term.j;
     Number c{0.0};
     if constexpr (std::is_same_v<Number, double>)
       c = term.coefficient;
@@ -51,6 +99,13 @@ PlaneCurve::Derivatives<Number> PlaneCurve::derivatives(const Number& x, const N
 
 PlaneCurve::Jet PlaneCurve::jet(const core::Point2& at) const { return {derivatives<double>(at[0], at[1])}; }
 
+double PlaneCurve::precise_value(const core::Point2& at) const {
+  const Powers<TwoDoubles> xs(at[0], degree_x_), ys(at[1], degree_y_);
+  TwoDoubles sum;
+  for (const Term& term : terms_) sum = sum + TwoDoubles(term.coefficient, term.rest) * (xs[term.i] * ys[term.j]);
+  return sum.high;
+}
+
 core::Point2 PlaneCurve::project(core::Point2 near) const {
   const core::Point2 start = near;
   double last = std::numeric_limits<double>::infinity(), slope = 0;
@@ -65,18 +120,17 @@ core::Point2 PlaneCurve::project(core::Point2 near) const {
     near = {near[0] - at.f * at.fx / g2, near[1] - at.f * at.fy / g2};
   }
   // Next to a double point the rounding errors of the terms, over the small gradient, are more than the coordinates
-  // resolve: the value is taken exactly there. Twice, because the first step may still be a long one.
+  // resolve: the value is taken with twice the digits there. Twice, because the first step may still be a long one.
   double terms = 0;
-  for (const Term& term : terms_)
-    terms += std::abs(term.coefficient * std::pow(near[0], term.i) * std::pow(near[1], term.j));
+  const Powers<double> xs(near[0], degree_x_), ys(near[1], degree_y_);
+  for (const Term& term : terms_) terms += std::abs(term.coefficient * xs[term.i] * ys[term.j]);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  constexpr double spacings = 16;  // exact values are dear: where a few spacings are at stake, doubles will do
+  constexpr double spacings = 16;  // where a few spacings are at stake, doubles will do
   const double resolved = spacings * epsilon * std::max(std::abs(near[0]), std::abs(near[1]));
   for (int i = 0; i < 2 && (degree_x_ + degree_y_) * epsilon * terms > resolved * slope; ++i) {
     const Jet at = jet(near);
     const double g2 = at.fx * at.fx + at.fy * at.fy;
-    const std::array<core::Rational, 2> place = {core::Rational(near[0]), core::Rational(near[1])};
-    const double f = core::to_double(core::Rational(core::evaluate(implicit_, std::span(place)) / scale_));
+    const double f = precise_value(near);
     if (g2 == 0 || f == 0) break;
     near = {near[0] - f * at.fx / g2, near[1] - f * at.fy / g2};
   }

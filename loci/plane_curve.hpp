@@ -42,13 +42,14 @@ class PlaneCurve {
   template <typename Number>
   Derivatives<Number> derivatives(const Number& x, const Number& y) const;
 
+  /// f at the point with twice the digits of a double.
+  double precise_value(const core::Point2& at) const;
+
   struct Term {
     int i, j;
-    double coefficient;
+    double coefficient, rest;  ///< their sum is the coefficient to twice the digits of a double
     Interval enclosure;
   };
-  core::Polynomial implicit_;
-  core::Rational scale_ = 1;  ///< by which its coefficients are divided
   std::vector<Term> terms_;
   int degree_x_ = 0, degree_y_ = 0;
 };
