@@ -56,62 +56,6 @@ void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& reque
                              "give +1 (left) or -1 (right) for each");
 }
 
-/// The maps of a coordinate's pieces as one: a length is one piece, an angle one a half turn (core/angle_chart.hpp). A
-/// piece may have several, of the sides of a fold.
-core::LocusMap join_charts(const mechanism::Mechanism& mechanism, const std::vector<symbolic::DerivedProblem>& charts,
-                           const std::vector<core::LocusMap>& maps, const std::vector<core::WorkingMode>& modes) {
-  constexpr double same_angle = 1e-12;  // rad: two charts round the angle at which they meet differently
-  core::LocusMap joined = maps.front();
-  joined.isolated_points.clear();
-  joined.reachable.clear();
-  const mechanism::Coordinate& coordinate = mechanism.coordinates.front();
-  joined.tower.coordinates = {coordinate.name};
-  joined.lower = {coordinate.lower};
-  joined.upper = {coordinate.upper};
-  if (coordinate.angle) joined.angles = {true};
-  for (const core::WorkingMode& mode : modes) {
-    std::vector<core::IsolatedPoint> points;
-    std::vector<core::ReachableInterval> own;
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-      const auto& chart = charts[i].problem.charts;
-      const auto value = [&](double t) {
-        return chart.empty() || !chart.front() ? t : core::angle_at(*chart.front(), t);
-      };
-      const std::size_t before = points.size();
-      for (core::IsolatedPoint point : maps[i].isolated_points) {
-        if (point.mode != mode) continue;
-        point.at[0] = value(point.at[0]);
-        const bool known = std::any_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(before),
-                                       [&](const core::IsolatedPoint& other) {
-                                         return other.kind == point.kind && other.vanishing == point.vanishing &&
-                                                std::abs(other.at[0] - point.at[0]) < same_angle;
-                                       });
-        if (!known) points.push_back(std::move(point));
-      }
-      for (core::ReachableInterval interval : maps[i].reachable) {
-        if (interval.mode != mode) continue;
-        interval.from = value(interval.from);
-        interval.to = value(interval.to);
-        own.push_back(std::move(interval));
-      }
-    }
-    std::stable_sort(points.begin(), points.end(),
-                     [](const core::IsolatedPoint& a, const core::IsolatedPoint& b) { return a.at[0] < b.at[0]; });
-    std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
-    std::vector<core::ReachableInterval> reachable;
-    for (core::ReachableInterval& interval : own) {
-      if (maps.size() > 1 && !reachable.empty() && std::abs(reachable.back().to - interval.from) < same_angle)
-        reachable.back().to = interval.to;
-      else
-        reachable.push_back(std::move(interval));
-    }
-    joined.isolated_points.insert(joined.isolated_points.end(), points.begin(), points.end());
-    joined.reachable.insert(joined.reachable.end(), reachable.begin(), reachable.end());
-  }
-  for (const core::LocusMap& map : maps) joined.complete = joined.complete && map.complete;
-  return joined;
-}
-
 /// The coordinates of the mechanism in place of those of the charts.
 void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map) {
   map.tower.coordinates.clear();
@@ -189,7 +133,6 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
     }
     for (core::WorkingMode& mode : modes) mode.resize(kept, 1);
   }
-  if (mechanism.coordinates.size() == 1) return join_charts(mechanism, derived, maps, modes);
   core::LocusMap map = loci::join_charts(problems, std::move(maps), modes, request.tolerance);
   name_coordinates(mechanism, map);
   return map;

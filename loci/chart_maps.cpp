@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "loci/chart_points.hpp"
 #include "loci/curve_projection.hpp"
 
 namespace clearloci::loci {
@@ -219,6 +220,7 @@ double chart_tolerance(double tolerance) { return tolerance / 4; }
 LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector<LocusMap> maps,
                      const std::vector<core::WorkingMode>& modes, double tolerance) {
   core::ensure(!charts.empty() && charts.size() == maps.size(), "a map for each chart");
+  if (charts.front()->tower.coordinates.size() == 1) return join_point_charts(charts, maps, modes);
   core::ensure(charts.front()->charts.size() == 2, "two free coordinates, some of them angles");
   const Seams seams = seams_of(charts);
   LocusMap joined = maps.front();

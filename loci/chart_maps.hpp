@@ -1,4 +1,4 @@
-// Over two free coordinates of which some are angles: the maps of all charts as one, over the angles themselves.
+// The maps of all charts of the free coordinates as one: over one coordinate, or over two of which some are angles.
 #pragma once
 
 #include <vector>

@@ -1,14 +1,11 @@
 #include "loci/sheet_loci.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include "loci/arc_stretches.hpp"
 #include "loci/edge_labels.hpp"
@@ -18,6 +15,7 @@
 #include "loci/sheet/sheet_program.hpp"
 #include "loci/sheet/subtower.hpp"
 #include "loci/vertex_placement.hpp"
+#include "loci/work_queue.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -459,34 +457,19 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
     return options.deadline ? effort(a) < effort(b) : effort(a) > effort(b);
   });
 
-  std::atomic<std::size_t> next = 0, done = 0;
-  std::exception_ptr failure;
+  std::size_t done = 0;
   std::mutex mutex;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < shares.size(); i = next++) {
-      SheetShare& share = shares[order[i]];
-      try {
-        const auto mode = static_cast<std::size_t>(share.mode);
-        sheet::SheetTraceOptions own = sheet_options;
-        own.special = special[mode];
-        share.traced = trace_share(problem, problem.factors[static_cast<std::size_t>(share.factor)],
-                                   problem.modes[mode], std::move(own));
-        const std::lock_guard lock(mutex);
-        if (options.progress)
-          options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = shares.size();
-      }
-    }
-  };
-  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < std::min(cores, shares.size()); ++i) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-  if (failure) std::rethrow_exception(failure);
+  run_in_order(shares.size(), [&](std::size_t i) {
+    SheetShare& share = shares[order[i]];
+    const auto mode = static_cast<std::size_t>(share.mode);
+    sheet::SheetTraceOptions own = sheet_options;
+    own.special = special[mode];
+    share.traced = trace_share(problem, problem.factors[static_cast<std::size_t>(share.factor)], problem.modes[mode],
+                               std::move(own));
+    const std::lock_guard lock(mutex);
+    if (options.progress)
+      options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");
+  });
   return shares;
 }
 

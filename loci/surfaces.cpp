@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <sstream>
-#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -17,6 +15,7 @@
 #include "loci/surface/march.hpp"
 #include "loci/surface/measure.hpp"
 #include "loci/surface/rim.hpp"
+#include "loci/work_queue.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -353,30 +352,21 @@ bool mesh_all(const std::vector<std::unique_ptr<ModeSurfaces>>& modes, const Tra
   std::stable_sort(tasks.begin(), tasks.end(), [](const auto& one, const auto& other) {
     return one.first->cost(one.second) > other.first->cost(other.second);
   });
-  std::atomic<std::size_t> next = 0, done = 0;
+  std::size_t done = 0;
   std::atomic<bool> late = false;
   std::mutex guard;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t t = next++; t < tasks.size(); t = next++) try {
-        if (late || stop()) throw core::LimitReached("the time limit was reached");
-        tasks[t].first->mesh(tasks[t].second);
-        const std::scoped_lock lock(guard);
-        if (options.progress)
-          options.progress(static_cast<double>(++done) / static_cast<double>(tasks.size()), "surfaces");
-      } catch (const core::LimitReached&) {
-        late = true;
-      } catch (...) {
-        const std::scoped_lock lock(guard);
-        failure = std::current_exception();
-        next = tasks.size();
-      }
-  };
-  std::vector<std::thread> threads;
-  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  run_in_order(tasks.size(), [&](std::size_t t) {
+    if (late) return;
+    try {
+      if (stop()) throw core::LimitReached("the time limit was reached");
+      tasks[t].first->mesh(tasks[t].second);
+    } catch (const core::LimitReached&) {
+      late = true;
+      return;
+    }
+    const std::scoped_lock lock(guard);
+    if (options.progress) options.progress(static_cast<double>(++done) / static_cast<double>(tasks.size()), "surfaces");
+  });
   return !late;
 }
 

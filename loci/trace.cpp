@@ -1,201 +1,49 @@
 #include "loci/trace.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/errors.hpp"
-#include "loci/abandonable.hpp"
-#include "loci/arc_check.hpp"
-#include "loci/exact_trace.hpp"
+#include "loci/adaptive_engine.hpp"
+#include "loci/exact_engine.hpp"
 #include "loci/isolated_points.hpp"
 #include "loci/points.hpp"
-#include "loci/sheet_loci.hpp"
 #include "loci/sheet_maps.hpp"
-#include "loci/workspace_rings.hpp"
 
 namespace clearloci::loci {
 namespace {
 
-using core::FactorRole;
-using core::LocusCurve;
-using core::LocusFactor;
 using core::LocusMap;
 using core::LocusProblem;
 
-/// Beyond this degree the exact arrangement does not end in useful time (docs/performance.md).
-constexpr int bearable_degree = 14;
+struct EngineEntry {
+  Engine engine;
+  FindLoci find;
+};
+constexpr std::array engines = {EngineEntry{Engine::adaptive_then_exact, find_adaptively},
+                                EngineEntry{Engine::adaptive, find_adaptively},
+                                EngineEntry{Engine::exact, find_exactly}};
 
-int highest_degree(const LocusFactor& factor) {
-  int degree = -1;
-  for (const core::Polynomial& p : factor.implicit) degree = std::max(degree, core::total_degree(p));
-  return degree;
+FindLoci finder_of(Engine engine) {
+  const auto* const entry =
+      std::find_if(engines.begin(), engines.end(), [&](const EngineEntry& known) { return known.engine == engine; });
+  core::ensure(entry != engines.end(), "an engine that is known");
+  return entry->find;
 }
 
-bool is_context(const LocusFactor& factor) {
-  return factor.role == FactorRole::direct_singularity || factor.role == FactorRole::workspace_boundary ||
-         factor.role == FactorRole::construction;
-}
-
-core::LocusKind kind_of(FactorRole role, core::LocusKind reaction) {
-  switch (role) {
-    case FactorRole::margin:
-      return core::LocusKind::margin;
-    case FactorRole::direct_singularity:
-      return core::LocusKind::direct_singularity;
-    case FactorRole::workspace_boundary:
-      return core::LocusKind::workspace_boundary;
-    default:
-      return std::min(reaction, core::LocusKind::component);
-  }
-}
-
-/// Whether a curve of the exact engine is one that an uncertified share stands for.
-bool replaces(const LocusCurve& curve, const LocusProblem& problem, const SheetShare& share) {
-  const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share.factor)];
-  return curve.mode == problem.modes[static_cast<std::size_t>(share.mode)] &&
-         curve.kind == kind_of(factor.role, curve.kind) &&
-         std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
-}
-
-/// The exact engine; where there is a deadline, it is kept.
-LocusMap trace_exactly_in_time(const LocusProblem& problem, const TraceOptions& options) {
-  if (!options.deadline) return trace_exactly(problem, options);
-  // No progress: who shows it may be gone before the engine is.
-  const TraceOptions own = {.engine = options.engine, .deadline = options.deadline};
-  return within(*options.deadline, [problem, own] { return trace_exactly(problem, own); });
-}
-
-/// The exact engine on what the adaptive one left open: shares that have a curve in common go together. Marks those
-/// that it settled.
-void settle_exactly(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares,
-                    LocusMap& map) {
-  const auto factor_of = [&](const SheetShare& share) -> const LocusFactor& {
-    return problem.factors[static_cast<std::size_t>(share.factor)];
+/// Where reactions vanish and boundaries touch in points alone. `withheld`: as Found's.
+void add_points(const LocusProblem& problem, const TraceOptions& options, bool withheld, LocusMap& map) {
+  const std::size_t known = map.isolated_points.size();
+  const std::function<bool()> stop = [&] {
+    return options.deadline && std::chrono::steady_clock::now() > *options.deadline;
   };
-  std::vector<SheetShare*> open;
-  for (SheetShare& share : shares) {
-    const bool is_open = std::any_of(shares.begin(), shares.end(), [&](const SheetShare& other) {
-      return other.mode == share.mode && !other.traced.certified && factor_of(other).role == factor_of(share).role &&
-             shares_curve(factor_of(other), factor_of(share));
-    });
-    if (is_open) open.push_back(&share);
+  for (const core::WorkingMode& mode : problem.modes) {
+    if (stop()) throw core::LimitReached("the time limit was reached");
+    add_contact_loss_points(problem, mode, map, stop);
+    add_touching_points(problem, mode, map);
   }
-  // A curve beyond the engine's reach stays open, and so does what would have to be told together with it.
-  const auto is_too_heavy = [](const LocusFactor& factor) {
-    return highest_degree(factor) > bearable_degree || factor.implicit_too_heavy;
-  };
-  for (bool left = true; left;) {
-    left = false;
-    for (const SheetShare* heavy : open) {
-      const LocusFactor& factor = factor_of(*heavy);
-      if (!is_too_heavy(factor)) continue;
-      std::erase_if(open, [&](const SheetShare* share) {
-        return share->mode == heavy->mode && (share == heavy || shares_curve(factor_of(*share), factor));
-      });
-      left = true;
-      break;
-    }
-  }
-  if (open.empty()) return;
-  if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
-    throw core::LimitReached("the time limit was reached");
-  LocusProblem rest = problem;
-  rest.factors.clear();
-  rest.modes.clear();
-  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
-    const bool own = std::any_of(open.begin(), open.end(),
-                                 [&](const SheetShare* share) { return share->factor == static_cast<int>(f); });
-    if (!own && !is_context(problem.factors[f])) {
-      // Its curves are settled; its orders along those that are not may still count.
-      if (problem.factors[f].role != FactorRole::reaction) continue;
-      rest.factors.push_back(problem.factors[f]);
-      rest.factors.back().implicit.clear();
-      rest.factors.back().implicit_too_heavy = false;
-      continue;
-    }
-    if (is_too_heavy(problem.factors[f])) return;
-    rest.factors.push_back(problem.factors[f]);
-  }
-  for (const SheetShare* share : open) {
-    const core::WorkingMode& mode = problem.modes[static_cast<std::size_t>(share->mode)];
-    if (std::find(rest.modes.begin(), rest.modes.end(), mode) == rest.modes.end()) rest.modes.push_back(mode);
-  }
-  LocusMap exact = trace_exactly_in_time(rest, options);
-  if (!exact.complete) throw core::LimitReached("the time limit was reached");
-  for (LocusCurve& curve : exact.curves) {
-    if (std::any_of(open.begin(), open.end(),
-                    [&](const SheetShare* share) { return replaces(curve, problem, *share); }))
-      map.curves.push_back(std::move(curve));
-  }
-  for (core::IsolatedPoint& point : exact.isolated_points) map.isolated_points.push_back(std::move(point));
-  for (std::string& note : exact.notes) map.notes.push_back(std::move(note));
-  for (SheetShare* share : open) share->settled = true;
-}
-
-/// Hands out the claims of shares that were proven on the sheets.
-void certify(const LocusProblem& problem, const std::vector<SheetShare>& shares, core::Certificate& certificate) {
-  for (const SheetShare& share : shares) {
-    const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share.factor)];
-    if (share.settled || !share.traced.certified || share.traced.stopped) continue;
-    for (core::SheetClaim claim : share.traced.claims) {
-      claim.mode = share.mode;
-      claim.role = factor.role;
-      claim.name = factor.expression;
-      certificate.sheets.push_back(std::move(claim));
-    }
-    std::erase_if(certificate.open,
-                  [&](const core::OpenClaim& open) { return open.mode == share.mode && open.factor == share.factor; });
-  }
-}
-
-/// Curves, points and notes of the shares, those that are open from the exact engine.
-LocusMap gathered(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares) {
-  LocusMap map;
-  for (SheetShare& share : shares) share.settled = false;
-  try {
-    if (options.engine != Engine::adaptive) settle_exactly(problem, options, shares, map);
-  } catch (const core::LimitReached&) {
-    map.complete = false;  // what is open stays so
-  }
-  add_sheet_loci(problem, shares, map);
-  return map;
-}
-
-/// Marks the shares that wrong arcs are of as open. False: there are none that were taken for certified.
-bool reopen(const LocusProblem& problem, const std::vector<WrongArc>& wrong, const LocusMap& map,
-            std::vector<SheetShare>& shares) {
-  bool any = false;
-  for (const WrongArc& arc : wrong)
-    for (SheetShare& share : shares) {
-      const LocusCurve& curve = map.curves[arc.curve];
-      if (!share.traced.certified || curve.mode != problem.modes[static_cast<std::size_t>(share.mode)] ||
-          !owns(problem.factors[static_cast<std::size_t>(share.factor)], curve))
-        continue;
-      const core::Point2& at = arc.fault.at;
-      share.traced.certified = false;
-      share.traced.undecided.push_back({at[0], at[0], at[1], at[1]});
-      any = true;
-    }
-  return any;
-}
-
-/// The adaptive engine, with the exact one behind it where that is wanted. True: arcs had to be withheld.
-bool trace_adaptively(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
-  std::vector<SheetShare> shares = trace_on_sheets(problem, options);
-  if (options.certificate != nullptr) {
-    *options.certificate = {problem, {}, {}};
-    for (const SheetShare& share : shares) options.certificate->open.push_back({share.mode, share.factor});
-  }
-  map = gathered(problem, options, shares);
-  bool withheld = false;
-  // The last check. What fails it is traced again by the exact engine; what fails it then is not handed out.
-  if (const std::vector<WrongArc> wrong = wrong_arcs(problem, map); !wrong.empty()) {
-    if (reopen(problem, wrong, map, shares)) map = gathered(problem, options, shares);
-    withheld = withhold_wrong_arcs(problem, map);
-  }
-  if (options.certificate != nullptr) certify(problem, shares, *options.certificate);
-  for (const core::WorkingMode& mode : problem.modes)
-    map.workspace.push_back({mode, workspace_faces(problem, mode, map).rings});
-  return withheld;
+  // A point that lies on an arc which is withheld looks isolated.
+  for (std::size_t i = known; withheld && i < map.isolated_points.size(); ++i) map.isolated_points[i].certified = false;
 }
 
 }  // namespace
@@ -204,29 +52,14 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
   const std::size_t coordinates = problem.tower.coordinates.size();
   core::ensure(coordinates == 1 || coordinates == 2, "one or two free coordinates");
   LocusMap map;
-  bool withheld = false;
   try {
     if (coordinates == 1) {
       add_points_of_one_coordinate(problem, options, map);
-    } else if (options.engine == Engine::exact) {
-      map = trace_exactly_in_time(problem, options);
-      withheld = withhold_wrong_arcs(problem, map);
     } else {
-      withheld = trace_adaptively(problem, options, map);
+      Found found = finder_of(options.engine)(problem, options);
+      map = std::move(found.map);
+      add_points(problem, options, found.withheld, map);
     }
-    const std::size_t known = map.isolated_points.size();
-    const std::function<bool()> stop = [&] {
-      return options.deadline && std::chrono::steady_clock::now() > *options.deadline;
-    };
-    for (const core::WorkingMode& mode : problem.modes) {
-      if (coordinates == 1) break;
-      if (stop()) throw core::LimitReached("the time limit was reached");
-      add_contact_loss_points(problem, mode, map, stop);
-      add_touching_points(problem, mode, map);
-    }
-    // A point that lies on an arc which is withheld looks isolated.
-    for (std::size_t i = known; withheld && i < map.isolated_points.size(); ++i)
-      map.isolated_points[i].certified = false;
   } catch (const core::LimitReached&) {
     map.complete = false;
   }

@@ -1,9 +1,10 @@
 #include "loci/univariate.hpp"
 
+#include <flint/fmpz_poly.h>
+
 #include <algorithm>
 
 #include "core/errors.hpp"
-#include "loci/modular_gcd.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -20,6 +21,30 @@ void make_primitive(Univariate& p) {
   if (p.back() < 0) content = -content;
   for (Integer& c : p) mpz_divexact(c.get_mpz_t(), c.get_mpz_t(), content.get_mpz_t());
 }
+
+/// A polynomial of FLINT's that frees itself.
+class FlintPoly {
+ public:
+  explicit FlintPoly(const Univariate& p) {
+    fmpz_poly_init2(poly_, static_cast<slong>(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) fmpz_poly_set_coeff_mpz(poly_, static_cast<slong>(i), p[i].get_mpz_t());
+  }
+  ~FlintPoly() { fmpz_poly_clear(poly_); }
+  FlintPoly(const FlintPoly&) = delete;
+  FlintPoly& operator=(const FlintPoly&) = delete;
+
+  fmpz_poly_struct* get() { return poly_; }
+  const fmpz_poly_struct* get() const { return poly_; }
+
+  Univariate univariate() const {
+    Univariate p(static_cast<std::size_t>(fmpz_poly_length(poly_)));
+    for (std::size_t i = 0; i < p.size(); ++i) fmpz_poly_get_coeff_mpz(p[i].get_mpz_t(), poly_, static_cast<slong>(i));
+    return p;
+  }
+
+ private:
+  fmpz_poly_t poly_;
+};
 
 Univariate derivative(const Univariate& p) {
   Univariate d;
@@ -88,19 +113,20 @@ Univariate greatest_common_divisor(Univariate a, Univariate b) {
   make_primitive(a);
   make_primitive(b);
   if (a.empty() || b.empty()) return a.empty() ? b : a;
-  return modular_gcd(a, b);
+  FlintPoly common(a);
+  const FlintPoly other(b);
+  fmpz_poly_gcd(common.get(), common.get(), other.get());
+  return common.univariate();
 }
 
-Univariate exact_quotient(Univariate a, const Univariate& b) {
+Univariate exact_quotient(const Univariate& a, const Univariate& b) {
   core::ensure(!b.empty() && a.size() >= b.size(), "a divisor");
-  Univariate quotient(a.size() - b.size() + 1);
-  for (std::size_t k = quotient.size(); k-- > 0;) {
-    quotient[k] = a[k + b.size() - 1] / b.back();
-    for (std::size_t i = 0; i < b.size(); ++i) a[k + i] -= quotient[k] * b[i];
-  }
-  core::ensure(std::all_of(a.begin(), a.end(), [](const Integer& c) { return c == 0; }), "a division without rest");
-  make_primitive(quotient);
-  return quotient;
+  const FlintPoly whole(a), divisor(b);
+  FlintPoly quotient({});
+  core::ensure(fmpz_poly_divides(quotient.get(), whole.get(), divisor.get()) != 0, "a division without rest");
+  Univariate result = quotient.univariate();
+  make_primitive(result);
+  return result;
 }
 
 Univariate square_free_part(const Univariate& p) {

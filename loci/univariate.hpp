@@ -1,6 +1,7 @@
 // Polynomials in one variable over Z and their real roots, exactly: isolation by Descartes' rule of signs under
 // bisection (Collins and Akritas 1976), signs at a root by a common divisor or by narrowing its interval. The roots of
-// problems with one free coordinate are few and of modest degree; what decides is that every answer is exact.
+// problems with one free coordinate are few and of modest degree; what decides is that every answer is exact. Divisors
+// and quotients are FLINT's.
 #pragma once
 
 #include <functional>
@@ -19,7 +20,7 @@ Univariate univariate(const core::Polynomial& p);
 Univariate greatest_common_divisor(Univariate a, Univariate b);
 
 /// a / b; required: b divides a.
-Univariate exact_quotient(Univariate a, const Univariate& b);
+Univariate exact_quotient(const Univariate& a, const Univariate& b);
 
 Univariate square_free_part(const Univariate& p);
 

@@ -1,5 +1,5 @@
-// `repeat`: parts of a mechanism file that are alike, written once and read as if they were written out. Private to
-// mechanism/.
+// `repeat`: parts of a mechanism file that are alike, written once and read as if they were written out.
+// Private to mechanism/.
 //
 //     repeat:
 //       i: [1, 2, 3]

@@ -1,10 +1,12 @@
-#include "loci/exact_trace.hpp"
+#include "loci/exact_engine.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "loci/abandonable.hpp"
+#include "loci/arc_check.hpp"
 #include "loci/arcs.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/isolated_points.hpp"
@@ -309,10 +311,23 @@ class ExactTrace {
   LocusMap map_;
 };
 
+LocusMap trace_without_limit(const LocusProblem& problem, const TraceOptions& options) {
+  return ExactTrace(problem, options).run();
+}
+
 }  // namespace
 
 LocusMap trace_exactly(const LocusProblem& problem, const TraceOptions& options) {
-  return ExactTrace(problem, options).run();
+  if (!options.deadline) return trace_without_limit(problem, options);
+  // No progress: who shows it may be gone before the engine is.
+  const TraceOptions own = {.engine = options.engine, .deadline = options.deadline};
+  return within(*options.deadline, [problem, own] { return trace_without_limit(problem, own); });
+}
+
+Found find_exactly(const LocusProblem& problem, const TraceOptions& options) {
+  LocusMap map = trace_exactly(problem, options);
+  const bool withheld = withhold_wrong_arcs(problem, map);
+  return {std::move(map), withheld};
 }
 
 }  // namespace clearloci::loci
