@@ -11,8 +11,17 @@
 namespace clearloci {
 namespace {
 
-std::optional<std::string> complaint(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
+/// What |A| depends on: no springs, known efforts or limits.
+mechanism::Mechanism bare(mechanism::Mechanism mechanism) {
+  mechanism.springs.clear();
+  mechanism.limits.clear();
+  for (mechanism::Joint& joint : mechanism.joints) joint.effort.reset();
+  return mechanism;
+}
+
+std::optional<std::string> complaint(const mechanism::Mechanism& loaded, const DyadSides& sides) {
   constexpr std::size_t poses = 256;
+  const mechanism::Mechanism mechanism = bare(loaded);
   const numeric::NumericModel model = numeric::compile(mechanism);
   for (const std::vector<double>& pose : mechanism::spread_poses(mechanism, poses)) {
     const numeric::BoundedNumerators at = numeric::bounded_numerators(model, pose, sides);

@@ -13,6 +13,7 @@
 #include "loci/task_clearance.hpp"
 #include "loci/task_proof.hpp"
 #include "loci/zones.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/line_witness.hpp"
@@ -119,6 +120,9 @@ TracedProblem on_sheet_of(const Task& task, TracedProblem traced) {
   if (own == traced.sheets.end()) own = traced.sheets.begin();
   return {std::move(own->problem), std::move(own->map)};
 }
+
+/// What the cause of a boundary that a limit makes begins with.
+constexpr std::string_view limit_cause = "limit: ";
 
 class Verifier {
  public:
@@ -291,9 +295,11 @@ class Verifier {
     switch (first.kind) {
       case Kind::unreachable:
         witness.kind = TaskWitness::Kind::unreachable;
+        witness.limit = limit_at(at);
         break;
       case Kind::boundary:
         witness.kind = TaskWitness::Kind::boundary;
+        witness.limit = limit_at(at);
         break;
       case Kind::singular:
         witness.kind = TaskWitness::Kind::singular;
@@ -322,6 +328,14 @@ class Verifier {
     return witness;
   }
 
+  /// The limit that a pose out of the workspace is beyond, or that passes there; empty where it is none.
+  /// `passes`: of a limit's size; poses on a boundary are told to some roundings.
+  std::string limit_at(const Point2& at, double passes = 1e-9) const {
+    const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(cases_.front().model, at, sides_);
+    if (!end || end->slack > passes) return {};
+    return mechanism::words_of(mechanism_, mechanism_.limits[end->limit], end->upper);
+  }
+
   static OpenTask open_part(const loci::TaskProof& proof) {
     using Reason = OpenTask::Reason;
     return {proof.open, proof.lower, proof.upper,
@@ -348,6 +362,7 @@ class Verifier {
       nearest.curve = curve.id;
       nearest.kind = curve.kind;
       nearest.vanishing = curve.vanishing;
+      if (curve.cause.rfind(limit_cause, 0) == 0) nearest.limit = curve.cause.substr(limit_cause.size());
     } else {
       const core::IsolatedPoint& point = map.isolated_points[static_cast<std::size_t>(found->point)];
       nearest.isolated = true;
@@ -370,6 +385,9 @@ class Verifier {
     nearest.at = *clearance.at;
     nearest.distance = region.signed_distance(*clearance.at);
     nearest.kind = clearance.kind;
+    // Of the last cell that stayed open: it is within its size of what bounds it.
+    constexpr double near = 1e-3;
+    if (clearance.kind == core::LocusKind::workspace_boundary) nearest.limit = limit_at(*clearance.at, near);
     if (clearance.condition >= 0) {
       const core::TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(clearance.condition)];
       nearest.vanishing = condition.reactions;

@@ -59,6 +59,9 @@ class Check {
     if (m_.space != mechanism::Space::planar || m_.coordinates.size() != 2 || m_.coordinates[0].angle ||
         m_.coordinates[1].angle)
       throw core::InputError({m_.file}, "only planar mechanisms over two lengths can be checked", "");
+    if (!m_.limits.empty())
+      throw core::InputError({m_.file}, "the model has limits, whose boundaries the checker does not know",
+                             "leave the limits out to have the rest checked");
     for (std::size_t i = 0; i < 2; ++i) {
       if (c_.coordinates[i] != m_.coordinates[i].name) throw FalseClaim("coordinates: they are not the model's");
       if (c_.box[2 * i] != m_.coordinates[i].lower || c_.box[2 * i + 1] != m_.coordinates[i].upper)

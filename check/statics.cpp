@@ -220,14 +220,45 @@ class Equations {
     const std::size_t last = unknowns_.size();
     for (const mechanism::Load& load : m_.loads) {
       add(load.link, last, couple(pose_.value(load.couple)), -1);
-      if (!load.force.empty())
+      if (load.force_vector)
+        add(load.link, last, force_at(*load.at, pose_.vector(*load.force_vector, posture_.points)), -1);
+      else if (!load.force.empty())
         add(load.link, last, force_at(*load.at, {pose_.value(load.force.at(0)), pose_.value(load.force.at(1))}), -1);
     }
+    for (const mechanism::Spring& spring : m_.springs) write_spring(spring);
+    for (const mechanism::Joint& joint : m_.joints)
+      if (joint.effort) write_effort(joint);
     if (m_.gravity.empty()) return;
     const Vector g = {pose_.value(m_.gravity.at(0)), pose_.value(m_.gravity.at(1))};
     for (std::size_t i = 0; i < m_.links.size(); ++i)
       add(static_cast<mechanism::LinkIndex>(i), last,
           force_at(m_.links[i].centre_of_mass, pose_.value(m_.links[i].mass) * g), -1);
+  }
+
+  /// k v - k l0 v / |v| on the first end, v the way to the second one; F v / |v| of a constant force.
+  void write_spring(const mechanism::Spring& spring) {
+    if (spring.kind == mechanism::Spring::Kind::torsion)
+      throw core::InputError({m_.file}, "a torsion spring, which check does not know", "");
+    const std::size_t last = unknowns_.size();
+    const Vector v = arm(spring.to_point) - arm(spring.from_point);
+    const bool linear = spring.kind == mechanism::Spring::Kind::linear;
+    const Interval k = pose_.value(spring.stiffness), l0 = pose_.value(spring.free_length);
+    const bool free_at_zero = linear && l0.lower() == 0 && l0.upper() == 0;
+    const Interval per_length = free_at_zero ? k
+                                : linear     ? k - k * l0 / root_of(square_of(v))
+                                             : pose_.value(spring.force) / root_of(square_of(v));
+    add(spring.from, last, force_at(spring.from_point, per_length * v), -1);
+    add(spring.to, last, force_at(spring.to_point, per_length * v), 1);
+  }
+
+  void write_effort(const mechanism::Joint& joint) {
+    Wrench wrench = couple(pose_.value(*joint.effort));
+    if (!joint.axes.empty()) {
+      const Vector u = pose_.vector(joint.axes.at(0), posture_.points);
+      wrench = force_at(joint.at, (pose_.value(*joint.effort) / root_of(square_of(u))) * u);
+    }
+    add(joint.to, unknowns_.size(), wrench, -1);
+    add(joint.from, unknowns_.size(), wrench, 1);
   }
 
   const Mechanism& m_;
@@ -264,6 +295,14 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
   for (const mechanism::Point& point : m.points)
     if (!closure.place(point)) return std::nullopt;
   const Pose pose(m, x, y);
+  for (const mechanism::Spring& spring : m.springs) {
+    if (spring.kind == mechanism::Spring::Kind::torsion) continue;
+    const auto at = [&](mechanism::PointIndex point) {
+      return closure.result.points.at(static_cast<std::size_t>(point));
+    };
+    closure.result.divisors.push_back(square_of(at(spring.to_point) - at(spring.from_point)));
+    if (closure.result.divisors.back().sign() == 0) return std::nullopt;
+  }
   for (const mechanism::Joint& joint : m.joints)
     if (joint.type == mechanism::JointType::prismatic)
       closure.result.divisors.push_back(square_of(pose.vector(joint.axes.at(0), closure.result.points)));

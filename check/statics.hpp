@@ -21,7 +21,7 @@ struct Posture {
   std::vector<std::array<Interval, 2>> points;
   std::vector<Interval> squares;  ///< Q of every dyad and slider
   /// What the closure divides by: D of a dyad, |AB|^2 of an offset; and the squared lengths of the axes of guides, by
-  /// which the unknowns along them and across are measured.
+  /// which the unknowns along them and across are measured; and those of springs.
   std::vector<Interval> divisors;
 };
 

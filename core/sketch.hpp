@@ -32,12 +32,18 @@ struct SketchLoad {
   double couple = 0;  ///< N m
 };
 
+struct SketchSpring {
+  Point2 from{}, to{};
+  bool torsion = false;  ///< in a joint at `from`
+};
+
 struct Sketch {
   std::vector<SketchLink> links;
   std::vector<SketchSlide> slides;
   std::vector<SketchJoint> joints;
   std::vector<SketchLoad> loads;
   Point2 gravity{};  ///< m/s^2, zero where absent
+  std::vector<SketchSpring> springs = {};
 };
 
 /// The posture in which the pictures of a mode show the mechanism.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanism/actions.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
 
@@ -292,6 +293,19 @@ void check_axes(const Mechanism& mechanism) {
     }
     if (joint.axes.size() == 2) check_cross(mechanism, joint, spread_poses(mechanism, poses));
   }
+}
+
+void check_springs(const Mechanism& mechanism) {
+  for (const Spring& spring : mechanism.springs)
+    if (spring.kind != Spring::Kind::torsion && is_zero(mechanism, way(spring.from_point, spring.to_point)))
+      throw InputError(spring.where, "the ends of spring " + spring.name + " coincide in every pose",
+                       "fix it at two different places");
+  for (const Limit& limit : mechanism.limits)
+    for (std::size_t i = 1; i < limit.points.size(); ++i)
+      if (is_zero(mechanism, way(limit.points[i - 1], limit.points[i])))
+        throw InputError(limit.where,
+                         "two points of the limit of the " + name_of(mechanism, limit) + " coincide in every pose",
+                         "name points in different places");
 }
 
 void check_rigidity(const Mechanism& mechanism) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/posture_sample.hpp"
 
 namespace clearloci::mechanism {
@@ -92,6 +93,8 @@ class Change {
       if (link.inertia) link.inertia = scaled(*link.inertia, 2);
     for (Joint& joint : result.joints) {
       for (VectorExpression& axis : joint.axes) change(axis);
+      // Of a couple, else of a force.
+      if (joint.effort) joint.effort = scaled(*joint.effort, traits(joint).slides ? 0 : 1);
       if (!joint.clearance) continue;
       for (Expression* length :
            {&joint.clearance->radial, &joint.clearance->gap, &joint.clearance->half_length, &joint.clearance->axial})
@@ -101,6 +104,19 @@ class Change {
       for (Expression& component : load.force) component = scaled(component, 0);
       load.couple = scaled(load.couple, 1);
       for (Expression& component : load.couple_vector) component = scaled(component, 1);
+      if (load.force_vector) change(*load.force_vector);
+    }
+    for (Spring& spring : result.springs) {
+      // Forces stay as they are: N over a length that is `scale` m.
+      spring.stiffness = scaled(spring.stiffness, spring.kind == Spring::Kind::torsion ? 1 : -1);
+      spring.free_length = scaled(spring.free_length, 1);
+    }
+    for (Limit& limit : result.limits) {
+      if (limit.is_angle()) continue;
+      limit.lower = scaled(limit.lower, 1);
+      limit.upper = scaled(limit.upper, 1);
+      limit.lower_value /= frame_.scale;
+      limit.upper_value /= frame_.scale;
     }
     return result;
   }
@@ -156,6 +172,7 @@ class Change {
   Expression scaled(const Expression& e, int power) const {
     Rational factor = 1;
     for (int i = 0; i < power; ++i) factor /= frame_.scale;
+    for (int i = power; i < 0; ++i) factor *= frame_.scale;
     return (Sum(factor) * sum(e)).expression();
   }
 

@@ -125,18 +125,55 @@ struct Joint {
   LinkIndex from = ground, to = ground;
   PointIndex at = 0;
   std::vector<VectorExpression> axes;
-  bool actuated = false;
+  bool actuated = false;  ///< what its actuator exerts is an unknown
   std::optional<Clearance> clearance;
   core::SourcePosition where;
+  /// Of an actuator of known effort, N m or N, on `to` along its axis: a load between the two links, and no unknown.
+  std::optional<Expression> effort = {};
 };
 
+/// Components are polynomials in the free coordinates (and cos, sin of an angle).
 struct Load {
   LinkIndex link = 0;
   std::optional<PointIndex> at;   ///< required with `force`
   std::vector<Expression> force;  ///< empty, 2 or (spatial) 3 components, N
   Expression couple;              ///< N m, counter-clockwise; planar
   core::SourcePosition where;
-  std::vector<Expression> couple_vector = {};  ///< empty or 3 components, N m; spatial
+  std::vector<Expression> couple_vector = {};         ///< empty or 3 components, N m; spatial
+  std::optional<VectorExpression> force_vector = {};  ///< in place of `force`: a vector over points, N
+
+  bool has_force() const { return !force.empty() || force_vector.has_value(); }
+};
+
+/// Pulls its two ends together with stiffness (length - free length) or with a constant force; in a joint, turns its
+/// links back to the angle `rest` with stiffness (angle - rest), the angle within half a turn of `rest`.
+struct Spring {
+  enum class Kind { linear, constant_force, torsion };
+  std::string name;
+  Kind kind = Kind::linear;
+  LinkIndex from = ground, to = ground;
+  PointIndex from_point = 0, to_point = 0;  ///< none of a torsion spring
+  JointIndex joint = 0;                     ///< of a torsion spring
+  Expression stiffness;                     ///< N/m; N m/rad of a torsion spring
+  Expression free_length;                   ///< m
+  Expression force;                         ///< N, of a constant-force spring
+  Expression rest;                          ///< rad, of a torsion spring
+  core::SourcePosition where;
+};
+
+/// Keeps a distance of two points, or the angle between the ways from the second point to the first and the third
+/// (0 to 180 deg), within two numbers: what is beyond is no part of the workspace.
+struct Limit {
+  std::vector<PointIndex> points;  ///< two of a distance, three of an angle
+  Expression lower, upper;         ///< m or rad
+  Rational lower_value, upper_value;
+  core::SourcePosition where;
+
+  bool is_angle() const { return points.size() == 3; }
+  /// Whether anything is beyond its ends: no angle is below 0 or above 180 deg, and no distance below 0.
+  bool keeps_lower() const { return lower_value > 0; }
+  bool keeps_upper() const { return !is_angle() || core::to_double(upper_value) < half_turn; }
+  static constexpr double half_turn = 3.14159265358979312;  ///< the double next to pi
 };
 
 /// A scalar unknown of the Newton-Euler equations: a component of the joint's reaction, or its actuator's.
@@ -168,6 +205,8 @@ struct Mechanism {
   PointIndex end_effector_point = 0;
   std::vector<Load> loads;
   std::vector<Expression> gravity;  ///< empty: links are weightless
+  std::vector<Spring> springs = {};
+  std::vector<Limit> limits = {};
   /// The frame that it is seen in, if not its own: expressions are printed in the coordinates outside it.
   std::optional<Frame> frame = {};
 };

@@ -14,10 +14,12 @@ namespace {
 
 using core::InputError;
 
-const std::vector<std::string> top_keys = {"format", "name",   "space",        "parameters", "workspace", "points",
-                                           "links",  "joints", "end_effector", "loads",      "gravity",   "repeat"};
+const std::vector<std::string> top_keys = {"format",  "name",    "space",  "parameters",   "workspace",
+                                           "points",  "links",   "joints", "end_effector", "loads",
+                                           "gravity", "springs", "limits", "repeat"};
 /// What may be written once for parts that are alike.
-const std::vector<std::string> repeatable_keys = {"parameters", "points", "links", "joints", "loads"};
+const std::vector<std::string> repeatable_keys = {"parameters", "points",  "links", "joints",
+                                                  "loads",      "springs", "limits"};
 
 void check_format(const Value& value) {
   const std::string text = text_of(value);
@@ -61,9 +63,12 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   read_points(mechanism, root.at("points"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
+  fill_inertia(mechanism);
   read_end_effector(mechanism, root.at("end_effector"));
   read_loads(mechanism, root.find("loads"));
   read_gravity(mechanism, root.find("gravity"));
+  read_springs(mechanism, root.find("springs"));
+  read_limits(mechanism, root.find("limits"));
 
   check_names(mechanism);
   check_coordinates_used(mechanism, root.at("workspace").where);
@@ -71,6 +76,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   check_distinct_bases(mechanism);
   check_reachability(mechanism);
   check_axes(mechanism);
+  check_springs(mechanism);
   check_rigidity(mechanism);
   return mechanism;
 }

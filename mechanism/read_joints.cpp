@@ -106,6 +106,17 @@ void check_place(const Mechanism& mechanism, const Joint& joint, const Value& at
   refuse_joint_point(mechanism, joint, on_from ? joint.to : joint.from, at);
 }
 
+/// true, false, or {effort: 3.5} of an actuator whose effort is known.
+void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint) {
+  if (!value.is_map()) {
+    joint.actuated = boolean_of(value);
+    return;
+  }
+  Value effort = Mapping(value, {"effort"}).at("effort");
+  effort.what = "the effort of joint " + joint.name;
+  joint.effort = read_varying(mechanism, effort);
+}
+
 Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   Joint joint;
   joint.type = read_type(mechanism, entry);
@@ -128,7 +139,7 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   check_place(mechanism, joint, at);
   joint.axes = read_axes(mechanism, joint, mapping);
   if (const auto actuated = traits(joint).actuator ? mapping.find("actuated") : std::nullopt)
-    joint.actuated = boolean_of(*actuated);
+    read_actuator(mechanism, *actuated, joint);
   if (const auto clearance = mapping.find("clearance")) joint.clearance = read_clearance(mechanism, *clearance, joint);
   return joint;
 }
@@ -137,6 +148,13 @@ std::vector<Expression> read_vector(const Mechanism& mechanism, const Value& val
   std::vector<Expression> vector;
   for (const Value& component : elements(value, static_cast<int>(dimension(mechanism))))
     vector.push_back(read_number(mechanism, component, Sign::any).expression);
+  return vector;
+}
+
+std::vector<Expression> read_varying_vector(const Mechanism& mechanism, const Value& value) {
+  std::vector<Expression> vector;
+  for (const Value& component : elements(value, static_cast<int>(dimension(mechanism))))
+    vector.push_back(read_varying(mechanism, component));
   return vector;
 }
 
@@ -174,16 +192,19 @@ void read_loads(Mechanism& mechanism, const std::optional<Value>& value) {
     load.link = read_link_name(mechanism, mapping.at("link"), false);
     if (const auto at = mapping.find("at")) load.at = read_point_name(mechanism, *at);
     if (const auto force = mapping.find("force")) {
-      load.force = read_vector(mechanism, *force);
+      if (force->is_scalar())
+        load.force_vector = read_vector_expression(mechanism, *force, Scope::parameters_and_coordinates);
+      else
+        load.force = read_varying_vector(mechanism, *force);
       if (!load.at)
         throw InputError(described.where, described.what + " has a force but no point where it acts", "add at: ...");
     }
     const auto couple = mapping.find("couple");
     if (couple && mechanism.space == Space::spatial)
-      load.couple_vector = read_vector(mechanism, *couple);
+      load.couple_vector = read_varying_vector(mechanism, *couple);
     else if (couple)
-      load.couple = read_number(mechanism, *couple, Sign::any).expression;
-    if (!couple && load.force.empty())
+      load.couple = read_varying(mechanism, *couple);
+    if (!couple && !load.has_force())
       throw InputError(described.where, described.what + " has neither a force nor a couple",
                        "add force: [fx, fy] or couple: m");
     mechanism.loads.push_back(std::move(load));

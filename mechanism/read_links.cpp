@@ -53,14 +53,12 @@ PointIndex read_centre_of_mass(Mechanism& mechanism, const Link& link, const std
   return add_auxiliary(mechanism, link, std::move(form), value->where);
 }
 
-/// A link with one point has neither a middle nor a length: with a mass it must say its com and inertia.
+/// A link with one point has no middle: with a mass it must say its com. Of its inertia: fill_inertia.
 void check_one_point(const Link& link, const Mapping& mapping, const Rational& mass) {
   if (link.points.size() > 1 || sgn(mass) == 0) return;
-  for (const char* key : {"com", "inertia"})
-    if (!mapping.find(key))
-      throw InputError(link.where,
-                       "link " + link.name + " has a mass and a single point, so its " + key + " has no default",
-                       std::string("write ") + key + " or name a second point");
+  if (!mapping.find("com"))
+    throw InputError(link.where, "link " + link.name + " has a mass and a single point, so its com has no default",
+                     "write com or name a second point");
 }
 
 }  // namespace
@@ -103,9 +101,26 @@ void read_links(Mechanism& mechanism, const Value& value) {
     link.centre_of_mass = read_centre_of_mass(mechanism, link, mapping.find("com"));
     if (const auto written = mapping.find("inertia"))
       link.inertia = read_number(mechanism, *written, Sign::not_negative).expression;
-    else if (link.points.size() == 1)
+    else if (link.points.size() == 1 && sgn(mass) == 0)
       link.inertia = Expression();
     mechanism.links.push_back(std::move(link));
+  }
+}
+
+void fill_inertia(Mechanism& mechanism) {
+  for (std::size_t i = 0; i < mechanism.links.size(); ++i) {
+    Link& link = mechanism.links[i];
+    if (link.inertia || link.points.size() > 1) continue;
+    const auto index = static_cast<LinkIndex>(i);
+    const bool guided = std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const Joint& joint) {
+      return joint.type == JointType::prismatic &&
+             ((joint.from == ground && joint.to == index) || (joint.from == index && joint.to == ground));
+    });
+    if (!guided)
+      throw InputError(link.where,
+                       "link " + link.name + " has a mass and a single point, so its inertia has no default",
+                       "write inertia or name a second point");
+    link.inertia = Expression();
   }
 }
 

@@ -19,7 +19,8 @@ bool mentions_coordinates(const Mechanism& mechanism, const Expression& expressi
 /// Explicit coordinates are polynomials in the lengths among the free coordinates and in cos, sin of the angles.
 class PolynomialCheck {
  public:
-  PolynomialCheck(const Mechanism& mechanism, const Value& value) : mechanism_(mechanism), value_(value) {}
+  PolynomialCheck(const Mechanism& mechanism, const Value& value, std::string mend)
+      : mechanism_(mechanism), value_(value), not_polynomial_mend_(std::move(mend)) {}
 
   void operator()(const Expression& expression) const {
     using Kind = Expression::Kind;
@@ -35,7 +36,7 @@ class PolynomialCheck {
         return;
       case Kind::divide:
         if (mentions_coordinates(mechanism_, expression.arguments()[1]))
-          refuse("it divides by '" + to_string(expression.arguments()[1]) + "'", not_polynomial_mend);
+          refuse("it divides by '" + to_string(expression.arguments()[1]) + "'", not_polynomial_mend_);
         check_divisor(expression.arguments()[1]);
         (*this)(expression.arguments()[0]);
         return;
@@ -44,7 +45,7 @@ class PolynomialCheck {
         (*this)(expression.arguments()[0]);
         return;
       case Kind::sqrt:
-        refuse("'" + to_string(expression) + "' is no polynomial", not_polynomial_mend);
+        refuse("'" + to_string(expression) + "' is no polynomial", not_polynomial_mend_);
       case Kind::cos:
       case Kind::sin:
         check_angle(expression.arguments()[0]);
@@ -55,9 +56,6 @@ class PolynomialCheck {
   }
 
  private:
-  static constexpr const char* not_polynomial_mend =
-      "points are polynomials in the coordinates; distances belong into a dyad";
-
   [[noreturn]] void refuse(const std::string& problem, const std::string& mend) const {
     throw InputError(value_.where, value_.what + ": " + problem, mend);
   }
@@ -125,13 +123,15 @@ class PolynomialCheck {
 
   const Mechanism& mechanism_;
   const Value& value_;
+  std::string not_polynomial_mend_;
 };
 
 ExplicitPoint read_explicit(const Mechanism& mechanism, const Value& value) {
   ExplicitPoint point;
   for (const Value& coordinate : elements(value, static_cast<int>(dimension(mechanism)))) {
     point.coordinates.push_back(read_expression(mechanism, coordinate, Scope::parameters_and_coordinates));
-    PolynomialCheck(mechanism, coordinate)(point.coordinates.back());
+    check_polynomial(mechanism, coordinate, point.coordinates.back(),
+                     "points are polynomials in the coordinates; distances belong into a dyad");
   }
   return point;
 }
@@ -281,6 +281,11 @@ class OrderCheck {
 };
 
 }  // namespace
+
+void check_polynomial(const Mechanism& mechanism, const Value& value, const Expression& expression,
+                      const std::string& mend) {
+  PolynomialCheck(mechanism, value, mend)(expression);
+}
 
 PointIndex read_point_name(const Mechanism& mechanism, const Value& value) {
   const std::string name = text_of(value);

@@ -200,6 +200,13 @@ Number read_number(const Mechanism& mechanism, const Value& value, Sign sign) {
   return number;
 }
 
+Expression read_varying(const Mechanism& mechanism, const Value& value) {
+  Expression expression = read_expression(mechanism, value, Scope::parameters_and_coordinates);
+  if (!is_free(expression, mechanism)) return read_number(mechanism, value, Sign::any).expression;
+  check_polynomial(mechanism, value, expression, "write a polynomial in the coordinates, or a spring");
+  return expression;
+}
+
 void check_identifier(const std::string& name, const SourcePosition& where, const std::string& what) {
   check_label(name, where, what);
   if (std::isdigit(static_cast<unsigned char>(name.front())))

@@ -33,7 +33,8 @@ VectorExpression negated(VectorExpression v) { return {Kind::negate, {}, 0, {std
 
 class VectorReader {
  public:
-  VectorReader(const Mechanism& mechanism, const Value& value) : mechanism_(mechanism), value_(value) {}
+  VectorReader(const Mechanism& mechanism, const Value& value, Scope scope)
+      : mechanism_(mechanism), value_(value), scope_(scope) {}
 
   VectorExpression sum(const std::string& text, int depth = 0) const {
     if (depth > deepest_nesting) refuse("it is nested too deeply", "write it in fewer steps");
@@ -65,7 +66,8 @@ class VectorReader {
   Expression number(const std::string& text) const {
     Value part = value_;
     part.node = Node(text);
-    return read_number(mechanism_, part, Sign::any).expression;
+    return scope_ == Scope::parameters ? read_number(mechanism_, part, Sign::any).expression
+                                       : read_varying(mechanism_, part);
   }
 
   /// Cut at any of the separators outside parentheses; a sign right after * or / belongs to the number.
@@ -159,12 +161,13 @@ class VectorReader {
 
   const Mechanism& mechanism_;
   const Value& value_;
+  Scope scope_;
 };
 
 }  // namespace
 
-VectorExpression read_vector_expression(const Mechanism& mechanism, const Value& value) {
-  const VectorReader reader(mechanism, value);
+VectorExpression read_vector_expression(const Mechanism& mechanism, const Value& value, Scope scope) {
+  const VectorReader reader(mechanism, value, scope);
   constexpr std::size_t longest_text = 5000;
   if (!value.is_sequence() && text_of(value).size() > longest_text)
     throw InputError(value.where, value.what + " has more than 5000 characters", "write it in fewer steps");

@@ -30,6 +30,8 @@ enum class Scope { parameters, parameters_and_coordinates };
 // --- read_values.cpp: numbers, parameters, workspace
 Expression read_expression(const Mechanism& mechanism, const Value& value, Scope scope);
 Number read_number(const Mechanism& mechanism, const Value& value, Sign sign);
+/// A number, or a polynomial in the free coordinates: what varies with the pose.
+Expression read_varying(const Mechanism& mechanism, const Value& value);
 void check_identifier(const std::string& name, const core::SourcePosition& where, const std::string& what);
 void check_label(const std::string& name, const core::SourcePosition& where, const std::string& what);
 void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Override>& overrides);
@@ -40,22 +42,35 @@ PointIndex read_point_name(const Mechanism& mechanism, const Value& value);
 /// One point form; `what` of the value names the point. Points it uses must be in the mechanism already.
 PointForm read_point_form(const Mechanism& mechanism, const Value& value);
 void read_points(Mechanism& mechanism, const Value& value);
+/// Throws unless an expression is a polynomial in the lengths among the free coordinates and in cos, sin of the angles.
+/// `mend`: what to write instead.
+void check_polynomial(const Mechanism& mechanism, const Value& value, const Expression& expression,
+                      const std::string& mend);
 
 // --- read_vectors.cpp
 /// [ux, uy], [ux, uy, uz], [A, B] for B - A, or an expression such as cross([1, 0, 0], B - A).
-VectorExpression read_vector_expression(const Mechanism& mechanism, const Value& value);
+/// Its numbers may vary with the pose where `scope` says so.
+VectorExpression read_vector_expression(const Mechanism& mechanism, const Value& value,
+                                        Scope scope = Scope::parameters);
 /// The points that a vector is made from.
 std::set<PointIndex> points_of(const VectorExpression& vector);
 
 // --- read_links.cpp
 LinkIndex read_link_name(const Mechanism& mechanism, const Value& value, bool or_ground);
 void read_links(Mechanism& mechanism, const Value& value);
+/// A link with one point has no length to make its inertia from: with a mass it must say that, unless it slides along
+/// the ground, where it cannot turn. After the joints are read.
+void fill_inertia(Mechanism& mechanism);
 
 // --- read_joints.cpp: joints, end effector, loads
 void read_joints(Mechanism& mechanism, const Value& value);
 void read_end_effector(Mechanism& mechanism, const Value& value);
 void read_loads(Mechanism& mechanism, const std::optional<Value>& value);
 void read_gravity(Mechanism& mechanism, const std::optional<Value>& value);
+
+// --- read_springs.cpp: springs and limits
+void read_springs(Mechanism& mechanism, const std::optional<Value>& value);
+void read_limits(Mechanism& mechanism, const std::optional<Value>& value);
 
 // --- checks.cpp: what only the whole mechanism shows
 /// The free coordinates that a point depends on, through the points it is built from.
@@ -72,6 +87,8 @@ void check_coordinates_used(const Mechanism& mechanism, const core::SourcePositi
 void check_distinct_bases(const Mechanism& mechanism);
 /// No axis is zero, and none that the ground holds turns.
 void check_axes(const Mechanism& mechanism);
+/// No spring is without length in every pose, and no limit without a direction.
+void check_springs(const Mechanism& mechanism);
 /// The points of a link keep their distances.
 void check_rigidity(const Mechanism& mechanism);
 

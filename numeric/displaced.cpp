@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci::numeric {
@@ -64,10 +65,12 @@ class DisplacedMechanism {
   Eigen::VectorXd load_column() const {
     Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.unknowns.size()));
     for (const AppliedLoad& load : posture_.loads) {
+      if (load.spring >= 0) continue;
       const Point2 r = arm(load.link, load.at);
       w.segment<3>(3 * load.link) -=
           Eigen::Vector3d(load.force[0], load.force[1], load.couple + r[0] * load.force[1] - r[1] * load.force[0]);
     }
+    for (const mechanism::Spring& spring : model_.mechanism.springs) add_spring(spring, w);
     return w;
   }
 
@@ -88,6 +91,35 @@ class DisplacedMechanism {
   }
 
  private:
+  double value(const core::Expression& e) const { return core::to_double(mechanism::value_of(e, model_.mechanism)); }
+  double turned(mechanism::LinkIndex link) const { return link == mechanism::ground ? 0 : u_(3 * link + 2); }
+
+  /// Springs pull with the length, and turn with the angle, that they have now.
+  void add_spring(const mechanism::Spring& spring, Eigen::VectorXd& w) const {
+    if (spring.kind == mechanism::Spring::Kind::torsion) {
+      const auto own = static_cast<int>(&spring - model_.mechanism.springs.data());
+      const double more = value(spring.stiffness) * (turned(spring.to) - turned(spring.from));
+      for (const AppliedLoad& load : posture_.loads)
+        if (load.spring == own) w(3 * load.link + 2) -= load.couple + (load.link == spring.to ? -more : more);
+      return;
+    }
+    const auto at = [&](mechanism::PointIndex point) { return posture_.points[static_cast<std::size_t>(point)]; };
+    const Point2 p = moved(spring.from, at(spring.from_point)), q = moved(spring.to, at(spring.to_point));
+    const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
+    const double tension = spring.kind == mechanism::Spring::Kind::constant_force
+                               ? value(spring.force)
+                               : value(spring.stiffness) * (length - value(spring.free_length));
+    if (length == 0) return;
+    const Point2 force = {tension * (q[0] - p[0]) / length, tension * (q[1] - p[1]) / length};
+    const auto put = [&](mechanism::LinkIndex link, mechanism::PointIndex point, double sign) {
+      if (link == mechanism::ground) return;
+      const Point2 r = arm(link, at(point));
+      w.segment<3>(3 * link) -= sign * Eigen::Vector3d(force[0], force[1], r[0] * force[1] - r[1] * force[0]);
+    };
+    put(spring.from, spring.from_point, 1);
+    put(spring.to, spring.to_point, -1);
+  }
+
   const NumericModel& model_;
   const Posture& posture_;
   const Eigen::VectorXd& u_;

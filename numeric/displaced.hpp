@@ -29,7 +29,8 @@ struct ActualPose {
 };
 
 /// Starts at the linear step. Not converged where that has an undefined take-up, where the way leads through a direct
-/// singularity, or where the iteration does not settle. Loads keep their forces and move with their links.
+/// singularity, or where the iteration does not settle. Loads keep their forces and move with their links; springs
+/// have the length and the angle of the displaced geometry.
 ActualPose actual_pose(const NumericModel& model, const Posture& posture, const Accuracy& linear);
 
 }  // namespace clearloci::numeric

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
+#include "mechanism/actions.hpp"
+#include "numeric/evaluator.hpp"
 #include "numeric/named_tape.hpp"
 #include "numeric/spatial_model.hpp"
 
@@ -27,6 +30,7 @@ class ModelBuilder {
     model.points = points_;
     for (const auto& p : points_) model.placed.insert(model.placed.end(), p.begin(), p.end());
     model.loads = loads();
+    for (const mechanism::Limit& limit : m_.limits) add_limit(limit, model);
     for (const auto& joint : m_.joints) axes_.push_back(axis(joint));
     model.axes = axes_;
     if (!m_.gravity.empty()) {
@@ -169,12 +173,17 @@ class ModelBuilder {
     const Register zero = tape_.constant(0.0);
     for (const auto& load : m_.loads) {
       LoadRegisters l{load.link, load.at, zero, zero, compile(load.couple), false};
-      if (!load.force.empty()) {
+      if (load.force_vector) {
+        const Pair force = vector(*load.force_vector);
+        l.fx = force[0];
+        l.fy = force[1];
+      } else if (!load.force.empty()) {
         l.fx = compile(load.force.at(0));
         l.fy = compile(load.force.at(1));
       }
       all.push_back(l);
     }
+    for (const mechanism::Action& action : mechanism::actions(m_)) add_action(action, all);
     if (m_.gravity.empty()) return all;
     const Pair g = {compile(m_.gravity.at(0)), compile(m_.gravity.at(1))};
     for (std::size_t i = 0; i < m_.links.size(); ++i) {
@@ -184,6 +193,76 @@ class ModelBuilder {
                      tape_.multiply(mass, g[1]), zero, true});
     }
     return all;
+  }
+
+  /// What a spring or an actuator of known effort exerts on its two links.
+  void add_action(const mechanism::Action& action, std::vector<LoadRegisters>& all) {
+    auto& t = tape_;
+    const Register zero = t.constant(0.0);
+    const int spring = action.source == mechanism::Action::Source::spring ? static_cast<int>(action.index) : -1;
+    const auto put = [&](int link, std::optional<int> at, Pair force, Register couple) {
+      if (link != mechanism::ground) all.push_back({link, at, force[0], force[1], couple, false, true, spring});
+    };
+    if (action.couple) {
+      const Register couple = action.law == mechanism::Action::Law::torsion ? torsion(action) : compile(action.effort);
+      put(action.on, std::nullopt, {zero, zero}, couple);
+      put(action.by, std::nullopt, {zero, zero}, t.negate(couple));
+      return;
+    }
+    const Pair v = vector(*action.along);
+    const Register length = t.sqrt(squared_length(v));
+    Register per_length = t.divide(compile(action.effort), length);
+    if (action.law == mechanism::Action::Law::linear) {
+      const Register stiffness = compile(action.stiffness);
+      // Without a free length no length is divided by: it may be zero.
+      per_length = action.needs_length(m_)
+                       ? t.subtract(stiffness, t.divide(t.multiply(stiffness, compile(action.free_length)), length))
+                       : stiffness;
+    }
+    const Pair force = {t.multiply(per_length, v[0]), t.multiply(per_length, v[1])};
+    put(action.on, action.on_point, force, zero);
+    put(action.by, action.by_point, {t.negate(force[0]), t.negate(force[1])}, zero);
+  }
+
+  Pair direction(int link) {
+    if (link == mechanism::ground) return {tape_.constant(1.0), tape_.constant(0.0)};
+    const auto& points = m_.links[static_cast<std::size_t>(link)].points;
+    return minus(point(points.at(1)), point(points.at(0)));
+  }
+
+  /// -c (angle - rest), the angle from `by` to `on` turned back by rest, so that its branch is cut half a turn off it.
+  Register torsion(const mechanism::Action& action) {
+    auto& t = tape_;
+    const Pair a = direction(action.by), b = direction(action.on);
+    const Register rest = compile(action.rest);
+    const Register c = t.cos(rest), s = t.sin(rest);
+    const Pair turned = {t.subtract(t.multiply(c, a[0]), t.multiply(s, a[1])),
+                         t.add(t.multiply(s, a[0]), t.multiply(c, a[1]))};
+    const Register across = t.subtract(t.multiply(turned[0], b[1]), t.multiply(turned[1], b[0]));
+    const Register along = t.add(t.multiply(turned[0], b[0]), t.multiply(turned[1], b[1]));
+    return t.negate(t.multiply(compile(action.stiffness), t.atan2(across, along)));
+  }
+
+  /// Slack to both ends, of the size of a number: distances over the end, cosines of angles.
+  void add_limit(const mechanism::Limit& limit, NumericModel& model) {
+    auto& t = tape_;
+    const auto at = [&](std::size_t i) { return point(limit.points[i]); };
+    const Register lower = compile(limit.lower), upper = compile(limit.upper);
+    std::array<std::optional<Register>, 2> slack;
+    if (limit.is_angle()) {
+      const Pair a = unit(minus(at(0), at(1))), b = unit(minus(at(2), at(1)));
+      const Register cosine = t.add(t.multiply(a[0], b[0]), t.multiply(a[1], b[1]));
+      if (limit.keeps_lower()) slack[0] = t.subtract(t.cos(lower), cosine);
+      if (limit.keeps_upper()) slack[1] = t.subtract(cosine, t.cos(upper));
+    } else {
+      const Register square = squared_length(minus(at(0), at(1)));
+      const Register unit2 = t.square(upper);
+      if (limit.keeps_lower()) slack[0] = t.divide(t.subtract(square, t.square(lower)), unit2);
+      slack[1] = t.divide(t.subtract(unit2, square), unit2);
+    }
+    for (const auto& end : slack)
+      if (end) model.placed.push_back(t.sqrt(*end));
+    model.slack.push_back(slack);
   }
 
   /// Moment about the end-effector point of a force at p: its factors of fx and fy, (-(y - yE), x - xE).
@@ -276,6 +355,10 @@ Posture posture(const NumericModel& model, std::span<const double> pose, std::sp
     const bool placed = std::isfinite(at(x)) && std::isfinite(at(y));
     if (!placed && !result.unreachable) result.unreachable = static_cast<int>(i);
   }
+  for (std::size_t i = 0; i < model.slack.size() && !result.unreachable; ++i)
+    for (const bool upper : {false, true})
+      if (const auto& end = model.slack[i][upper ? 1 : 0]; end && !(at(*end) >= 0) && !result.broken)
+        result.broken = LimitEnd{i, upper, at(*end)};
   for (const auto& axis : model.axes) result.axes.push_back(axis ? Point2{at((*axis)[0]), at((*axis)[1])} : Point2{});
   for (const auto& load : model.loads) {
     const auto& link = model.mechanism.links[static_cast<std::size_t>(load.link)];
@@ -284,7 +367,9 @@ Posture posture(const NumericModel& model, std::span<const double> pose, std::sp
                             result.points[static_cast<std::size_t>(place)],
                             {at(load.fx), at(load.fy)},
                             at(load.couple),
-                            load.weight});
+                            load.weight,
+                            load.inner,
+                            load.spring});
   }
   return result;
 }
@@ -304,6 +389,23 @@ int column_of(const NumericModel& model, mechanism::JointIndex joint, core::Quan
   for (std::size_t k = 0; k < model.unknowns.size(); ++k)
     if (model.unknowns[k].joint == joint && model.unknowns[k].quantity == quantity) return static_cast<int>(k);
   return -1;
+}
+
+std::optional<LimitEnd> tightest_limit(const NumericModel& model, std::span<const double> pose,
+                                       std::span<const int> mode) {
+  Evaluator<double, 1> evaluator(model, mode, model.posture_size);
+  for (std::size_t c = 0; c < pose.size(); ++c) evaluator.input(c, 0) = pose[c];
+  evaluator.run_tape();
+  std::optional<LimitEnd> tightest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < model.slack.size(); ++i)
+    for (const bool upper : {false, true}) {
+      const auto& end = model.slack[i][upper ? 1 : 0];
+      if (!end || !(evaluator.value(*end, 0) < least)) continue;
+      least = evaluator.value(*end, 0);
+      tightest = LimitEnd{i, upper, least};
+    }
+  return tightest;
 }
 
 double typical_length(const NumericModel& model, const Posture& p) {

@@ -17,12 +17,15 @@ namespace clearloci::numeric {
 
 using core::Point2;
 
-/// An external force or couple as registers of the tape. `weight`: from gravity, not from the file's loads.
+/// An external force or couple as registers of the tape. `weight`: from gravity, not from the file's loads. `inner`: of
+/// a spring or an actuator of known effort, with its opposite on another link or the ground.
 struct LoadRegisters {
   mechanism::LinkIndex link = 0;
   std::optional<mechanism::PointIndex> at;  ///< may be absent from a pure couple
   Register fx = 0, fy = 0, couple = 0;
   bool weight = false;
+  bool inner = false;
+  int spring = -1;  ///< of an inner one: which
 };
 
 /// A mechanism of the plane or of space. Both have a tape, unknowns, an elimination and the registers that must be
@@ -35,7 +38,9 @@ struct NumericModel {
   Tape tape;                                 ///< inputs: free coordinates, then the signs of the working mode
   int posture_size = 0;                      ///< instructions that compute points and loads
   int reaction_size = 0;                     ///< and with them the reactions; the rest serves the unit wrenches
-  std::vector<Register> placed;              ///< finite where every point can be placed
+  std::vector<Register> placed;              ///< finite where every point can be placed and no limit is broken
+  /// Of every limit what is left to its lower and upper end, negative beyond it; none where no pose is beyond.
+  std::vector<std::array<std::optional<Register>, 2>> slack;
   Elimination elimination;
   /// The same matrix under a unit of each component of a wrench on the end effector, 3 or 6.
   std::vector<Elimination> unit_wrenches;
@@ -68,6 +73,15 @@ struct AppliedLoad {
   Point2 force{};
   double couple = 0;
   bool weight = false;
+  bool inner = false;  ///< as LoadRegisters
+  int spring = -1;     ///< likewise
+};
+
+/// An end of a limit.
+struct LimitEnd {
+  std::size_t limit = 0;
+  bool upper = false;
+  double slack = 0;  ///< what is left to it, negative beyond; of a distance over its size, of an angle in its cosine
 };
 
 /// Every point and load at one pose of a planar mechanism. Coordinates in m, in the ground's frame.
@@ -77,13 +91,19 @@ struct Posture {
   std::vector<Point2> axes;                          ///< of every joint: unit vector of its axis; zero without one
   Point2 gravity{};                                  ///< m/s²
   std::optional<mechanism::PointIndex> unreachable;  ///< the first point that cannot be placed
+  std::optional<LimitEnd> broken;                    ///< the first limit that the pose is beyond
 
-  bool reachable() const { return !unreachable; }
+  bool reachable() const { return !unreachable && !broken; }
 };
 
 /// `pose`: one value a free coordinate; `mode`: +1 (left) or -1 (right) a dyad. A pose on the workspace boundary is
 /// reachable; one where a dyad's two base points coincide is not, for its apex is then undefined.
 Posture posture(const NumericModel& model, std::span<const double> pose, std::span<const int> mode);
+
+/// The end of a limit that the pose is farthest beyond, or that is nearest where it keeps all; none where there is no
+/// limit or some point cannot be placed. Of mechanisms of the plane and of space.
+std::optional<LimitEnd> tightest_limit(const NumericModel& model, std::span<const double> pose,
+                                       std::span<const int> mode);
 
 /// The median length of the links, m: a scale for pictures. 1 where no link has a length.
 double typical_length(const NumericModel& model, const Posture& posture);

@@ -144,7 +144,13 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     result.joints.push_back({joint.name, point_of(p, joint.at), on_ground, joint.actuated});
   }
   for (const auto& load : p.loads) {
-    if (!load.weight) result.loads.push_back({load.at, load.force, load.couple});
+    if (!load.weight && !load.inner) result.loads.push_back({load.at, load.force, load.couple});
+  }
+  for (const auto& spring : m.springs) {
+    if (spring.kind == mechanism::Spring::Kind::torsion)
+      result.springs.push_back({point_of(p, m.joints[static_cast<std::size_t>(spring.joint)].at), {}, true});
+    else
+      result.springs.push_back({point_of(p, spring.from_point), point_of(p, spring.to_point), false});
   }
   result.gravity = p.gravity;
   return result;

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/tape.hpp"
 
@@ -257,8 +258,10 @@ class Solver {
     Eigen::VectorXd b = Eigen::VectorXd::Zero(size);
     for (const auto& load : m_.loads) {
       const Vector3d r = load.at ? arm(*load.at) : Vector3d::Zero();
-      b.segment<6>(6 * load.link) -= wrench_of(r, components(load.force), components(load.couple_vector));
+      const Vector3d force = load.force_vector ? vector(*load.force_vector) : components(load.force);
+      b.segment<6>(6 * load.link) -= wrench_of(r, force, components(load.couple_vector));
     }
+    for (const auto& action : mechanism::actions(m_)) add_action(action, b);
     if (m_.gravity.empty()) return b;
     const Vector3d g = components(m_.gravity);
     for (std::size_t i = 0; i < m_.links.size(); ++i) {
@@ -268,6 +271,41 @@ class Solver {
           wrench_of(arm(m_.links[i].centre_of_mass), mass * g, Vector3d::Zero());
     }
     return b;
+  }
+
+  /// What a spring or an actuator of known effort exerts on its two links.
+  void add_action(const mechanism::Action& action, Eigen::VectorXd& b) const {
+    using Law = mechanism::Action::Law;
+    Vector3d force = Vector3d::Zero();
+    if (action.law == Law::torsion) {
+      const Vector3d u = axis(m_.joints[static_cast<std::size_t>(m_.springs[action.index].joint)], 0);
+      force = -value(action.stiffness) * beyond_rest(action, u) * u;
+    } else {
+      const Vector3d v = vector(*action.along);
+      const double tension = action.law == Law::constant
+                                 ? value(action.effort)
+                                 : value(action.stiffness) * (v.norm() - value(action.free_length));
+      if (tension != 0) force = tension * v.normalized();
+    }
+    const auto put = [&](mechanism::LinkIndex link, mechanism::PointIndex at, const Vector3d& f) {
+      if (link == mechanism::ground) return;
+      b.segment<6>(6 * link) -=
+          action.couple ? wrench_of(Vector3d::Zero(), Vector3d::Zero(), f) : wrench_of(arm(at), f, Vector3d::Zero());
+    };
+    put(action.on, action.on_point, force);
+    put(action.by, action.by_point, -force);
+  }
+
+  Vector3d direction_of(mechanism::LinkIndex link) const {
+    if (link == mechanism::ground) return Vector3d::UnitX();
+    const auto& points = m_.links[static_cast<std::size_t>(link)].points;
+    return at(points.at(1)) - at(points.at(0));
+  }
+
+  /// The angle about u from `by` to `on` less that at rest, within half a turn.
+  double beyond_rest(const mechanism::Action& action, const Vector3d& u) const {
+    const Vector3d a = Eigen::AngleAxisd(value(action.rest), u) * direction_of(action.by), b = direction_of(action.on);
+    return std::atan2(u.dot(a.cross(b)), a.dot(b) - u.dot(a) * u.dot(b));
   }
 
   const Mechanism& m_;

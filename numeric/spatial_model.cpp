@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/evaluator.hpp"
 #include "numeric/named_tape.hpp"
@@ -47,6 +48,7 @@ class SpatialModelBuilder {
       model.placed.insert(model.placed.end(), u.begin(), u.end());
     }
     axes_ = model.space_axes;
+    for (const mechanism::Limit& limit : m_.limits) add_limit(limit, model);
     model.posture_size = tape_.size();
     for (std::size_t j = 0; j < m_.joints.size(); ++j) add_unknowns(static_cast<int>(j));
     model.unknowns = unknowns_;
@@ -261,8 +263,11 @@ class SpatialModelBuilder {
     for (const auto& load : m_.loads) {
       const Triple couple = components(load.couple_vector);
       add_load(e, load.link, {zero_, zero_, zero_, couple[0], couple[1], couple[2]});
-      if (load.at) add_load(e, load.link, force_at(arm(*load.at), components(load.force)));
+      if (load.at && load.has_force())
+        add_load(e, load.link,
+                 force_at(arm(*load.at), load.force_vector ? vector(*load.force_vector) : components(load.force)));
     }
+    for (const mechanism::Action& action : mechanism::actions(m_)) add_action(e, action);
     if (m_.gravity.empty()) return e;
     const Triple g = components(m_.gravity);
     for (std::size_t i = 0; i < m_.links.size(); ++i) {
@@ -271,6 +276,73 @@ class SpatialModelBuilder {
       add_load(e, static_cast<int>(i), force_at(arm(m_.links[i].centre_of_mass), times(mass, g)));
     }
     return e;
+  }
+
+  /// What a spring or an actuator of known effort exerts on its two links.
+  void add_action(SparseEquations& e, const mechanism::Action& action) {
+    const auto both = [&](const Wrench& on, const Wrench& by) {
+      if (action.on != mechanism::ground) add_load(e, action.on, on);
+      Wrench opposite = by;
+      for (Register& component : opposite) component = tape_.negate(component);
+      if (action.by != mechanism::ground) add_load(e, action.by, opposite);
+    };
+    if (action.law == mechanism::Action::Law::torsion) {
+      const Triple u = *axes_[static_cast<std::size_t>(m_.springs[action.index].joint)];
+      const Triple c = times(torsion(action, u), u);
+      const Wrench couple = {zero_, zero_, zero_, c[0], c[1], c[2]};
+      return both(couple, couple);
+    }
+    const Triple v = vector(*action.along);
+    const Register length = tape_.sqrt(dot(v, v));
+    Register per_length = tape_.divide(compile(action.effort), length);
+    if (action.law == mechanism::Action::Law::linear) {
+      const Register stiffness = compile(action.stiffness);
+      per_length =
+          action.needs_length(m_)
+              ? tape_.subtract(stiffness, tape_.divide(tape_.multiply(stiffness, compile(action.free_length)), length))
+              : stiffness;
+    }
+    const Triple force = times(per_length, v);
+    if (!action.couple) return both(force_at(arm(action.on_point), force), force_at(arm(action.by_point), force));
+    const Wrench couple = {zero_, zero_, zero_, force[0], force[1], force[2]};
+    both(couple, couple);
+  }
+
+  Triple link_direction(int link) {
+    if (link == mechanism::ground) return direction(0);
+    const auto& points = m_.links[static_cast<std::size_t>(link)].points;
+    return minus(point(points.at(1)), point(points.at(0)));
+  }
+
+  /// -c (angle - rest) about the unit vector u, of the directions as seen along it.
+  Register torsion(const mechanism::Action& action, const Triple& u) {
+    const Triple a = link_direction(action.by), b = link_direction(action.on);
+    const Register sine = dot(u, cross(a, b)), cosine = tape_.subtract(dot(a, b), tape_.multiply(dot(u, a), dot(u, b)));
+    const Register rest = compile(action.rest);
+    const Register c = tape_.cos(rest), s = tape_.sin(rest);
+    const Register y = tape_.subtract(tape_.multiply(c, sine), tape_.multiply(s, cosine));
+    const Register x = tape_.add(tape_.multiply(c, cosine), tape_.multiply(s, sine));
+    return tape_.negate(tape_.multiply(compile(action.stiffness), tape_.atan2(y, x)));
+  }
+
+  void add_limit(const mechanism::Limit& limit, NumericModel& model) {
+    auto& t = tape_;
+    const Register lower = compile(limit.lower), upper = compile(limit.upper);
+    const auto at = [&](std::size_t i) { return point(limit.points[i]); };
+    std::array<std::optional<Register>, 2> slack;
+    if (limit.is_angle()) {
+      const Register cosine = dot(unit(minus(at(0), at(1))), unit(minus(at(2), at(1))));
+      if (limit.keeps_lower()) slack[0] = t.subtract(t.cos(lower), cosine);
+      if (limit.keeps_upper()) slack[1] = t.subtract(cosine, t.cos(upper));
+    } else {
+      const Triple between = minus(at(0), at(1));
+      const Register square = dot(between, between), unit2 = t.square(upper);
+      if (limit.keeps_lower()) slack[0] = t.divide(t.subtract(square, t.square(lower)), unit2);
+      slack[1] = t.divide(t.subtract(unit2, square), unit2);
+    }
+    for (const auto& end : slack)
+      if (end) model.placed.push_back(t.sqrt(*end));
+    model.slack.push_back(slack);
   }
 
   /// The components 1 and 2 across an axis u are the Cartesian ones other than k, the first direction in which u is

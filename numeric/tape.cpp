@@ -89,6 +89,11 @@ Register TapeBuilder::sin(Register a) {
   return append(Op::sin, a, -1);
 }
 
+Register TapeBuilder::atan2(Register y, Register x) {
+  if (is_constant(y) && is_constant(x)) return constant(numeric::atan2(constant_value(y), constant_value(x)));
+  return append(Op::atan2, y, x);
+}
+
 Register TapeBuilder::power(Register base, int exponent) {
   if (exponent < 0) return divide(constant(1.0), power(base, -exponent));
   if (exponent == 0) return constant(1.0);

@@ -19,7 +19,7 @@ namespace clearloci::numeric {
 /// Index of the instruction that computes a scalar.
 using Register = int;
 
-enum class Op { constant, input, add, subtract, multiply, divide, sqrt, cos, sin };
+enum class Op { constant, input, add, subtract, multiply, divide, sqrt, cos, sin, atan2 };
 
 struct Instruction {
   Op op = Op::constant;
@@ -43,6 +43,7 @@ class TapeBuilder {
   Register sqrt(Register a);
   Register cos(Register a);
   Register sin(Register a);
+  Register atan2(Register y, Register x);
   Register square(Register a) { return multiply(a, a); }
   Register negate(Register a) { return subtract(constant(0.0), a); }
   Register power(Register base, int exponent);
@@ -70,7 +71,7 @@ class TapeBuilder {
 /// Constants are written too, so that `registers` needs no preparation.
 template <class T, int Lanes>
 void run(const Tape& tape, int first, int last, const T* inputs, T* registers) {
-  using std::cos, std::sin, std::sqrt;
+  using std::cos, std::sin, std::sqrt, std::atan2;
   for (int i = first; i < last; ++i) {
     const Instruction& step = tape.code[static_cast<std::size_t>(i)];
     T* const out = registers + static_cast<std::ptrdiff_t>(i) * Lanes;
@@ -110,6 +111,9 @@ void run(const Tape& tape, int first, int last, const T* inputs, T* registers) {
         break;
       case Op::sin:
         for (int l = 0; l < Lanes; ++l) out[l] = sin(a[l]);
+        break;
+      case Op::atan2:
+        for (int l = 0; l < Lanes; ++l) out[l] = atan2(a[l], b[l]);
         break;
     }
   }

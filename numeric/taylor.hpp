@@ -119,4 +119,19 @@ Taylor<N> cos(const Taylor<N>& a) {
   return c;
 }
 
+/// a' = (x y' - y x') / (x² + y²), term by term.
+template <int N>
+Taylor<N> atan2(const Taylor<N>& y, const Taylor<N>& x) {
+  Taylor<N> a;
+  a.c[0] = std::atan2(y.c[0], x.c[0]);
+  const Taylor<N> square = x * x + y * y;
+  for (std::size_t k = 1; k <= N; ++k) {
+    double rest = 0;
+    for (std::size_t i = 1; i <= k; ++i) rest += static_cast<double>(i) * (x.c[k - i] * y.c[i] - y.c[k - i] * x.c[i]);
+    for (std::size_t i = 1; i < k; ++i) rest -= static_cast<double>(i) * a.c[i] * square.c[k - i];
+    a.c[k] = rest / (static_cast<double>(k) * square.c[0]);
+  }
+  return a;
+}
+
 }  // namespace clearloci::numeric

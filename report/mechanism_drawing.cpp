@@ -245,6 +245,46 @@ void draw_load_arrow(const Context& context, const Point2& tail, const Point2& t
   context->fill();
 }
 
+/// A coil as seen from its side: leads at both ends, and between them a zigzag.
+void draw_spring(const Context& context, const Point2& from, const Point2& to) {
+  constexpr double lead = 0.18, half = 4.5;  // part of the length; points
+  constexpr int turns = 7;
+  const Point2 way = {to[0] - from[0], to[1] - from[1]};
+  const double length = std::hypot(way[0], way[1]);
+  if (!(length > 0)) return;
+  const Point2 across = {-way[1] / length, way[0] / length};
+  context->unset_dash();
+  context->set_line_cap(Cairo::Context::LineCap::ROUND);
+  context->set_line_join(Cairo::Context::LineJoin::ROUND);
+  context->move_to(from[0], from[1]);
+  context->line_to(from[0] + lead * way[0], from[1] + lead * way[1]);
+  for (int i = 0; i < 2 * turns; ++i) {
+    const double part = lead + (1 - 2 * lead) * (i + 0.5) / (2 * turns), side = i % 2 == 0 ? half : -half;
+    context->line_to(from[0] + part * way[0] + side * across[0], from[1] + part * way[1] + side * across[1]);
+  }
+  context->line_to(to[0] - lead * way[0], to[1] - lead * way[1]);
+  context->line_to(to[0], to[1]);
+  set_colour(context, outline);
+  context->set_line_width(1.1);
+  context->stroke();
+}
+
+/// The coil of a torsion spring around its joint, a turn and a half.
+void draw_torsion_spring(const Context& context, const Point2& at) {
+  constexpr double inner = 7, outer = 12.5;
+  constexpr int steps = 72;
+  context->unset_dash();
+  for (int i = 0; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / steps, angle = 1.5 * full_turn * part;
+    const double radius = inner + (outer - inner) * part;
+    const double x = at[0] + radius * std::cos(angle), y = at[1] - radius * std::sin(angle);
+    i == 0 ? context->move_to(x, y) : context->line_to(x, y);
+  }
+  set_colour(context, outline);
+  context->set_line_width(1.1);
+  context->stroke();
+}
+
 void draw_links(const Context& context, const Layout& layout, const core::Sketch& sketch) {
   for (const auto& joint : sketch.joints) {
     if (joint.on_ground) draw_ground(context, layout.page(joint.at));
@@ -256,6 +296,12 @@ void draw_links(const Context& context, const Layout& layout, const core::Sketch
     // A link of three points or more is a plate: its outline closes.
     if (path.size() > 2) path.push_back(path.front());
     draw_bar(context, path, bar_width);
+  }
+  for (const auto& spring : sketch.springs) {
+    if (spring.torsion)
+      draw_torsion_spring(context, layout.page(spring.from));
+    else
+      draw_spring(context, layout.page(spring.from), layout.page(spring.to));
   }
 }
 

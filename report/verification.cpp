@@ -70,10 +70,11 @@ std::string witness_words(const core::TaskWitness& witness) {
   std::string words;
   switch (witness.kind) {
     case core::TaskWitness::Kind::unreachable:
-      words = "the mechanism does not reach it";
+      words = witness.limit.empty() ? "the mechanism does not reach it" : "beyond the limit of the " + witness.limit;
       break;
     case core::TaskWitness::Kind::boundary:
-      words = "the boundary of the workspace passes here";
+      words = witness.limit.empty() ? "the boundary of the workspace passes here"
+                                    : "the limit of the " + witness.limit + " passes here";
       break;
     case core::TaskWitness::Kind::singular:
       words = "|A| vanishes: a direct singularity";
@@ -117,6 +118,7 @@ Json verification_object(const core::Verification& result) {
                        {"vanishing", vanishing_array(nearest.vanishing)},
                        {"at", nearest.at},
                        {"distance", nearest.distance}};
+    if (!nearest.limit.empty()) root["nearest"]["limit"] = nearest.limit;
   }
   if (result.witness) {
     const core::TaskWitness& witness = *result.witness;
@@ -127,6 +129,7 @@ Json verification_object(const core::Verification& result) {
                        {"vanishing", vanishing_array(witness.vanishing)},
                        {"too_small", vanishing_array(witness.too_small)},
                        {"size", witness.size ? Json(*witness.size) : Json(nullptr)}};
+    if (!witness.limit.empty()) root["witness"]["limit"] = witness.limit;
   }
   if (result.open)
     root["open"] = {{"lower", result.open->lower},
@@ -159,7 +162,8 @@ std::string verification_text(const core::Verification& result, bool fit) {
         nearest.vanishing.empty() ? "" : " ", reaction_names(nearest.vanishing),
         nearest.isolated        ? ", an isolated point"
         : nearest.curve.empty() ? ""
-                                : " on " + nearest.curve,
+        : nearest.limit.empty() ? " on " + nearest.curve
+                                : ", limit of the " + nearest.limit + ", on " + nearest.curve,
         nearest.at[0], nearest.at[1],
         nearest.distance > rounding_of_distance ? fmt::format("{:.6g} m away", nearest.distance) : "in the task");
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mechanism/actions.hpp"
+
 namespace clearloci::symbolic {
 namespace {
 
@@ -63,16 +65,23 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
     return Vector{geometry.poly(geometry.expression(force[0]).expand()),
                   geometry.poly(geometry.expression(force[1]).expand()), Poly(geometry.ring())};
   };
-  const auto forces = std::count_if(m.loads.begin(), m.loads.end(), [](const auto& l) { return !l.force.empty(); });
+  const auto forces = std::count_if(m.loads.begin(), m.loads.end(), [](const auto& l) { return l.has_force(); });
   for (const mechanism::Load& load : m.loads) {
-    if (load.force.empty()) continue;
+    if (!load.has_force()) continue;
     const std::string on = forces > 1 ? " on " + m.links[static_cast<std::size_t>(load.link)].name : "";
-    directions.push_back({direction(load.force), "the load" + on, load.at});
+    directions.push_back({vector(mechanism::force_of(load)), "the load" + on, load.at});
   }
+  std::vector<Direction> springs;
+  for (const mechanism::Spring& spring : m.springs)
+    if (spring.kind != mechanism::Spring::Kind::torsion)
+      springs.push_back(
+          {vector(mechanism::way(spring.from_point, spring.to_point)), "spring " + spring.name, spring.from_point});
   if (!m.gravity.empty()) directions.push_back({direction(m.gravity), "gravity", std::nullopt});
   add_load_conditions(edges, directions);
   add_alignments();
   add_link_pairs(edges);
+  // Last, since a spring between two joints lies along what has a name of its own.
+  add_load_conditions(edges, springs);
 }
 
 void Causes::add(const Poly& condition, std::string wording) {

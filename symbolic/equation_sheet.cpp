@@ -59,6 +59,7 @@ class SheetWriter {
       sheet.loads.push_back(text(equations.loads(i, 0)));
     }
     for (const ConstructedPoint& c : geometry_.constructed()) write_closure(c, sheet.closure);
+    for (const InverseLength& length : geometry_.inverse_lengths()) write_length(length, sheet.closure);
     sheet.determinant = determinant("A", determinants_.determinant);
     for (std::size_t k = 0; k < equations.unknown_names.size(); ++k) {
       sheet.numerators.push_back(determinant(equations.unknown_names[k], determinants_.numerators[k]));
@@ -101,6 +102,10 @@ class SheetWriter {
         const auto v = static_cast<std::size_t>(variable);
         symbols_[v] = names_.in_formula(derived, ring[v]);
       }
+    for (const InverseLength& length : geometry_.inverse_lengths()) {
+      const auto v = static_cast<std::size_t>(length.variable);
+      symbols_[v] = names_.in_formula(derived, ring[v]);
+    }
   }
 
   /// A symbol of the closure: "kB1".
@@ -220,6 +225,15 @@ class SheetWriter {
   }
 
   using Lines = std::vector<std::pair<std::string, std::string>>;
+
+  /// The inverse length of a spring, or of the axis of an actuator of known effort.
+  void write_length(const InverseLength& length, Lines& lines) const {
+    if (length.root < 0 || length.name.rfind("limit", 0) == 0) return;  // no force acts along the arms of a limit
+    const FormulaWriter w(language_);
+    const FormulaText one = as_text(Poly(geometry_.ring(), 1));
+    lines.emplace_back(symbols_[static_cast<std::size_t>(length.variable)],
+                       w.quotient(one, w.root(as_text(squared(length.along)))).text);
+  }
 
   /// How a constructed point follows from the ones before it, in the formulas of method.md section 1.
   void write_closure(const ConstructedPoint& c, Lines& lines) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/posture_sample.hpp"
 
@@ -64,7 +65,13 @@ std::vector<PlacedExpression> expressions_of(const Mechanism& m) {
   for (const mechanism::Load& load : m.loads) {
     add(load.force, load.where);
     add({load.couple}, load.where);
+    add(load.couple_vector, load.where);
+    if (load.force_vector) add(numbers_of(*load.force_vector), load.where);
   }
+  for (const mechanism::Joint& joint : m.joints)
+    if (joint.effort) add({*joint.effort}, joint.where);
+  for (const mechanism::Spring& spring : m.springs)
+    add({spring.stiffness, spring.free_length, spring.force}, spring.where);
   if (!m.gravity.empty()) {
     add(m.gravity, {m.file});
     for (const mechanism::Link& link : m.links) add({link.mass}, link.where);
@@ -97,6 +104,7 @@ Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts char
                              "write it with + - * and whole powers of the coordinates");
     }
   }
+  list_lengths();
   name_variables();
   place_angles();
   const std::size_t count = mechanism.points.size();
@@ -106,6 +114,7 @@ Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts char
   for (PointIndex point = 0; point < static_cast<PointIndex>(count); ++point) place(point);
   for (const mechanism::Joint& joint : mechanism.joints)
     for (const mechanism::VectorExpression& axis : joint.axes) divide_by_length(axis);
+  for (InverseLength& length : inverse_lengths_) place_length(length);
 }
 
 GiNaC::symbol Geometry::symbol(const std::string& name) const {
@@ -229,6 +238,11 @@ void Geometry::name_variables() {
     const bool spatial = mechanism_->space == mechanism::Space::spatial;
     constructed_.push_back({i, x, y, spatial ? add_untaken("z" + point.name) : -1});
   }
+  for (InverseLength& length : inverse_lengths_) {
+    std::string name = "i" + length.name;
+    std::erase(name, '.');
+    length.variable = add_untaken(name);
+  }
   std::vector<std::pair<std::string, std::array<int, 2>>> circles;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     if (!charts_[i]) continue;
@@ -237,7 +251,8 @@ void Geometry::name_variables() {
     circles.push_back({name, {cosine, add("sin(" + name + ")")}});
   }
   first_root_ = static_cast<int>(names.size());
-  for (std::size_t i = 1; i <= constructed_.size(); ++i) add_untaken("s" + std::to_string(i));
+  const std::size_t most_roots = constructed_.size() + inverse_lengths_.size();
+  for (std::size_t i = 1; i <= most_roots; ++i) add_untaken("s" + std::to_string(i));
   for (const std::string& name : kept_) variable_of_symbol_[name] = add(name);
   add_untaken("t");
   ring_ = std::make_unique<Ring>(names);
@@ -245,6 +260,8 @@ void Geometry::name_variables() {
     for (const int variable : {c.x, c.y, c.z})
       if (variable >= 0) variable_of_symbol_[ring_->name(variable)] = variable;
   }
+  for (const InverseLength& length : inverse_lengths_)
+    variable_of_symbol_[ring_->name(length.variable)] = length.variable;
   for (const auto& [name, variables] : circles) {
     for (const int variable : variables) variable_of_symbol_[ring_->name(variable)] = variable;
   }
@@ -280,6 +297,8 @@ void Geometry::place_angles() {
 
 std::vector<Substitution> Geometry::substitutions() const {
   std::vector<Substitution> list;
+  for (const InverseLength& length : inverse_lengths_)
+    if (length.place) list.push_back({length.variable, -1, *length.place});
   for (const ConstructedPoint& c : constructed_)
     if (!tower(c.point).w.is_zero()) list.push_back({c.x, c.y, tower(c.point), c.z});  // once it is placed
   list.insert(list.end(), angles_.begin(), angles_.end());
@@ -287,7 +306,8 @@ std::vector<Substitution> Geometry::substitutions() const {
 }
 
 int Geometry::degree_in(const Poly& natural, const Substitution& pair) {
-  std::vector<int> variables = {pair.x, pair.y};
+  std::vector<int> variables = {pair.x};
+  if (pair.y >= 0) variables.push_back(pair.y);
   if (pair.z >= 0) variables.push_back(pair.z);
   return natural.degree(variables);
 }
@@ -304,7 +324,7 @@ Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int de
   Poly sum(*ring_);
   const std::vector<Poly> by_x = natural.coefficients(pair.x);
   for (std::size_t i = 0; i < by_x.size(); ++i) {
-    const std::vector<Poly> by_y = by_x[i].coefficients(pair.y);
+    const std::vector<Poly> by_y = pair.y < 0 ? std::vector<Poly>{by_x[i]} : by_x[i].coefficients(pair.y);
     for (std::size_t j = 0; j < by_y.size(); ++j) {
       if (by_y[j].is_zero()) continue;
       const std::vector<Poly> by_z = pair.z < 0 ? std::vector<Poly>{by_y[j]} : by_y[j].coefficients(pair.z);
@@ -370,8 +390,15 @@ core::RootTower Geometry::plain_tower() const {
   for (int i = 0; i < coordinates(); ++i) tower.coordinates.push_back(ring_->name(i));
   const std::vector<int> variables = tower_variables();
   for (const TowerRoot& root : roots_) {
-    tower.roots.push_back({"s" + std::to_string(tower.roots.size() + 1), mechanism_->points[index(root.point)].name,
-                           root.role, root.square.plain(variables)});
+    const std::string name = "s" + std::to_string(tower.roots.size() + 1);
+    if (root.point < 0) {
+      const auto own = std::find_if(inverse_lengths_.begin(), inverse_lengths_.end(), [&](const InverseLength& length) {
+        return length.root == static_cast<int>(tower.roots.size());
+      });
+      tower.roots.push_back({name, own->name, root.role, root.square.plain(variables)});
+      continue;
+    }
+    tower.roots.push_back({name, mechanism_->points[index(root.point)].name, root.role, root.square.plain(variables)});
     if (std::holds_alternative<SliderPoint>(mechanism_->points[index(root.point)].form))
       tower.roots.back().sides = {"ahead", "behind"};
   }

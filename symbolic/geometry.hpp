@@ -40,7 +40,7 @@ struct TowerPoint {
 /// s = +-sqrt(square); `variable` is its index in the ring. `scale`, `scale_divisor`: both positive; s is the root of a
 /// dyad (straight_lines.hpp), or what a slider or a length is found with, times their quotient.
 struct TowerRoot {
-  mechanism::PointIndex point = 0;
+  mechanism::PointIndex point = 0;  ///< -1 of the length of a vector
   int variable = 0;
   core::RootRole role = core::RootRole::working_mode;
   Poly square;
@@ -73,11 +73,23 @@ struct ConstructedPoint {
 };
 
 /// Two natural coordinates and the place that they stand for over the tower: a constructed point, or the cosine and
-/// sine of an angle, which are a point of the unit circle.
+/// sine of an angle, which are a point of the unit circle. Or one, the inverse of a length; y is -1 then.
 struct Substitution {
   int x = 0, y = 0;  ///< ring variables
   TowerPoint place;
   int z = -1;  ///< of a point in space
+};
+
+/// 1 / |v| of a vector that forces act along, or by which an angle is measured: a number where |v| is one, else a
+/// natural coordinate of its own, over the tower with one more root (method.md section 11):
+///     v = V / W,  s^2 = V . V,  1 / |v| = W s / (V . V)
+struct InverseLength {
+  std::string name;  ///< of the spring, joint or limit
+  mechanism::VectorExpression along;
+  int variable = -1;
+  GiNaC::ex natural = 0;
+  std::optional<TowerPoint> place = {};  ///< (1 / |v|, 0) over the tower; none of a number
+  int root = -1;                         ///< by its place in Geometry::roots
 };
 
 /// One a coordinate: the chart of an angle, nothing for a length.
@@ -117,6 +129,14 @@ class Geometry {
   /// Polynomials that places divide by and that vanish nowhere: 1 + t^2 of every angle.
   const std::vector<Poly>& positive_units() const { return positive_units_; }
 
+  /// Of the springs, actuators and limits that need one.
+  const std::vector<InverseLength>& inverse_lengths() const { return inverse_lengths_; }
+  bool has_inverse_length(const std::string& name) const;
+  /// Requires that there is one of this name.
+  const InverseLength& inverse_length(const std::string& name) const;
+  /// What the inverse length of an arm of a limit's angle is called; none is shared with springs and joints.
+  static std::string arm_name(std::size_t limit, bool second);
+
   const Charts& charts() const { return charts_; }
   /// What over_tower puts in, in an order in which no place holds a coordinate that is still to be replaced.
   std::vector<Substitution> substitutions() const;
@@ -148,6 +168,8 @@ class Geometry {
   static std::size_t index(mechanism::PointIndex point) { return static_cast<std::size_t>(point); }
   GiNaC::symbol symbol(const std::string& name) const;
   void name_variables();
+  void list_lengths();
+  void place_length(InverseLength& length);
   void place_angles();
   void take_samples();
   /// cos and sin of a sum of whole multiples of angles and constants.
@@ -206,6 +228,7 @@ class Geometry {
   std::vector<std::array<GiNaC::ex, 3>> natural_;  ///< z = 0 in the plane
   std::vector<TowerPoint> tower_;
   std::vector<ConstructedPoint> constructed_;
+  std::vector<InverseLength> inverse_lengths_;
   std::vector<TowerRoot> roots_;
   std::vector<Poly> denominators_;
   std::vector<Way> dyad_ways_;

@@ -70,6 +70,11 @@ std::optional<Poly> Geometry::depend(TowerRoot& root) {
   for (const TowerRoot& earlier : roots_)
     if (!earlier.value || earlier.square.constant() != 1) before.push_back(earlier);
   const SquareTest test = square_class(root.square, coordinates(), before);
+  if (test.open && root.point < 0)
+    throw core::InputError({mechanism_->file},
+                           "the length of a spring, or of an arm of a limit, may depend on the roots that place the "
+                           "points in a way that is not resolved",
+                           "move one of its ends by a little");
   if (test.open)
     throw core::InputError(mechanism_->points[index(root.point)].where,
                            "the root that places " + mechanism_->points[index(root.point)].name +

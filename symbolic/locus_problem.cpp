@@ -14,6 +14,7 @@
 #include "symbolic/elimination.hpp"
 #include "symbolic/family.hpp"
 #include "symbolic/guide_ends.hpp"
+#include "symbolic/limits.hpp"
 #include "symbolic/margins.hpp"
 #include "symbolic/reactions.hpp"
 #include "symbolic/shared_curves.hpp"
@@ -366,6 +367,8 @@ class Derivation {
       for (int i = 0; i < geometry_.coordinates(); ++i)
         if (!geometry_.charts()[static_cast<std::size_t>(i)])
           outside = shifted(outside, i, frame.from[static_cast<std::size_t>(i)], frame.scale);
+      for (const InverseLength& length : geometry_.inverse_lengths())
+        outside = shifted(outside, length.variable, 0, 1 / frame.scale);
       for (const ConstructedPoint& point : geometry_.constructed()) {
         outside = shifted(outside, point.x, frame.origin[0], frame.scale);
         outside = shifted(outside, point.y, frame.origin[1], frame.scale);
@@ -546,11 +549,30 @@ class Derivation {
                            core::scaled_for_doubles(fold.where.plain(geometry_.tower_variables()))});
   }
 
+  /// A sheet ends where a limit does, as at a fold: one more root, of what is left to the limit.
+  void add_limits() {
+    for (const LimitCondition& limit : limit_conditions(geometry_)) {
+      const Poly sheet = elimination_.over_tower(limit.natural);
+      if (const auto left = elimination_.constant_over_tower(limit.natural)) {
+        if (*left >= 0) continue;
+        throw core::InputError(limit.where, "every pose is beyond the limit of the " + limit.words, "widen the limit");
+      }
+      LocusFactor factor;
+      factor.expression = text(limit.natural);
+      factor.cause = "limit: " + limit.words;
+      add(FactorRole::workspace_boundary, &limit.natural, sheet, true, factor);
+      more_roots_.push_back({core::limit_name, "", core::RootRole::length,
+                             core::scaled_for_doubles(sheet.plain(geometry_.tower_variables()))});
+      more_roots_.back().line = lines_.of(limit.natural);
+    }
+  }
+
   void add_boundaries() {
     for (const TowerRoot& root : geometry_.roots())
       if (root.role == core::RootRole::working_mode && !root.value)
         add(FactorRole::workspace_boundary, nullptr, root.square, true, stretched(root));
     for (const Fold& fold : geometry_.folds()) add_fold(fold);
+    add_limits();
     const std::vector<int> variables = geometry_.tower_variables();
     const std::vector<int> free(variables.begin(), variables.begin() + geometry_.coordinates());
     for (const Poly& denominator : elimination_.denominator_factors()) {

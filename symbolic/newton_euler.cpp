@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci::symbolic {
@@ -176,9 +177,11 @@ class Equations {
       Vector c = components(load.couple_vector);
       if (m_.space == mechanism::Space::planar) c[2] = geometry_.expression(load.couple);
       add(result_.loads, load.link, 0, couple(c), -1);
-      if (load.force.empty()) continue;
-      add(result_.loads, load.link, 0, force_at(arm(geometry_, *load.at), components(load.force)), -1);
+      if (!load.has_force()) continue;
+      const Vector force = as_vector(geometry_.vector(mechanism::force_of(load)));
+      add(result_.loads, load.link, 0, force_at(arm(geometry_, *load.at), force), -1);
     }
+    for (const mechanism::Action& action : mechanism::actions(m_)) write_action(action);
     if (m_.gravity.empty()) return;
     const Vector g = components(m_.gravity);
     for (std::size_t i = 0; i < m_.links.size(); ++i) {
@@ -188,6 +191,35 @@ class Equations {
       add(result_.loads, static_cast<LinkIndex>(i), 0, force_at(arm(geometry_, m_.links[i].centre_of_mass), weight),
           -1);
     }
+  }
+
+  /// What a spring or an actuator of known effort exerts on its two links (method.md section 11).
+  void write_action(const mechanism::Action& action) {
+    using Law = mechanism::Action::Law;
+    if (action.law == Law::torsion)
+      throw core::InputError(m_.springs[action.index].where,
+                             "the torsion spring " + action.name + " turns with an angle, which is no polynomial",
+                             "pose, error and trajectory know it; here leave it out");
+    const auto value = [&](const core::Expression& e) { return geometry_.expression(e); };
+    if (!action.along) return write_couple(action, {0, 0, value(action.effort)});
+    const auto inverse = [&] { return geometry_.inverse_length(action.length_name()).natural; };
+    GiNaC::ex per_length;
+    if (action.law == Law::constant)
+      per_length = value(action.effort) * inverse();
+    else if (geometry_.has_inverse_length(action.length_name()))
+      per_length = value(action.stiffness) * (1 - value(action.free_length) * inverse());
+    else
+      per_length = value(action.stiffness);
+    Vector force = as_vector(geometry_.vector(*action.along));
+    for (GiNaC::ex& component : force) component = (per_length * component).expand();
+    if (action.couple) return write_couple(action, force);
+    add(result_.loads, action.on, 0, force_at(arm(geometry_, action.on_point), force), -1);
+    add(result_.loads, action.by, 0, force_at(arm(geometry_, action.by_point), force), 1);
+  }
+
+  void write_couple(const mechanism::Action& action, const Vector& c) {
+    add(result_.loads, action.on, 0, couple(c), -1);
+    add(result_.loads, action.by, 0, couple(c), 1);
   }
 
   const Geometry& geometry_;

@@ -52,6 +52,8 @@ core::RootTower StraightLines::tower() {
 }
 
 StraightLine StraightLines::square(std::size_t root) {
+  for (const InverseLength& length : geometry_->inverse_lengths())
+    if (length.root == static_cast<int>(root)) return squared_length(length);
   const std::optional<Dyad> known = dyad(geometry_->roots()[root].point);
   const TowerRoot& own = geometry_->roots()[root];
   if (!known || own.role != core::RootRole::working_mode || own.value) return {};
@@ -67,6 +69,23 @@ StraightLine StraightLines::square(std::size_t root) {
   const int outer = builder_.subtract(builder_.constant(sum * sum), known->distance2);
   const int inner = builder_.subtract(known->distance2, builder_.constant(difference * difference));
   return builder_.line(builder_.multiply(scale, builder_.multiply(outer, inner)));
+}
+
+/// |v|^2 in the unit of the root.
+StraightLine StraightLines::squared_length(const InverseLength& length) {
+  const TowerRoot& root = geometry_->roots()[static_cast<std::size_t>(length.root)];
+  if (root.value) return {};
+  const Place v = vector(length.along);
+  const int scale = builder_.multiply(value(root.scale.plain()), builder_.inverse(value(root.scale_divisor.plain())));
+  return builder_.line(builder_.multiply(builder_.power(scale, 2), dot(v, v)));
+}
+
+/// scale / (scale_divisor s).
+int StraightLines::inverse_of(const InverseLength& length) {
+  const TowerRoot& root = geometry_->roots()[static_cast<std::size_t>(length.root)];
+  const int s = root.value ? value(root.value->plain()) : known_.at(root.variable);
+  const int below = builder_.multiply(value(root.scale_divisor.plain()), s);
+  return builder_.multiply(value(root.scale.plain()), builder_.inverse(below));
 }
 
 std::optional<std::array<StraightLine, 2>> StraightLines::way(mechanism::PointIndex point) {
@@ -94,6 +113,8 @@ int StraightLines::variable(int ring_variable) {
     know({point.x, point.y, point.z}, constructed_place(point));
     return known_.at(ring_variable);
   }
+  for (const InverseLength& length : geometry_->inverse_lengths())
+    if (length.variable == ring_variable && length.root >= 0) return known_[ring_variable] = inverse_of(length);
   for (const Substitution& pair : geometry_->substitutions()) {
     if (pair.x != ring_variable && pair.y != ring_variable) continue;
     know({pair.x, pair.y, -1}, over_tower(pair.place));
@@ -114,7 +135,7 @@ StraightLines::Place StraightLines::over_tower(const TowerPoint& place) {
 }
 
 StraightLines::Place StraightLines::vector(const mechanism::VectorExpression& vector) {
-  Place place{};
+  Place place = {builder_.constant(0), builder_.constant(0), builder_.constant(0)};
   const std::vector<GiNaC::ex> natural = geometry_->vector(vector);
   for (std::size_t i = 0; i < natural.size(); ++i) place[i] = value(geometry_->poly(natural[i]).plain());
   return place;

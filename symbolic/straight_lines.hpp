@@ -65,6 +65,8 @@ class StraightLines {
   Place vector(const mechanism::VectorExpression& vector);
   void know(const std::array<int, 3>& ring_variables, const Place& place);
   int dot(const Place& a, const Place& b);
+  core::StraightLine squared_length(const InverseLength& length);
+  int inverse_of(const InverseLength& length);
   int excess(const Dyad& dyad);
 
   const Geometry* geometry_;

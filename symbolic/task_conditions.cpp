@@ -5,11 +5,13 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "core/fold.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/guide_ends.hpp"
+#include "symbolic/limits.hpp"
 #include "symbolic/margins.hpp"
 #include "symbolic/reactions.hpp"
 #include "symbolic/straight_lines.hpp"
@@ -31,6 +33,19 @@ class Conditions {
         lines_(geometry_) {
     result_.loads = loads.size();
     result_.tower = lines_.tower();
+    for (const LimitCondition& limit : limit_conditions(geometry_)) {
+      const Poly sheet = elimination_.over_tower(limit.natural);
+      if (const auto left = elimination_.constant_over_tower(limit.natural)) {
+        if (*left >= 0) continue;
+        throw core::InputError(limit.where, "every pose is beyond the limit of the " + limit.words, "widen the limit");
+      }
+      core::Root root;
+      root.name = core::limit_name;
+      root.role = core::RootRole::length;
+      root.square = sheet.plain(geometry_.tower_variables());
+      root.line = lines_.of(limit.natural);
+      append(std::move(root));
+    }
     for (const mechanism::Mechanism* load : loads) {
       const FactoredDeterminants determinants = load == &mechanism_ ? factored_determinants(geometry_) : under(*load);
       reactions_.push_back(reactions(geometry_, determinants));
@@ -129,9 +144,16 @@ class Conditions {
     core::Root root;
     root.name = "s" + std::to_string(result_.tower.roots.size() + 1);
     root.role = core::RootRole::length;
-    root.square = core::with_variables((length[0] * length[1]).plain(variables), before);
-    result_.tower.roots.push_back(std::move(root));
+    root.square = (length[0] * length[1]).plain(variables);
+    append(std::move(root));
+    lines_.let(geometry_.auxiliary(), before, length[1]);
+    lengths_.erase(found);
+  }
+
+  /// Its square is written in the coordinates and the roots of the geometry.
+  void append(core::Root root) {
     core::RootTower& tower = result_.tower;
+    tower.roots.push_back(std::move(root));
     const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, tower.variables()); };
     for (core::Root& own : tower.roots) widen(own.square);
     for (core::Polynomial& denominator : tower.denominators) widen(denominator);
@@ -139,8 +161,6 @@ class Conditions {
       widen(base.x);
       widen(base.y);
     }
-    lines_.let(geometry_.auxiliary(), before, length[1]);
-    lengths_.erase(found);
   }
 
   const mechanism::Joint& joint_named(const std::string& name) const {

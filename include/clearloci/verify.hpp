@@ -80,6 +80,7 @@ struct TaskWitness {
   std::optional<double> size = {};     ///< of the first of them, N or N m
   std::optional<Rational> least = {};  ///< that is asked of it, N or N m
   double distance = 0;                 ///< m from the task
+  std::string limit = {};              ///< of the first two kinds, the one that is broken: "distance A1-P at 0.52 m"
 };
 
 struct NearestOfTask {
@@ -89,6 +90,7 @@ struct NearestOfTask {
   Point2 at{};
   double distance = 0;    ///< m; negative: its depth inside the task
   bool isolated = false;  ///< a point of contact loss
+  std::string limit;      ///< of a boundary, the limit that makes it
 };
 
 /// What a verdict of `undecided` leaves open; the rest of the task and of its margin is proven.

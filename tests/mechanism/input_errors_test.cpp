@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "radial clearance of joint A1 is negative"},
         Mistake{"NegativeAngularClearance", "angular: 0.5e-3", "angular: -1", 22, 94, "angular clearance"},
         Mistake{"NeitherTrueNorFalse", "actuated: true", "actuated: yes", 22, 52, "neither true nor false"},
-        Mistake{"CoordinateInALoad", "force: [0,", "force: [x,", 29, 32, "free coordinate 'x'"},
+        Mistake{"ALoadOverACoordinate", "force: [0,", "force: [1/x,", 29, 32, "divides by 'x'"},
         Mistake{"CoordinateInAMass", "mass: 1}", "mass: x}", 17, 34, "free coordinate 'x'"}),
     mistake_name);
 

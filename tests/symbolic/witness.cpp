@@ -37,6 +37,12 @@ std::vector<double> natural_values(const Geometry& geometry, const std::vector<d
     values[static_cast<std::size_t>(c.x)] = posture.points[static_cast<std::size_t>(c.point)][0];
     values[static_cast<std::size_t>(c.y)] = posture.points[static_cast<std::size_t>(c.point)][1];
   }
+  for (const InverseLength& length : geometry.inverse_lengths()) {
+    double square = 0;
+    for (const GiNaC::ex& component : geometry.vector(length.along))
+      square += std::pow(core::evaluate(geometry.poly(component).plain(), std::span<const double>(values)), 2);
+    values[static_cast<std::size_t>(length.variable)] = 1 / std::sqrt(square);
+  }
   return values;
 }
 

@@ -1,0 +1,92 @@
+#include "mechanism/actions.hpp"
+
+#include <cstdio>
+#include <numbers>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+Action action_of(const Spring& spring, std::size_t index) {
+  Action action;
+  action.source = Action::Source::spring;
+  action.index = index;
+  action.name = spring.name;
+  action.stiffness = spring.stiffness;
+  if (spring.kind == Spring::Kind::torsion) {
+    action.law = Action::Law::torsion;
+    action.couple = true;
+    action.on = spring.to;
+    action.by = spring.from;
+    action.rest = spring.rest;
+    return action;
+  }
+  action.law = spring.kind == Spring::Kind::linear ? Action::Law::linear : Action::Law::constant;
+  action.on = spring.from;
+  action.by = spring.to;
+  action.on_point = spring.from_point;
+  action.by_point = spring.to_point;
+  action.along = way(spring.from_point, spring.to_point);
+  action.effort = spring.force;
+  action.free_length = spring.free_length;
+  return action;
+}
+
+Action action_of(const Joint& joint, std::size_t index) {
+  Action action;
+  action.source = Action::Source::actuator;
+  action.index = index;
+  action.name = joint.name;
+  action.couple = !traits(joint).slides;
+  action.on = joint.to;
+  action.by = joint.from;
+  action.on_point = action.by_point = joint.at;
+  if (!joint.axes.empty()) action.along = joint.axes.front();
+  action.effort = *joint.effort;
+  return action;
+}
+
+}  // namespace
+
+bool Action::needs_length(const Mechanism& mechanism) const {
+  if (law == Law::constant) return along.has_value();
+  return law == Law::linear && !free_length.is_zero_literal() && value_of(free_length, mechanism) != 0;
+}
+
+std::vector<Action> actions(const Mechanism& mechanism) {
+  std::vector<Action> all;
+  for (std::size_t i = 0; i < mechanism.springs.size(); ++i) all.push_back(action_of(mechanism.springs[i], i));
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    if (mechanism.joints[j].effort) all.push_back(action_of(mechanism.joints[j], j));
+  return all;
+}
+
+VectorExpression way(PointIndex from, PointIndex to) {
+  using Kind = VectorExpression::Kind;
+  const auto point = [](PointIndex index) { return VectorExpression{Kind::point, {}, index, {}}; };
+  return {Kind::add, {}, 0, {point(to), VectorExpression{Kind::negate, {}, 0, {point(from)}}}};
+}
+
+VectorExpression force_of(const Load& load) {
+  if (load.force_vector) return *load.force_vector;
+  return {VectorExpression::Kind::components, load.force, 0, {}};
+}
+
+std::string name_of(const Mechanism& mechanism, const Limit& limit) {
+  std::string name = limit.is_angle() ? "angle " : "distance ";
+  for (std::size_t i = 0; i < limit.points.size(); ++i)
+    name += (i == 0 ? "" : "-") + mechanism.points[static_cast<std::size_t>(limit.points[i])].name;
+  return name;
+}
+
+std::string words_of(const Mechanism& mechanism, const Limit& limit, bool upper) {
+  const double unit = limit.is_angle() ? 180 / std::numbers::pi : mechanism.frame ? mechanism.frame->scale_value() : 1;
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g %s", core::to_double(upper ? limit.upper_value : limit.lower_value) * unit,
+                limit.is_angle() ? "deg" : "m");
+  return name_of(mechanism, limit) + " at " + text;
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,51 @@
+// What springs and actuators of known effort exert, as forces and couples between two links (method.md section 11):
+// which links, where and along which vector. How large it is, each folder computes for itself.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::mechanism {
+
+/// A force along a vector v on link `on` at `on_point`, and its opposite on link `by` at `by_point`. Its size:
+///     constant   effort, along v / |v|
+///     linear     stiffness (|v| - free length), along v / |v|
+/// A couple about v, with effort along v / |v|; counter-clockwise in the plane, where v is empty. Of a torsion spring:
+///     torsion    -stiffness (angle - rest) on `on`, the angle from the frame of `by` to that of `on`
+struct Action {
+  enum class Law { constant, linear, torsion };
+  enum class Source { spring, actuator };
+  Source source = Source::spring;
+  std::size_t index = 0;  ///< of the spring or the joint
+  Law law = Law::constant;
+  bool couple = false;
+  LinkIndex on = ground, by = ground;
+  PointIndex on_point = 0, by_point = 0;
+  std::optional<VectorExpression> along = {};
+  Expression effort = {}, stiffness = {}, free_length = {}, rest = {};
+  std::string name = {};
+
+  /// Whether 1 / |v| enters its equations.
+  bool needs_length(const Mechanism& mechanism) const;
+  /// Of the vector v, among those of all actions: no spring, joint or point has such a name as that of an axis.
+  std::string length_name() const { return source == Source::spring ? name : name + ".axis"; }
+};
+
+/// The springs in the file's order, then the actuators.
+std::vector<Action> actions(const Mechanism& mechanism);
+
+/// The way from one point to another.
+VectorExpression way(PointIndex from, PointIndex to);
+
+/// A force as a vector over points. Requires a force.
+VectorExpression force_of(const Load& load);
+
+/// "angle A1-B1-P", "distance A1-P".
+std::string name_of(const Mechanism& mechanism, const Limit& limit);
+
+/// "distance A1-P at 0.52 m". `upper`: its upper end.
+std::string words_of(const Mechanism& mechanism, const Limit& limit, bool upper);
+
+}  // namespace clearloci::mechanism

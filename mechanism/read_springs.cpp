@@ -1,0 +1,184 @@
+// Springs and limits.
+#include <algorithm>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+
+std::string link_text(const Mechanism& mechanism, LinkIndex link) {
+  return link == ground ? "the ground" : "link " + mechanism.links[static_cast<std::size_t>(link)].name;
+}
+
+/// "S1", "S2", ... by its place among the springs, with underscores where another one has that name.
+std::string usual_name(const Mechanism& mechanism) {
+  std::string name = "S" + std::to_string(mechanism.springs.size() + 1);
+  while (std::any_of(mechanism.springs.begin(), mechanism.springs.end(),
+                     [&](const Spring& other) { return other.name == name; }))
+    name += '_';
+  return name;
+}
+
+Expression part(const Mechanism& mechanism, const Mapping& mapping, const char* key, Sign sign, const Spring& spring) {
+  Value value = mapping.at(key);
+  value.what = std::string("the ") + key + " of spring " + spring.name;
+  return read_number(mechanism, value, sign).expression;
+}
+
+void read_ends(const Mechanism& mechanism, const Mapping& mapping, Spring& spring) {
+  std::vector<Value> links = elements(mapping.at("links"), 2), points = elements(mapping.at("at"), 2);
+  for (std::vector<Value>* const list : {&links, &points})
+    for (Value& value : *list) value.what = "spring " + spring.name;
+  spring.from = read_link_name(mechanism, links[0], true);
+  spring.to = read_link_name(mechanism, links[1], true);
+  if (spring.from == spring.to)
+    throw InputError(links[1].where,
+                     "spring " + spring.name + " joins " + link_text(mechanism, spring.from) + " to itself",
+                     "name two different links");
+  spring.from_point = read_point_name(mechanism, points[0]);
+  spring.to_point = read_point_name(mechanism, points[1]);
+  if (spring.from_point == spring.to_point)
+    throw InputError(points[1].where, "spring " + spring.name + " has both of its ends at " + text_of(points[1]),
+                     "name two different points");
+  for (const bool second : {false, true}) {
+    const LinkIndex link = second ? spring.to : spring.from;
+    const Value& point = points[second ? 1 : 0];
+    if (is_on_link(mechanism, second ? spring.to_point : spring.from_point, link)) continue;
+    throw InputError(point.where,
+                     "spring " + spring.name + " is fixed to " + link_text(mechanism, link) + " at " + text_of(point) +
+                         ", which is no point of it",
+                     link == ground ? "name a point that stands still, or another link"
+                                    : "add " + text_of(point) + " to the points of " +
+                                          mechanism.links[static_cast<std::size_t>(link)].name +
+                                          ", or name the points in the order of the links");
+  }
+}
+
+/// Angles are those between the directions of the links' first two points; the ground's is x.
+void check_direction(const Mechanism& mechanism, const Spring& spring, LinkIndex link) {
+  if (link == ground || mechanism.links[static_cast<std::size_t>(link)].points.size() > 1) return;
+  throw InputError(spring.where,
+                   "spring " + spring.name + " turns " + link_text(mechanism, link) +
+                       ", which has a single point and so no direction",
+                   "name a second point of the link");
+}
+
+void read_torsion(const Mechanism& mechanism, const Mapping& mapping, Spring& spring) {
+  spring.kind = Spring::Kind::torsion;
+  Value joint = mapping.at("joint");
+  const std::string name = text_of(joint);
+  std::vector<std::string> known;
+  for (const Joint& own : mechanism.joints) known.push_back(own.name);
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found == known.end())
+    throw InputError(joint.where, "spring " + spring.name + ": there is no joint '" + name + "'",
+                     suggest(name, known, "joints"));
+  spring.joint = static_cast<JointIndex>(found - known.begin());
+  const Joint& own = mechanism.joints[static_cast<std::size_t>(spring.joint)];
+  if (own.type != JointType::revolute)
+    throw InputError(joint.where, "spring " + spring.name + " is in the " + to_string(own.type) + " joint " + name,
+                     "torsion springs are in revolute joints; elsewhere write links: [..., ...], at: [..., ...]");
+  spring.from = own.from;
+  spring.to = own.to;
+  spring.stiffness = part(mechanism, mapping, "stiffness", Sign::not_negative, spring);
+  if (mapping.find("rest")) spring.rest = part(mechanism, mapping, "rest", Sign::any, spring);
+  for (const LinkIndex link : {spring.from, spring.to}) check_direction(mechanism, spring, link);
+}
+
+Spring read_spring(const Mechanism& mechanism, const Value& described) {
+  const std::vector<std::string> between = {"name", "links", "at", "stiffness", "free_length", "force"};
+  const std::vector<std::string> in_joint = {"name", "joint", "stiffness", "rest"};
+  const bool torsion = described.node.has("joint");
+  const Mapping mapping(described, torsion ? in_joint : between);
+  Spring spring;
+  spring.where = described.where;
+  spring.name = usual_name(mechanism);
+  if (const auto name = mapping.find("name")) {
+    spring.name = text_of(*name);
+    check_label(spring.name, name->where, "a spring");
+    if (std::any_of(mechanism.springs.begin(), mechanism.springs.end(),
+                    [&](const Spring& other) { return other.name == spring.name; }))
+      throw InputError(name->where, "there are two springs '" + spring.name + "'", "rename one of them");
+  }
+  if (torsion) {
+    read_torsion(mechanism, mapping, spring);
+    return spring;
+  }
+  read_ends(mechanism, mapping, spring);
+  const auto force = mapping.find("force");
+  if (!force && !mapping.find("stiffness"))
+    throw InputError(described.where, "spring " + spring.name + " has neither a stiffness nor a force",
+                     "add stiffness: ... and free_length: ..., or force: ...");
+  if (force && (mapping.find("stiffness") || mapping.find("free_length")))
+    throw InputError(force->where, "spring " + spring.name + " has a constant force and a stiffness",
+                     "write two springs, or one of the two");
+  if (force) {
+    spring.kind = Spring::Kind::constant_force;
+    spring.force = part(mechanism, mapping, "force", Sign::any, spring);
+    return spring;
+  }
+  spring.stiffness = part(mechanism, mapping, "stiffness", Sign::not_negative, spring);
+  if (!mapping.find("free_length"))
+    throw InputError(described.where, "spring " + spring.name + " has no free_length",
+                     "add the length at which it pulls no more; 0 is one");
+  spring.free_length = part(mechanism, mapping, "free_length", Sign::not_negative, spring);
+  return spring;
+}
+
+Limit read_limit(const Mechanism& mechanism, const Value& described) {
+  const Mapping mapping(described, {"angle", "distance", "within"});
+  const auto angle = mapping.find("angle"), distance = mapping.find("distance");
+  if (angle.has_value() == distance.has_value())
+    throw InputError(described.where, described.what + " is of " + (angle ? "an angle and a distance" : "nothing"),
+                     "write angle: [A, B, C] or distance: [A, B], and within: [from, to]");
+  Limit limit;
+  limit.where = described.where;
+  for (const Value& name : elements(angle ? *angle : *distance, angle ? 3 : 2)) {
+    const PointIndex point = read_point_name(mechanism, name);
+    if (std::find(limit.points.begin(), limit.points.end(), point) != limit.points.end())
+      throw InputError(name.where, described.what + " names the point " + text_of(name) + " twice",
+                       "name different points");
+    limit.points.push_back(point);
+  }
+  const Value within = mapping.at("within");
+  const std::vector<Value> ends = elements(within, 2);
+  const Number lower = read_number(mechanism, ends[0], Sign::not_negative);
+  const Number upper = read_number(mechanism, ends[1], Sign::positive);
+  if (lower.value >= upper.value)
+    throw InputError(within.where, within.what + " ends where it begins, or before", "write [from, to], from below to");
+  // 180 deg is a rational next to pi: nothing that is written is between.
+  if (limit.is_angle() && core::to_double(upper.value) > Limit::half_turn)
+    throw InputError(ends[1].where, within.what + " ends beyond 180 deg",
+                     "the angle between two ways is from 0 to 180 deg; write it with deg");
+  limit.lower = lower.expression;
+  limit.upper = upper.expression;
+  limit.lower_value = lower.value;
+  limit.upper_value = upper.value;
+  return limit;
+}
+
+}  // namespace
+
+void read_springs(Mechanism& mechanism, const std::optional<Value>& value) {
+  if (!value || value->node.IsNull()) return;
+  int number = 0;
+  for (Value described : elements(*value)) {
+    described.what = "spring " + std::to_string(++number);
+    mechanism.springs.push_back(read_spring(mechanism, described));
+  }
+}
+
+void read_limits(Mechanism& mechanism, const std::optional<Value>& value) {
+  if (!value || value->node.IsNull()) return;
+  int number = 0;
+  for (Value described : elements(*value)) {
+    described.what = "limit " + std::to_string(++number);
+    mechanism.limits.push_back(read_limit(mechanism, described));
+  }
+}
+
+}  // namespace clearloci::mechanism
