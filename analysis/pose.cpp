@@ -10,8 +10,10 @@
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/displaced.hpp"
+#include "numeric/dynamics.hpp"
 #include "numeric/pose_error.hpp"
 #include "numeric/spatial.hpp"
 
@@ -58,6 +60,14 @@ std::vector<PosePoint> named_points(const mechanism::Mechanism& mechanism, const
 
 std::string name_of(const mechanism::Mechanism& mechanism, mechanism::PointIndex point) {
   return mechanism.points[static_cast<std::size_t>(point)].name;
+}
+
+bool is_beyond_limit(const numeric::NumericModel& model, const DyadSides& sides, Pose& pose) {
+  const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(model, pose.at, sides);
+  if (!end || end->slack >= 0) return false;
+  const mechanism::Mechanism& m = model.mechanism;
+  pose.beyond_limit = mechanism::words_of(m, m.limits[end->limit], end->upper);
+  return true;
 }
 
 // ---- Plane
@@ -121,14 +131,51 @@ ActualPose actual_of(const numeric::NumericModel& model, const numeric::ActualPo
   return actual;
 }
 
+/// Reactions and what follows from them, with the links' inertia.
+void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides, const PoseRequest& request,
+                   Pose& pose) {
+  const numeric::Motion motion = numeric::compile_motion(mechanism, sides);
+  std::vector<numeric::Series> coordinates;
+  for (std::size_t c = 0; c < pose.at.size(); ++c) {
+    numeric::Series& own = coordinates.emplace_back(pose.at[c]);
+    if (!request.velocity.empty()) own.c[1] = request.velocity[c];
+    if (!request.acceleration.empty()) own.c[2] = request.acceleration[c] / 2;
+  }
+  const numeric::Instant instant = numeric::instant_of(motion, coordinates);
+  constexpr double second = 1;  // the period of a single instant
+  pose.reactions = plane_reactions(motion.model, instant.reactions(second));
+  const numeric::InstantError accuracy = numeric::instant_error(motion, instant, second);
+  pose.take_up = plane_take_up(mechanism, accuracy.take_up);
+  pose.undefined = numeric::undefined_take_up(motion.model, motion.clearances, accuracy.take_up);
+  pose.vanishing = numeric::lost_reactions(motion.model, motion.clearances, accuracy.take_up);
+  pose.error.reset();
+  if (pose.undefined.empty()) pose.error = plane_error(accuracy.error);
+}
+
+void require_rates(const mechanism::Mechanism& mechanism, const PoseRequest& request) {
+  const bool moves = !request.velocity.empty() || !request.acceleration.empty();
+  if (moves && mechanism.space == mechanism::Space::spatial)
+    throw core::InputError({mechanism.file}, "reactions with inertia are those of planar mechanisms",
+                           "ask for the pose at rest");
+  if (moves && request.iterate)
+    throw core::InputError({mechanism.file}, "the pose error is iterated at rest only",
+                           "ask for the linear error, or leave velocity and acceleration out");
+  for (const std::vector<double>* const rates : {&request.velocity, &request.acceleration}) {
+    if (!rates->empty()) require_values(mechanism, rates->size());
+    for (const double rate : *rates)
+      if (!std::isfinite(rate)) throw core::InputError({}, "a rate of the pose is no finite number", "give a number");
+  }
+}
+
 void solve_in_plane(const mechanism::Mechanism& mechanism, const std::vector<numeric::Bounded>& at,
-                    const DyadSides& sides, bool iterate, Pose& pose) {
+                    const DyadSides& sides, const PoseRequest& request, Pose& pose) {
   const numeric::NumericModel model = numeric::compile(mechanism);
   const numeric::Posture posture = numeric::posture(model, pose.at, sides);
   if (posture.unreachable) {
     pose.unreachable = name_of(mechanism, *posture.unreachable);
     return;
   }
+  if (is_beyond_limit(model, sides, pose)) return;
   const numeric::Accuracy accuracy =
       numeric::pose_accuracy(model, posture, numeric::vanishing_unknowns(model, at, sides));
   const numeric::Bounded determinant = numeric::bounded_numerators(model, at, sides).determinant;
@@ -143,7 +190,8 @@ void solve_in_plane(const mechanism::Mechanism& mechanism, const std::vector<num
   pose.worst = {{worst.dx, worst.dy}, {worst.dalpha}, worst.dp, worst.dalpha};
   pose.undefined = accuracy.undefined;
   pose.vanishing = numeric::lost_reactions(model, numeric::joint_clearances(mechanism), accuracy.take_up);
-  if (iterate) pose.actual = actual_of(model, numeric::actual_pose(model, posture, accuracy));
+  if (request.iterate) pose.actual = actual_of(model, numeric::actual_pose(model, posture, accuracy));
+  if (!request.velocity.empty() || !request.acceleration.empty()) put_in_motion(mechanism, sides, request, pose);
 }
 
 // ---- Space
@@ -198,6 +246,7 @@ void solve_in_space(const mechanism::Mechanism& mechanism, const std::vector<num
     return;
   }
   const numeric::NumericModel model = numeric::compile(mechanism);
+  if (is_beyond_limit(model, sides, pose)) return;
   const numeric::SpatialAccuracy accuracy =
       numeric::spatial_accuracy(mechanism, pose.at, numeric::lost_contacts(model, sides, at), sides);
   const numeric::Bounded determinant = numeric::bounded_numerators(model, at, sides).determinant;
@@ -289,6 +338,7 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
     throw core::InputError({mechanism.file}, "the pose error of a spatial mechanism is not iterated",
                            "ask for the linear error");
   require_values(mechanism, at.size());
+  require_rates(mechanism, request);
   const std::vector<numeric::Bounded> values = with_rounding(at);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
@@ -299,7 +349,7 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   if (spatial)
     solve_in_space(mechanism, values, sides, pose);
   else
-    solve_in_plane(mechanism, values, sides, request.iterate, pose);
+    solve_in_plane(mechanism, values, sides, request, pose);
   return pose;
 }
 

@@ -181,8 +181,10 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   check(request);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
-  const double period = request.period.value_or(core::to_double(trajectory.period));
   const numeric::Motion motion = numeric::compile_motion(mechanism, trajectory, sides);
+  const double own = trajectory.speed ? motion.timeline.path.length() / core::to_double(*trajectory.speed)
+                                      : core::to_double(trajectory.period);
+  const double period = request.period.value_or(own);
   const Samples samples = numeric::sample(motion, request.samples);
   numeric::LossThresholds thresholds = numeric::default_thresholds(motion, samples);
   if (request.min_force) thresholds.force = *request.min_force;

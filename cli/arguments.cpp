@@ -162,6 +162,17 @@ std::vector<core::Rational> parse_pose(const std::string& text, const mechanism:
   return pose;
 }
 
+std::vector<double> parse_rates(const std::string& text, const std::string& option,
+                                const mechanism::Mechanism& mechanism) {
+  if (text.empty()) return {};
+  std::vector<double> rates;
+  for (const std::string& word : split(text)) rates.push_back(core::to_double(parse_number(word, option, mechanism)));
+  if (rates.size() != mechanism.coordinates.size())
+    refuse(option, fmt::format("'{}' has {} value{}", text, rates.size(), rates.size() == 1 ? "" : "s"),
+           fmt::format("give one for each free coordinate, {} in all", mechanism.coordinates.size()));
+  return rates;
+}
+
 std::pair<int, int> parse_grid(const std::string& text) {
   constexpr int most = 20000;  // nodes along an axis; their square is the edge of what a machine of today holds
   const std::vector<std::string> words = split(text, 'x');

@@ -54,6 +54,10 @@ core::Rational parse_positive(const std::string& text, const std::string& option
 /// "0.25,-0.7": one number a free coordinate.
 std::vector<core::Rational> parse_pose(const std::string& text, const mechanism::Mechanism& mechanism);
 
+/// "3,-1.5": one rate a free coordinate; none where nothing was written.
+std::vector<double> parse_rates(const std::string& text, const std::string& option,
+                                const mechanism::Mechanism& mechanism);
+
 /// "400x400": nodes along each coordinate.
 std::pair<int, int> parse_grid(const std::string& text);
 

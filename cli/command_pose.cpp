@@ -20,6 +20,7 @@ namespace {
 struct Arguments {
   CommonArguments common;
   std::string at;
+  std::string velocity, acceleration;
   std::string working_mode;
   bool iterate = false;
 };
@@ -30,11 +31,16 @@ Pose solve(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
                            "leave --iterate out: the linear error is given");
   const std::vector<core::Rational> at = parse_pose(arguments.at, mechanism);
   PoseRequest request{.iterate = arguments.iterate};
+  request.velocity = parse_rates(arguments.velocity, "--velocity", mechanism);
+  request.acceleration = parse_rates(arguments.acceleration, "--acceleration", mechanism);
   if (!arguments.working_mode.empty()) request.working_mode = parse_working_mode(arguments.working_mode, mechanism);
   Pose pose = solve_pose(mechanism, at, request);
   if (!pose.unreachable.empty())
     throw core::InputError({.file = "--at"},
                            fmt::format("the pose is out of reach: point {} cannot be placed", pose.unreachable),
+                           "choose a pose inside the workspace");
+  if (!pose.beyond_limit.empty())
+    throw core::InputError({.file = "--at"}, "the pose is beyond the limit of the " + pose.beyond_limit,
                            "choose a pose inside the workspace");
   if (pose.actual && !pose.actual->converged)
     throw core::InputError({.file = "--iterate"}, "the pose error cannot be iterated: " + pose.actual->reason,
@@ -67,6 +73,11 @@ Command add_pose_command(CLI::App& program) {
   app->add_option("--at", arguments->at, "The pose: one value for each free coordinate, e.g. 0.25,-0.7")
       ->required()
       ->type_name("POSE");
+  app->add_option("--velocity", arguments->velocity,
+                  "Rates of the coordinates, m/s or rad/s: reactions with the links' inertia")
+      ->type_name("RATES");
+  app->add_option("--acceleration", arguments->acceleration, "Likewise their accelerations, m/s^2 or rad/s^2")
+      ->type_name("RATES");
   app->add_option("--working-mode", arguments->working_mode,
                   "left or right for every dyad, e.g. right,left (default: the file's)")
       ->type_name("SIDES");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mechanism/evaluate.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/trajectory.hpp"
 
@@ -12,10 +13,11 @@ namespace {
 
 using core::InputError;
 
-constexpr std::array<std::pair<LawKind, const char*>, 4> laws = {{{LawKind::cycloidal, "cycloidal"},
+constexpr std::array<std::pair<LawKind, const char*>, 5> laws = {{{LawKind::cycloidal, "cycloidal"},
                                                                   {LawKind::polynomial_345, "3-4-5"},
                                                                   {LawKind::trapezoidal, "trapezoidal"},
-                                                                  {LawKind::s_curve, "s-curve"}}};
+                                                                  {LawKind::s_curve, "s-curve"},
+                                                                  {LawKind::constant, "constant"}}};
 
 Rational number(const Mechanism& mechanism, const Value& value, Sign sign) {
   return read_number(mechanism, value, sign).value;
@@ -115,11 +117,39 @@ void read_path(const Mechanism& mechanism, const Value& value, Trajectory& traje
         throw InputError(waypoint.where, "a smooth curve has no corners to round", "remove corner, or write waypoints");
 }
 
+/// "120 rpm", or a number in m/s or rad/s.
+Rational read_speed(const Mechanism& mechanism, const Value& value) {
+  std::string text = text_of(value);
+  Rational unit = 1;
+  if (const std::size_t at = text.rfind("rpm"); at != std::string::npos && at + 3 == text.size()) {
+    text.resize(at);
+    unit = value_of(parse_expression("2*pi/60", value.where), mechanism);
+  }
+  Value number_alone = value;
+  number_alone.node = Node(text);
+  return unit * number(mechanism, number_alone, Sign::positive);
+}
+
+/// A law that never rests has no stops but its ends, and dwells nowhere.
+void check_constant(const Trajectory& trajectory, const Value& motion) {
+  if (trajectory.law.kind != LawKind::constant) return;
+  for (std::size_t i = 0; i < trajectory.waypoints.size(); ++i) {
+    const Waypoint& waypoint = trajectory.waypoints[i];
+    const bool inner = i > 0 && (trajectory.closed || i + 1 < trajectory.waypoints.size());
+    if ((inner && waypoint.stop) || waypoint.dwell > 0)
+      throw InputError(waypoint.where, "a motion at constant speed neither stops nor dwells on its way",
+                       "remove stop and dwell, or choose another law");
+  }
+  if (!trajectory.payloads.empty())
+    throw InputError(motion.where, "a payload is picked and placed at rest, and the motion never rests",
+                     "remove the payload, or choose another law");
+}
+
 MotionLaw read_law(const Mechanism& mechanism, const Value& value) {
   MotionLaw law;
   std::vector<std::string> known;
   for (const auto& [kind, name] : laws) known.emplace_back(name);
-  const Value named = value.is_map() ? Mapping(value, {"law", "accelerating", "jerking"}).at("law") : value;
+  const Value named = value.is_map() ? Mapping(value, {"law", "accelerating", "jerking", "speed"}).at("law") : value;
   const std::string text = text_of(named);
   const auto* const found = std::find_if(laws.begin(), laws.end(), [&](const auto& one) { return one.second == text; });
   if (found == laws.end())
@@ -223,9 +253,19 @@ Trajectory parse_trajectory(const std::string& text, const std::string& file, co
   trajectory.name = name_of(name, file);
   read_path(mechanism, root.at("path"), trajectory);
   trajectory.law = read_law(mechanism, root.at("motion"));
-  trajectory.period = number(mechanism, root.at("period"), Sign::positive);
+  const Value motion = root.at("motion");
+  const auto speed =
+      motion.is_map() ? Mapping(motion, {"law", "accelerating", "jerking", "speed"}).find("speed") : std::nullopt;
+  if (speed && trajectory.law.kind != LawKind::constant)
+    throw InputError(speed->where, "the law " + to_string(trajectory.law.kind) + " has no speed to choose",
+                     "write law: constant, or give the period");
+  if (speed) trajectory.speed = read_speed(mechanism, *speed);
+  if (speed && root.find("period"))
+    throw InputError(speed->where, "the motion has a speed and a period", "remove one of the two");
+  if (!speed) trajectory.period = number(mechanism, root.at("period"), Sign::positive);
   if (const auto payload = root.find("payload"))
     for (const Value& one : elements(*payload)) trajectory.payloads.push_back(read_payload(mechanism, trajectory, one));
+  check_constant(trajectory, motion);
   check_parts(trajectory);
   return trajectory;
 }

@@ -19,12 +19,13 @@ struct Waypoint {
   core::SourcePosition where;
 };
 
-enum class LawKind { cycloidal, polynomial_345, trapezoidal, s_curve };
+enum class LawKind { cycloidal, polynomial_345, trapezoidal, s_curve, constant };
 
-/// "cycloidal", "3-4-5", "trapezoidal", "s-curve".
+/// "cycloidal", "3-4-5", "trapezoidal", "s-curve", "constant".
 std::string to_string(LawKind kind);
 
-/// The distance covered in a stage as a function of time, both from 0 to 1, at rest at both ends.
+/// The distance covered in a stage as a function of time, both from 0 to 1, at rest at both ends; but for `constant`,
+/// which never rests.
 struct MotionLaw {
   LawKind kind = LawKind::cycloidal;
   Rational accelerating = Rational(1, 3);  ///< trapezoidal, s-curve: part of the time; as much for slowing down
@@ -49,7 +50,8 @@ struct Trajectory {
   bool closed = false;  ///< returns from the last waypoint to the first
   std::vector<Waypoint> waypoints;
   MotionLaw law;
-  Rational period = 1;  ///< s, of the whole cycle
+  Rational period = 1;                 ///< s, of the whole cycle
+  std::optional<Rational> speed = {};  ///< of a constant law, m/s or rad/s, in place of the period
   std::vector<Payload> payloads;
 };
 

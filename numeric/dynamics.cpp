@@ -8,7 +8,9 @@
 #include <cstdio>
 
 #include "core/errors.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
 
 namespace clearloci::numeric {
 
@@ -27,9 +29,8 @@ RatePoint acceleration_of(const PointSeries& p) {
 
 Rate cross(const RatePoint& a, const RatePoint& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// ω = r × r' / r² of the link's first two points, differentiated once more.
-Rate angular_acceleration(const PointSeries& p, const PointSeries& q) {
-  const PointSeries r = {q[0] - p[0], q[1] - p[1]};
+/// ω = r × r' / r² of a vector that turns with a link, differentiated once more.
+Rate angular_acceleration(const PointSeries& r) {
   const std::array<Taylor<2>, 2> v = {r[0].derivative(), r[1].derivative()};
   const std::array<Taylor<2>, 2> arm = {r[0].truncated<2>(), r[1].truncated<2>()};
   const Taylor<2> turning = (arm[0] * v[1] - arm[1] * v[0]) / (arm[0] * arm[0] + arm[1] * arm[1]);
@@ -98,20 +99,37 @@ class InstantEquations {
     for (Eigen::Index column = 0; column < size_; ++column) {
       const mechanism::Unknown& unknown = motion_.model.unknowns[static_cast<std::size_t>(column)];
       const mechanism::Joint& joint = motion_.model.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
-      const RatePoint r = arm(joint.at);
+      const std::optional<RatePoint> force = unit_force(unknown);
+      const Rate moment = force ? cross(arm(joint.at), *force) : Rate(1);
       for (const int sign : {1, -1}) {
         const mechanism::LinkIndex link = sign > 0 ? joint.to : joint.from;
         if (link == mechanism::ground) continue;
-        if (unknown.quantity == core::Quantity::M) {
-          A_(3 * link + 2, column) += sign;
-          continue;
+        const std::array<Rate, 3> wrench = {force ? (*force)[0] : Rate(), force ? (*force)[1] : Rate(), moment};
+        for (Eigen::Index row = 0; row < 3; ++row) {
+          A_(3 * link + row, column) += sign * wrench[static_cast<std::size_t>(row)].c[0];
+          A_rate_(3 * link + row, column) += sign * wrench[static_cast<std::size_t>(row)].c[1];
         }
-        const bool x = unknown.quantity == core::Quantity::fx;
-        A_(3 * link + (x ? 0 : 1), column) += sign;
-        const Rate moment = x ? -r[1] : r[0];
-        A_(3 * link + 2, column) += sign * moment.c[0];
-        A_rate_(3 * link + 2, column) += sign * moment.c[1];
       }
+    }
+  }
+
+  /// The force of a unit of an unknown; none of a couple.
+  std::optional<RatePoint> unit_force(const mechanism::Unknown& unknown) const {
+    const auto axis = [&] {
+      const auto& [x, y] = *motion_.model.axes[static_cast<std::size_t>(unknown.joint)];
+      return RatePoint{at(x).truncated<1>(), at(y).truncated<1>()};
+    };
+    switch (unknown.quantity) {
+      case core::Quantity::fx:
+        return RatePoint{Rate(1), Rate()};
+      case core::Quantity::fy:
+        return RatePoint{Rate(), Rate(1)};
+      case core::Quantity::N:
+        return RatePoint{-axis()[1], axis()[0]};
+      case core::Quantity::F:
+        return axis();
+      default:
+        return std::nullopt;
     }
   }
 
@@ -151,9 +169,20 @@ class InstantEquations {
   void add_inertia(mechanism::LinkIndex link, mechanism::PointIndex centre, double m, double inertia) {
     if (m == 0 && inertia == 0) return;
     const RatePoint a = acceleration_of(point(centre));
-    const auto& points = motion_.model.mechanism.links[static_cast<std::size_t>(link)].points;
-    const Rate turning = inertia == 0 ? Rate() : inertia * angular_acceleration(point(points[0]), point(points[1]));
+    const Rate turning = inertia == 0 ? Rate() : inertia * angular_acceleration(direction(link));
     inertial_.add(link, arm(centre), {m * a[0], m * a[1]}, turning, 1);
+  }
+
+  /// From its first point to its second one, or along the guide that it turns with.
+  PointSeries direction(mechanism::LinkIndex link) const {
+    const mechanism::JointIndex guide = motion_.guide[static_cast<std::size_t>(link)];
+    if (guide >= 0) {
+      const auto& [x, y] = *motion_.model.axes[static_cast<std::size_t>(guide)];
+      return {at(x), at(y)};
+    }
+    const auto& points = motion_.model.mechanism.links[static_cast<std::size_t>(link)].points;
+    const PointSeries p = point(points.at(0)), q = point(points.at(1));
+    return {q[0] - p[0], q[1] - p[1]};
   }
 
   const Motion& motion_;
@@ -179,6 +208,14 @@ void check_instants(const Motion& motion, const std::vector<std::vector<Instant>
   const Instant* before = nullptr;
   for (const auto& instants : all) {
     for (const Instant& at : instants) {
+      if (at.broken) {
+        const mechanism::Mechanism& m = motion.model.mechanism;
+        throw core::InputError({file, 0, 0},
+                               "the path is beyond the limit of the " +
+                                   mechanism::words_of(m, m.limits[at.broken->limit], at.broken->upper) + ", at " +
+                                   place_words(motion, at),
+                               "move the waypoints, or choose another working mode");
+      }
       if (!at.reachable)
         throw core::InputError({file, 0, 0},
                                "the path leaves the workspace, or touches its boundary, at " + place_words(motion, at),
@@ -194,24 +231,35 @@ void check_instants(const Motion& motion, const std::vector<std::vector<Instant>
 
 }  // namespace
 
-Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
-                      std::vector<int> mode) {
+namespace {
+
+/// The guide in which a link with a single point turns: an axis of a prismatic joint is fixed in both of its links.
+mechanism::JointIndex guide_of(const mechanism::Mechanism& mechanism, mechanism::LinkIndex link) {
+  if (mechanism.links[static_cast<std::size_t>(link)].points.size() > 1) return -1;
+  const auto own = std::find_if(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
+    return mechanism::traits(joint).slides && (joint.from == link || joint.to == link);
+  });
+  return own == mechanism.joints.end() ? -1 : static_cast<mechanism::JointIndex>(own - mechanism.joints.begin());
+}
+
+Motion motion_of(const mechanism::Mechanism& mechanism, Timeline timeline, std::vector<int> mode) {
   if (mechanism.space != mechanism::Space::planar)
     throw core::InputError({mechanism.file, 0, 0}, "the mechanism is spatial, and trajectories are those of the plane",
                            "solve single poses of it with clearloci pose");
-  Motion motion{compile(mechanism), std::move(mode), compile_timeline(trajectory), {}, {}, {}, {}};
+  Motion motion{compile(mechanism), std::move(mode), std::move(timeline), {}, {}, {}, {}, {}};
   core::ensure(motion.mode.size() == motion.model.dyads.size(), "a working mode has one sign for each dyad");
   std::vector<bool> turns(mechanism.links.size(), false);
   for (const mechanism::Link& link : mechanism.links) {
     motion.mass.push_back(core::to_double(mechanism::value_of(link.mass, mechanism)));
     motion.inertia.push_back(link.inertia ? core::to_double(mechanism::value_of(*link.inertia, mechanism))
                                           : slender_rod);
+    motion.guide.push_back(guide_of(mechanism, static_cast<int>(motion.guide.size())));
     turns[motion.mass.size() - 1] = link.inertia ? motion.inertia.back() > 0 : false;
   }
-  for (const mechanism::Payload& payload : trajectory.payloads)
+  for (const mechanism::Payload& payload : motion.timeline.trajectory.payloads)
     if (payload.inertia > 0) turns[static_cast<std::size_t>(payload.link)] = true;
   for (std::size_t i = 0; i < turns.size(); ++i)
-    if (turns[i] && mechanism.links[i].points.size() < 2)
+    if (turns[i] && mechanism.links[i].points.size() < 2 && motion.guide[i] < 0)
       throw core::InputError(
           mechanism.links[i].where,
           "link " + mechanism.links[i].name + " has inertia but a single point, so its rotation is unknown",
@@ -221,14 +269,9 @@ Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Tr
   return motion;
 }
 
-Instant instant(const Motion& motion, std::size_t interval, double tau) {
+/// Places, and the equations there, of coordinates that are known.
+void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
   const NumericModel& model = motion.model;
-  const Interval& stretch = motion.timeline.intervals[interval];
-  Instant result;
-  result.tau = tau;
-  result.interval = interval;
-  result.distance = distance_at(motion.timeline, stretch, tau);
-  result.coordinates = place_at(motion.timeline.path, stretch.path_piece, result.distance);
   std::vector<Series> inputs = result.coordinates;
   for (const int sign : motion.mode) inputs.emplace_back(sign);
   std::vector<Series> registers(static_cast<std::size_t>(model.posture_size));
@@ -239,7 +282,41 @@ Instant instant(const Motion& motion, std::size_t interval, double tau) {
     for (const Series& s : result.points.back())
       for (const double c : s.c) result.reachable = result.reachable && std::isfinite(c);
   }
+  for (std::size_t i = 0; i < model.slack.size(); ++i)
+    for (const bool upper : {false, true})
+      if (const auto& end = model.slack[i][upper ? 1 : 0];
+          end && !(registers[static_cast<std::size_t>(*end)].value() >= 0) && !result.broken)
+        result.broken = LimitEnd{i, upper, registers[static_cast<std::size_t>(*end)].value()};
+  result.reachable = result.reachable && !result.broken;
   if (result.reachable) InstantEquations(motion, stretch, registers).solve(result);
+}
+
+}  // namespace
+
+Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
+                      std::vector<int> mode) {
+  return motion_of(mechanism, compile_timeline(trajectory), std::move(mode));
+}
+
+Motion compile_motion(const mechanism::Mechanism& mechanism, std::vector<int> mode) {
+  return motion_of(mechanism, {}, std::move(mode));
+}
+
+Instant instant_of(const Motion& motion, const std::vector<Series>& coordinates) {
+  Instant result;
+  result.coordinates = coordinates;
+  solve_at(motion, {}, result);
+  return result;
+}
+
+Instant instant(const Motion& motion, std::size_t interval, double tau) {
+  const Interval& stretch = motion.timeline.intervals[interval];
+  Instant result;
+  result.tau = tau;
+  result.interval = interval;
+  result.distance = distance_at(motion.timeline, stretch, tau);
+  result.coordinates = place_at(motion.timeline.path, stretch.path_piece, result.distance);
+  solve_at(motion, stretch, result);
   return result;
 }
 

@@ -21,11 +21,14 @@ struct Motion {
   std::vector<int> mode;
   Timeline timeline;
   std::vector<double> mass, inertia;  ///< of the links; inertia < 0: that of a slender rod between its first two points
+  /// Of links with a single point: the joint whose guide they turn with; -1 of others.
+  std::vector<mechanism::JointIndex> guide;
   std::vector<JointColumns> columns;
   std::vector<JointClearance> clearances;
 };
 
-/// Throws core::InputError where a link with inertia has no second point whose motion would show its rotation.
+/// Throws core::InputError where a link with inertia has neither a second point nor a guide that would show its
+/// rotation.
 Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                       std::vector<int> mode);
 
@@ -38,6 +41,7 @@ struct Instant {
   Series distance;                              ///< along the path
   std::vector<Series> coordinates;              ///< free coordinates
   std::vector<PointSeries> points;              ///< of the mechanism
+  std::optional<LimitEnd> broken;               ///< a limit that the pose is beyond; then not reachable
   bool reachable = false;                       ///< everything below only then
   double determinant = 0;                       ///< |A|
   Eigen::VectorXd at_rest, inertial;            ///< w_s, w_i in the order of the unknowns
@@ -50,6 +54,12 @@ struct Instant {
     return (at_rest_rate + inertial_rate / (period * period)) / period;
   }
 };
+
+/// The same without a path: for single instants with `instant_of`.
+Motion compile_motion(const mechanism::Mechanism& mechanism, std::vector<int> mode);
+
+/// With these coordinates as functions of time; time is in s and the period 1 s.
+Instant instant_of(const Motion& motion, const std::vector<Series>& coordinates);
 
 /// By the pieces of the given interval; at its ends the one-sided limit.
 Instant instant(const Motion& motion, std::size_t interval, double tau);

@@ -47,6 +47,7 @@ CompiledLaw compile(const mechanism::MotionLaw& law) {
   if (law.kind == Kind::trapezoidal) return {law.kind, ramps(core::to_double(law.accelerating), 0)};
   if (law.kind == Kind::s_curve)
     return {law.kind, ramps(core::to_double(law.accelerating), core::to_double(law.jerking))};
+  if (law.kind == Kind::constant) return {law.kind, {LawPiece{.v = 1}}};
   return {law.kind, {LawPiece{}}};
 }
 

@@ -4,6 +4,7 @@
 //     3-4-5         s = 10σ³ - 15σ⁴ + 6σ⁵
 //     trapezoidal   speed up at a constant rate over a part a of the time, cruise, slow down as long
 //     s-curve       the same with the acceleration ramped over a part q of a at either end: constant jerk
+// and constant, s = σ, which never rests.
 #pragma once
 
 #include <vector>

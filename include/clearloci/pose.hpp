@@ -93,6 +93,8 @@ struct Pose {
   std::vector<std::pair<std::string, std::string>> working_mode;  ///< {"B1", "right"}, ...
   /// The first point that cannot be placed: the pose is out of reach, and nothing below is known. Else empty.
   std::string unreachable;
+  /// The limit that the pose is beyond: "distance A1-P at 0.52 m"; then nothing below is known either. Else empty.
+  std::string beyond_limit;
   std::vector<PosePoint> points;
   std::vector<JointReaction> reactions;  ///< of every joint in the file's order
   double determinant = 0;                ///< |A|, of the equations in SI units
@@ -122,6 +124,10 @@ namespace clearloci {
 struct PoseRequest {
   DyadSides working_mode = {};  ///< empty: the file's
   bool iterate = false;         ///< also `actual`; of planar mechanisms
+  /// Rates of the coordinates, one each, m/s and m/s^2 or rad/s and rad/s^2; empty: at rest. Of planar mechanisms, and
+  /// not with `iterate`. Reactions, take-up and error then are those with the links' inertia.
+  std::vector<double> velocity = {};
+  std::vector<double> acceleration = {};
 };
 
 /// `at`: one value a free coordinate, m or, of an angle (Model::coordinates), rad. A double stands for the shortest

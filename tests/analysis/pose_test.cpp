@@ -146,5 +146,29 @@ TEST(ReactionsAtManyPoses, AreNamedWithTheirUnits) {
   EXPECT_TRUE(reactions(model, {}).table.columns.front().empty());
 }
 
+TEST(SolvePose, AndrewsSqueezerStartsAsPublished) {
+  // IVP Test Set, University of Bari: the couple 0.033 N m gives this acceleration at rest, and the pins at E that
+  // close the loops bear the multipliers (98.5668703962411, -6.12268834425566) N and nothing.
+  const Model model = example("squeezer.yaml");
+  const Pose pose = solve_pose(model, {-0.0617138900142764}, {.velocity = {0}, .acceleration = {14222.4439199541}});
+  EXPECT_NEAR(component(pose, "O", Quantity::M), 0.033, 0.033e-10);
+  const double fx = component(pose, "E23", Quantity::fx), fy = component(pose, "E23", Quantity::fy);
+  EXPECT_NEAR(std::abs(fx), 98.5668703962411, 98.6e-10);
+  EXPECT_NEAR(std::abs(fy), 6.12268834425566, 98.6e-10);
+  EXPECT_LT(fx * fy, 0);
+  for (const char* joint : {"E24", "E26"})
+    for (const Quantity q : {Quantity::fx, Quantity::fy}) EXPECT_NEAR(component(pose, joint, q), 0, 98.6e-10) << joint;
+  // At rest the drive balances the spring alone.
+  const Pose rest = solve_pose(model, {-0.0617138900142764});
+  EXPECT_GT(std::abs(component(rest, "O", Quantity::M) - 0.033), 0.001);
+}
+
+TEST(SolvePose, RefusesRatesThatItCannotUse) {
+  const Model model = example("five_bar.yaml");
+  EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.velocity = {1}}), InputError);
+  EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.iterate = true, .velocity = {1, 0}}), InputError);
+  EXPECT_THROW(solve_pose(example("gough_stewart.yaml"), {0, 0, 0.6}, {.velocity = {1, 0, 0}}), InputError);
+}
+
 }  // namespace
 }  // namespace clearloci

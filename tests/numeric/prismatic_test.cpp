@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "mechanism/read.hpp"
+#include "numeric/dynamics.hpp"
 #include "numeric/pose_error.hpp"
 
 namespace clearloci::numeric {
@@ -54,6 +56,118 @@ TEST(Prismatic, AGuideTiltsWhereTheCoupleOutweighsTheForce) {
   reactions(columns.normal) = 10;
   reactions(columns.tilt) = h * 10;
   EXPECT_TRUE(take_up(model, clearances, reactions)[0].guide_vanishes);
+}
+
+// Inertia, against Jourdain's principle of virtual power with this file's own places and differences:
+//     sum F_J ds_J/dq + F . dP/dq = sum m (a - g) . dr/dq + I dω/dt dφ/dq   for either coordinate q
+
+constexpr double first_step = 1e-3;
+
+double first(const std::function<double(double)>& f) {
+  const double h = first_step;
+  return (8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h);
+}
+double second(const std::function<double(double)>& f) {
+  const double h = first_step;
+  return (16 * (f(h) + f(-h)) - 30 * f(0) - f(2 * h) - f(-2 * h)) / (12 * h * h);
+}
+
+/// A body: where its centre of mass is and how far it is turned, of a place of P.
+struct Body {
+  double mass, inertia;
+  std::function<double(const Point2&)> x, y, angle;
+};
+
+void expect_virtual_power(const Motion& motion, const std::vector<Body>& bodies, const Point2& load,
+                          const std::vector<std::pair<int, std::function<double(const Point2&)>>>& drives) {
+  constexpr double g = 9.81;
+  const std::array<double, 2> q = {0.25, 0.1}, v = {1.3, -0.7}, a = {-4, 9};
+  std::vector<Series> coordinates;
+  for (std::size_t c = 0; c < 2; ++c) {
+    Series& own = coordinates.emplace_back(q[c]);
+    own.c[1] = v[c];
+    own.c[2] = a[c] / 2;
+  }
+  const Instant at = instant_of(motion, coordinates);
+  ASSERT_TRUE(at.reachable);
+  const Eigen::VectorXd w = at.reactions(1);
+  const auto moved = [&](double t) {
+    return Point2{q[0] + v[0] * t + a[0] * t * t / 2, q[1] + v[1] * t + a[1] * t * t / 2};
+  };
+  for (std::size_t c = 0; c < 2; ++c) {
+    const auto by_q = [&](const std::function<double(const Point2&)>& f) {
+      return first([&](double step) {
+        Point2 there = {q[0], q[1]};
+        there[c] += step;
+        return f(there);
+      });
+    };
+    const auto in_time = [&](const std::function<double(const Point2&)>& f) {
+      return second([&](double t) { return f(moved(t)); });
+    };
+    double power = load[c], inertia = 0;
+    for (const auto& [column, place] : drives) power += w(column) * by_q(place);
+    for (const Body& body : bodies)
+      inertia += body.mass * (in_time(body.x) * by_q(body.x) + (in_time(body.y) + g) * by_q(body.y)) +
+                 body.inertia * in_time(body.angle) * by_q(body.angle);
+    EXPECT_NEAR(power, inertia, 1e-5 * (1 + std::abs(inertia)));
+  }
+}
+
+TEST(PrismaticMotion, SlidersBearTheInertiaOfTheLinks) {
+  mechanism::Mechanism m = example("prrrp");
+  const auto number = [](double value) { return core::Expression::number(core::Rational(value)); };
+  for (std::size_t i = 0; i < 4; ++i) m.links[i].mass = number(0.5 + 0.25 * static_cast<double>(i));
+  m.gravity = {number(0), core::Expression::number(core::Rational(-981, 100))};
+  const Motion motion = compile_motion(m, {1, 1});
+  const auto s1 = [](const Point2& p) { return p[1] + std::sqrt(0.25 - p[0] * p[0]); };
+  const auto s2 = [](const Point2& p) { return p[1] + std::sqrt(0.25 - (p[0] - 0.6) * (p[0] - 0.6)); };
+  const auto zero = [](const Point2&) { return 0.0; };
+  const std::vector<Body> bodies = {
+      {0.5, 0, zero, s1, zero},
+      {0.75, 0.75 * 0.25 / 12, [](const Point2& p) { return p[0] / 2; },
+       [=](const Point2& p) { return (s1(p) + p[1]) / 2; },
+       [=](const Point2& p) { return std::atan2(p[1] - s1(p), p[0]); }},
+      {1, 0.25 / 12, [](const Point2& p) { return (p[0] + 0.6) / 2; },
+       [=](const Point2& p) { return (s2(p) + p[1]) / 2; },
+       [=](const Point2& p) { return std::atan2(s2(p) - p[1], 0.6 - p[0]); }},
+      {1.25, 0, zero, s2, zero},
+  };
+  expect_virtual_power(
+      motion, bodies, {30, -100},
+      {{column_of(motion.model, 0, core::Quantity::F), s1}, {column_of(motion.model, 4, core::Quantity::F), s2}});
+}
+
+TEST(PrismaticMotion, ABlockTurnsWithItsGuide) {
+  // Two telescopic legs from (0, 0) and (0.6, 0); the cylinders have one point each and turn with the legs.
+  const mechanism::Mechanism m = mechanism::parse_mechanism(R"(format: 1
+workspace: {x: [0, 0.6], y: [0.05, 0.4]}
+points: {A: [0, 0], B: [0.6, 0], P: [x, y]}
+links:
+  c1: {points: [A], mass: 2, com: A, inertia: 0.3}
+  r1: {points: [P]}
+  c2: {points: [B], mass: 2, com: B, inertia: 0.2}
+  r2: {points: [P]}
+joints:
+  A: {revolute: [ground, c1], at: A}
+  S1: {prismatic: [c1, r1], at: P, axis: [A, P], actuated: true}
+  B: {revolute: [ground, c2], at: B}
+  S2: {prismatic: [c2, r2], at: P, axis: [B, P], actuated: true}
+  P: {revolute: [r1, r2], at: P}
+end_effector: {link: r1, at: P}
+loads: [{link: r1, at: P, force: [30, -100]}]
+)",
+                                                            "legs.yaml");
+  const Motion motion = compile_motion(m, {});
+  const auto zero = [](const Point2&) { return 0.0; };
+  const std::vector<Body> bodies = {
+      {0, 0.3, zero, zero, [](const Point2& p) { return std::atan2(p[1], p[0]); }},
+      {0, 0.2, zero, zero, [](const Point2& p) { return std::atan2(p[1], p[0] - 0.6); }},
+  };
+  expect_virtual_power(
+      motion, bodies, {30, -100},
+      {{column_of(motion.model, 1, core::Quantity::F), [](const Point2& p) { return std::hypot(p[0], p[1]); }},
+       {column_of(motion.model, 3, core::Quantity::F), [](const Point2& p) { return std::hypot(p[0] - 0.6, p[1]); }}});
 }
 
 }  // namespace
