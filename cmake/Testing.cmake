@@ -21,6 +21,8 @@ function(clearloci_test name)
   target_compile_definitions(${name} PRIVATE CLEARLOCI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gtest_main rapidcheck Threads::Threads)
   clearloci_warnings(${name})
+  # What is tested is compiled as users get it; the tests themselves compile a third faster so.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   # DISCOVERY_TIMEOUT: a loaded machine may start programs slowly.
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 120
     PROPERTIES ${law_properties})
