@@ -9,6 +9,7 @@
 #include "analysis/singular_modes.hpp"
 #include "analysis/table_rows.hpp"
 #include "core/errors.hpp"
+#include "mechanism/fits.hpp"
 #include "numeric/error_range.hpp"
 
 namespace clearloci {
@@ -155,6 +156,7 @@ CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const 
       regular_modes(mechanism, requested_modes(mechanism, request.loci), all.loci.notes);
   const numeric::NumericModel model = numeric::compile(mechanism);
   all.mechanism = mechanism.name;
+  all.notes = mechanism::fit_notes(mechanism);
   all.coordinate = mechanism.coordinates.front().name;
   all.angle = mechanism.coordinates.front().angle;
   all.range = model.box.front();

@@ -9,6 +9,7 @@
 #include "analysis/zone_errors.hpp"
 #include "analysis/zones.hpp"
 #include "core/errors.hpp"
+#include "mechanism/fits.hpp"
 #include "numeric/error_map.hpp"
 
 namespace clearloci {
@@ -82,6 +83,7 @@ ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& re
     throw core::InputError({mechanism.file}, "zones are bounded by the loci", "ask for the loci too");
   const numeric::NumericModel model = numeric::compile(mechanism);
   ErrorMap errors;
+  errors.notes = mechanism::fit_notes(mechanism);
   core::ZoneMap zones;
   if (request.with_zones) zones = find_zones(mechanism, request.loci);
   errors.loci = request.with_zones ? with_modes(mechanism, std::move(zones.loci)) : loci_below(mechanism, request);

@@ -205,6 +205,7 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
   TracedProblem traced = derive_and_trace(mechanism, request, family, certificate);
   core::LocusMap& map = traced.map;
   map.mechanism = mechanism.name;
+  map.units = mechanism.units;
   for (const mechanism::Parameter& parameter : mechanism.parameters)
     map.parameters.emplace_back(
         parameter.name, parameter.exact ? core::to_string(parameter.value) : core::to_string(parameter.expression));
@@ -246,6 +247,7 @@ std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, co
 core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
   core::LocusMap map;
   map.mechanism = mechanism.name;
+  map.units = mechanism.units;
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
     map.tower.coordinates.push_back(coordinate.name);
     map.lower.push_back(coordinate.lower);

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/rational.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/fits.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/dynamics.hpp"
@@ -344,7 +345,12 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   require_regular(mechanism, sides);
   Pose pose;
   pose.mechanism = mechanism.name;
+  pose.units = mechanism.units;
+  pose.notes = mechanism::fit_notes(mechanism);
+  if (mechanism.relative_to != mechanism::ground)
+    pose.relative_to = mechanism.links[static_cast<std::size_t>(mechanism.relative_to)].name;
   for (const numeric::Bounded& value : values) pose.at.push_back(value.value);
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) pose.angles.push_back(coordinate.angle);
   pose.working_mode = named_mode(mechanism, sides);
   if (spatial)
     solve_in_space(mechanism, values, sides, pose);

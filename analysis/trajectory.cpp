@@ -10,6 +10,7 @@
 #include "analysis/singular_modes.hpp"
 #include "analysis/table_rows.hpp"
 #include "core/errors.hpp"
+#include "mechanism/fits.hpp"
 #include "numeric/period_sweep.hpp"
 
 namespace clearloci {
@@ -191,6 +192,8 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
 
   TrajectoryResult result;
   result.mechanism = mechanism.name;
+  result.units = mechanism.units;
+  result.notes = mechanism::fit_notes(mechanism);
   result.trajectory = trajectory.name;
   result.law = mechanism::to_string(trajectory.law.kind);
   result.period = period;

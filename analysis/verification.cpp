@@ -147,6 +147,7 @@ class Verifier {
     const double margin = core::to_double(task.margin);
     const numeric::TaskWitness judge = witness_for(region);
     Verification result;
+    result.units = mechanism_.units;
     result.task = task;
     result.mode = mode_;
     progress("proof");

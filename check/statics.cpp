@@ -230,9 +230,13 @@ class Equations {
       if (joint.effort) write_effort(joint);
     if (m_.gravity.empty()) return;
     const Vector g = {pose_.value(m_.gravity.at(0)), pose_.value(m_.gravity.at(1))};
-    for (std::size_t i = 0; i < m_.links.size(); ++i)
-      add(static_cast<mechanism::LinkIndex>(i), last,
-          force_at(m_.links[i].centre_of_mass, pose_.value(m_.links[i].mass) * g), -1);
+    for (std::size_t i = 0; i < m_.links.size(); ++i) {
+      const mechanism::Link& link = m_.links[i];
+      const auto index = static_cast<mechanism::LinkIndex>(i);
+      add(index, last, force_at(link.centre_of_mass, pose_.value(link.mass) * g), -1);
+      for (const mechanism::PointMass& point : link.masses)
+        add(index, last, force_at(point.at, pose_.value(point.mass) * g), -1);
+    }
   }
 
   /// k v - k l0 v / |v| on the first end, v the way to the second one; F v / |v| of a constant force.

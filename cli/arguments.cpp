@@ -128,10 +128,11 @@ DyadSides parse_working_mode(const std::string& text, const mechanism::Mechanism
   return sides;
 }
 
-core::Rational parse_number(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism) {
+core::Rational parse_number(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism,
+                            const std::string& key) {
   const std::string mend = "give a number such as 0.25 or 1/4, or an expression in the file's parameters";
   try {
-    core::Rational value = mechanism::value_of(mechanism::parse_expression(text, {.file = option}), mechanism);
+    core::Rational value = mechanism::value_in_si(text, key, mechanism, {.file = option});
     if (const auto reason = mechanism::unusable(value)) refuse(option, fmt::format("'{}' {}", text, *reason), mend);
     return value;
   } catch (const std::domain_error& error) {
@@ -141,15 +142,42 @@ core::Rational parse_number(const std::string& text, const std::string& option, 
   }
 }
 
-core::Rational parse_positive(const std::string& text, const std::string& option,
-                              const mechanism::Mechanism& mechanism) {
-  core::Rational value = parse_number(text, option, mechanism);
+core::Rational parse_positive(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism,
+                              const std::string& key) {
+  core::Rational value = parse_number(text, option, mechanism, key);
   if (value <= 0) refuse(option, fmt::format("{} is not above zero", text), "give a positive number");
   return value;
 }
 
+namespace {
+
+/// The values of "y=-0.7,x=0.25" in the order of the coordinates.
+std::vector<std::string> named_values(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism) {
+  std::vector<std::string> names;
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) names.push_back(coordinate.name);
+  const std::string mend = fmt::format("give {}=...", fmt::join(names, "=...,"));
+  std::vector<std::string> values(names.size());
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) refuse("--at", fmt::format("'{}' has no name, and others have", word), mend);
+    const std::vector<std::string> sides = split(word, '=');
+    const auto own = std::find(names.begin(), names.end(), sides[0]);
+    if (own == names.end()) refuse("--at", fmt::format("there is no free coordinate '{}'", sides[0]), mend);
+    std::string& value = values[static_cast<std::size_t>(own - names.begin())];
+    if (!value.empty()) refuse("--at", fmt::format("{} is there twice", *own), mend);
+    value = word.substr(equals + 1);
+    if (value.empty()) refuse("--at", fmt::format("{} has no value", *own), mend);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (values[i].empty()) refuse("--at", fmt::format("{} is missing", names[i]), mend);
+  return values;
+}
+
+}  // namespace
+
 std::vector<core::Rational> parse_pose(const std::string& text, const mechanism::Mechanism& mechanism) {
-  const std::vector<std::string> words = split(text);
+  std::vector<std::string> words = split(text);
+  if (text.find('=') != std::string::npos) words = named_values(words, mechanism);
   if (words.size() != mechanism.coordinates.size()) {
     std::vector<std::string> names;
     for (const mechanism::Coordinate& coordinate : mechanism.coordinates) names.push_back(coordinate.name);
@@ -158,7 +186,8 @@ std::vector<core::Rational> parse_pose(const std::string& text, const mechanism:
                        fmt::join(names, ",")));
   }
   std::vector<core::Rational> pose;
-  for (const std::string& word : words) pose.push_back(parse_number(word, "--at", mechanism));
+  for (std::size_t i = 0; i < words.size(); ++i)
+    pose.push_back(parse_number(words[i], "--at", mechanism, mechanism::key_of(mechanism.coordinates[i])));
   return pose;
 }
 
@@ -166,7 +195,11 @@ std::vector<double> parse_rates(const std::string& text, const std::string& opti
                                 const mechanism::Mechanism& mechanism) {
   if (text.empty()) return {};
   std::vector<double> rates;
-  for (const std::string& word : split(text)) rates.push_back(core::to_double(parse_number(word, option, mechanism)));
+  const std::string rate = option == "--velocity" ? "speed" : "acceleration";
+  for (const std::string& word : split(text)) {
+    const bool angle = rates.size() < mechanism.coordinates.size() && mechanism.coordinates[rates.size()].angle;
+    rates.push_back(core::to_double(parse_number(word, option, mechanism, (angle ? "angular_" : "linear_") + rate)));
+  }
   if (rates.size() != mechanism.coordinates.size())
     refuse(option, fmt::format("'{}' has {} value{}", text, rates.size(), rates.size() == 1 ? "" : "s"),
            fmt::format("give one for each free coordinate, {} in all", mechanism.coordinates.size()));

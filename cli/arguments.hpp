@@ -45,13 +45,15 @@ std::vector<core::Quantity> parse_quantities(const std::string& text);
 DyadSides parse_working_mode(const std::string& text, const mechanism::Mechanism& mechanism);
 
 /// A number by the rules of the mechanism file ("0.25", "1/4", "2*L"), exact. `option` is named in errors.
-core::Rational parse_number(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism);
+/// In the units of the file as what stands under the key of that name ("margin", "min_force"); "": a pure number.
+core::Rational parse_number(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism,
+                            const std::string& key = {});
 
 /// parse_number, and more than zero.
-core::Rational parse_positive(const std::string& text, const std::string& option,
-                              const mechanism::Mechanism& mechanism);
+core::Rational parse_positive(const std::string& text, const std::string& option, const mechanism::Mechanism& mechanism,
+                              const std::string& key = {});
 
-/// "0.25,-0.7": one number a free coordinate.
+/// "0.25,-0.7" or, in any order, "y=-0.7,x=0.25": one number a free coordinate.
 std::vector<core::Rational> parse_pose(const std::string& text, const mechanism::Mechanism& mechanism);
 
 /// "3,-1.5": one rate a free coordinate; none where nothing was written.

@@ -42,7 +42,7 @@ std::vector<double> parse_periods(const std::string& text, const mechanism::Mech
   };
   if (words.size() != 3) refuse(fmt::format("'{}' is no range of periods", text));
   std::vector<core::Rational> range;
-  for (const std::string& word : words) range.push_back(parse_positive(word, "--periods", mechanism));
+  for (const std::string& word : words) range.push_back(parse_positive(word, "--periods", mechanism, "period"));
   if (range[1] < range[0]) refuse(fmt::format("'{}' ends before it begins", text));
   constexpr double most = 100000;
   if (core::to_double((range[1] - range[0]) / range[2]) > most) refuse(fmt::format("'{}' is too fine", text));
@@ -56,13 +56,13 @@ TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechan
   TrajectoryRequest request;
   if (!arguments.working_mode.empty()) request.working_mode = parse_working_mode(arguments.working_mode, mechanism);
   if (!arguments.period.empty())
-    request.period = core::to_double(parse_positive(arguments.period, "--period", mechanism));
+    request.period = core::to_double(parse_positive(arguments.period, "--period", mechanism, "period"));
   if (arguments.samples < 10 || arguments.samples > 10000000)
     throw core::InputError({.file = "--samples"}, fmt::format("{} instants a cycle", arguments.samples),
                            "give a number from 10 to 10000000");
   request.samples = arguments.samples;
   if (!arguments.min_force.empty())
-    request.min_force = core::to_double(parse_positive(arguments.min_force, "--min-force", mechanism));
+    request.min_force = core::to_double(parse_positive(arguments.min_force, "--min-force", mechanism, "min_force"));
   request.periods = parse_periods(arguments.periods, mechanism);
   // An instant keeps its reactions, their influence on the pose and a row of the table, as numbers and as text; a
   // period adds a row of its own for each.

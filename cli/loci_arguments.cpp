@@ -32,7 +32,7 @@ double finest_tolerance(const mechanism::Mechanism& mechanism) {
 }
 
 double parse_tolerance(const std::string& text, const mechanism::Mechanism& mechanism) {
-  const core::Rational tolerance = parse_positive(text, "--tolerance", mechanism);
+  const core::Rational tolerance = parse_positive(text, "--tolerance", mechanism, "length");
   const double finest = finest_tolerance(mechanism);
   if (tolerance < core::Rational(finest))
     throw core::InputError({.file = "--tolerance"},
@@ -71,7 +71,8 @@ void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
       ->type_name("NM");
   command
       .add_option("--tolerance", arguments.tolerance,
-                  "Largest distance of a chord from its curve, m (default: 1e-5, of a mechanism of some metres)")
+                  "Largest distance of a chord from its curve, in the file's unit of length (default: 1e-5 m, of a "
+                  "mechanism of some metres)")
       ->type_name("M");
 }
 
@@ -88,9 +89,10 @@ LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechan
   LociRequest request;
   request.joints = parse_joints(arguments.joints, mechanism);
   request.quantities = parse_quantities(arguments.quantities);
-  if (!arguments.min_force.empty()) request.min_force = parse_positive(arguments.min_force, "--min-force", mechanism);
+  if (!arguments.min_force.empty())
+    request.min_force = parse_positive(arguments.min_force, "--min-force", mechanism, "min_force");
   if (!arguments.min_couple.empty())
-    request.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism);
+    request.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism, "min_couple");
   request.tolerance = arguments.tolerance.empty() ? 1e-5 * mechanism::frame_of(mechanism).scale_value()
                                                   : parse_tolerance(arguments.tolerance, mechanism);
   request.mesh_size = core::to_double(parse_positive(arguments.mesh_size, "--mesh-size", mechanism));

@@ -17,6 +17,7 @@ struct SketchLink {
 struct SketchSlide {
   Point2 from{}, to{};
   bool rail = false;
+  bool actuated = false;
 };
 
 struct SketchJoint {

@@ -67,6 +67,9 @@ std::vector<DistanceRange> distances_to_keep(const Link& link) {
   if (!link.mass.is_zero_literal())
     for (const PointIndex point : link.points)
       if (point != link.centre_of_mass) pairs.push_back({point, link.centre_of_mass});
+  for (const PointMass& mass : link.masses)
+    for (const PointIndex point : link.points)
+      if (point != mass.at) pairs.push_back({point, mass.at});
   return pairs;
 }
 

@@ -1,6 +1,7 @@
 // Recursive descent over the grammar of mechanism-file.md:
 //     sum     := product (('+' | '-') product)*
-//     product := signed (('*' | '/') signed | 'deg')*         30 deg = 30*(pi/180), the only multiplication left unsaid
+//     product := signed (('*' | '/') signed | units)*         30 deg = 30*(pi/180), the only multiplication left unsaid
+//     units   := unit ('^' whole)? (('*' | '/')? unit ('^' whole)?)*      of mechanism/units.hpp: 5 N/mm, 2 kg*m^2
 //     signed  := ('+' | '-') signed | power
 //     power   := primary ('^' signed)?                        right-associative; -a^2 = -(a^2)
 //     primary := number | name | 'pi' | 'deg' | function '(' sum ')' | '(' sum ')'
@@ -8,7 +9,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "mechanism/read.hpp"
+#include "mechanism/reader.hpp"
+#include "mechanism/units.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -32,7 +34,8 @@ std::optional<Kind> function_named(const std::string& name) {
 
 class Parser {
  public:
-  Parser(const std::string& text, const core::SourcePosition& where) : text_(text), where_(where) {}
+  Parser(const std::string& text, const core::SourcePosition& where, const std::set<std::string>& names)
+      : text_(text), where_(where), names_(names) {}
 
   Expression parse() {
     if (text_.size() > longest_text) fail(0, "an expression of more than 5000 characters", "break it into parameters");
@@ -108,6 +111,50 @@ class Parser {
     }
   }
 
+  /// A unit at the current place, with its power.
+  Expression unit() {
+    const std::string name = peek_name();
+    skip(name.size());
+    Expression result = unit_symbol(name);
+    if (!take('^')) return result;
+    const bool negative = take('-');
+    const std::size_t start = at_;
+    if (at_end() || !is_digit(text_[at_])) fail(at_, "a unit has no power here", "write such as m^2");
+    const Expression exponent = number();
+    constexpr int highest = 4;
+    if (exponent.value().get_den() != 1 || exponent.value() > highest)
+      fail(start, "a unit to this power", "write a whole one up to 4");
+    return Expression::apply(Kind::power,
+                             {result, Expression::number(negative ? -exponent.value() : exponent.value())});
+  }
+
+  /// After a unit: whether `*` or `/` is followed by another one, and not by a name of the file.
+  bool unit_follows(char separator) const {
+    if (at_end() || text_[at_] != separator) return false;
+    std::size_t at = at_ + 1;
+    while (at < text_.size() && std::isspace(static_cast<unsigned char>(text_[at]))) ++at;
+    std::size_t end = at;
+    while (end < text_.size() && (is_letter(text_[end]) || (end > at && is_digit(text_[end])))) ++end;
+    const std::string name = text_.substr(at, end - at);
+    return is_unit(name) && !names_.contains(name);
+  }
+
+  /// What stands in front of its units, with them.
+  Expression with_units(Expression left) {
+    left = Expression::apply(Kind::multiply, {left, unit()});
+    for (;;) {
+      const bool divides = unit_follows('/');
+      if (divides || unit_follows('*')) {
+        skip(1);
+        left = Expression::apply(divides ? Kind::divide : Kind::multiply, {left, unit()});
+      } else if (is_unit(peek_name())) {
+        left = Expression::apply(Kind::multiply, {left, unit()});
+      } else {
+        return left;
+      }
+    }
+  }
+
   Expression product() {
     Expression left = signed_power();
     for (;;) {
@@ -115,10 +162,8 @@ class Parser {
         left = Expression::apply(Kind::multiply, {left, signed_power()});
       } else if (take('/')) {
         left = Expression::apply(Kind::divide, {left, signed_power()});
-      } else if (peek_name() == "deg") {
-        skip(3);
-        const Expression half_turns = Expression::apply(Kind::multiply, {left, Expression::pi()});
-        left = Expression::apply(Kind::divide, {half_turns, Expression::number(180)});
+      } else if (is_unit(peek_name())) {
+        left = with_units(left);
       } else {
         return left;
       }
@@ -149,7 +194,7 @@ class Parser {
     if (!at_end() && text_[at_] == '(')
       fail(start, "unknown function '" + name + "'", "known are sqrt, cos, sin; a product needs *, as in L*(a + b)");
     if (name == "pi") return Expression::pi();
-    if (name == "deg") return Expression::apply(Kind::divide, {Expression::pi(), Expression::number(180)});
+    if (name == "deg") return unit_symbol(name);
     return Expression::symbol(name);
   }
 
@@ -208,6 +253,7 @@ class Parser {
 
   const std::string& text_;
   const core::SourcePosition& where_;
+  const std::set<std::string>& names_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
@@ -215,7 +261,12 @@ class Parser {
 }  // namespace
 
 Expression parse_expression(const std::string& text, const core::SourcePosition& where) {
-  return Parser(text, where).parse();
+  return with_si_units(Parser(text, where, {}).parse());
+}
+
+Expression parse_with_units(const std::string& text, const core::SourcePosition& where,
+                            const std::set<std::string>& names) {
+  return Parser(text, where, names).parse();
 }
 
 }  // namespace clearloci::mechanism

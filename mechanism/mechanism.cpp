@@ -46,6 +46,17 @@ std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Join
 
 Quantity actuator_quantity(const Joint& joint) { return traits(joint).actuator.value_or(Quantity::M); }
 
+std::vector<Mass> masses(const Mechanism& mechanism) {
+  std::vector<Mass> all;
+  for (std::size_t i = 0; i < mechanism.links.size(); ++i) {
+    const Link& link = mechanism.links[i];
+    const auto index = static_cast<LinkIndex>(i);
+    if (!link.mass.is_zero_literal()) all.push_back({index, link.centre_of_mass, link.mass});
+    for (const PointMass& point : link.masses) all.push_back({index, point.at, point.mass});
+  }
+  return all;
+}
+
 std::vector<Unknown> unknowns(const Mechanism& mechanism) {
   std::vector<Unknown> columns;
   const int joints = static_cast<int>(mechanism.joints.size());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clearloci/quantity.hpp"
+#include "clearloci/units.hpp"
 #include "core/errors.hpp"
 #include "core/expression.hpp"
 #include "core/rational.hpp"
@@ -26,12 +27,20 @@ inline constexpr LinkIndex ground = -1;
 
 enum class Space { planar, spatial };
 
+/// Powers of length, angle, force, mass and time in what is measured.
+struct Dimension {
+  int length = 0, angle = 0, force = 0, mass = 0, time = 0;
+
+  bool operator==(const Dimension&) const = default;
+};
+
 /// A named exact number. `value` equals the expression where that is rational, else is within 1e-30 of it.
 struct Parameter {
   std::string name;
   Expression expression;
   Rational value;
   bool exact = true;
+  Dimension dimension = {};  ///< of the units that its expression carries; none: a plain number of the file's
 };
 
 /// A free coordinate of the end effector and the range to search, m or (angle) rad.
@@ -92,6 +101,12 @@ struct Point {
   core::SourcePosition where;
 };
 
+/// A mass at a point of a link.
+struct PointMass {
+  PointIndex at = 0;
+  Expression mass;  ///< kg
+};
+
 struct Link {
   std::string name;
   std::vector<PointIndex> points;     ///< first: origin of the link's frame, second: its direction
@@ -99,6 +114,14 @@ struct Link {
   PointIndex centre_of_mass = 0;      ///< default: midpoint of the first two points
   std::optional<Expression> inertia;  ///< kg m^2 about the centre of mass; default: slender rod, m l^2/12
   core::SourcePosition where;
+  std::vector<PointMass> masses = {};  ///< besides `mass`
+};
+
+/// A clearance given as a fit of ISO 286: somewhere between two values, of which `radial` is the larger.
+struct Fit {
+  std::string name;         ///< "H7/g6"
+  Rational diameter;        ///< m
+  Rational least, largest;  ///< difference of the radii, m
 };
 
 /// Clearances of a joint, m and rad; 0 where absent. A prismatic joint touches its guide in two places, `half_length`
@@ -109,6 +132,7 @@ struct Clearance {
   Expression gap = {};
   Expression half_length = {};
   Expression axial = {};
+  std::optional<Fit> fit = {};  ///< that `radial` was taken from
 };
 
 enum class JointType { revolute, prismatic, universal, spherical, cylindrical };
@@ -182,6 +206,13 @@ struct Unknown {
   core::Quantity quantity = core::Quantity::fx;
 };
 
+/// A frame of the file, in which points of a platform are placed: p = p_origin + R p', R row after row.
+struct BodyFrame {
+  std::string name;
+  PointIndex origin = 0;             ///< an explicit point
+  std::vector<Expression> rotation;  ///< 4 or 9
+};
+
 /// A change of coordinates (mechanism/frame.hpp): place p = origin + scale p', free length q = from + scale q'.
 struct Frame {
   std::array<Rational, 3> origin{};
@@ -195,14 +226,17 @@ struct Frame {
 struct Mechanism {
   std::string name;
   std::string file;
+  Units units = {};
   Space space = Space::planar;
   std::vector<Parameter> parameters;
   std::vector<Coordinate> coordinates;
+  std::vector<BodyFrame> body_frames;
   std::vector<Point> points;
   std::vector<Link> links;
   std::vector<Joint> joints;
   LinkIndex end_effector_link = 0;
   PointIndex end_effector_point = 0;
+  LinkIndex relative_to = ground;  ///< the link that pose errors are relative to
   std::vector<Load> loads;
   std::vector<Expression> gravity;  ///< empty: links are weightless
   std::vector<Spring> springs = {};
@@ -210,6 +244,16 @@ struct Mechanism {
   /// The frame that it is seen in, if not its own: expressions are printed in the coordinates outside it.
   std::optional<Frame> frame = {};
 };
+
+/// A mass of a link and where it sits: that of its body and its point masses.
+struct Mass {
+  LinkIndex link = 0;
+  PointIndex at = 0;
+  Expression mass;  ///< kg
+};
+
+/// Every mass that is not written as 0, link after link.
+std::vector<Mass> masses(const Mechanism& mechanism);
 
 /// Unknowns in column order. Planar: fx, fy of every revolute joint and N, T of every prismatic one in the file's
 /// order, then M or F of the actuated ones. Spatial: the components of every joint's force, then of its couple. A force

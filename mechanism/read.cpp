@@ -6,19 +6,21 @@
 #include <vector>
 
 #include "core/text.hpp"
+#include "mechanism/inline_points.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/repeat.hpp"
+#include "mechanism/units.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
 using core::InputError;
 
-const std::vector<std::string> top_keys = {"format",  "name",    "space",  "parameters",   "workspace",
-                                           "points",  "links",   "joints", "end_effector", "loads",
-                                           "gravity", "springs", "limits", "repeat"};
+const std::vector<std::string> top_keys = {"format", "name",   "space",        "units", "parameters", "workspace",
+                                           "frames", "points", "links",        "joints", "springs",    "end_effector",
+                                           "loads",  "limits", "gravity",      "repeat"};
 /// What may be written once for parts that are alike.
-const std::vector<std::string> repeatable_keys = {"parameters", "points",  "links", "joints",
+const std::vector<std::string> repeatable_keys = {"parameters", "frames",  "points", "links", "joints",
                                                   "loads",      "springs", "limits"};
 
 void check_format(const Value& value) {
@@ -40,6 +42,8 @@ Space read_space(const std::optional<Value>& value) {
 
 }  // namespace
 
+const std::vector<std::string>& file_keys() { return top_keys; }
+
 std::string name_of(const std::optional<Value>& value, const std::string& file) {
   constexpr std::size_t longest = 160;
   std::string name = value ? text_of(*value) : std::filesystem::path(file).stem().string();
@@ -51,16 +55,18 @@ std::string name_of(const std::optional<Value>& value, const std::string& file) 
 namespace {
 
 Mechanism read_document(const Value& written, const std::string& file, const std::vector<Override>& overrides) {
-  const Mapping root(expand_repeat(written, repeatable_keys), top_keys);
+  (void)Mapping(written, top_keys);
+  const Mapping root(name_inline_points(expand_repeat(written, repeatable_keys)), top_keys);
   check_format(root.at("format"));
 
   Mechanism mechanism;
   mechanism.space = read_space(root.find("space"));
   mechanism.file = file;
   mechanism.name = name_of(root.find("name"), file);
+  mechanism.units = read_units(root.find("units"));
   read_parameters(mechanism, root.find("parameters"), overrides);
   read_workspace(mechanism, root.at("workspace"));
-  read_points(mechanism, root.at("points"));
+  read_points(mechanism, root.at("points"), root.find("frames"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
   fill_inertia(mechanism);

@@ -19,8 +19,20 @@ Mechanism read_mechanism(const std::string& path, const std::vector<Override>& o
 Mechanism parse_mechanism(const std::string& text, const std::string& file,
                           const std::vector<Override>& overrides = {});
 
+/// The keys of a mechanism file, in the order of mechanism-file.md; what a help text names.
+const std::vector<std::string>& file_keys();
+
 /// A file's bytes. Throws core::InputError where it cannot be read or has more than 4 MB. `what`: "the mechanism file".
 std::string read_text(const std::string& path, const std::string& what);
+
+/// The value of such an expression in SI units, where the mechanism's file has a key of that name: "margin" of a
+/// length, "min_force" of a force; "" of a pure number. Throws InputError for what cannot be read or measures something
+/// else, std::domain_error and std::out_of_range as value_of.
+Rational value_in_si(const std::string& text, const std::string& key, const Mechanism& mechanism,
+                     const core::SourcePosition& where);
+
+/// The key of that kind for the values of a free coordinate.
+std::string key_of(const Coordinate& coordinate);
 
 /// An expression by the rules of mechanism-file.md, e.g. "2*L + cos(30 deg)". `where`: its place, for errors.
 Expression parse_expression(const std::string& text, const core::SourcePosition& where);

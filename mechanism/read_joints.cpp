@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/fits.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/reader.hpp"
 
@@ -71,7 +72,8 @@ std::vector<VectorExpression> read_axes(const Mechanism& mechanism, const Joint&
 
 Clearance read_clearance(const Mechanism& mechanism, const Value& value, const Joint& joint) {
   const bool planar = mechanism.space == Space::planar;
-  const std::vector<std::string>& keys = planar ? traits(joint).planar_clearances : traits(joint).clearances;
+  std::vector<std::string> keys = planar ? traits(joint).planar_clearances : traits(joint).clearances;
+  if (std::find(keys.begin(), keys.end(), "radial") != keys.end()) keys.insert(keys.end(), {"fit", "diameter"});
   const Mapping mapping(value, keys);
   const auto part = [&](const std::string& key) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) return Expression();
@@ -80,11 +82,24 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const J
     written->what = "the " + key + " clearance of joint " + joint.name;
     return read_number(mechanism, *written, key == "half_length" ? Sign::positive : Sign::not_negative).expression;
   };
+  Clearance clearance;
+  if (const auto fit = mapping.find("fit")) {
+    if (const auto radial = mapping.find("radial"))
+      throw InputError(radial->where, "joint " + joint.name + " has a radial clearance and a fit", "write one of them");
+    clearance.fit = read_fit(mechanism, *fit, mapping.at("diameter"));
+  } else if (const auto diameter = mapping.find("diameter")) {
+    throw InputError(diameter->where, "joint " + joint.name + " has a diameter but no fit", "add such as fit: H7/g6");
+  }
   const auto has = [&](const char* key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
   if (has("gap") && mapping.find("gap") && !mapping.find("half_length"))
     throw InputError(value.where, "joint " + joint.name + " has a gap but no half_length",
                      "add half_length: the distance from its point to either end of its contact, m");
-  return {part("radial"), part("angular"), part("gap"), part("half_length"), part("axial")};
+  clearance.radial = clearance.fit ? Expression::number(clearance.fit->largest) : part("radial");
+  clearance.angular = part("angular");
+  clearance.gap = part("gap");
+  clearance.half_length = part("half_length");
+  clearance.axial = part("axial");
+  return clearance;
 }
 
 [[noreturn]] void refuse_joint_point(const Mechanism& mechanism, const Joint& joint, LinkIndex link, const Value& at) {
@@ -114,6 +129,7 @@ void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint)
   }
   Value effort = Mapping(value, {"effort"}).at("effort");
   effort.what = "the effort of joint " + joint.name;
+  effort.field = traits(joint).actuator == core::Quantity::F ? "force" : "couple";
   joint.effort = read_varying(mechanism, effort);
 }
 
@@ -170,7 +186,7 @@ void read_joints(Mechanism& mechanism, const Value& value) {
 }
 
 void read_end_effector(Mechanism& mechanism, const Value& value) {
-  const Mapping mapping(value, {"link", "at"});
+  const Mapping mapping(value, {"link", "at", "relative_to"});
   mechanism.end_effector_link = read_link_name(mechanism, mapping.at("link"), false);
   const Value at = mapping.at("at");
   mechanism.end_effector_point = read_point_name(mechanism, at);
@@ -179,6 +195,12 @@ void read_end_effector(Mechanism& mechanism, const Value& value) {
     throw InputError(at.where, "the end effector is at " + text_of(at) + ", which is no point of link " + link,
                      "add " + text_of(at) + " to the points of " + link);
   }
+  const auto base = mapping.find("relative_to");
+  if (!base) return;
+  mechanism.relative_to = read_link_name(mechanism, *base, true);
+  if (mechanism.relative_to == mechanism.end_effector_link)
+    throw InputError(base->where, "the end effector is relative to its own link " + text_of(*base),
+                     "name another link, or leave relative_to out for errors relative to the ground");
 }
 
 void read_loads(Mechanism& mechanism, const std::optional<Value>& value) {

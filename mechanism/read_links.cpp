@@ -53,6 +53,17 @@ PointIndex read_centre_of_mass(Mechanism& mechanism, const Link& link, const std
   return add_auxiliary(mechanism, link, std::move(form), value->where);
 }
 
+std::vector<PointMass> read_point_masses(const Mechanism& mechanism, const Value& value) {
+  std::vector<PointMass> masses;
+  for (Value one : elements(value)) {
+    one.what = "point mass " + std::to_string(masses.size() + 1) + " of " + value.what.substr(value.what.find("link"));
+    const Mapping mapping(one, {"at", "mass"});
+    const PointIndex at = read_point_name(mechanism, mapping.at("at"));
+    masses.push_back({at, read_number(mechanism, mapping.at("mass"), Sign::not_negative).expression});
+  }
+  return masses;
+}
+
 /// A link with one point has no middle: with a mass it must say its com. Of its inertia: fill_inertia.
 void check_one_point(const Link& link, const Mapping& mapping, const Rational& mass) {
   if (link.points.size() > 1 || sgn(mass) == 0) return;
@@ -86,7 +97,7 @@ void read_links(Mechanism& mechanism, const Value& value) {
       throw InputError(entry.where, "'ground' is always there and cannot be described", "rename or remove this link");
     Value described = entry.value;
     described.what = "link " + entry.key;
-    const Mapping mapping(described, {"points", "mass", "com", "inertia"});
+    const Mapping mapping(described, {"points", "mass", "com", "inertia", "masses"});
     Link link;
     link.name = entry.key;
     link.where = entry.where;
@@ -103,6 +114,7 @@ void read_links(Mechanism& mechanism, const Value& value) {
       link.inertia = read_number(mechanism, *written, Sign::not_negative).expression;
     else if (link.points.size() == 1 && sgn(mass) == 0)
       link.inertia = Expression();
+    if (const auto masses = mapping.find("masses")) link.masses = read_point_masses(mechanism, *masses);
     mechanism.links.push_back(std::move(link));
   }
 }

@@ -128,7 +128,8 @@ class PolynomialCheck {
 
 ExplicitPoint read_explicit(const Mechanism& mechanism, const Value& value) {
   ExplicitPoint point;
-  for (const Value& coordinate : elements(value, static_cast<int>(dimension(mechanism)))) {
+  for (Value& coordinate : elements(value, static_cast<int>(dimension(mechanism)))) {
+    coordinate.field = "points";  // wherever it stands
     point.coordinates.push_back(read_expression(mechanism, coordinate, Scope::parameters_and_coordinates));
     check_polynomial(mechanism, coordinate, point.coordinates.back(),
                      "points are polynomials in the coordinates; distances belong into a dyad");
@@ -303,6 +304,12 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
   if (!value.is_map())
     throw InputError(value.where, value.what + " is neither coordinates nor a construction",
                      "write [x, y], {dyad: ...}, {slider: ...}, {on: ...} or {mean: ...}");
+  if (has_key(value, "in")) {
+    ExplicitPoint point = read_point_in_frame(mechanism, value);
+    const PolynomialCheck check(mechanism, value, "write angles that are coordinates, or numbers, under turned");
+    for (const Expression& coordinate : point.coordinates) check(coordinate);
+    return point;
+  }
   if (has_key(value, "dyad")) return read_dyad(mechanism, value);
   if (has_key(value, "on")) return read_offset(mechanism, value);
   if (has_key(value, "mean")) {
@@ -310,16 +317,16 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
     return MeanPoint{first, second};
   }
   if (has_key(value, "slider")) return read_slider(mechanism, value);
-  const std::vector<std::string> forms = {"dyad", "slider", "on", "mean"};
+  const std::vector<std::string> forms = {"dyad", "slider", "on", "mean", "in"};
   const std::vector<Entry> written = entries(value);
   if (written.empty())
     throw InputError(value.where, value.what + " is empty",
                      "write [x, y], {dyad: ...}, {slider: ...}, {on: ...} or {mean: ...}");
-  throw InputError(written.front().where, value.what + " has none of the forms dyad, slider, on, mean",
+  throw InputError(written.front().where, value.what + " has none of the forms dyad, slider, on, mean, in",
                    suggest(written.front().key, forms, "forms"));
 }
 
-void read_points(Mechanism& mechanism, const Value& value) {
+void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames) {
   const std::vector<Entry> points = entries(value);
   if (points.empty()) throw InputError(value.where, "there are no points", "write such as A: [0, 0]");
   const OrderCheck in_order(points);
@@ -328,7 +335,9 @@ void read_points(Mechanism& mechanism, const Value& value) {
     Value form = entry.value;
     form.what = "point " + entry.key;
     mechanism.points.push_back({entry.key, read_point_form(mechanism, form), false, entry.where});
+    read_known_frames(mechanism, frames);
   }
+  check_all_frames_read(mechanism, frames);
 }
 
 }  // namespace clearloci::mechanism

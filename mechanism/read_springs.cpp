@@ -26,6 +26,7 @@ std::string usual_name(const Mechanism& mechanism) {
 Expression part(const Mechanism& mechanism, const Mapping& mapping, const char* key, Sign sign, const Spring& spring) {
   Value value = mapping.at(key);
   value.what = std::string("the ") + key + " of spring " + spring.name;
+  if (spring.kind == Spring::Kind::torsion && value.field == "stiffness") value.field = "torsion_stiffness";
   return read_number(mechanism, value, sign).expression;
 }
 
@@ -144,7 +145,8 @@ Limit read_limit(const Mechanism& mechanism, const Value& described) {
                        "name different points");
     limit.points.push_back(point);
   }
-  const Value within = mapping.at("within");
+  Value within = mapping.at("within");
+  within.field = angle ? "angle" : "distance";
   const std::vector<Value> ends = elements(within, 2);
   const Number lower = read_number(mechanism, ends[0], Sign::not_negative);
   const Number upper = read_number(mechanism, ends[1], Sign::positive);

@@ -19,6 +19,15 @@ RationalPoint read_pair(const Mechanism& mechanism, const Value& value) {
   return {read_number(mechanism, parts[0], Sign::any).value, read_number(mechanism, parts[1], Sign::any).value};
 }
 
+/// One value a free coordinate.
+RationalPoint read_place(const Mechanism& mechanism, const Value& value) {
+  const std::vector<Value> parts = elements(value, 2);
+  RationalPoint place;
+  for (std::size_t c = 0; c < 2; ++c)
+    place[c] = read_number(mechanism, of_coordinate(parts[c], mechanism.coordinates[c]), Sign::any).value;
+  return place;
+}
+
 core::TaskBox read_box(const Mechanism& mechanism, const Value& value) {
   std::vector<std::string> names;
   for (const Coordinate& coordinate : mechanism.coordinates) names.push_back(coordinate.name);
@@ -26,7 +35,7 @@ core::TaskBox read_box(const Mechanism& mechanism, const Value& value) {
   core::TaskBox box;
   for (std::size_t c = 0; c < 2; ++c) {
     const Value range = ranges.at(names[c]);
-    const RationalPoint ends = read_pair(mechanism, range);
+    const RationalPoint ends = read_pair(mechanism, of_coordinate(range, mechanism.coordinates[c]));
     if (ends[0] >= ends[1])
       throw InputError(range.where,
                        range.what + " is empty: from " + core::to_string(ends[0]) + " to " + core::to_string(ends[1]),
@@ -39,7 +48,10 @@ core::TaskBox read_box(const Mechanism& mechanism, const Value& value) {
 
 core::TaskCircle read_circle(const Mechanism& mechanism, const Value& value) {
   const Mapping circle(value, {"centre", "radius"});
-  return {read_pair(mechanism, circle.at("centre")), read_number(mechanism, circle.at("radius"), Sign::positive).value};
+  return {
+      read_place(mechanism, circle.at("centre")),
+
+      read_number(mechanism, of_coordinate(circle.at("radius"), mechanism.coordinates.front()), Sign::positive).value};
 }
 
 /// With the places of the points.
@@ -48,7 +60,7 @@ std::vector<std::pair<RationalPoint, core::SourcePosition>> read_points_of(const
   std::vector<std::pair<RationalPoint, core::SourcePosition>> points;
   for (Value point : elements(value)) {
     point.what = "point " + std::to_string(points.size() + 1) + " of " + value.what;
-    points.emplace_back(read_pair(mechanism, point), point.where);
+    points.emplace_back(read_place(mechanism, point), point.where);
     if (points.size() > 1 && points.back().first == points[points.size() - 2].first)
       throw InputError(point.where, point.what + " is the one before it again", "leave it out");
   }

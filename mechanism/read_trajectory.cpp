@@ -42,7 +42,8 @@ std::vector<Rational> read_place(const Mechanism& mechanism, const Value& value)
                      "write one value for each");
   }
   std::vector<Rational> place;
-  for (const Value& coordinate : elements(value)) place.push_back(number(mechanism, coordinate, Sign::any));
+  for (const Value& part : elements(value))
+    place.push_back(number(mechanism, of_coordinate(part, mechanism.coordinates[place.size()]), Sign::any));
   return place;
 }
 
@@ -62,7 +63,7 @@ Waypoint read_waypoint(const Mechanism& mechanism, Value value, int index) {
   }
   if (const auto stop = mapping.find("stop")) waypoint.stop = boolean_of(*stop);
   if (const auto corner = mapping.find("corner")) {
-    waypoint.corner = number(mechanism, *corner, Sign::not_negative);
+    waypoint.corner = number(mechanism, of_coordinate(*corner, mechanism.coordinates.front()), Sign::not_negative);
     if (waypoint.stop && waypoint.corner > 0)
       throw InputError(corner->where, value.what + " is a stop with a rounded corner, which would not pass through it",
                        "remove corner or stop");
@@ -127,6 +128,7 @@ Rational read_speed(const Mechanism& mechanism, const Value& value) {
   }
   Value number_alone = value;
   number_alone.node = Node(text);
+  number_alone.field = mechanism.coordinates.front().angle ? "angular_speed" : "linear_speed";
   return unit * number(mechanism, number_alone, Sign::positive);
 }
 

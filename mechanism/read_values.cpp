@@ -5,6 +5,7 @@
 
 #include "mechanism/evaluate.hpp"
 #include "mechanism/reader.hpp"
+#include "mechanism/units.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -175,13 +176,19 @@ Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
   return coordinate;
 }
 
+InSi read_in_si(const Mechanism& mechanism, const Value& value, Scope scope) {
+  const std::vector<std::string> all = names_in(mechanism, Scope::parameters_and_coordinates);
+  const Expression written = parse_with_units(text_of(value), value.where, {all.begin(), all.end()});
+  const std::vector<std::string> known = names_in(mechanism, scope);
+  for (const std::string& name : symbols(with_si_units(written)))
+    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name(mechanism, value, scope, name);
+  return in_si(written, mechanism, value);
+}
+
 }  // namespace
 
 Expression read_expression(const Mechanism& mechanism, const Value& value, Scope scope) {
-  Expression expression = parse_expression(text_of(value), value.where);
-  const std::vector<std::string> known = names_in(mechanism, scope);
-  for (const std::string& name : symbols(expression))
-    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name(mechanism, value, scope, name);
+  const Expression expression = read_in_si(mechanism, value, scope).expression;
   if (scope == Scope::parameters_and_coordinates) check_degree(expression, mechanism, value);
   return expression;
 }
@@ -205,6 +212,11 @@ Expression read_varying(const Mechanism& mechanism, const Value& value) {
   if (!is_free(expression, mechanism)) return read_number(mechanism, value, Sign::any).expression;
   check_polynomial(mechanism, value, expression, "write a polynomial in the coordinates, or a spring");
   return expression;
+}
+
+Value of_coordinate(Value value, const Coordinate& coordinate) {
+  value.field = key_of(coordinate);
+  return value;
 }
 
 void check_identifier(const std::string& name, const SourcePosition& where, const std::string& what) {
@@ -235,7 +247,9 @@ void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, co
       if (used.contains(later->key)) refuse_later(entry->key, later->key, source);
     Parameter parameter;
     parameter.name = entry->key;
-    parameter.expression = read_expression(mechanism, source, Scope::parameters);
+    InSi read = read_in_si(mechanism, source, Scope::parameters);
+    parameter.expression = std::move(read.expression);
+    parameter.dimension = read.dimension;
     const ExactValue result = evaluate_at(parameter.expression, mechanism, source);
     parameter.value = result.value;
     parameter.exact = result.exact;

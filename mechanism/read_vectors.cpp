@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "mechanism/reader.hpp"
+#include "mechanism/units.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -63,9 +64,13 @@ class VectorReader {
     throw InputError(value_.where, value_.what + ": " + problem, mend);
   }
 
-  Expression number(const std::string& text) const {
+  Expression number(const std::string& text) const { return number(text, value_.field); }
+
+  /// `field`: what it measures (mechanism/units.hpp).
+  Expression number(const std::string& text, const std::string& field) const {
     Value part = value_;
     part.node = Node(text);
+    part.field = field;
     return scope_ == Scope::parameters ? read_number(mechanism_, part, Sign::any).expression
                                        : read_varying(mechanism_, part);
   }
@@ -89,6 +94,33 @@ class VectorReader {
     return pieces;
   }
 
+  /// The units of a number belong to it: 5 N/mm is one factor.
+  std::vector<Piece> with_units(const std::vector<Piece>& pieces) const {
+    std::vector<Piece> joined;
+    for (const Piece& piece : pieces) {
+      const std::string name = piece.text.substr(0, piece.text.find('^'));
+      const auto is_named = [&](const auto& one) { return one.name == name; };
+      const bool known = std::any_of(mechanism_.parameters.begin(), mechanism_.parameters.end(), is_named) ||
+                         std::any_of(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), is_named);
+      if (!joined.empty() && is_unit(name) && !known && !is_vector(joined.back().text))
+        joined.back().text += piece.before + piece.text;
+      else
+        joined.push_back(piece);
+    }
+    return joined;
+  }
+
+  /// Whether a vector is a way between points as it stands.
+  static bool is_way(const VectorExpression& v) {
+    if (v.kind == Kind::components || v.kind == Kind::scale || v.kind == Kind::cross) return false;
+    return std::all_of(v.arguments.begin(), v.arguments.end(), is_way);
+  }
+
+  /// Of the factor of a vector: where forces are asked for, one over a length before ways, a pure number before forces.
+  std::string field_of_factor(const VectorExpression& v) const {
+    return value_.field == "force" && is_way(v) ? "force_over_length" : "";
+  }
+
   bool is_point(const std::string& text) const {
     return std::any_of(mechanism_.points.begin(), mechanism_.points.end(),
                        [&](const Point& point) { return !point.auxiliary && point.name == text; });
@@ -109,7 +141,7 @@ class VectorReader {
   }
 
   VectorExpression product(const std::string& text, int depth) const {
-    const std::vector<Piece> factors = split(text, "*/");
+    const std::vector<Piece> factors = with_units(split(text, "*/"));
     std::string scale;
     std::optional<VectorExpression> vector;
     for (const Piece& factor : factors) {
@@ -132,7 +164,7 @@ class VectorReader {
                  "] or two points [A, B]");
     }
     if (scale.empty()) return *vector;
-    return {Kind::scale, {number(scale)}, 0, {*vector}};
+    return {Kind::scale, {number(scale, field_of_factor(*vector))}, 0, {*vector}};
   }
 
   VectorExpression factor(const std::string& text, int depth) const {

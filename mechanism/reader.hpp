@@ -27,11 +27,19 @@ enum class Sign { any, not_negative, positive };
 /// What an expression may speak of.
 enum class Scope { parameters, parameters_and_coordinates };
 
+// --- expression_parser.cpp
+/// As parse_expression, with its units as symbols (mechanism/units.hpp). `names`: of the file, which after * and / are
+/// no units.
+Expression parse_with_units(const std::string& text, const core::SourcePosition& where,
+                            const std::set<std::string>& names);
+
 // --- read_values.cpp: numbers, parameters, workspace
 Expression read_expression(const Mechanism& mechanism, const Value& value, Scope scope);
 Number read_number(const Mechanism& mechanism, const Value& value, Sign sign);
 /// A number, or a polynomial in the free coordinates: what varies with the pose.
 Expression read_varying(const Mechanism& mechanism, const Value& value);
+/// The value as one of a coordinate: a length or an angle.
+Value of_coordinate(Value value, const Coordinate& coordinate);
 void check_identifier(const std::string& name, const core::SourcePosition& where, const std::string& what);
 void check_label(const std::string& name, const core::SourcePosition& where, const std::string& what);
 void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Override>& overrides);
@@ -41,11 +49,20 @@ void read_workspace(Mechanism& mechanism, const Value& value);
 PointIndex read_point_name(const Mechanism& mechanism, const Value& value);
 /// One point form; `what` of the value names the point. Points it uses must be in the mechanism already.
 PointForm read_point_form(const Mechanism& mechanism, const Value& value);
-void read_points(Mechanism& mechanism, const Value& value);
 /// Throws unless an expression is a polynomial in the lengths among the free coordinates and in cos, sin of the angles.
 /// `mend`: what to write instead.
 void check_polynomial(const Mechanism& mechanism, const Value& value, const Expression& expression,
                       const std::string& mend);
+/// `frames`: those of the file, each read as soon as its origin is known.
+void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames);
+
+// --- read_frames.cpp
+/// A point {in: frame, place: [u, v, w]} as its coordinates.
+ExplicitPoint read_point_in_frame(const Mechanism& mechanism, const Value& value);
+/// The frames that stand at points known so far, and are not among `mechanism.body_frames` yet.
+void read_known_frames(Mechanism& mechanism, const std::optional<Value>& frames);
+/// Throws where a frame of the file is still unknown.
+void check_all_frames_read(const Mechanism& mechanism, const std::optional<Value>& frames);
 
 // --- read_vectors.cpp
 /// [ux, uy], [ux, uy, uz], [A, B] for B - A, or an expression such as cross([1, 0, 0], B - A).

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "mechanism/units.hpp"
+
 namespace clearloci::mechanism {
 namespace {
 
@@ -69,7 +71,7 @@ std::vector<Entry> entries(const Value& value) {
           "rename or remove one of them");
     // An empty value has no place of its own.
     const SourcePosition& place = content.IsNull() ? where : content.where();
-    result.push_back({key, where, {content, "'" + key + "'", place}});
+    result.push_back({key, where, {content, "'" + key + "'", place, value.field}});
   }
   return result;
 }
@@ -86,7 +88,7 @@ std::vector<Value> elements(const Value& value, int size) {
     throw InputError(value.where, value.what + " has " + std::to_string(value.node.size()) + " entries",
                      "write 10000 at most");
   std::vector<Value> result;
-  for (const Node& element : value.node.items()) result.push_back({element, value.what, element.where()});
+  for (const Node& element : value.node.items()) result.push_back({element, value.what, element.where(), value.field});
   return result;
 }
 
@@ -118,6 +120,7 @@ std::optional<Value> Mapping::find(const std::string& key) const {
   for (const Entry& entry : entries_) {
     if (entry.key != key) continue;
     Value found = entry.value;
+    if (is_field(key)) found.field = key;
     found.what = value_.what == "the file" ? "'" + key + "'" : "the " + key + " of " + value_.what;
     return found;
   }

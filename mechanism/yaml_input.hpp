@@ -16,6 +16,7 @@ struct Value {
   Node node;
   std::string what;
   core::SourcePosition where;
+  std::string field = {};  ///< the key that says what its numbers measure (mechanism/units.hpp)
 
   bool is_scalar() const { return node.IsScalar(); }
   bool is_sequence() const { return node.IsSequence(); }

@@ -81,6 +81,8 @@ class InstantEquations {
     instant.inertial_rate = lu.solve(inertial_.rate - A_rate_ * instant.inertial);
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, 3);
     unit.middleRows<3>(3 * motion_.model.mechanism.end_effector_link).setIdentity();
+    if (const mechanism::LinkIndex base = motion_.model.mechanism.relative_to; base != mechanism::ground)
+      unit.middleRows<3>(3 * base) -= Eigen::Matrix3d::Identity();
     instant.influence = lu.solve(unit).transpose();
   }
 
@@ -152,6 +154,7 @@ class InstantEquations {
       }
       add_inertia(static_cast<int>(i), links[i].centre_of_mass, m, inertia);
     }
+    for (const PlacedMass& body : motion_.point_masses) add_inertia(body.link, body.at, body.mass, 0);
   }
 
   void assemble_payloads() {
@@ -246,7 +249,7 @@ Motion motion_of(const mechanism::Mechanism& mechanism, Timeline timeline, std::
   if (mechanism.space != mechanism::Space::planar)
     throw core::InputError({mechanism.file, 0, 0}, "the mechanism is spatial, and trajectories are those of the plane",
                            "solve single poses of it with clearloci pose");
-  Motion motion{compile(mechanism), std::move(mode), std::move(timeline), {}, {}, {}, {}, {}};
+  Motion motion{compile(mechanism), std::move(mode), std::move(timeline), {}, {}, {}, {}, {}, {}};
   core::ensure(motion.mode.size() == motion.model.dyads.size(), "a working mode has one sign for each dyad");
   std::vector<bool> turns(mechanism.links.size(), false);
   for (const mechanism::Link& link : mechanism.links) {
@@ -256,6 +259,10 @@ Motion motion_of(const mechanism::Mechanism& mechanism, Timeline timeline, std::
     motion.guide.push_back(guide_of(mechanism, static_cast<int>(motion.guide.size())));
     turns[motion.mass.size() - 1] = link.inertia ? motion.inertia.back() > 0 : false;
   }
+  for (std::size_t i = 0; i < mechanism.links.size(); ++i)
+    for (const mechanism::PointMass& point : mechanism.links[i].masses)
+      motion.point_masses.push_back({static_cast<mechanism::LinkIndex>(i), point.at,
+                                     core::to_double(mechanism::value_of(point.mass, mechanism))});
   for (const mechanism::Payload& payload : motion.timeline.trajectory.payloads)
     if (payload.inertia > 0) turns[static_cast<std::size_t>(payload.link)] = true;
   for (std::size_t i = 0; i < turns.size(); ++i)

@@ -15,11 +15,19 @@
 
 namespace clearloci::numeric {
 
+/// A mass without inertia at a point of a link.
+struct PlacedMass {
+  mechanism::LinkIndex link = 0;
+  mechanism::PointIndex at = 0;
+  double mass = 0;  ///< kg
+};
+
 /// A mechanism on its way along a path.
 struct Motion {
   NumericModel model;
   std::vector<int> mode;
   Timeline timeline;
+  std::vector<PlacedMass> point_masses;
   std::vector<double> mass, inertia;  ///< of the links; inertia < 0: that of a slender rod between its first two points
   /// Of links with a single point: the joint whose guide they turn with; -1 of others.
   std::vector<mechanism::JointIndex> guide;

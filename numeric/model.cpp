@@ -44,6 +44,7 @@ class ModelBuilder {
     for (int c = 0; c < 3; ++c) {
       SparseEquations unit = matrix;
       add(unit, m_.end_effector_link, c, unit.unknowns, tape_.constant(1.0));
+      if (m_.relative_to != mechanism::ground) add(unit, m_.relative_to, c, unit.unknowns, tape_.constant(-1.0));
       model.unit_wrenches.push_back(eliminate(tape_, std::move(unit)));
     }
     model.tape = tape_.tape();
@@ -186,11 +187,10 @@ class ModelBuilder {
     for (const mechanism::Action& action : mechanism::actions(m_)) add_action(action, all);
     if (m_.gravity.empty()) return all;
     const Pair g = {compile(m_.gravity.at(0)), compile(m_.gravity.at(1))};
-    for (std::size_t i = 0; i < m_.links.size(); ++i) {
-      const Register mass = compile(m_.links[i].mass);
+    for (const mechanism::Mass& body : mechanism::masses(m_)) {
+      const Register mass = compile(body.mass);
       if (tape_.is_exactly(mass, 0)) continue;
-      all.push_back({static_cast<int>(i), m_.links[i].centre_of_mass, tape_.multiply(mass, g[0]),
-                     tape_.multiply(mass, g[1]), zero, true});
+      all.push_back({body.link, body.at, tape_.multiply(mass, g[0]), tape_.multiply(mass, g[1]), zero, true});
     }
     return all;
   }

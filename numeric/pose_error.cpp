@@ -199,12 +199,15 @@ Accuracy pose_accuracy(const NumericModel& model, const Posture& posture, const 
 
   Eigen::MatrixXd unit_wrenches = Eigen::MatrixXd::Zero(A.rows(), 3);
   unit_wrenches.middleRows<3>(3 * model.mechanism.end_effector_link).setIdentity();
+  const mechanism::LinkIndex base = model.mechanism.relative_to;
+  if (base != mechanism::ground) unit_wrenches.middleRows<3>(3 * base) -= Eigen::Matrix3d::Identity();
   result.influence = lu.solve(unit_wrenches).transpose();
   result.worst = worst_case(result.influence, joint_columns(model), clearances);
   if (result.undefined.empty()) {
     const Eigen::VectorXd displacements = clearance_displacements(model, result.take_up);
     result.link_displacements = lu.transpose().solve(displacements);
-    const Eigen::Vector3d own = result.link_displacements.segment<3>(3 * model.mechanism.end_effector_link);
+    Eigen::Vector3d own = result.link_displacements.segment<3>(3 * model.mechanism.end_effector_link);
+    if (base != mechanism::ground) own -= result.link_displacements.segment<3>(3 * base);
     result.error = {own(2), own(0), own(1)};
   } else {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();

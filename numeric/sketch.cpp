@@ -51,7 +51,13 @@ double spacing(const NumericModel& model, const Posture& posture) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     for (std::size_t j = i + 1; j < joints.size(); ++j) {
       if (joints[i].at == joints[j].at) continue;
-      least = std::min(least, distance(point_of(posture, joints[i].at), point_of(posture, joints[j].at)) / scale);
+      const double apart = distance(point_of(posture, joints[i].at), point_of(posture, joints[j].at));
+      const auto on_ground = [](const mechanism::Joint& joint) {
+        return joint.from == mechanism::ground || joint.to == mechanism::ground;
+      };
+      // Motors on one axis are together in every posture.
+      if (apart == 0 && on_ground(joints[i]) && on_ground(joints[j])) continue;
+      least = std::min(least, apart / scale);
     }
   }
   return least / enough;
@@ -83,7 +89,7 @@ std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture&
   if (joint.from == mechanism::ground || joint.to == mechanism::ground) {
     const double half = 0.6 * typical_length(model, posture);
     return core::SketchSlide{
-        {at[0] - half * u[0], at[1] - half * u[1]}, {at[0] + half * u[0], at[1] + half * u[1]}, true};
+        {at[0] - half * u[0], at[1] - half * u[1]}, {at[0] + half * u[0], at[1] + half * u[1]}, true, joint.actuated};
   }
   std::optional<core::SketchSlide> longest;
   double length = 0;
@@ -93,7 +99,7 @@ std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture&
       const double across = (q[0] - p[0]) * u[1] - (q[1] - p[1]) * u[0], apart = distance(p, q);
       if (std::abs(across) > 1e-9 * apart || apart <= length) continue;
       length = apart;
-      longest = {p, q, false};
+      longest = core::SketchSlide{p, q, false, joint.actuated};
     }
   }
   return longest;

@@ -128,6 +128,8 @@ class Solver {
     const auto size = static_cast<Eigen::Index>(columns_.size());
     Eigen::MatrixXd unit_wrenches = Eigen::MatrixXd::Zero(size, 6);
     unit_wrenches.middleRows<6>(6 * m_.end_effector_link).setIdentity();
+    if (m_.relative_to != mechanism::ground)
+      unit_wrenches.middleRows<6>(6 * m_.relative_to) -= Eigen::Matrix<double, 6, 6>::Identity();
     const Eigen::MatrixXd H = lu_.solve(unit_wrenches).transpose();
     result.influence.resize(m_.joints.size());
     for (Eigen::Index k = 0; k < size; ++k) {
@@ -153,7 +155,8 @@ class Solver {
       relative(k) = column.force.dot(own.displacement) + column.couple.dot(own.rotation);
     }
     result.link_displacements = lu_.transpose().solve(relative);
-    const Vector6 own = result.link_displacements.segment<6>(6 * m_.end_effector_link);
+    Vector6 own = result.link_displacements.segment<6>(6 * m_.end_effector_link);
+    if (m_.relative_to != mechanism::ground) own -= result.link_displacements.segment<6>(6 * m_.relative_to);
     result.error = {own.tail<3>(), own.head<3>()};
   }
 
@@ -264,11 +267,10 @@ class Solver {
     for (const auto& action : mechanism::actions(m_)) add_action(action, b);
     if (m_.gravity.empty()) return b;
     const Vector3d g = components(m_.gravity);
-    for (std::size_t i = 0; i < m_.links.size(); ++i) {
-      const double mass = value(m_.links[i].mass);
+    for (const mechanism::Mass& body : mechanism::masses(m_)) {
+      const double mass = value(body.mass);
       if (mass == 0) continue;
-      b.segment<6>(6 * static_cast<Eigen::Index>(i)) -=
-          wrench_of(arm(m_.links[i].centre_of_mass), mass * g, Vector3d::Zero());
+      b.segment<6>(6 * body.link) -= wrench_of(arm(body.at), mass * g, Vector3d::Zero());
     }
     return b;
   }

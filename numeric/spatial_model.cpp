@@ -58,6 +58,8 @@ class SpatialModelBuilder {
     for (int c = 0; c < 6; ++c) {
       SparseEquations unit_load = matrix;
       add(unit_load, m_.end_effector_link, c, unit_load.unknowns, one_);
+      if (m_.relative_to != mechanism::ground)
+        add(unit_load, m_.relative_to, c, unit_load.unknowns, tape_.negate(one_));
       model.unit_wrenches.push_back(eliminate(tape_, std::move(unit_load)));
     }
     model.tape = tape_.tape();
@@ -270,10 +272,10 @@ class SpatialModelBuilder {
     for (const mechanism::Action& action : mechanism::actions(m_)) add_action(e, action);
     if (m_.gravity.empty()) return e;
     const Triple g = components(m_.gravity);
-    for (std::size_t i = 0; i < m_.links.size(); ++i) {
-      const Register mass = compile(m_.links[i].mass);
+    for (const mechanism::Mass& body : mechanism::masses(m_)) {
+      const Register mass = compile(body.mass);
       if (tape_.is_exactly(mass, 0)) continue;
-      add_load(e, static_cast<int>(i), force_at(arm(m_.links[i].centre_of_mass), times(mass, g)));
+      add_load(e, body.link, force_at(arm(body.at), times(mass, g)));
     }
     return e;
   }

@@ -74,7 +74,8 @@ std::vector<PlacedExpression> expressions_of(const Mechanism& m) {
     add({spring.stiffness, spring.free_length, spring.force}, spring.where);
   if (!m.gravity.empty()) {
     add(m.gravity, {m.file});
-    for (const mechanism::Link& link : m.links) add({link.mass}, link.where);
+    for (const mechanism::Mass& body : mechanism::masses(m))
+      add({body.mass}, m.links[static_cast<std::size_t>(body.link)].where);
   }
   return all;
 }

@@ -184,12 +184,11 @@ class Equations {
     for (const mechanism::Action& action : mechanism::actions(m_)) write_action(action);
     if (m_.gravity.empty()) return;
     const Vector g = components(m_.gravity);
-    for (std::size_t i = 0; i < m_.links.size(); ++i) {
-      const GiNaC::ex mass = geometry_.expression(m_.links[i].mass);
+    for (const mechanism::Mass& body : mechanism::masses(m_)) {
+      const GiNaC::ex mass = geometry_.expression(body.mass);
       if (mass.is_zero()) continue;
       const Vector weight = {mass * g[0], mass * g[1], mass * g[2]};
-      add(result_.loads, static_cast<LinkIndex>(i), 0, force_at(arm(geometry_, m_.links[i].centre_of_mass), weight),
-          -1);
+      add(result_.loads, body.link, 0, force_at(arm(geometry_, body.at), weight), -1);
     }
   }
 

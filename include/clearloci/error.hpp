@@ -77,6 +77,7 @@ struct ModeErrors {
 struct ErrorMap {
   LocusMap loci;                  ///< without curves where they are not asked for; incomplete where the deadline came
   std::vector<ModeErrors> modes;  ///< the request's, without those in which |A| vanishes everywhere
+  std::vector<std::string> notes = {};  ///< such as what a clearance stands for
 };
 
 /// Something that happens at one value of the coordinate, and by how much the end effector jumps there.
@@ -114,6 +115,7 @@ struct CoordinateErrors {
   std::vector<ErrorComponent> components;
   LocusMap loci;  ///< as of ErrorMap
   std::vector<CoordinateModeErrors> modes;
+  std::vector<std::string> notes = {};  ///< as of ErrorMap
 };
 
 }  // namespace clearloci::inline core

@@ -20,6 +20,7 @@
 
 #include "clearloci/exact.hpp"
 #include "clearloci/quantity.hpp"
+#include "clearloci/units.hpp"
 #include "clearloci/working_mode.hpp"
 
 namespace clearloci::inline core {
@@ -171,6 +172,7 @@ struct LocusMap {
   std::vector<ReachableInterval> reachable;            ///< with one free coordinate, ascending within a mode
   std::vector<bool> angles;                            ///< which coordinates are angles, in rad; empty: none
   std::vector<std::pair<std::string, double>> timing;  ///< stage, s
+  Units units = {};                                    ///< of the mechanism file: what tables and pictures speak in
 };
 
 /// `exact`: the CGAL arrangement of the implicit curves proves the topology. `adaptive`: certified subdivision on the

@@ -21,6 +21,7 @@
 #include "clearloci/mechanism.hpp"
 #include "clearloci/quantity.hpp"
 #include "clearloci/table.hpp"
+#include "clearloci/units.hpp"
 
 namespace clearloci::inline core {
 
@@ -90,6 +91,7 @@ struct ActualPose {
 struct Pose {
   std::string mechanism;
   std::vector<double> at;                                         ///< of each coordinate: rad of an angle, else m
+  std::vector<bool> angles;                                       ///< which coordinates are angles
   std::vector<std::pair<std::string, std::string>> working_mode;  ///< {"B1", "right"}, ...
   /// The first point that cannot be placed: the pose is out of reach, and nothing below is known. Else empty.
   std::string unreachable;
@@ -103,9 +105,12 @@ struct Pose {
   std::vector<JointTakeUp> take_up;      ///< of the joints with a clearance
   std::optional<PoseError> error;        ///< to the first order; absent where a take-up is undefined
   WorstCase worst;
-  std::vector<std::string> undefined;  ///< joints whose take-up is
-  std::vector<Vanishing> vanishing;    ///< reactions that leave it so
-  std::optional<ActualPose> actual;    ///< where it is asked for
+  std::vector<std::string> undefined;   ///< joints whose take-up is
+  std::vector<Vanishing> vanishing;     ///< reactions that leave it so
+  std::optional<ActualPose> actual;     ///< where it is asked for
+  std::string relative_to = {};         ///< the link that errors are relative to; empty: the ground
+  Units units = {};                     ///< of the mechanism file: what tables speak in
+  std::vector<std::string> notes = {};  ///< such as what a clearance stands for
 };
 
 /// Scalar reactions at many poses.

@@ -92,8 +92,10 @@ struct TrajectoryResult {
   /// q_<coordinate> and px, py of the end effector's point, each with _rate and _acceleration; actual_px, actual_py;
   /// the error dx, dy, dalpha; reactions; beta_J and beta_rate_J of the joints with a radial clearance.
   Table samples;
-  std::optional<PeriodSweep> sweep;    ///< where periods are asked for
-  std::vector<LossCurve> loss_curves;  ///< with it
+  std::optional<PeriodSweep> sweep;     ///< where periods are asked for
+  std::vector<LossCurve> loss_curves;   ///< with it
+  std::vector<std::string> notes = {};  ///< such as what a clearance stands for
+  Units units = {};                     ///< of the mechanism file: what tables and pictures speak in
 };
 
 }  // namespace clearloci::inline core

@@ -114,6 +114,7 @@ struct Verification {
   std::optional<RationalPoint> by;     ///< the translation found
   ZoneMap map;                         ///< the loci (of the file's load) and zones, for pictures; may be empty
   std::vector<std::string> notes;
+  Units units = {};  ///< of the mechanism file: what the text speaks in
 
   bool verified() const { return verdict == Verdict::verified; }
 };

@@ -1,0 +1,206 @@
+// Units: a file in mm, degrees and kN is the same mechanism as one in SI.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "five_bar_text.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/read.hpp"
+#include "mechanism/read_task.hpp"
+#include "mechanism/trajectory.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+Rational value(const Mechanism& mechanism, const Expression& expression) { return value_of(expression, mechanism); }
+
+std::string coordinates(const Mechanism& mechanism, std::size_t point) {
+  std::string text;
+  for (const Expression& e : std::get<ExplicitPoint>(mechanism.points.at(point).form).coordinates)
+    text += (text.empty() ? "" : ", ") + to_string(e);
+  return text;
+}
+
+const std::string in_mm = R"(format: 1
+units: {length: mm, angle: deg, force: kN, mass: g}
+parameters: {L: 500, d: 50 cm, alpha: 30, F: 100 N, k: 2}
+workspace:
+  x: [-500, 1 m]
+  y: [-1000, 1000]
+points:
+  A1: [0, 0]
+  A2: [d, 0]
+  P: [x, y]
+  B1: {dyad: [A1, P], lengths: [L, L], side: right}
+  B2: {dyad: [A2, P], lengths: [L, 0.5 m], side: left}
+links:
+  A1B1: {points: [A1, B1], mass: 1000, inertia: 0.02}
+  B1P: {points: [B1, P], mass: 1 kg, inertia: 2 kg*mm^2}
+  PB2: {points: [P, B2], mass: 1000}
+  B2A2: {points: [B2, A2], mass: 1000}
+joints:
+  A1: {revolute: [ground, A1B1], at: A1, actuated: true, clearance: {radial: 0.01, angular: 0.5}}
+  B1: {revolute: [A1B1, B1P], at: B1, clearance: {radial: 10 um}}
+  P: {revolute: [B1P, PB2], at: P}
+  B2: {revolute: [B2A2, PB2], at: B2}
+  A2: {revolute: [ground, B2A2], at: A2, actuated: true}
+end_effector: {link: PB2, at: P}
+loads:
+  - {link: PB2, at: P, force: [F*cos(alpha), -0.1]}
+  - {link: PB2, couple: 3}
+  - {link: PB2, couple: 3 N mm}
+  - {link: PB2, couple: F*L}
+gravity: [0, -9.81]
+)";
+
+TEST(Units, EveryFieldConvertsByItsDimension) {
+  const Mechanism m = parse_mechanism(in_mm, "m.yaml");
+  EXPECT_EQ(m.coordinates[0].lower, Rational(-1, 2));
+  EXPECT_EQ(m.coordinates[0].upper, 1);
+  EXPECT_EQ(coordinates(m, 2), "x, y");
+  EXPECT_EQ(value(m, std::get<ExplicitPoint>(m.points[1].form).coordinates[0]), Rational(1, 2));
+  const auto& dyad = std::get<DyadPoint>(m.points[4].form);
+  EXPECT_EQ(value(m, dyad.from_length), Rational(1, 2));
+  EXPECT_EQ(value(m, dyad.to_length), Rational(1, 2));
+  EXPECT_EQ(value(m, m.links[0].mass), 1);
+  EXPECT_EQ(value(m, *m.links[0].inertia), Rational(1, 50));
+  EXPECT_EQ(value(m, m.links[1].mass), 1);
+  EXPECT_EQ(value(m, *m.links[1].inertia), Rational(1, 500000));
+  EXPECT_EQ(value(m, m.joints[0].clearance->radial), Rational(1, 100000));
+  EXPECT_EQ(value(m, m.joints[1].clearance->radial), Rational(1, 100000));
+  EXPECT_EQ(to_string(m.joints[0].clearance->angular), "1/2*pi/180");
+  EXPECT_NEAR(core::to_double(value(m, m.loads[0].force[0])), 100 * std::sqrt(3.0) / 2, 1e-12);
+  EXPECT_EQ(value(m, m.loads[0].force[1]), -100);
+  EXPECT_EQ(value(m, m.loads[1].couple), 3);
+  EXPECT_EQ(value(m, m.loads[2].couple), Rational(3, 1000));
+  EXPECT_EQ(value(m, m.loads[3].couple), 50) << "100 N at 500 mm";
+  EXPECT_EQ(value(m, m.gravity[1]), Rational(-981, 100));
+}
+
+TEST(Units, ExpressionsOfTheCoordinatesStayPolynomialsInMetres) {
+  std::string text = with(in_mm, "P: [x, y]", "P: [2*x + 30 - 3 cm, x*y/100]");
+  Mechanism m = parse_mechanism(text, "m.yaml");
+  EXPECT_EQ(coordinates(m, 2), "2*x + 3/100 - 3/100, x*1000*y/100");
+  text = with(in_mm, "x: [-500, 1 m]", "x: {angle: [0, 90]}");
+  m = parse_mechanism(with(text, "P: [x, y]", "P: [40*cos(2*x + 30), y + 5*sin(x)]"), "m.yaml");
+  EXPECT_EQ(to_string(m.coordinates[0].upper_expression), "90*pi/180");
+  EXPECT_EQ(coordinates(m, 2), "1/25*cos(2*x + 30*pi/180), y + 1/200*sin(x)");
+}
+
+TEST(Units, ANumberMayCarryItsOwnUnitInAnyFile) {
+  std::string text = with(five_bar_text, "L: 0.5", "L: 500 mm");
+  text = with(text, "radial: 10e-6", "radial: 10 um");
+  text = with(text, "[0, -100]", "[0, -0.1 kN]");
+  const Mechanism m = parse_mechanism(text, "m.yaml");
+  EXPECT_EQ(m.parameters[0].value, Rational(1, 2));
+  EXPECT_EQ(value(m, m.joints[0].clearance->radial), Rational(1, 100000));
+  EXPECT_EQ(value(m, m.loads[0].force[1]), -100);
+  EXPECT_FALSE(m.units.declared);
+}
+
+TEST(Units, NamesOfTheFileAreNoUnits) {
+  // A parameter mm, a coordinate s: after * and / they are themselves.
+  const std::string text = with(with(five_bar_text, "L: 0.5", "mm: 1/2\n  L: 1*mm"), "x: [", "s: [");
+  const Mechanism m = parse_mechanism(with(text, "[x, y]", "['1*s', y]"), "m.yaml");
+  EXPECT_EQ(m.parameters[1].value, Rational(1, 2));
+  EXPECT_EQ(coordinates(m, 2), "1*s, y");
+}
+
+TEST(Units, TasksAndTrajectoriesFollowTheMechanism) {
+  const Mechanism m = parse_mechanism(in_mm, "m.yaml");
+  const core::Task task = parse_task(
+      "format: 1\ncircle: {centre: [100, -700], radius: 5 cm}\nmargin: 10\nmin_force: 0.005\nmin_couple: 2\n", "t.yaml",
+      m);
+  const auto& circle = std::get<core::TaskCircle>(task.shape);
+  EXPECT_EQ(circle.centre[1], Rational(-7, 10));
+  EXPECT_EQ(circle.radius, Rational(1, 20));
+  EXPECT_EQ(task.margin, Rational(1, 100));
+  EXPECT_EQ(*task.min_force, 5);
+  EXPECT_EQ(*task.min_couple, 2);
+  const Trajectory path = parse_trajectory(
+      "format: 1\npath: {waypoints: [[100, -700], {at: [200, -700], corner: 5}, [200, -600]]}\nmotion: cycloidal\n"
+      "period: 500 ms\n",
+      "p.yaml", m);
+  EXPECT_EQ(path.waypoints[1].at[0], Rational(1, 5));
+  EXPECT_EQ(path.waypoints[1].corner, Rational(1, 200));
+  EXPECT_EQ(path.period, Rational(1, 2));
+}
+
+TEST(Units, ValuesOfTheCommandLineAreThoseOfTheFile) {
+  const Mechanism m = parse_mechanism(in_mm, "m.yaml");
+  EXPECT_EQ(value_in_si("250", "workspace", m, {}), Rational(1, 4));
+  EXPECT_EQ(value_in_si("0.25 m", "workspace", m, {}), Rational(1, 4));
+  EXPECT_EQ(value_in_si("L/2", "workspace", m, {}), Rational(1, 4));
+  EXPECT_EQ(value_in_si("0.01", "length", m, {}), Rational(1, 100000));
+  EXPECT_EQ(value_in_si("1/32", "", m, {}), Rational(1, 32));
+}
+
+TEST(Units, ReachSpringsEffortsLimitsAndLoadsThatVary) {
+  std::string text =
+      with(in_mm, "at: B1, clearance: {radial: 10 um}", "at: B1, actuated: {effort: 2}, clearance: {radial: 10 um}");
+  text = with(text, "force: [F*cos(alpha), -0.1]", "force: [-40 N/m*(x - 250), -0.1*(y/1000)]");
+  text = with(text, "  - {link: PB2, couple: 3}\n",
+              "  - {link: PB2, at: P, force: '30 N/m*(A1 - P) + [0.001, 0]'}\n"
+              "  - {link: PB2, at: P, force: '0.002*(A1 - P)'}\n");
+  text += R"(springs:
+  - {links: [A1B1, ground], at: [B1, A2], stiffness: 400, free_length: 100}
+  - {links: [A1B1, ground], at: [B1, A2], stiffness: 0.4 N/mm, free_length: 10 cm}
+  - {links: [B1P, ground], at: [P, A2], force: 0.025}
+  - {joint: A1, stiffness: 2.5, rest: 30}
+  - {joint: A1, stiffness: 500 N mm/deg}
+limits:
+  - {distance: [A1, P], within: [310, 92 cm]}
+  - {angle: [A1, B1, P], within: [20, 160]}
+)";
+  const Mechanism m = parse_mechanism(text, "m.yaml");
+  EXPECT_EQ(value(m, *m.joints[1].effort), 2);
+  EXPECT_EQ(value(m, m.springs[0].stiffness), 400);
+  EXPECT_EQ(value(m, m.springs[0].free_length), Rational(1, 10));
+  EXPECT_EQ(value(m, m.springs[1].stiffness), 400);
+  EXPECT_EQ(value(m, m.springs[1].free_length), Rational(1, 10));
+  EXPECT_EQ(value(m, m.springs[2].force), 25);
+  EXPECT_EQ(value(m, m.springs[3].stiffness), Rational(5, 2));
+  EXPECT_EQ(to_string(m.springs[3].rest), "30*pi/180");
+  EXPECT_NEAR(core::to_double(value(m, m.springs[4].stiffness)), 0.5 * 180 / std::acos(-1.0), 1e-12);
+  EXPECT_EQ(m.limits[0].lower_value, Rational(31, 100));
+  EXPECT_EQ(m.limits[0].upper_value, Rational(23, 25));
+  EXPECT_EQ(to_string(m.limits[1].upper), "160*pi/180");
+  // -40 (x - 1/4) N and -100 y N, of metres.
+  std::vector<Parameter> at(2);
+  at[0].name = "x";
+  at[0].expression = Expression::number(Rational(1, 2));
+  at[1].name = "y";
+  at[1].expression = Expression::number(Rational(-1, 2));
+  EXPECT_EQ(evaluate(m.loads[0].force[0], at).value, -10);
+  EXPECT_EQ(evaluate(m.loads[0].force[1], at).value, 50);
+  EXPECT_EQ(value(m, m.loads[1].force_vector->arguments[0].numbers[0]), 30);
+  EXPECT_EQ(value(m, m.loads[1].force_vector->arguments[1].numbers[0]), 1);
+  EXPECT_EQ(value(m, m.loads[2].force_vector->numbers[0]), 2000) << "0.002 kN/mm";
+}
+
+TEST(Units, WrongOnesAreRefused) {
+  const std::vector<std::array<std::string, 3>> mistakes = {
+      {"length: mm", "length: deg", "'deg' is no unit of length; write one of m, dm, cm, mm"},
+      {"length: mm", "lenght: mm", "did you mean 'length'?"},
+      {"radial: 10 um", "radial: 10 deg", ""},
+      {"radial: 10 um", "radial: 10 N", "is a length, but '10 N' is a force; write it in a unit such as mm"},
+      {"mass: 1 kg", "mass: 1 kN", "is a mass, but '1 kN' is a force"},
+      {"couple: 3 N mm", "couple: 3 N/mm", "is a couple, but '3 N/mm' is a stiffness"},
+      {"couple: 3 N mm", "couple: 5 + 3 N mm", "adds numbers with and without a unit"},
+      {"d: 50 cm", "d: 50 cm + 3 N", "adds what does not measure the same"},
+      {"radial: 10 um", "radial: 10 parsec", "unexpected 'parsec'"},
+      {"radial: 10 um", "radial: 10 um^9", "a unit to this power"},
+  };
+  for (const auto& [from, to, says] : mistakes) {
+    if (says.empty()) continue;  // an angle is the ratio of two lengths
+    try {
+      parse_mechanism(with(in_mm, from, to), "m.yaml");
+      ADD_FAILURE() << "accepted: " << to;
+    } catch (const core::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism
