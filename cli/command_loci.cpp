@@ -26,6 +26,7 @@ struct Arguments {
   LociArguments loci;
   std::string formats = "svg,png,csv";
   std::string certificate;
+  bool exact = false;
 };
 
 /// Asked for, not merely a default.
@@ -61,7 +62,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::loci_object(map)));
   } else if (!arguments.common.quiet) {
-    fmt::print("{}\n", report::loci_table(map));
+    fmt::print("{}\n", report::loci_table(map, arguments.exact));
     std::vector<std::string> names;
     for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
     fmt::print("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
@@ -85,6 +86,8 @@ Command add_loci_command(CLI::App& program) {
                               fmt::join(report::format_names(report::Answer::loci), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
+  app->add_flag("--exact", arguments->exact,
+                "Irrational numbers of closed forms in the table as roots, not as decimals");
   add_certificate_argument(*app, arguments->certificate);
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"

@@ -5,12 +5,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/loci.hpp"
 #include "analysis/pose.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
+#include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/pose.hpp"
 
@@ -25,10 +27,59 @@ struct Arguments {
   bool iterate = false;
 };
 
+/// What is told of a working mode in which the pose has no answer.
+struct ModePose {
+  std::optional<Pose> pose;
+  std::string why_not = {};
+};
+
+ModePose solve_in(const DyadSides& sides, const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                  PoseRequest request) {
+  std::string words;
+  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(mechanism);
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    words += (i == 0 ? "" : ", ") + mechanism.points[static_cast<std::size_t>(points[i])].name + " " +
+             mechanism::side_name(mechanism, points[i], sides[i]);
+  try {
+    request.working_mode = sides;
+    Pose pose = solve_pose(mechanism, at, request);
+    if (!pose.unreachable.empty()) return {{}, fmt::format("{}: point {} cannot be placed", words, pose.unreachable)};
+    if (!pose.beyond_limit.empty()) return {{}, words + ": beyond the limit of the " + pose.beyond_limit};
+    if (pose.actual && !pose.actual->converged)
+      return {{}, fmt::format("{}: the pose error cannot be iterated: {}", words, pose.actual->reason)};
+    return {std::move(pose)};
+  } catch (const core::InputError& error) {  // singular in every pose of this mode
+    return {{}, words + ": " + error.problem()};
+  }
+}
+
+int run_all_modes(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
+  const std::vector<core::Rational> at = parse_pose(arguments.at, mechanism);
+  PoseRequest request{.iterate = arguments.iterate};
+  request.velocity = parse_rates(arguments.velocity, "--velocity", mechanism);
+  request.acceleration = parse_rates(arguments.acceleration, "--acceleration", mechanism);
+  nlohmann::ordered_json all = {
+      {"format", 1}, {"mechanism", mechanism.name}, {"poses", nlohmann::ordered_json::array()}};
+  std::string text;
+  for (const DyadSides& sides : requested_modes(mechanism, {.all_working_modes = true})) {
+    const ModePose own = solve_in(sides, mechanism, at, request);
+    if (own.pose) all["poses"].push_back(report::pose_object(*own.pose));
+    text += (text.empty() ? "" : "\n") + (own.pose ? report::pose_text(*own.pose) : own.why_not + "\n");
+  }
+  if (all["poses"].empty())
+    throw core::InputError({.file = "--at"}, "the pose is out of reach in every working mode",
+                           "choose a pose inside the workspace");
+  limit.writing();
+  const std::string json = report::json_text(all);
+  if (!arguments.common.output.empty()) report::write_atomically(output_folder(arguments.common) / "pose.json", json);
+  if (arguments.common.json)
+    fmt::print("{}", json);
+  else if (!arguments.common.quiet)
+    fmt::print("{}", text);
+  return exit_done;
+}
+
 Pose solve(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
-  if (arguments.iterate && mechanism.space == mechanism::Space::spatial)
-    throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not iterated",
-                           "leave --iterate out: the linear error is given");
   const std::vector<core::Rational> at = parse_pose(arguments.at, mechanism);
   PoseRequest request{.iterate = arguments.iterate};
   request.velocity = parse_rates(arguments.velocity, "--velocity", mechanism);
@@ -53,6 +104,10 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "pose.json", incomplete_body(name, "the pose was"), false);
   });
+  if (arguments.iterate && mechanism.space == mechanism::Space::spatial)
+    throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not iterated",
+                           "leave --iterate out: the linear error is given");
+  if (arguments.working_mode == "all") return run_all_modes(arguments, mechanism, limit);
   const Pose pose = solve(arguments, mechanism);
   limit.writing();
   if (!arguments.common.output.empty()) report::write_pose(pose, output_folder(arguments.common));
@@ -70,7 +125,8 @@ Command add_pose_command(CLI::App& program) {
       program.add_subcommand("pose", "Posture, reactions, take-up of clearances and pose error at one pose");
   const auto arguments = std::make_shared<Arguments>();
   add_common_arguments(*app, arguments->common);
-  app->add_option("--at", arguments->at, "The pose: one value for each free coordinate, e.g. 0.25,-0.7")
+  app->add_option("--at", arguments->at,
+                  "The pose: one value for each free coordinate, e.g. 0.25,-0.7 or y=-0.7,x=0.25")
       ->required()
       ->type_name("POSE");
   app->add_option("--velocity", arguments->velocity,
@@ -79,7 +135,7 @@ Command add_pose_command(CLI::App& program) {
   app->add_option("--acceleration", arguments->acceleration, "Likewise their accelerations, m/s^2 or rad/s^2")
       ->type_name("RATES");
   app->add_option("--working-mode", arguments->working_mode,
-                  "left or right for every dyad, e.g. right,left (default: the file's)")
+                  "left or right for every dyad, e.g. right,left (default: the file's), or all")
       ->type_name("SIDES");
   app->add_flag("--iterate", arguments->iterate,
                 "Also the pose error beyond the linear step: the mechanism closed with its clearances taken up");

@@ -17,6 +17,7 @@
 #include "cli/commands.hpp"
 #include "cli/standard_streams.hpp"
 #include "core/errors.hpp"
+#include "mechanism/read.hpp"
 
 namespace clearloci::cli {
 namespace {
@@ -36,12 +37,23 @@ void check_command_word(const std::vector<Command>& commands, int argc, const ch
                          fmt::format("the commands are {}", fmt::join(names, ", ")));
 }
 
+/// The keys of a mechanism file, of which the page mechanism-file.md has the values.
+std::string wrapped_keys() {
+  constexpr std::size_t width = 110;
+  std::string text = "Keys of a mechanism file (docs/mechanism-file.md):";
+  for (const std::string& key : mechanism::file_keys()) {
+    if (text.size() - text.rfind('\n') + key.size() > width) text += "\n ";
+    text += " " + key;
+  }
+  return text + "\n";
+}
+
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App program("Discontinuity loci of parallel mechanisms with joint clearances.", "clearloci");
   program.set_version_flag("--version", "clearloci " CLEARLOCI_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Example: clearloci loci examples/five_bar.yaml\n"
+      "Example: clearloci loci examples/five_bar.yaml\n" + wrapped_keys() +
       "Exit status: 0 done; 1 a check said no; 2 the input or the call is wrong; 3 a limit of time or memory was "
       "reached;\n"
       "70 an error of the program itself.");

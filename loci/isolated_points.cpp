@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -27,6 +28,19 @@ bool makes_vanish(const core::LocusFactor& factor, const std::string& joint, Qua
   return factor.role == FactorRole::reaction &&
          std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
                      [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
+}
+
+/// "(0.25, -0.7)"; angles, which a chart has by their half tangents, in degrees.
+std::string place_words(const LocusProblem& problem, const core::Point2& at) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  std::string words;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const bool angle = c < problem.charts.size() && problem.charts[c].has_value();
+    words +=
+        (c == 0 ? "(" : ", ") +
+        (angle ? std::to_string(core::angle_at(*problem.charts[c], at[c]) * degrees) + " deg" : std::to_string(at[c]));
+  }
+  return words + ")";
 }
 
 /// Whether a curve passes within `reach` of a point.
@@ -203,10 +217,10 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
             ++open;
         }
         if (open > 0) {
-          map.notes.push_back("contact loss of " + joint + ": " + std::to_string(open) +
-                              " places where an isolated point is neither proven nor excluded, the first near (" +
-                              std::to_string(found.undecided.front().x.middle()) + ", " +
-                              std::to_string(found.undecided.front().y.middle()) + ")");
+          map.notes.push_back(
+              "contact loss of " + joint + ": " + std::to_string(open) +
+              " places where an isolated point is neither proven nor excluded, the first near " +
+              place_words(problem, {found.undecided.front().x.middle(), found.undecided.front().y.middle()}));
         }
       }
     }

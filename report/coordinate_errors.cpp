@@ -9,6 +9,7 @@
 
 #include "report/coordinate_plots.hpp"
 #include "report/error.hpp"
+#include "report/file_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/table_json.hpp"
@@ -51,21 +52,25 @@ Json mode_json(const core::CoordinateErrors& result, const core::CoordinateModeE
 }
 
 /// In tables angles are in degrees.
-double shown(const core::CoordinateErrors& result) { return result.angle ? 180 / std::numbers::pi : 1; }
+double shown(const core::CoordinateErrors& result) {
+  return result.angle ? 180 / std::numbers::pi : shown_unit("m", result.loci.units).per_si;
+}
 
 std::string shown_coordinate(const core::CoordinateErrors& result) {
-  return result.coordinate + (result.angle ? "/deg" : "/m");
+  return result.coordinate + (result.angle ? "/deg" : "/" + result.loci.units.length.name);
 }
 
 std::string jumps_text(const core::CoordinateErrors& result, const core::CoordinateModeErrors& mode) {
   std::string text;
+  const ShownUnit length = shown_unit("m", result.loci.units), turn = shown_unit("rad", result.loci.units);
   for (const core::ErrorEvent& event : mode.events) {
     if (!event.jumps) continue;
     if (text.empty())
-      text = fmt::format("{:>14}{:>14}{:>14}{:>16}  what lets go\n", shown_coordinate(result), "jump in x/m",
-                         "jump in y/m", "turn/rad");
-    text += fmt::format("{:>14.9g}{:>14.4g}{:>14.4g}{:>16.4g}  {}\n", shown(result) * event.point.at.front(), event.dx,
-                        event.dy, event.dalpha, vanishing_words(event.point.kind, event.point.vanishing));
+      text = fmt::format("{:>14}{:>14}{:>14}{:>16}  what lets go\n", shown_coordinate(result),
+                         "jump in x/" + length.name, "jump in y/" + length.name, "turn/" + turn.name);
+    text += fmt::format("{:>14.9g}{:>14.4g}{:>14.4g}{:>16.4g}  {}\n", shown(result) * event.point.at.front(),
+                        event.dx * length.per_si, event.dy * length.per_si, event.dalpha * turn.per_si,
+                        vanishing_words(event.point.kind, event.point.vanishing));
   }
   return text.empty() ? text : text + "\n";
 }
@@ -102,13 +107,15 @@ std::string coordinate_errors_text(const core::CoordinateErrors& result) {
     for (std::size_t c = 0; c < result.components.size(); ++c) {
       const std::optional<core::ErrorSizes>& sizes = one.sizes[c];
       if (!sizes) continue;
+      const ShownUnit unit = shown_unit(result.components[c].unit, result.loci.units);
       text += fmt::format("{:<66}{:>12.4g}{:>12.4g}{:>12.4g}  {:.6g}\n",
-                          fmt::format("{} [{}]", result.components[c].label, result.components[c].unit), sizes->median,
-                          sizes->percentile_90, std::abs(sizes->largest),
+                          fmt::format("{} [{}]", result.components[c].label, unit.name), sizes->median * unit.per_si,
+                          sizes->percentile_90 * unit.per_si, std::abs(sizes->largest) * unit.per_si,
                           shown(result) * one.samples.columns.front()[sizes->at]);
     }
     text += "\n" + jumps_text(result, one);
   }
+  for (const std::string& note : result.notes) text += note + "\n";
   return text;
 }
 

@@ -1,11 +1,13 @@
 // The pictures of `clearloci error` over a single free coordinate.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "report/coordinate_plots.hpp"
+#include "report/file_units.hpp"
 #include "report/plot_lines.hpp"
 #include "report/wording.hpp"
 
@@ -19,29 +21,35 @@ class ModePlots {
   ModePlots(const core::CoordinateErrors& result, const core::CoordinateModeErrors& errors)
       : result_(result), errors_(errors) {
     const bool angle = result.angle;
-    to_axis_ = angle ? 180 / std::numbers::pi : 1;
-    axis_ = printable(result.coordinate) + (angle ? " (deg)" : " (m)");
+    const core::Units& units = result.loci.units;
+    to_axis_ = angle ? 180 / std::numbers::pi : shown_unit("m", units).per_si;
+    axis_ = printable(result.coordinate) + (angle ? " (deg)" : " (" + units.length.name + ")");
+    if (units.declared) {
+      length_ = small_length_ = shown_unit("m", units);
+      angle_ = shown_unit("rad", units);
+      force_ = shown_unit("N", units);
+    }
     for (const double value : errors.samples.columns.front()) at_.push_back(to_axis_ * value);
   }
 
   Plot error() const {
     Plot plot = frame("pose error");
-    const auto add = [&](const char* column, const char* label, const char* unit, int number) {
+    const auto add = [&](const char* column, const char* label, const ShownUnit& unit, int number) {
       PlotPanel panel;
-      panel.y_label = unit;
+      panel.y_label = unit.name;
       const std::string worst = std::string("worst_") + column;
       if (errors_.samples.has(worst)) {
-        core::Polyline above = line(at_, errors_.samples.at(worst), 1e3), below = above;
+        core::Polyline above = line(at_, errors_.samples.at(worst), unit.per_si), below = above;
         for (core::Point2& point : below) point[1] = -point[1];
         panel.series.push_back({"bound under any load", {std::move(above), std::move(below)}, -1, true});
       }
-      panel.series.push_back({label, {line(at_, errors_.samples.at(column), 1e3)}, number});
+      panel.series.push_back({label, {line(at_, errors_.samples.at(column), unit.per_si)}, number});
       panel.y_range = clipped_range(panel);
       plot.panels.push_back(std::move(panel));
     };
-    add("dx", "error in x", "mm", 0);
-    add("dy", "error in y", "mm", 1);
-    add("dalpha", "error in orientation", "mrad", 2);
+    add("dx", "error in x", length_, 0);
+    add("dy", "error in y", length_, 1);
+    add("dalpha", "error in orientation", angle_, 2);
     return plot;
   }
 
@@ -49,11 +57,11 @@ class ModePlots {
     Plot plot = frame("take-up");
     for (std::size_t j = 0; j < result_.joints.size(); ++j) {
       const std::string& name = result_.joints[j];
-      add_take_up(plot, "beta_" + name, "β of " + name, "β (deg)", 0, static_cast<int>(j));
-      add_take_up(plot, "theta_" + name, "play of the drive " + name, "mrad", 1e3, static_cast<int>(j));
-      add_take_up(plot, "travel_" + name, "play of the drive " + name, "µm", 1e6, static_cast<int>(j));
-      add_take_up(plot, "normal_" + name, "across the guide " + name, "µm", 1e6, static_cast<int>(j));
-      add_take_up(plot, "tilt_" + name, "tilt in the guide " + name, "mrad", 1e3, static_cast<int>(j));
+      add_take_up(plot, "beta_" + name, "β of " + name, {"β (deg)", 0}, static_cast<int>(j));
+      add_take_up(plot, "theta_" + name, "play of the drive " + name, angle_, static_cast<int>(j));
+      add_take_up(plot, "travel_" + name, "play of the drive " + name, small_length_, static_cast<int>(j));
+      add_take_up(plot, "normal_" + name, "across the guide " + name, small_length_, static_cast<int>(j));
+      add_take_up(plot, "tilt_" + name, "tilt in the guide " + name, angle_, static_cast<int>(j));
     }
     plot.panel_height = 80;
     return plot;
@@ -61,27 +69,27 @@ class ModePlots {
 
   Plot reactions() const {
     Plot plot = frame("reactions");
-    PlotPanel forces, couples;
-    forces.y_label = "|f| (N)";
-    couples.y_label = "N, N m";
+    std::vector<PlotSeries> forces, efforts, couples;
     for (std::size_t j = 0; j < result_.joints.size(); ++j) {
       const std::string& name = result_.joints[j];
       if (errors_.samples.has("f" + name + "x")) {
         const std::vector<double> size =
             lengths(errors_.samples.at("f" + name + "x"), errors_.samples.at("f" + name + "y"));
-        forces.series.push_back({"f_" + name, {line(at_, size)}, static_cast<int>(j)});
+        forces.push_back({"f_" + name, {line(at_, size, force_.per_si)}, static_cast<int>(j)});
       }
-      for (const std::string quantity : {"M", "F", "N", "T"})
+      const auto add = [&](std::vector<PlotSeries>& series, const std::string& quantity, double factor) {
         if (errors_.samples.has(quantity + name))
-          couples.series.push_back(
-              {quantity + "_" + name, {line(at_, errors_.samples.at(quantity + name))}, static_cast<int>(j)});
+          series.push_back({quantity + "_" + name,
+                            {line(at_, errors_.samples.at(quantity + name), factor)},
+                            static_cast<int>(series.size())});
+      };
+      for (const char* const force : {"F", "N"}) add(efforts, force, force_.per_si);
+      for (const char* const couple : {"M", "T"}) add(couples, couple, 1);
     }
-    for (PlotPanel* panel : {&forces, &couples}) {
-      if (panel->series.empty()) continue;
-      panel->y_range = clipped_range(*panel);
-      plot.panels.push_back(std::move(*panel));
-    }
-    plot.panel_height = 190;
+    add_by_size(plot, force_.name, std::move(forces));
+    add_by_size(plot, force_.name, std::move(efforts));
+    add_by_size(plot, "N m", std::move(couples));
+    plot.panel_height = plot.panels.size() > 3 ? 120 : 190;
     return plot;
   }
 
@@ -106,13 +114,60 @@ class ModePlots {
     return plot;
   }
 
-  /// A panel where the joint has that take-up; `factor` 0: an angle to be drawn in degrees.
-  void add_take_up(Plot& plot, const std::string& column, const std::string& label, const char* unit, double factor,
+  /// Of the values that are not among the largest: those near a direct singularity say nothing of the rest.
+  static double typical_size(const PlotSeries& series) {
+    std::vector<double> sizes;
+    for (const core::Polyline& points : series.lines)
+      for (const core::Point2& point : points)
+        if (std::isfinite(point[1])) sizes.push_back(std::abs(point[1]));
+    if (sizes.empty()) return 0;
+    std::sort(sizes.begin(), sizes.end());
+    return sizes[static_cast<std::size_t>(typical_part * static_cast<double>(sizes.size() - 1))];
+  }
+
+  /// "F, N" of series F_A, N_A, F_B; "|f|" of sizes.
+  static std::string quantities_of(const std::vector<PlotSeries>& series) {
+    std::vector<std::string> names;
+    for (const PlotSeries& own : series) {
+      const std::string name = own.label.starts_with("f_") ? "|f|" : own.label.substr(0, 1);
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+  /// The series in panels of their own where one would flatten the other, the largest first.
+  static void add_by_size(Plot& plot, const std::string& unit, std::vector<PlotSeries> series) {
+    constexpr double most_ratio = 20;
+    std::stable_sort(series.begin(), series.end(),
+                     [](const PlotSeries& a, const PlotSeries& b) { return typical_size(a) > typical_size(b); });
+    double largest = 0;
+    std::size_t first = plot.panels.size();
+    for (PlotSeries& own : series) {
+      const double size = typical_size(own);
+      const bool flattened = size > rounding && size * most_ratio < largest;
+      if (plot.panels.size() == first || flattened) {
+        largest = size;
+        plot.panels.emplace_back();
+      }
+      plot.panels.back().series.push_back(std::move(own));
+    }
+    for (std::size_t i = first; i < plot.panels.size(); ++i) {
+      std::vector<PlotSeries>& own = plot.panels[i].series;
+      std::stable_sort(own.begin(), own.end(),
+                       [](const PlotSeries& a, const PlotSeries& b) { return a.number < b.number; });
+      plot.panels[i].y_range = clipped_range(plot.panels[i]);
+      plot.panels[i].y_label = quantities_of(own) + " (" + unit + ")";
+    }
+  }
+
+  /// A panel where the joint has that take-up; a unit without size: an angle to be drawn in degrees.
+  void add_take_up(Plot& plot, const std::string& column, const std::string& label, const ShownUnit& unit,
                    int number) const {
+    const double factor = unit.per_si;
     if (!errors_.samples.has(column)) return;
     const std::vector<double>& values = errors_.samples.at(column);
     PlotPanel panel;
-    panel.y_label = unit;
+    panel.y_label = unit.name;
     panel.series.push_back({label, {factor == 0 ? angle_line(at_, values) : line(at_, values, factor)}, number});
     if (factor == 0) {
       panel.degrees = true;
@@ -121,14 +176,15 @@ class ModePlots {
       double most = 0;
       for (const double value : values)
         if (std::isfinite(value)) most = std::max(most, factor * std::abs(value));
-      if (most > 0) panel.y_range = {-1.25 * most, 1.25 * most};
+      panel.y_range = {-1.25 * most, 1.25 * most};
+      if (most <= rounding) panel.y_range = {-1, 1};
     }
     plot.panels.push_back(std::move(panel));
   }
 
   /// Near a direct singularity values grow without bound; the rest must still be seen. None: nothing is that large.
   static std::optional<std::array<double, 2>> clipped_range(const PlotPanel& panel) {
-    constexpr double typical_part = 0.85, most = 4, room = 2;
+    constexpr double most = 4, room = 2;
     std::vector<double> sizes;
     bool signs[2] = {false, false};
     for (const PlotSeries& series : panel.series)
@@ -140,15 +196,21 @@ class ModePlots {
           }
     if (sizes.empty()) return std::nullopt;
     std::sort(sizes.begin(), sizes.end());
+    if (sizes.back() <= rounding) return std::array<double, 2>{-1, 1};
     const double typical = sizes[static_cast<std::size_t>(typical_part * static_cast<double>(sizes.size() - 1))];
     if (typical == 0 || sizes.back() <= most * typical) return std::nullopt;
     return std::array<double, 2>{signs[0] ? -room * typical : 0, signs[1] ? room * typical : 0};
   }
 
+  static constexpr double typical_part = 0.85;
+  /// In the units shown: picometres, nanonewtons. What is smaller is what rounding leaves of zero.
+  static constexpr double rounding = 1e-9;
+
   const core::CoordinateErrors& result_;
   const core::CoordinateModeErrors& errors_;
   double to_axis_ = 1;
   std::string axis_;
+  ShownUnit length_{"mm", 1e3}, small_length_{"µm", 1e6}, angle_{"mrad", 1e3}, force_{"N", 1};
   std::vector<double> at_;
 };
 

@@ -1,6 +1,7 @@
 #include <span>
 
 #include "report/exports.hpp"
+#include "report/file_units.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -29,11 +30,31 @@ void append_row(std::string& out, const std::string& start, std::span<const doub
   out += '\n';
 }
 
+bool is_angle(const core::LocusMap& map, std::size_t coordinate) {
+  return coordinate < map.angles.size() && map.angles[coordinate];
+}
+
+void angles_in_file_units(core::LocusMap& map) {
+  const double per_rad = 1 / map.units.angle.size;
+  for (std::size_t c = 0; c < map.tower.coordinates.size(); ++c) {
+    if (!is_angle(map, c)) continue;
+    for (core::LocusCurve& curve : map.curves)
+      for (core::Arc& arc : curve.arcs)
+        for (core::Point2& at : arc.points) at[c] *= per_rad;
+    for (core::LocusSurface& surface : map.surfaces)
+      for (core::Point3& at : surface.vertices) at[c] *= per_rad;
+    for (core::IsolatedPoint& point : map.isolated_points) point.at[c] *= per_rad;
+  }
+}
+
 }  // namespace
 
-std::string csv(const core::LocusMap& map) {
+std::string csv(const core::LocusMap& in_si) {
+  core::LocusMap map = in_file_units(in_si);
+  if (map.units.declared) angles_in_file_units(map);
   std::string out = "curve,arc,kind,vanishing,mode,closed";
-  for (const auto& name : map.tower.coordinates) out += "," + field(name);
+  for (std::size_t c = 0; c < map.tower.coordinates.size(); ++c)
+    out += "," + field(column_head(map.tower.coordinates[c], is_angle(map, c) ? "rad" : "m", map.units));
   out += '\n';
   for (const auto& curve : map.curves) {
     const std::string what = field(core::to_string(curve.kind)) + "," + field(reaction_names(curve.vanishing)) + "," +

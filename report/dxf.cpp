@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "report/dxf_document.hpp"
+#include "report/file_units.hpp"
 #include "report/groups.hpp"
 #include "report/wording.hpp"
 
@@ -185,7 +186,8 @@ void write_entities(DxfWriter& out, const core::LocusMap& map, const DxfHandles&
 
 }  // namespace
 
-std::string dxf(const core::LocusMap& map, DxfVersion version) {
+std::string dxf(const core::LocusMap& in_si, DxfVersion version) {
+  const core::LocusMap map = in_file_units(in_si);
   DxfWriter body(version);
   write_dxf_classes(body);
   const DxfHandles handles = write_dxf_tables(body, map, layers_of(map));
@@ -195,7 +197,8 @@ std::string dxf(const core::LocusMap& map, DxfVersion version) {
   body.put(0, "EOF");
 
   DxfWriter header(version);
-  header.put(999, dxf_string("clearloci: discontinuity loci of " + map.mechanism + "; metres"));
+  header.put(999, dxf_string("clearloci: discontinuity loci of " + map.mechanism + "; " +
+                             (map.units.declared ? map.units.length.name : "metres")));
   write_dxf_header(header, map, body.next_handle());
   return header.text() + body.text();
 }

@@ -228,6 +228,19 @@ std::string dxf_string(const std::string& text) {
   return out;
 }
 
+namespace {
+
+/// $INSUNITS of a unit of length.
+int insertion_unit(const std::string& name) {
+  const std::vector<std::pair<std::string, int>> codes = {{"in", 1}, {"mm", 4},  {"cm", 5}, {"m", 6},
+                                                          {"km", 7}, {"um", 13}, {"dm", 14}};
+  for (const auto& [own, code] : codes)
+    if (own == name) return code;
+  return 0;  // unitless
+}
+
+}  // namespace
+
 void write_dxf_header(DxfWriter& out, const core::LocusMap& map, const std::string& seed) {
   const auto [low, high] = extent(map);
   out.begin_section("HEADER");
@@ -240,7 +253,7 @@ void write_dxf_header(DxfWriter& out, const core::LocusMap& map, const std::stri
     out.put(5, seed);
   }
   out.put(9, "$INSUNITS");
-  out.put(70, 6);
+  out.put(70, insertion_unit(map.units.length.name));
   out.put(9, "$EXTMIN");
   out.put_point(low, true);
   out.put(9, "$EXTMAX");

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/field_exports.hpp"
+#include "report/file_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
@@ -42,23 +43,34 @@ Json sizes_json(const core::FieldMap& map, const std::vector<std::optional<core:
   return all;
 }
 
-std::string sizes_row(const std::string& name, const core::FieldMap& map, const core::ErrorSizes& sizes) {
+/// `map` as it is shown; `per_si`: of the field's unit.
+std::string sizes_row(const std::string& name, const core::FieldMap& map, const core::ErrorSizes& sizes,
+                      double per_si) {
   const core::Point2 at = place(map, sizes.at);
-  return fmt::format("{:<60}{:>12.4g}{:>12.4g}{:>12.4g}  ({:.4g}, {:.4g})\n", name, sizes.median, sizes.percentile_90,
-                     std::abs(sizes.largest), at[0], at[1]);
+  return fmt::format("{:<60}{:>12.4g}{:>12.4g}{:>12.4g}  ({:.4g}, {:.4g})\n", name, sizes.median * per_si,
+                     sizes.percentile_90 * per_si, std::abs(sizes.largest) * per_si, at[0], at[1]);
+}
+
+/// The grid in the units of the file, without its fields, which are large.
+core::FieldMap shown_grid(const core::FieldMap& map, const core::LocusMap& loci) {
+  core::FieldMap grid{map.mechanism, map.coordinates, map.lower, map.upper, map.nx, map.ny, {}};
+  return in_file_units(std::move(grid), loci.units, loci.angles);
 }
 
 /// The bound that counts where the load is not known, zone by zone.
-std::string zones_text(const core::ModeErrors& one) {
+std::string zones_text(const core::ModeErrors& one, const core::LocusMap& loci) {
+  const core::FieldMap grid = shown_grid(one.map, loci);
   std::string text;
   for (std::size_t f = 0; f < one.map.fields.size(); ++f) {
     const core::Field& field = one.map.fields[f];
     if (field.name != "dp" && field.name != "worst_dp") continue;
-    text += fmt::format("{:<60}{:>12}{:>12}{:>12}  at\n", fmt::format("{} [{}], zone by zone", field.label, field.unit),
+    const ShownUnit unit = shown_unit(field.unit, loci.units);
+    text += fmt::format("{:<60}{:>12}{:>12}{:>12}  at\n", fmt::format("{} [{}], zone by zone", field.label, unit.name),
                         "median", "90 %", "largest");
     for (const core::ZoneErrors& zone : one.zones) {
       const std::string name = fmt::format("{}, {} cells", zone.zone, zone.cells.size());
-      text += zone.sizes[f] ? sizes_row(name, one.map, *zone.sizes[f]) : fmt::format("{:<60}{:>12}\n", name, "none");
+      text += zone.sizes[f] ? sizes_row(name, grid, *zone.sizes[f], unit.per_si)
+                            : fmt::format("{:<60}{:>12}\n", name, "none");
     }
     text += "\n";
   }
@@ -85,30 +97,37 @@ Json error_object(const core::ErrorMap& errors) {
           {{"id", zone.zone}, {"cells", zone.cells.size()}, {"fields", sizes_json(one.map, zone.sizes)}});
   }
   const core::FieldMap& map = errors.modes.front().map;
-  return {{"format", 1},
-          {"mechanism", map.mechanism},
-          {"coordinates", map.coordinates},
-          {"box", {{map.lower[0], map.upper[0]}, {map.lower[1], map.upper[1]}}},
-          {"grid", {map.nx, map.ny}},
-          {"complete", errors.loci.complete},
-          {"modes", std::move(all)}};
+  Json root = {{"format", 1},
+               {"mechanism", map.mechanism},
+               {"coordinates", map.coordinates},
+               {"box", {{map.lower[0], map.upper[0]}, {map.lower[1], map.upper[1]}}},
+               {"grid", {map.nx, map.ny}},
+               {"complete", errors.loci.complete},
+               {"modes", std::move(all)}};
+  if (errors.loci.units.declared) root["units"] = "SI";
+  if (!errors.notes.empty()) root["notes"] = errors.notes;
+  return root;
 }
 
 std::string error_text(const core::ErrorMap& errors) {
   std::string text;
   for (const core::ModeErrors& one : errors.modes) {
     const core::FieldMap& map = one.map;
+    const core::FieldMap grid = shown_grid(map, errors.loci);
     const std::string mode = mode_words(errors.loci.tower, one.mode);
     text += fmt::format("{}: pose error over {} x {} cells{}\n", map.mechanism, map.nx, map.ny,
                         mode.empty() ? "" : "; " + mode);
     if (!one.never_loaded.empty()) text += never_loaded_words(one.never_loaded);
     text += fmt::format("\n{:<60}{:>12}{:>12}{:>12}  at\n", "absolute values", "median", "90 %", "largest");
     for (std::size_t f = 0; f < map.fields.size(); ++f)
-      if (one.sizes[f])
-        text += sizes_row(fmt::format("{} [{}]", map.fields[f].label, map.fields[f].unit), map, *one.sizes[f]);
+      if (one.sizes[f]) {
+        const ShownUnit unit = shown_unit(map.fields[f].unit, errors.loci.units);
+        text += sizes_row(fmt::format("{} [{}]", map.fields[f].label, unit.name), grid, *one.sizes[f], unit.per_si);
+      }
     text += fmt::format("\n{} cells in the workspace, {} on a locus to the last bit\n\n", one.reachable, one.undefined);
-    if (!one.zones.empty()) text += zones_text(one);
+    if (!one.zones.empty()) text += zones_text(one, errors.loci);
   }
+  for (const std::string& note : errors.notes) text += note + "\n";
   return text;
 }
 
@@ -132,7 +151,9 @@ std::vector<std::filesystem::path> write_error(const core::ErrorMap& errors, con
       if (formats.contains("svg")) picture(".svg", PictureFormat::svg);
       if (formats.contains("pdf")) picture(".pdf", PictureFormat::pdf);
     }
-    if (formats.contains("csv")) write("error" + which + ".csv", field_csv(one.map));
+    if (formats.contains("csv"))
+      write("error" + which + ".csv",
+            field_csv(in_file_units(one.map, errors.loci.units, errors.loci.angles), errors.loci));
     if (formats.contains("vtk")) write("error" + which + ".vti", vti(one.map));
   }
   return files;

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
 
+#include "report/file_units.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -29,18 +31,26 @@ void append_little_endian(std::string& out, T value) {
 
 }  // namespace
 
-std::string field_csv(const core::FieldMap& map) {
-  std::string out = map.coordinates[0] + "," + map.coordinates[1];
-  for (const core::Field& field : map.fields) out += "," + field.name;
+std::string field_csv(const core::FieldMap& map, const core::LocusMap& loci) {
+  // The fields are in the file's units already; the coordinates' angles are not.
+  std::array<double, 2> per_si = {1, 1};
+  std::string out;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const bool angle = c < loci.angles.size() && loci.angles[c];
+    if (angle) per_si[c] = shown_unit("rad", loci.units).per_si;
+    out += (c == 0 ? "" : ",") + column_head(map.coordinates[c], angle ? "rad" : "m", loci.units);
+  }
+  for (const core::Field& field : map.fields)
+    out += "," + (loci.units.declared ? field.name + " (" + field.unit + ")" : field.name);
   out += '\n';
   for (int j = 0; j < map.ny; ++j) {
     for (int i = 0; i < map.nx; ++i) {
       const std::size_t cell = map.index(i, j);
       const auto there = [&](const core::Field& field) { return !std::isnan(field.values[cell]); };
       if (std::none_of(map.fields.begin(), map.fields.end(), there)) continue;
-      append_number(out, map.x(i));
+      append_number(out, map.x(i) * per_si[0]);
       out += ',';
-      append_number(out, map.y(j));
+      append_number(out, map.y(j) * per_si[1]);
       for (const core::Field& field : map.fields) {
         out += ',';
         if (there(field)) append_number(out, field.values[cell]);

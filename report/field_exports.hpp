@@ -4,12 +4,13 @@
 #include <string>
 
 #include "core/field_map.hpp"
+#include "core/locus_map.hpp"
 
 namespace clearloci::report {
 
-/// One row a cell that has a value in some field: both coordinates of its middle, then the fields by name, SI units,
-/// empty where there is none.
-std::string field_csv(const core::FieldMap& map);
+/// One row a cell that has a value in some field: both coordinates of its middle, then the fields by name, empty where
+/// there is none. In SI units; `map` in those of its file (in_file_units), which the heads then name, with `loci`.
+std::string field_csv(const core::FieldMap& map, const core::LocusMap& loci = {});
 
 /// VTK XML ImageData, one point in the middle of each cell, point data of 64-bit numbers, NaN where there is none.
 std::string vti(const core::FieldMap& map);

@@ -50,13 +50,11 @@ bool same_reactions(const std::vector<core::Vanishing>& a, const std::vector<cor
   });
 }
 
-/// A factor of many terms is no reading for a legend: its degree says more.
-std::string reason_words(const core::LocusCurve& curve) {
-  if (!curve.cause.empty()) return printable(curve.cause);
+/// A factor of many terms is no reading for a legend.
+std::string reason_of(const core::LocusCurve& curve) {
   constexpr int readable = 44;
-  if (!curve.factor.empty() && columns(curve.factor) <= readable) return printable(curve.factor) + " = 0";
-  if (curve.implicit.is_zero()) return "";
-  return "curve of degree " + std::to_string(core::total_degree(curve.implicit));
+  const bool short_factor = curve.cause.empty() && !curve.factor.empty() && columns(curve.factor) <= readable;
+  return reason_words(curve.kind, curve.vanishing, curve.factor, curve.cause, readable) + (short_factor ? " = 0" : "");
 }
 
 std::string what_words(const core::LocusCurve& curve) {
@@ -81,7 +79,7 @@ void add_curve(Groups& groups, const core::LocusCurve& curve) {
     fresh.what = what_words(curve);
     if (reaction) {
       fresh.vanishing = curve.vanishing;
-      fresh.why = reason_words(curve);
+      fresh.why = reason_of(curve);
     }
     group = groups.curves.insert(groups.curves.end(), std::move(fresh));
   }

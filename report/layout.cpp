@@ -88,7 +88,7 @@ std::vector<Tick> ticks_of(const core::LocusMap& map, const Layout& layout, int 
 void choose_axes(const Subject& subject, Layout& layout) {
   const core::LocusMap& map = *subject.map;
   const auto label = [&](int i) {
-    return printable(map.tower.coordinates[i]) + (is_angle(map, i) ? " (deg)" : " (m)");
+    return printable(map.tower.coordinates[i]) + (is_angle(map, i) ? " (deg)" : " (" + map.units.length.name + ")");
   };
   layout.x_label = label(0);
   layout.x_ticks = ticks_of(map, layout, 0, 52);

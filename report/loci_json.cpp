@@ -193,6 +193,8 @@ Json loci_object(const core::LocusMap& map) {
   root["coordinates"] = map.tower.coordinates;
   if (!map.angles.empty()) {
     for (const bool angle : map.angles) root["units"].push_back(angle ? "rad" : "m");
+  } else if (map.units.declared) {
+    root["units"] = "SI";  // whatever the file is written in
   }
   root["box"] = box_array(map);
   if (map.tower.coordinates.size() != 3) root["tolerance"] = map.tolerance;  // of arcs

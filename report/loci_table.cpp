@@ -6,6 +6,7 @@
 #include <array>
 #include <numbers>
 
+#include "report/file_units.hpp"
 #include "report/wording.hpp"
 #include "report/wrap.hpp"
 
@@ -13,6 +14,10 @@ namespace clearloci::report {
 namespace {
 
 constexpr int table_width = 120;
+constexpr double degrees = 180 / std::numbers::pi;
+
+/// A longer factor would fill the screen; `equations` prints it whole.
+constexpr int readable_factor = 60;
 
 /// Of a direct singularity.
 constexpr const char* not_excited = "not excited by this load";
@@ -101,10 +106,7 @@ std::string what_vanishes(const std::vector<core::Vanishing>& vanishing) {
 std::string where(const core::LocusCurve& curve) {
   const std::string what = what_vanishes(curve.vanishing);
   const std::string start = (what.empty() ? "" : what + "\n") + (curve.excited ? "" : std::string(not_excited) + "\n");
-  if (!curve.cause.empty()) return start + printable(curve.cause);
-  constexpr int readable = 60;  // a longer factor would fill the screen; `equations` prints it whole
-  if (columns(curve.factor) <= readable) return start + printable(curve.factor);
-  return start + "factor without a short form";
+  return start + reason_words(curve.kind, curve.vanishing, curve.factor, curve.cause, readable_factor);
 }
 
 double total_length(const core::LocusCurve& curve) {
@@ -117,22 +119,22 @@ bool has_angles(const core::LocusMap& map) {
   return std::any_of(map.angles.begin(), map.angles.end(), [](bool angle) { return angle; });
 }
 
-std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
+std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode, bool exact) {
   std::vector<Column> heading = {{"curve", 8},
                                  {"kind", 18},
                                  {"what vanishes, where", 0},
                                  {"degree", 6, true},
                                  {"closed form", 0},
                                  {"arcs", 4, true},
-                                 {has_angles(map) ? "length" : "length/m", 8, true}};
+                                 {has_angles(map) ? "length" : "length/" + map.units.length.name, 8, true}};
   std::vector<Row> rows;
   int closed_form = 0, identifier = columns(heading[0].heading);
   for (const auto& curve : map.curves) {
     if (curve.mode != mode) continue;
     rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind), where(curve),
                     curve.implicit.is_zero() ? "-" : std::to_string(core::total_degree(curve.implicit)),
-                    closed_form_words(curve.closed_form, map.tower.coordinates), std::to_string(curve.arcs.size()),
-                    fmt::format("{:.4f}", total_length(curve))});
+                    closed_form_words(curve.closed_form, map.tower.coordinates, exact),
+                    std::to_string(curve.arcs.size()), fmt::format("{:.4f}", total_length(curve))});
     closed_form = std::max(closed_form, columns(rows.back()[4]));
     identifier = std::max(identifier, std::min(columns(rows.back()[0]), heading[0].widest));
   }
@@ -148,15 +150,17 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode)
 std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
   std::vector<Column> heading = {{"point", 8}, {"kind", 18}, {"vanishing", 40}};
   for (std::size_t i = 0; i < map.tower.coordinates.size(); ++i)
-    heading.push_back(
-        {printable(map.tower.coordinates[i]) + (has_angles(map) && map.angles[i] ? "/rad" : "/m"), 14, true});
+    heading.push_back({printable(map.tower.coordinates[i]) +
+                           (has_angles(map) && map.angles[i] ? "/deg" : "/" + map.units.length.name),
+                       14, true});
   std::vector<Row> rows;
   for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
     const auto& point = map.isolated_points[i];
     if (point.mode != mode) continue;
     Row row = {"p" + std::to_string(i + 1) + (point.certified ? "" : "*"), kind_words(point.kind),
                what_vanishes(point.vanishing)};
-    for (const double value : point.at) row.push_back(fmt::format("{:.9f}", value));
+    for (std::size_t c = 0; c < point.at.size(); ++c)
+      row.push_back(fmt::format("{:.9f}", point.at[c] * (has_angles(map) && map.angles[c] ? degrees : 1)));
     rows.push_back(std::move(row));
   }
   return rows.empty() ? "" : "\nisolated points\n" + format_rows(heading, rows);
@@ -166,10 +170,7 @@ std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode)
 std::string where(const core::LocusSurface& surface) {
   const std::string what = what_vanishes(surface.vanishing);
   const std::string start = what.empty() ? "" : what + "\n";
-  constexpr int readable = 60;
-  if (!surface.cause.empty()) return start + printable(surface.cause);
-  if (!surface.factor.empty() && columns(surface.factor) <= readable) return start + printable(surface.factor);
-  return start + (surface.factor.empty() ? "" : "factor without a short form");
+  return start + reason_words(surface.kind, surface.vanishing, surface.factor, surface.cause, readable_factor);
 }
 
 std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
@@ -179,7 +180,7 @@ std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mod
                                        {"degree", 6, true},
                                        {"pieces", 6, true},
                                        {"triangles", 9, true},
-                                       {has_angles(map) ? "area" : "area/m^2", 9, true}};
+                                       {has_angles(map) ? "area" : "area/" + map.units.length.name + "^2", 9, true}};
   std::vector<Row> rows;
   for (const auto& surface : map.surfaces) {
     if (surface.mode != mode) continue;
@@ -195,14 +196,13 @@ bool is_angle(const core::LocusMap& map) { return !map.angles.empty() && map.ang
 
 /// A value of the one coordinate: m, or deg.
 std::string place(const core::LocusMap& map, double value) {
-  constexpr double degrees = 180 / std::numbers::pi;
   return fmt::format("{:.9f}", is_angle(map) ? value * degrees : value);
 }
 
 /// With one free coordinate: the reachable intervals, then a row a point, with the reason.
 std::string single_coordinate_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
   const std::string name = printable(map.tower.coordinates.front());
-  const std::string unit = is_angle(map) ? "deg" : "m";
+  const std::string unit = is_angle(map) ? "deg" : map.units.length.name;
   std::string out = "reachable: ";
   bool any = false;
   for (const auto& interval : map.reachable) {
@@ -213,25 +213,21 @@ std::string single_coordinate_rows(const core::LocusMap& map, const core::Workin
   out += any ? " " + unit + "\n" : "nowhere\n";
   std::vector<Column> heading = {
       {"point", 8}, {"kind", 18}, {"what vanishes, where", 60}, {name + "/" + unit, 16, true}};
-  if (is_angle(map)) heading.push_back({name + "/rad", 14, true});
   std::vector<Row> rows;
   for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
     const auto& point = map.isolated_points[i];
     if (point.mode != mode) continue;
-    constexpr int readable = 60;
-    std::string why = point.cause.empty() ? point.factor : point.cause;
-    if (columns(why) > 2 * readable) why = "factor without a short form";
+    const std::string why = reason_words(point.kind, point.vanishing, point.factor, point.cause, 2 * readable_factor);
     const std::string what = what_vanishes(point.vanishing) + (point.excited ? "" : not_excited);
-    rows.push_back({"p" + std::to_string(i + 1), kind_words(point.kind),
-                    what + (what.empty() ? "" : "\n") + printable(why), place(map, point.at.front())});
-    if (is_angle(map)) rows.back().push_back(fmt::format("{:.11f}", point.at.front()));
+    rows.push_back({"p" + std::to_string(i + 1), kind_words(point.kind), what + (what.empty() ? "" : "\n") + why,
+                    place(map, point.at.front())});
   }
   return out + (rows.empty() ? "no points\n" : format_rows(heading, rows));
 }
 
 std::string notes(const core::LocusMap& map) {
   const auto measure = [](std::string_view text) { return static_cast<double>(columns(text)); };
-  std::vector<std::string> sentences = map.notes;
+  std::vector<std::string> sentences = told_once(map.notes);
   const auto uncertain = [](const auto& one) { return !one.certified; };
   if (std::any_of(map.curves.begin(), map.curves.end(), uncertain) ||
       std::any_of(map.isolated_points.begin(), map.isolated_points.end(), uncertain)) {
@@ -250,7 +246,8 @@ std::string notes(const core::LocusMap& map) {
 
 }  // namespace
 
-std::string loci_table(const core::LocusMap& map) {
+std::string loci_table(const core::LocusMap& in_si, bool exact) {
+  const core::LocusMap map = in_file_units(in_si);
   std::string out = printable(map.mechanism);
   const std::string parameters = printable(parameter_words(map));
   if (!parameters.empty()) out += "\n" + parameters;
@@ -268,7 +265,7 @@ std::string loci_table(const core::LocusMap& map) {
     else if (map.tower.coordinates.size() == 3)
       out += surface_rows(map, mode);
     else
-      out += curve_rows(map, mode) + point_rows(map, mode);
+      out += curve_rows(map, mode, exact) + point_rows(map, mode);
   }
   return out + notes(map);
 }

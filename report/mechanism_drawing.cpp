@@ -54,6 +54,17 @@ void draw_slide(const Context& context, const Layout& layout, const core::Sketch
   const Point2 middle = {(from[0] + to[0]) / 2, (from[1] + to[1]) / 2};
   draw_bar(context, {middle, to}, 0.55 * bar_width);
   draw_bar(context, {from, middle}, bar_width);
+  if (!slide.actuated) return;
+  // Filled, as the pins of motors are: the cylinder's own pin may lie below one that is not.
+  const Point2 start = {from[0] + 0.15 * (to[0] - from[0]), from[1] + 0.15 * (to[1] - from[1])},
+               end = {from[0] + 0.42 * (to[0] - from[0]), from[1] + 0.42 * (to[1] - from[1])};
+  context->unset_dash();
+  context->set_line_cap(Cairo::Context::LineCap::ROUND);
+  context->move_to(start[0], start[1]);
+  context->line_to(end[0], end[1]);
+  context->set_line_width(0.45 * bar_width);
+  set_colour(context, outline);
+  context->stroke();
 }
 
 void draw_pin(const Context& context, const Point2& at, bool actuated) {

@@ -1,6 +1,7 @@
 #include "report/picture.hpp"
 
 #include "report/drawing.hpp"
+#include "report/file_units.hpp"
 #include "report/range_picture.hpp"
 #include "report/space_picture.hpp"
 #include "report/surface.hpp"
@@ -31,20 +32,30 @@ std::string drawn(const Subject& subject, PictureFormat format) {
 
 }  // namespace
 
-std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
+std::string picture(const core::LocusMap& in_si, const core::WorkingMode& mode, const core::Sketch* si_sketch,
                     PictureFormat format) {
+  const core::LocusMap map = in_file_units(in_si);
+  std::optional<core::Sketch> in_units;
+  if (si_sketch != nullptr) in_units = in_file_units(*si_sketch, map.units);
+  const core::Sketch* const sketch = in_units ? &*in_units : nullptr;
   if (map.tower.coordinates.size() == 3) return space_picture(map, mode, format);
   if (map.tower.coordinates.size() == 1) return range_picture(map, mode, format);
   return drawn({&map, mode, groups_of_mode(group_loci(map), mode), sketch, nullptr, nullptr, nullptr}, format);
 }
 
-std::string field_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::FieldMap& fields,
-                          const core::Field& field, PictureFormat format) {
+std::string field_picture(const core::LocusMap& in_si, const core::WorkingMode& mode, const core::FieldMap& si_fields,
+                          const core::Field& si_field, PictureFormat format) {
+  const core::LocusMap map = in_file_units(in_si);
+  core::FieldMap own = si_fields;
+  own.fields = {si_field};
+  const core::FieldMap fields = in_file_units(std::move(own), map.units, map.angles);
+  const core::Field& field = fields.fields.front();
   const FieldLayer layer{&fields, &field, scale_of(field.values, field.is_signed, field.unit)};
   return drawn({&map, mode, groups_of_mode(group_loci(map), mode), nullptr, &layer, nullptr, nullptr}, format);
 }
 
-std::string zone_picture(const core::ZoneMap& map, const core::WorkingMode& mode, PictureFormat format) {
+std::string zone_picture(const core::ZoneMap& in_si, const core::WorkingMode& mode, PictureFormat format) {
+  const core::ZoneMap map = in_file_units(in_si);
   return drawn({&map.loci, mode, groups_of_mode(group_loci(map.loci), mode), nullptr, nullptr, &map, nullptr}, format);
 }
 

@@ -31,13 +31,21 @@ constexpr Font title_font{13, true, false};
 constexpr Font subtitle_font{9.5, false, false};
 constexpr Font legend_text_font{8.5, false, false};
 
-// Okabe and Ito, as for the loci.
-constexpr std::array<Colour, 6> palette = {{{0.000, 0.447, 0.698},
-                                            {0.835, 0.369, 0.000},
-                                            {0.000, 0.620, 0.451},
-                                            {0.800, 0.475, 0.655},
-                                            {0.902, 0.624, 0.000},
-                                            {0.337, 0.706, 0.914}}};
+// Okabe and Ito, as for the loci; then what Tol's muted colours (P. Tol, Colour schemes, 2021) add to them. A line more
+// has a colour again, dashed.
+constexpr std::array<Colour, 12> palette = {{{0.000, 0.447, 0.698},
+                                             {0.835, 0.369, 0.000},
+                                             {0.000, 0.620, 0.451},
+                                             {0.800, 0.475, 0.655},
+                                             {0.902, 0.624, 0.000},
+                                             {0.337, 0.706, 0.914},
+                                             {0.200, 0.133, 0.533},
+                                             {0.533, 0.133, 0.333},
+                                             {0.600, 0.600, 0.200},
+                                             {0.067, 0.467, 0.200},
+                                             {0.667, 0.267, 0.600},
+                                             {0.467, 0.467, 0.467}}};
+const std::vector<std::vector<double>> line_dashes = {{}, {6, 2}, {2, 2}, {8, 2, 2, 2}};
 const std::vector<std::vector<double>> mark_dashes = {{4, 2}, {1, 2}, {7, 2, 1, 2}, {2, 4}};
 
 constexpr double plot_width = 430, legend_width = 150, margin = 12, gap = 14, line_height = 11.5;
@@ -68,7 +76,10 @@ std::array<double, 2> reach(const std::vector<PlotPanel>& panels, std::size_t ax
         for (const Point2& point : line)
           if (std::isfinite(point[1 - axis])) widen(range, point[axis]);
   if (!(range[0] <= range[1])) range = {0, 1};
-  const double size = range[1] - range[0];
+  double size = range[1] - range[0];
+  // What rounding leaves of a constant is no range to look at.
+  constexpr double rounding = 1e-9;
+  if (axis == 1 && size <= rounding * std::max(std::abs(range[0]), std::abs(range[1]))) size = 0;
   const double room = size > 0 ? part * size : std::max(1e-12, 0.5 * std::abs(range[0]));
   return {range[0] - room, range[1] + room};
 }
@@ -161,7 +172,8 @@ class PlotDrawing {
   static Stroke stroke_of(const PlotSeries& series) {
     if (series.faint) return {{0.55, 0.55, 0.55}, 0.9, {}, false};
     if (series.number < 0) return {{0, 0, 0}, 1.2, {}, false};
-    return {palette[static_cast<std::size_t>(series.number) % palette.size()], 1.3, {}, false};
+    const auto number = static_cast<std::size_t>(series.number);
+    return {palette[number % palette.size()], 1.3, line_dashes[number / palette.size() % line_dashes.size()], false};
   }
 
   static void set_stroke(const Context& context, const Stroke& s) {

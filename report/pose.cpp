@@ -91,6 +91,9 @@ Json pose_object(const core::Pose& pose) {
                  {"vanishing", vanishing_array(pose.vanishing)},
                  {"singular", pose.singular},
                  {"worst_case", std::move(worst)}};
+  if (pose.units.declared) result["units"] = "SI";
+  if (!pose.relative_to.empty()) result["relative_to"] = pose.relative_to;
+  if (!pose.notes.empty()) result["notes"] = pose.notes;
   if (pose.actual) result["iterated"] = actual_json(*pose.actual);
   return result;
 }

@@ -35,7 +35,7 @@ Range range_of(const core::LocusMap& map) {
   const bool angle = !map.angles.empty() && map.angles.front();
   const double factor = angle ? 180 / std::numbers::pi : 1;
   return {core::to_double(map.lower.front()) * factor, core::to_double(map.upper.front()) * factor, factor,
-          printable(map.tower.coordinates.front()) + (angle ? " / deg" : " / m")};
+          printable(map.tower.coordinates.front()) + (angle ? " / deg" : " / " + map.units.length.name)};
 }
 
 std::string words_of(const core::IsolatedPoint& point) {

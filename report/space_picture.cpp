@@ -138,7 +138,7 @@ Scale scale_of(const core::LocusMap& map, std::size_t i, double points) {
   const std::string name = printable(map.tower.coordinates[i]);
   if (!map.angles.empty() && map.angles[i])
     return {angle_ticks(low / degree, high / degree, apart / degree), degree, name + " (deg)"};
-  return {ticks(low, high, apart), 1, name + " (m)"};
+  return {ticks(low, high, apart), 1, name + " (" + map.units.length.name + ")"};
 }
 
 /// Of the upright axis.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/file_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/plot.hpp"
@@ -69,6 +70,22 @@ std::string loss_words(const core::ContactLoss& loss) {
   return what + (loss.payload ? " reversed by the payload" : " reversed as the acceleration jumps");
 }
 
+std::string notes_text(const core::TrajectoryResult& result) {
+  std::string text;
+  for (const std::string& note : result.notes) text += note + "\n";
+  return text;
+}
+
+/// In the units of the mechanism file, which the heads name where it declares them.
+std::string shown_csv(const core::Table& table, const core::Units& units) {
+  if (!units.declared) return table_csv(table.names, table.columns);
+  const core::Table shown = in_file_units(table, units);
+  std::vector<std::string> heads;
+  for (std::size_t c = 0; c < shown.names.size(); ++c)
+    heads.push_back(shown.units[c].empty() ? shown.names[c] : shown.names[c] + " (" + shown.units[c] + ")");
+  return table_csv(heads, shown.columns);
+}
+
 }  // namespace
 
 Json trajectory_object(const core::TrajectoryResult& result) {
@@ -81,6 +98,8 @@ Json trajectory_object(const core::TrajectoryResult& result) {
                {"min_force", result.min_force},
                {"stages", stages_json(result)},
                {"contact_losses", losses_json(result)}};
+  if (result.units.declared) json["units"] = "SI";
+  if (!result.notes.empty()) json["notes"] = result.notes;
   if (result.sweep) {
     const std::vector<double>& periods = result.sweep->periods;
     json["periods"] = {{"from", periods.front()}, {"to", periods.back()}, {"count", periods.size()}};
@@ -121,11 +140,11 @@ std::string trajectory_text(const core::TrajectoryResult& result) {
   text += fmt::format(
       "\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {:.4g} N: {} times\n",
       result.min_force, result.losses.size());
-  if (result.losses.empty()) return text;
+  if (result.losses.empty()) return text + notes_text(result);
   text += fmt::format("{:>14}{:>14}{:>8}  {:<10}\n", "time [s]", "distance [m]", "stage", "what");
   for (const core::ContactLoss& loss : result.losses)
     text += fmt::format("{:>14.9f}{:>14.6f}{:>8}  {}\n", loss.time, loss.distance, loss.stage, loss_words(loss));
-  return text;
+  return text + notes_text(result);
 }
 
 std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult& result,
@@ -139,10 +158,9 @@ std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult
   };
   write("trajectory.json", json_text(trajectory_object(result)));
   if (formats.contains("csv")) {
-    write("trajectory.csv", table_csv(result.samples.names, result.samples.columns));
+    write("trajectory.csv", shown_csv(result.samples, result.units));
     if (result.sweep) {
-      const core::Table table = sweep_table(result);
-      write("periods.csv", table_csv(table.names, table.columns));
+      write("periods.csv", shown_csv(sweep_table(result), result.units));
     }
   }
   const std::vector<NamedPlot> plots = trajectory_plots(result);

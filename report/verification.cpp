@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/task.hpp"
+#include "report/file_units.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/wording.hpp"
@@ -18,8 +19,8 @@ using Json = nlohmann::ordered_json;
 /// m; what is nearer is in the task but for rounding.
 constexpr double rounding_of_distance = 1e-12;
 
-const char* unit_of(const core::Vanishing& reaction) {
-  return reaction.quantity == core::Quantity::M || reaction.quantity == core::Quantity::T ? "N m" : "N";
+std::string unit_of(const core::Vanishing& reaction, const core::Units& units) {
+  return reaction.quantity == core::Quantity::M || reaction.quantity == core::Quantity::T ? "N m" : units.force.name;
 }
 
 std::string open_words(const core::OpenTask& open) {
@@ -66,7 +67,7 @@ const char* verdict_line(core::Verdict verdict) {
 
 }  // namespace
 
-std::string witness_words(const core::TaskWitness& witness) {
+std::string witness_words(const core::TaskWitness& witness, const core::Units& units) {
   std::string words;
   switch (witness.kind) {
     case core::TaskWitness::Kind::unreachable:
@@ -84,12 +85,14 @@ std::string witness_words(const core::TaskWitness& witness) {
       break;
     case core::TaskWitness::Kind::too_small:
       words = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(witness.too_small.front()), *witness.size,
-                          unit_of(witness.too_small.front()), core::to_string(*witness.least));
+                          unit_of(witness.too_small.front(), units), core::to_string(*witness.least));
       break;
   }
-  if (witness.load) words += fmt::format(" under the load ({:.9g}, {:.9g}) N", (*witness.load)[0], (*witness.load)[1]);
+  if (witness.load)
+    words +=
+        fmt::format(" under the load ({:.9g}, {:.9g}) {}", (*witness.load)[0], (*witness.load)[1], units.force.name);
   if (witness.distance > rounding_of_distance)
-    words += fmt::format("; {:.6g} m from the task, within its margin", witness.distance);
+    words += fmt::format("; {:.6g} {} from the task, within its margin", witness.distance, units.length.name);
   return words;
 }
 
@@ -106,6 +109,7 @@ Json verification_object(const core::Verification& result) {
                {"nearest", nullptr},
                {"witness", nullptr},
                {"open", nullptr}};
+  if (result.units.declared) root["units"] = "SI";
   if (result.by) root["moved_by"] = point_json(*result.by);
   if (result.nearest) {
     const core::NearestOfTask& nearest = *result.nearest;
@@ -125,7 +129,7 @@ Json verification_object(const core::Verification& result) {
     root["witness"] = {{"at", witness.at},
                        {"load", witness.load ? Json(*witness.load) : Json(nullptr)},
                        {"distance", witness.distance},
-                       {"reason", witness_words(witness)},
+                       {"reason", witness_words(witness, {})},
                        {"vanishing", vanishing_array(witness.vanishing)},
                        {"too_small", vanishing_array(witness.too_small)},
                        {"size", witness.size ? Json(*witness.size) : Json(nullptr)}};
@@ -140,7 +144,9 @@ Json verification_object(const core::Verification& result) {
   return root;
 }
 
-std::string verification_text(const core::Verification& result, bool fit) {
+std::string verification_text(const core::Verification& in_si, bool fit) {
+  const core::Verification result = in_file_units(in_si);
+  const std::string& unit = result.units.length.name;
   std::string text;
   const auto put = [&](fmt::string_view format, const auto&... values) {
     text += fmt::format(fmt::runtime(format), values...);
@@ -150,12 +156,13 @@ std::string verification_text(const core::Verification& result, bool fit) {
   const std::string mode = printable(mode_words(loci.tower, result.mode));
   put("{}\n\n", mode.empty() ? "" : "; " + mode);
   if (result.by)
-    put("moved by      ({:.6f}, {:.6f}) m\n", core::to_double((*result.by)[0]), core::to_double((*result.by)[1]));
+    put("moved by      ({:.6f}, {:.6f}) {}\n", core::to_double((*result.by)[0]), core::to_double((*result.by)[1]),
+        unit);
   else if (fit)
     put("No place in the box was found that verifies; where the task lies:\n");
   put("{}\n", verdict_line(result.verdict));
   if (!result.zone.empty()) put("zone          {}\n", result.zone);
-  if (result.verified()) put("margin        at least {:.6g} m, proven\n", result.margin);
+  if (result.verified()) put("margin        at least {:.6g} {}, proven\n", result.margin, unit);
   if (result.nearest) {
     const core::NearestOfTask& nearest = *result.nearest;
     put("nearest       {}{}{}{} at ({:.6f}, {:.6f}), {}\n", kind_words(nearest.kind),
@@ -165,30 +172,32 @@ std::string verification_text(const core::Verification& result, bool fit) {
         : nearest.limit.empty() ? " on " + nearest.curve
                                 : ", limit of the " + nearest.limit + ", on " + nearest.curve,
         nearest.at[0], nearest.at[1],
-        nearest.distance > rounding_of_distance ? fmt::format("{:.6g} m away", nearest.distance) : "in the task");
+        nearest.distance > rounding_of_distance ? fmt::format("{:.6g} {} away", nearest.distance, unit)
+                                                : "in the task");
   }
   if (result.witness)
     put("witness       ({:.9f}, {:.9f}): {}\n", result.witness->at[0], result.witness->at[1],
-        witness_words(*result.witness));
+        witness_words(*result.witness, result.units));
   if (result.open)
     put("open          {} cell{} in [{:.9f}, {:.9f}] x [{:.9f}, {:.9f}]: {}; the rest is proven\n", result.open->cells,
         result.open->cells == 1 ? "" : "s", result.open->lower[0], result.open->upper[0], result.open->lower[1],
         result.open->upper[1], open_words(*result.open));
-  for (const std::string& note : result.notes) put("{}\n", printable(note));
+  for (const std::string& note : told_once(result.notes)) put("{}\n", printable(note));
   return text;
 }
 
 std::string verification_picture(const core::Verification& result, PictureFormat format) {
+  const core::Verification shown = in_file_units(result);
   TaskMark mark;
-  mark.outline = core::outline(result.task.shape);
+  mark.outline = core::outline(shown.task.shape);
   mark.filled = !std::holds_alternative<core::TaskPath>(result.task.shape);
   mark.verified = result.verified();
-  mark.margin = result.verified() ? result.margin : core::to_double(result.task.margin);
-  if (result.witness)
-    mark.points.push_back(result.witness->at);
-  else if (result.nearest)
-    mark.points.push_back(result.nearest->at);
-  return task_picture(result.map, result.mode, mark, format);
+  mark.margin = shown.verified() ? shown.margin : core::to_double(shown.task.margin);
+  if (shown.witness)
+    mark.points.push_back(shown.witness->at);
+  else if (shown.nearest)
+    mark.points.push_back(shown.nearest->at);
+  return task_picture(shown.map, result.mode, mark, format);
 }
 
 }  // namespace clearloci::report

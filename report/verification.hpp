@@ -10,7 +10,8 @@
 namespace clearloci::report {
 
 /// "f_A1 f_B1 vanish under the load (0, -100) N".
-std::string witness_words(const core::TaskWitness& witness);
+/// The witness in these units (in_file_units); SI where none are given.
+std::string witness_words(const core::TaskWitness& witness, const core::Units& units = {});
 
 nlohmann::ordered_json verification_object(const core::Verification& result);
 

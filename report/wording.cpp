@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/text.hpp"
@@ -22,9 +23,18 @@ std::vector<std::string> joints_of(std::span<const core::Vanishing> vanishing, c
   return joints;
 }
 
-/// "√(69/100)", or "1/2" where the square root is exact.
-std::string radius_words(const core::CircleForm& circle) {
+constexpr int digits_of_decimals = 6;
+
+/// The two values of rational ± multiple sqrt(n), as numbers.
+std::array<double, 2> values_of(const core::QuadraticNumber& value, const core::Integer& n) {
+  const double root = core::to_double(value.multiple) * std::sqrt(n.get_d());
+  return {core::to_double(value.rational) + root, core::to_double(value.rational) - root};
+}
+
+/// "√(69/100)", or "1/2" where the square root is exact; a decimal unless `exact`.
+std::string radius_words(const core::CircleForm& circle, bool exact) {
   if (circle.radius) return core::to_string(*circle.radius);
+  if (!exact) return short_number(std::sqrt(core::to_double(circle.radius_squared)), digits_of_decimals);
   const std::string square = core::to_string(circle.radius_squared);
   return square.find('/') == std::string::npos ? "√" + square : "√(" + square + ")";
 }
@@ -37,24 +47,38 @@ std::string root_words(const core::Rational& multiple, const core::Integer& n) {
 }
 
 /// "1/4 ± √3/4" of both circles of a pair; `upper`: the sign that goes with the first one's.
-std::string pair_words(const core::QuadraticNumber& value, const core::Integer& n, int upper) {
+std::string pair_words(const core::QuadraticNumber& value, const core::Integer& n, int upper, bool exact) {
   if (value.multiple == 0) return core::to_string(value.rational);
   const std::string both = sgn(value.multiple) == upper ? "±" : "∓";
+  if (!exact) {
+    const std::string size =
+        short_number(std::abs(core::to_double(value.multiple)) * std::sqrt(n.get_d()), digits_of_decimals);
+    if (value.rational == 0) return both + size;
+    return short_number(core::to_double(value.rational), digits_of_decimals) + " " + both + " " + size;
+  }
   if (value.rational == 0) return both + root_words(value.multiple, n);
   return core::to_string(value.rational) + " " + both + " " + root_words(value.multiple, n);
 }
 
-std::string circle_pair_words(const core::CirclePairForm& pair) {
+std::string circle_pair_words(const core::CirclePairForm& pair, bool exact) {
   const int first = sgn(pair.centre[0].multiple) != 0 ? sgn(pair.centre[0].multiple) : sgn(pair.centre[1].multiple);
   const int upper = first != 0 ? first : sgn(pair.radius_squared.multiple);
   std::string radius;
   if (pair.radius_squared.multiple == 0) {
-    radius = radius_words({{}, pair.radius_squared.rational, core::square_root(pair.radius_squared.rational)});
+    radius = radius_words({{}, pair.radius_squared.rational, core::square_root(pair.radius_squared.rational)}, exact);
+  } else if (exact) {
+    radius = "√(" + pair_words(pair.radius_squared, pair.n, upper, exact) + ")";
   } else {
-    radius = "√(" + pair_words(pair.radius_squared, pair.n, upper) + ")";
+    // The first goes with the upper signs; a square below zero is that of a circle without points.
+    std::array<double, 2> squares = values_of(pair.radius_squared, pair.n);
+    if (upper < 0) std::swap(squares[0], squares[1]);
+    std::vector<std::string> sizes;
+    for (const double square : squares)
+      sizes.push_back(square < 0 ? "imaginary" : short_number(std::sqrt(square), digits_of_decimals));
+    radius = sizes[0] + " or " + sizes[1];
   }
-  return "circles centre (" + pair_words(pair.centre[0], pair.n, upper) + ", " +
-         pair_words(pair.centre[1], pair.n, upper) + "), radius " + radius;
+  return "circles centre (" + pair_words(pair.centre[0], pair.n, upper, exact) + ", " +
+         pair_words(pair.centre[1], pair.n, upper, exact) + "), radius " + radius;
 }
 
 /// a x + b y + c as a text; zero terms are left out.
@@ -117,15 +141,94 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
   return joined(parts, "; ");
 }
 
-std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates) {
+namespace {
+
+/// "along x", "about y": what a joint gives way to where a component alone is given up.
+std::string way_of(core::Quantity quantity) {
+  using Q = core::Quantity;
+  switch (quantity) {
+    case Q::fx:
+    case Q::fy:
+    case Q::fz:
+      return std::string("along ") + core::to_string(quantity).back();
+    case Q::mx:
+    case Q::my:
+    case Q::mz:
+      return std::string("about ") + core::to_string(quantity).back();
+    case Q::N:
+      return "across its guide";
+    case Q::T:
+      return "by turning";
+    case Q::end_ahead:
+      return "at its end ahead";
+    case Q::end_behind:
+      return "at its end behind";
+    case Q::f1:
+    case Q::f2:
+      return "across its axis";
+    default:
+      return "by turning across its axis";
+  }
+}
+
+/// A reaction times a displacement against it is minus the work of the loads in the motion which that displacement
+/// leaves to the mechanism, all actuators but that one locked: it vanishes where they do none (virtual work).
+std::string virtual_work_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing) {
+  if (kind == core::LocusKind::direct_singularity) return "the mechanism can move with its actuators locked";
+  if (kind == core::LocusKind::workspace_boundary) return "a chain is stretched out or folded";
+  const auto is_effort = [](const core::Vanishing& one) {
+    return one.quantity == core::Quantity::M || one.quantity == core::Quantity::F;
+  };
+  const auto effort = std::find_if(vanishing.begin(), vanishing.end(), is_effort);
+  if (effort != vanishing.end()) return "the loads do no work in the motion that " + effort->joint + " alone drives";
+  if (vanishing.empty()) return "";
+  const core::Vanishing& one = vanishing.front();
+  if (one.quantity == core::Quantity::f)
+    return "the loads do no work in any motion that " + one.joint + " coming apart would allow";
+  return "the loads do no work in the motion of " + one.joint + " giving way " + way_of(one.quantity);
+}
+
+}  // namespace
+
+std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing, const std::string& factor,
+                         const std::string& cause, int longest) {
+  if (!cause.empty()) return printable(cause);
+  if (!factor.empty() && columns(factor) <= longest) return printable(factor);
+  return factor.empty() ? "" : printable(virtual_work_words(kind, vanishing));
+}
+
+std::vector<std::string> told_once(const std::vector<std::string>& notes) {
+  // "fBx is zero in every pose: no load reaches it" is said of many.
+  const std::string said = " is zero in every pose: no load reaches it";
+  std::vector<std::string> sentences, named;
+  std::size_t place = 0;
+  for (const std::string& note : notes) {
+    const bool of_a_reaction =
+        note.size() > said.size() && note.compare(note.size() - said.size(), said.size(), said) == 0;
+    if (of_a_reaction) {
+      if (named.empty()) place = sentences.size();
+      const std::string name = note.substr(0, note.size() - said.size());
+      if (std::find(named.begin(), named.end(), name) == named.end()) named.push_back(name);
+    } else if (std::find(sentences.begin(), sentences.end(), note) == sentences.end()) {
+      sentences.push_back(note);
+    }
+  }
+  if (named.size() == 1) sentences.insert(sentences.begin() + static_cast<std::ptrdiff_t>(place), named.front() + said);
+  if (named.size() > 1)
+    sentences.insert(sentences.begin() + static_cast<std::ptrdiff_t>(place),
+                     joined(named, ", ") + " are zero in every pose: no load reaches them");
+  return sentences;
+}
+
+std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates, bool exact) {
   if (const auto* line = std::get_if<core::LineForm>(&form)) {
     return "line " + linear_words(*line, coordinates) + " = 0";
   }
   if (const auto* circle = std::get_if<core::CircleForm>(&form)) {
     return "circle centre (" + core::to_string(circle->centre[0]) + ", " + core::to_string(circle->centre[1]) +
-           "), radius " + radius_words(*circle);
+           "), radius " + radius_words(*circle, exact);
   }
-  if (const auto* pair = std::get_if<core::CirclePairForm>(&form)) return circle_pair_words(*pair);
+  if (const auto* pair = std::get_if<core::CirclePairForm>(&form)) return circle_pair_words(*pair, exact);
   if (const auto* conic = std::get_if<core::ConicForm>(&form)) {
     std::string words = conic->type;
     if (conic->centre) {
@@ -174,6 +277,20 @@ std::vector<core::WorkingMode> modes_of(const core::LocusMap& map) {
 std::string short_number(double value, int digits) {
   const std::string text = fmt::format("{:.{}g}", value, digits);
   return text == "-0" ? "0" : text;
+}
+
+std::string engineering(double value, int digits) {
+  constexpr double least = 1e-3, most = 1e6;
+  const double size = std::abs(value);
+  if (value == 0 || !std::isfinite(value) || (size >= least && size < most)) return short_number(value, digits);
+  int exponent = 3 * static_cast<int>(std::floor(std::log10(size) / 3));
+  std::string mantissa = short_number(value / std::pow(10.0, exponent), digits);
+  // Rounded up to the next power: 999.9996e-6 is 1e-3.
+  if (mantissa == "1000" || mantissa == "-1000" || mantissa == "1e+03" || mantissa == "-1e+03") {
+    exponent += 3;
+    mantissa = value < 0 ? "-1" : "1";
+  }
+  return exponent == 0 ? mantissa : mantissa + "e" + std::to_string(exponent);
 }
 
 std::string exact_number(double value) { return value == 0 ? "0" : fmt::format("{}", value); }

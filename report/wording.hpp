@@ -22,8 +22,18 @@ std::string kind_words(core::LocusKind kind);
 /// "contact lost: A1, B1, P; backlash: A1"; empty where nothing vanishes.
 std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing);
 
-/// "circle centre (1/2, -1/2), radius 1/2", "line 2 x - 1 = 0"; empty without a closed form.
-std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates);
+/// Why it vanishes: the cause; the factor, up to `longest` columns, as it stands; else what the vanishing means by
+/// virtual work, which holds of any factor: "the loads do no work in the motion that A1 alone drives".
+std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing, const std::string& factor,
+                         const std::string& cause, int longest);
+
+/// "circle centre (1/2, -1/2), radius 1/2", "line 2 x - 1 = 0"; empty without a closed form. Irrational numbers are
+/// decimals, or with `exact` multiples of roots: "√3/4".
+std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates,
+                              bool exact = false);
+
+/// Sentences of a map each once; those that say the same of several reactions as one.
+std::vector<std::string> told_once(const std::vector<std::string>& notes);
 
 /// "B1 right, B2 left"; empty for a mechanism without a choice.
 std::string mode_words(const core::TowerNames& tower, const core::WorkingMode& mode);
@@ -39,6 +49,10 @@ std::vector<core::WorkingMode> modes_of(const core::LocusMap& map);
 
 /// The shortest decimal of at most `digits` significant digits: "0.785", "1e-05", "-2". No "-0".
 std::string short_number(double value, int digits);
+
+/// Engineering notation: an exponent that is a multiple of three where the number is not between 0.001 and 1e6:
+/// "12.5e-6", "0.25", "1234.5". No "-0".
+std::string engineering(double value, int digits);
 
 /// The shortest decimal that reads back as the same double.
 std::string exact_number(double value);

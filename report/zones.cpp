@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "report/file_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
@@ -111,6 +112,7 @@ Json zones_object(const core::ZoneMap& map) {
   Json root;
   for (const char* key : {"format", "mechanism", "parameters", "coordinates", "box", "tolerance"})
     root[key] = loci[key];
+  if (map.loci.units.declared) root["units"] = "SI";
   root["zones"] = Json::array();
   for (const core::Zone& zone : map.zones) root["zones"].push_back(zone_object(map, zone));
   root["areas"] = Json::array();
@@ -144,13 +146,15 @@ std::string zones_geojson(const core::ZoneMap& map) {
   return json_text(root);
 }
 
-std::string zones_table(const core::ZoneMap& map) {
+std::string zones_table(const core::ZoneMap& in_si) {
+  const core::ZoneMap map = in_file_units(in_si);
+  const std::string& unit = map.loci.units.length.name;
   std::string out = printable(map.loci.mechanism) + "\n";
   for (const core::WorkingMode& mode : modes_of_zones(map)) {
     const std::string words = printable(mode_words(map.loci.tower, mode));
     out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";
-    out += fmt::format("{:<6} {:<4} {:<18} {:>14}  {:<36} {}\n", "zone", "|A|", "signs", "area/m2", "largest circle/m",
-                       "bounded by");
+    out += fmt::format("{:<6} {:<4} {:<18} {:>14}  {:<36} {}\n", "zone", "|A|", "signs", "area/" + unit + "2",
+                       "largest circle/" + unit, "bounded by");
     double total = 0;
     for (const core::Zone& zone : map.zones) {
       if (zone.mode != mode) continue;
@@ -173,7 +177,7 @@ std::string zones_table(const core::ZoneMap& map) {
   if (modes_of_zones(map).empty()) out += "\nno zones: the mechanism reaches nothing in the box\n";
   const bool doubtful = std::any_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return !z.certified; });
   if (doubtful) out += "\n*: not certified\n";
-  for (const std::string& note : map.loci.notes) out += printable(note) + "\n";
+  for (const std::string& note : told_once(map.loci.notes)) out += printable(note) + "\n";
   return out;
 }
 

@@ -77,7 +77,9 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
       springs.push_back(
           {vector(mechanism::way(spring.from_point, spring.to_point)), "spring " + spring.name, spring.from_point});
   if (!m.gravity.empty()) directions.push_back({direction(m.gravity), "gravity", std::nullopt});
+  first_of_loads_ = conditions_.size();
   add_load_conditions(edges, directions);
+  last_of_loads_ = conditions_.size();
   add_alignments();
   add_link_pairs(edges);
   // Last, since a spring between two joints lies along what has a name of its own.
@@ -191,6 +193,13 @@ void Causes::add_link_pairs(const std::vector<Edge>& edges) {
       add(dot(a, b), edges[i].wording + " perpendicular to " + edges[k].wording);
     }
   }
+}
+
+std::string Causes::of_determinant(const Poly& factor) const {
+  const Poly primitive = factor.primitive();
+  for (std::size_t i = 0; i < conditions_.size(); ++i)
+    if ((i < first_of_loads_ || i >= last_of_loads_) && conditions_[i].first == primitive) return conditions_[i].second;
+  return "";
 }
 
 std::string Causes::of(const Poly& factor) const {

@@ -17,6 +17,8 @@ class Causes {
 
   /// The wording of the condition that a factor states, up to a constant; empty where it states none of them.
   std::string of(const Poly& factor) const;
+  /// The same of a determinant's factor, which no load enters: conditions on the load's direction are left out.
+  std::string of_determinant(const Poly& factor) const;
 
   /// The condition that the line of two points is perpendicular to a vector.
   Poly perpendicular(mechanism::PointIndex a, mechanism::PointIndex b, const mechanism::VectorExpression& along) const;
@@ -42,6 +44,7 @@ class Causes {
   const Geometry* geometry_;
   std::vector<std::array<Poly, 3>> points_;  ///< z = 0 in the plane
   std::vector<std::pair<Poly, std::string>> conditions_;
+  std::size_t first_of_loads_ = 0, last_of_loads_ = 0;  ///< among conditions_
 };
 
 }  // namespace clearloci::symbolic

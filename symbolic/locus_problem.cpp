@@ -511,7 +511,7 @@ class Derivation {
       LocusFactor factor;
       factor.role = FactorRole::direct_singularity;
       factor.expression = text(part.natural->poly);
-      factor.cause = causes_.of(part.natural->poly);
+      factor.cause = causes_.of_determinant(part.natural->poly);
       factor.sheet = core::scaled_for_doubles(part.sheet.sheet.plain(variables));
       put_implicit(part.sheet, factor);
       if (part.alone) factor.line = lines_.of(part.natural->poly);

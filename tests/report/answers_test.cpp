@@ -53,7 +53,7 @@ TEST(PoseText, SaysWhatIsUndefinedAndWhy) {
   EXPECT_TRUE(contains(text, "Crank at (0.5), B left\n")) << text;
   EXPECT_TRUE(contains(text, "undefined: contact is lost at A; F = 0 at G\n")) << text;
   EXPECT_TRUE(contains(text, "N unbounded N, T 1 N m, F 5 N")) << text;
-  EXPECT_TRUE(contains(text, "normal 1e-05 m, tilt 0.0002 rad, axial undefined m")) << text;
+  EXPECT_TRUE(contains(text, "normal 10e-6 m, tilt 200e-6 rad, axial undefined m")) << text;
   EXPECT_FALSE(contains(text, "-0 ")) << text;
   core::Pose singular = lost_contact();
   singular.singular = true;
@@ -70,7 +70,7 @@ TEST(PoseText, HasTheColumnsOfSpace) {
   const std::string text = pose_text(pose);
   EXPECT_TRUE(contains(text, "dalpha_z [rad]")) << text;
   EXPECT_TRUE(contains(text, "  F 7 N\n")) << text;
-  EXPECT_TRUE(contains(text, "  axial 1e-06 m\n")) << text;
+  EXPECT_TRUE(contains(text, "  axial 1e-6 m\n")) << text;
   EXPECT_EQ(pose_object(pose)["pose_error"]["dalpha_z"], 3e-4);
   EXPECT_EQ(pose_object(pose)["worst_case"]["dalpha"], 8);
 }

@@ -210,7 +210,16 @@ TEST(Wording, ModesAndClosedFormsInWords) {
   EXPECT_EQ(mode_slug(map.tower, fixture::elbows_out()), "right-left");
   EXPECT_EQ(closed_form_words(map.curves[0].closed_form, names), "circle centre (1/2, -1/2), radius 1/2");
   EXPECT_EQ(closed_form_words(core::CircleForm{{0, 1}, core::Rational(69, 100), {}}, names),
+            "circle centre (0, 1), radius 0.830662");
+  EXPECT_EQ(closed_form_words(core::CircleForm{{0, 1}, core::Rational(69, 100), {}}, names, true),
             "circle centre (0, 1), radius √(69/100)");
+  // (1/4, ±√3/4) with radii √(1 ± √3/2).
+  core::CirclePairForm pair;
+  pair.n = 3;
+  pair.centre = {core::QuadraticNumber{core::Rational(1, 4), 0}, core::QuadraticNumber{0, core::Rational(1, 4)}};
+  pair.radius_squared = {1, core::Rational(1, 2)};
+  EXPECT_EQ(closed_form_words(pair, names), "circles centre (1/4, ±0.433013), radius 1.36603 or 0.366025");
+  EXPECT_EQ(closed_form_words(pair, names, true), "circles centre (1/4, ±√3/4), radius √(1 ± √3/2)");
   EXPECT_EQ(closed_form_words(core::LineForm{2, -1, core::Rational(3, 4)}, names), "line 2 x - y + 3/4 = 0");
   EXPECT_EQ(closed_form_words(core::LineForm{0, -1, 0}, names), "line -y = 0");
   EXPECT_EQ(closed_form_words(core::ConicForm{"parabola", {}, {}, {}, 0}, names), "parabola");

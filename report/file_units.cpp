@@ -1,0 +1,272 @@
+#include "report/file_units.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rational.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using core::Rational;
+
+/// Of the file's unit in one metre, exactly: 1000 for mm.
+Rational lengths_per_metre(const core::Units& units) {
+  return core::simplest_rational_near(Rational(1 / units.length.size), Rational(1, 1000000));
+}
+
+/// Scales what is measured along the map's coordinates.
+class Scaling {
+ public:
+  Scaling(const core::Units& units, const std::vector<bool>& angles)
+      : exact_(lengths_per_metre(units)), k_(core::to_double(exact_)), angles_(angles) {}
+
+  bool angle(std::size_t c) const { return c < angles_.size() && angles_[c]; }
+  bool lengths_only() const {
+    return std::none_of(angles_.begin(), angles_.end(), [](bool own) { return own; });
+  }
+  double factor(std::size_t c) const { return angle(c) ? 1 : k_; }
+  double k() const { return k_; }
+  const Rational& exact() const { return exact_; }
+
+  template <class Place>
+  void place(Place& at) const {
+    for (std::size_t c = 0; c < at.size(); ++c) at[c] *= factor(c);
+  }
+  void line(core::Polyline& points) const {
+    for (core::Point2& at : points) place(at);
+  }
+  double length(double value) const { return lengths_only() ? value * k_ : value; }
+  double area(double value) const { return lengths_only() ? value * k_ * k_ : value; }
+
+  void form(core::ClosedForm& form) const {
+    if (!lengths_only()) return;
+    if (auto* line = std::get_if<core::LineForm>(&form)) line->c *= exact_;
+    if (auto* circle = std::get_if<core::CircleForm>(&form)) {
+      for (Rational& c : circle->centre) c *= exact_;
+      circle->radius_squared *= exact_ * exact_;
+      if (circle->radius) *circle->radius *= exact_;
+    }
+    if (auto* pair = std::get_if<core::CirclePairForm>(&form)) {
+      for (core::QuadraticNumber& c : pair->centre) scale(c, exact_);
+      scale(pair->radius_squared, exact_ * exact_);
+    }
+    if (auto* conic = std::get_if<core::ConicForm>(&form)) {
+      if (conic->centre) place(*conic->centre);
+      if (conic->semi_axes)
+        for (double& axis : *conic->semi_axes) axis *= k_;
+      conic->coefficients[3] *= exact_;
+      conic->coefficients[4] *= exact_;
+      conic->coefficients[5] *= exact_ * exact_;
+    }
+  }
+
+ private:
+  static void scale(core::QuadraticNumber& value, const Rational& by) {
+    value.rational *= by;
+    value.multiple *= by;
+  }
+
+  Rational exact_;
+  double k_;
+  const std::vector<bool>& angles_;
+};
+
+void scale(core::TaskShape& shape, const Rational& k) {
+  const auto point = [&](core::RationalPoint& p) {
+    for (Rational& c : p) c *= k;
+  };
+  if (auto* box = std::get_if<core::TaskBox>(&shape)) {
+    point(box->lower);
+    point(box->upper);
+  } else if (auto* circle = std::get_if<core::TaskCircle>(&shape)) {
+    point(circle->centre);
+    circle->radius *= k;
+  } else if (auto* polygon = std::get_if<core::TaskPolygon>(&shape)) {
+    for (core::RationalPoint& p : polygon->corners) point(p);
+  } else {
+    for (core::RationalPoint& p : std::get<core::TaskPath>(shape).points) point(p);
+  }
+}
+
+bool is_force(core::Quantity quantity) { return core::unit_of(quantity) == "N"; }
+
+}  // namespace
+
+core::LocusMap in_file_units(core::LocusMap map) {
+  if (!map.units.declared) return map;
+  const std::vector<bool> angles = map.angles;
+  const Scaling scaling(map.units, angles);
+  for (std::size_t c = 0; c < map.lower.size(); ++c) {
+    if (scaling.angle(c)) continue;
+    map.lower[c] *= scaling.exact();
+    map.upper[c] *= scaling.exact();
+  }
+  map.tolerance *= scaling.k();
+  for (core::LocusCurve& curve : map.curves) {
+    scaling.form(curve.closed_form);
+    for (core::Arc& arc : curve.arcs) {
+      arc.length = scaling.length(arc.length);
+      scaling.line(arc.points);
+    }
+  }
+  for (core::LocusSurface& surface : map.surfaces) {
+    surface.area = scaling.area(surface.area);
+    surface.deviation = scaling.length(surface.deviation);
+    scaling.place(surface.resolution);
+    for (core::Point3& at : surface.vertices) scaling.place(at);
+  }
+  for (core::IsolatedPoint& point : map.isolated_points) scaling.place(point.at);
+  for (core::WorkspaceRegion& region : map.workspace)
+    for (core::Polyline& ring : region.rings) scaling.line(ring);
+  for (core::ReachableInterval& interval : map.reachable) {
+    interval.from *= scaling.factor(0);
+    interval.to *= scaling.factor(0);
+  }
+  return map;
+}
+
+core::ZoneMap in_file_units(core::ZoneMap map) {
+  if (!map.loci.units.declared) return map;
+  const std::vector<bool> angles = map.loci.angles;
+  const Scaling scaling(map.loci.units, angles);
+  map.loci = in_file_units(std::move(map.loci));
+  for (core::Zone& zone : map.zones) {
+    zone.area = scaling.area(zone.area);
+    scaling.line(zone.outer);
+    for (core::Polyline& hole : zone.holes) scaling.line(hole);
+    scaling.place(zone.inscribed.centre);
+    zone.inscribed.radius = scaling.length(zone.inscribed.radius);
+    scaling.place(zone.sample);
+    for (core::ZoneBorder& border : zone.borders) border.length = scaling.length(border.length);
+  }
+  for (core::ModeArea& area : map.areas) {
+    area.workspace = scaling.area(area.workspace);
+    area.in_doubt = scaling.area(area.in_doubt);
+  }
+  return map;
+}
+
+core::Verification in_file_units(core::Verification result) {
+  if (!result.units.declared) return result;
+  const std::vector<bool> none;
+  const Scaling scaling(result.units, none);
+  const double forces = 1 / result.units.force.size;
+  result.map = in_file_units(std::move(result.map));
+  scale(result.task.shape, scaling.exact());
+  result.task.margin *= scaling.exact();
+  result.margin *= scaling.k();
+  if (result.nearest) {
+    scaling.place(result.nearest->at);
+    result.nearest->distance *= scaling.k();
+  }
+  if (result.witness) {
+    scaling.place(result.witness->at);
+    result.witness->distance *= scaling.k();
+    if (result.witness->load)
+      for (double& part : *result.witness->load) part *= forces;
+    const bool force = !result.witness->too_small.empty() && is_force(result.witness->too_small.front().quantity);
+    if (force && result.witness->size) *result.witness->size *= forces;
+    if (force && result.witness->least)
+      *result.witness->least *= core::simplest_rational_near(Rational(forces), Rational(1, 1000000000));
+  }
+  if (result.open) {
+    scaling.place(result.open->lower);
+    scaling.place(result.open->upper);
+  }
+  if (result.by)
+    for (Rational& part : *result.by) part *= scaling.exact();
+  return result;
+}
+
+core::Sketch in_file_units(core::Sketch sketch, const core::Units& units) {
+  if (!units.declared) return sketch;
+  const std::vector<bool> none;
+  const Scaling scaling(units, none);
+  for (core::SketchLink& link : sketch.links)
+    for (core::Point2& at : link.points) scaling.place(at);
+  for (core::SketchSlide& slide : sketch.slides) {
+    scaling.place(slide.from);
+    scaling.place(slide.to);
+  }
+  for (core::SketchJoint& joint : sketch.joints) scaling.place(joint.at);
+  for (core::SketchLoad& load : sketch.loads) scaling.place(load.at);
+  return sketch;
+}
+
+core::Pose in_file_units(core::Pose pose) {
+  if (!pose.units.declared) return pose;
+  const double k = 1 / pose.units.length.size, turn = 1 / pose.units.angle.size, force = 1 / pose.units.force.size;
+  const auto scale = [](std::vector<double>& values, double by) {
+    for (double& value : values) value *= by;
+  };
+  const auto scale_if = [](std::optional<double>& value, double by) {
+    if (value) *value *= by;
+  };
+  const auto scale_error = [&](core::PoseError& error) {
+    scale(error.displacement, k);
+    scale(error.rotation, turn);
+  };
+  const auto scale_take_up = [&](core::JointTakeUp& own) {
+    scale(own.displacement, k);
+    for (std::optional<double>* const part : {&own.beta, &own.rotation, &own.tilt}) scale_if(*part, turn);
+    for (std::optional<double>* const part : {&own.normal, &own.axial}) scale_if(*part, k);
+  };
+  for (core::PosePoint& point : pose.points) scale(point.at, k);
+  for (core::JointReaction& reaction : pose.reactions)
+    for (core::ReactionComponent& part : reaction.components)
+      if (is_force(part.quantity)) part.value *= force;
+  for (core::JointTakeUp& own : pose.take_up) scale_take_up(own);
+  if (pose.error) scale_error(*pose.error);
+  scale(pose.worst.displacement, k);
+  scale(pose.worst.rotation, turn);
+  pose.worst.distance *= k;
+  pose.worst.angle *= turn;
+  if (pose.actual) {
+    scale_error(pose.actual->error);
+    scale_error(pose.actual->beyond_linear);
+  }
+  return pose;
+}
+
+ShownUnit shown_unit(const std::string& si, const core::Units& units) {
+  if (!units.declared) return {si, 1};
+  const auto of = [](const core::Unit& unit, const std::string& rest) {
+    return ShownUnit{unit.name + rest, 1 / unit.size};
+  };
+  for (const std::string rest : {"", "/s", "/s²", "/s^2"}) {
+    if (si == "m" + rest) return of(units.length, rest);
+    if (si == "rad" + rest) return of(units.angle, rest);
+    if (si == "N" + rest) return of(units.force, rest);
+  }
+  return {si, 1};
+}
+
+core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles) {
+  if (!units.declared) return map;
+  const Scaling scaling(units, angles);
+  scaling.place(map.lower);
+  scaling.place(map.upper);
+  for (core::Field& field : map.fields) {
+    const ShownUnit shown = shown_unit(field.unit, units);
+    field.unit = shown.name;
+    for (double& value : field.values) value *= shown.per_si;
+  }
+  return map;
+}
+
+core::Table in_file_units(core::Table table, const core::Units& units) {
+  if (!units.declared) return table;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const ShownUnit shown = shown_unit(table.units[c], units);
+    table.units[c] = shown.name;
+    for (double& value : table.columns[c]) value *= shown.per_si;
+  }
+  return table;
+}
+
+std::string column_head(const std::string& name, const std::string& si, const core::Units& units) {
+  return units.declared ? name + " (" + shown_unit(si, units).name + ")" : name;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,36 @@
+// Answers in the units of their mechanism file, as tables, pictures and drawings show them. Lengths, areas and forces
+// are scaled; angles stay in rad, which pictures and tables show as degrees by themselves. Where the file declares no
+// units the answer is left as it is, in SI units.
+// Private to report/.
+#pragma once
+
+#include "clearloci/error.hpp"
+#include "clearloci/pose.hpp"
+#include "clearloci/trajectory.hpp"
+#include "clearloci/verify.hpp"
+#include "core/locus_map.hpp"
+#include "core/sketch.hpp"
+
+namespace clearloci::report {
+
+core::LocusMap in_file_units(core::LocusMap map);
+core::ZoneMap in_file_units(core::ZoneMap map);
+core::Verification in_file_units(core::Verification result);
+core::Sketch in_file_units(core::Sketch sketch, const core::Units& units);
+core::Pose in_file_units(core::Pose pose);
+/// `angles` as of LocusMap. Fields in m and rad get the file's units, angles among them.
+core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles);
+/// Columns of m, rad, N and their rates.
+core::Table in_file_units(core::Table table, const core::Units& units);
+
+/// The unit in which a quantity of SI units is shown, and how many of it one SI unit is: "mm/s", 1000 for "m/s".
+struct ShownUnit {
+  std::string name;
+  double per_si = 1;
+};
+ShownUnit shown_unit(const std::string& si, const core::Units& units);
+
+/// "x" and its unit as the head of a column: "x (mm)" where the file declares units, else the name alone.
+std::string column_head(const std::string& name, const std::string& si, const core::Units& units);
+
+}  // namespace clearloci::report

@@ -1,0 +1,111 @@
+// Answers in the units of their file, and the words of tables.
+#include "report/file_units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "report/exports.hpp"
+#include "report/loci_json.hpp"
+#include "report/loci_table.hpp"
+#include "report/wording.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace clearloci::report {
+namespace {
+
+core::LocusMap line_in_mm() {
+  core::LocusMap map;
+  map.mechanism = "Slide";
+  map.tower.coordinates = {"x", "y"};
+  map.lower = {-1, -1};
+  map.upper = {1, 1};
+  core::LocusCurve curve;
+  curve.id = "c1";
+  curve.vanishing = {{"A", core::Quantity::f}};
+  curve.cause = "somewhere";
+  curve.closed_form = core::CircleForm{{core::Rational(1, 4), 0}, core::Rational(1, 4), core::Rational(1, 2)};
+  curve.arcs.push_back(
+      {.ends = {core::ArcEnd::box, core::ArcEnd::box}, .length = 0.5, .points = {{0.25, 0}, {0.25, 0.5}}});
+  map.curves.push_back(curve);
+  map.units.declared = true;
+  map.units.length = {"mm", 0.001};
+  return map;
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(FileUnits, AreThoseOfTablesCsvAndDrawings) {
+  const core::LocusMap map = line_in_mm();
+  const std::string table = loci_table(map);
+  EXPECT_TRUE(has(table, "length/mm")) << table;
+  EXPECT_TRUE(has(table, "circle centre (250, 0), radius 500")) << table;
+  EXPECT_TRUE(has(table, "500.0000")) << table;
+  EXPECT_TRUE(has(csv(map), "closed,x (mm),y (mm)\n")) << csv(map);
+  EXPECT_TRUE(has(csv(map), ",250,500\n")) << csv(map);
+  EXPECT_TRUE(has(dxf(map), "$INSUNITS\n 70\n4\n"));
+}
+
+TEST(FileUnits, LeaveJsonAndFilesWithoutThemInSi) {
+  core::LocusMap map = line_in_mm();
+  EXPECT_EQ(loci_object(map)["units"], "SI");
+  EXPECT_EQ(loci_object(map)["curves"][0]["arcs"][0]["length"], 0.5);
+  map.units = {};
+  EXPECT_FALSE(loci_object(map).contains("units"));
+  EXPECT_TRUE(has(csv(map), "closed,x,y\n"));
+  EXPECT_TRUE(has(loci_table(map), "length/m"));
+}
+
+TEST(FileUnits, ScaleThePoseByItsParts) {
+  core::Pose pose;
+  pose.units = {true, {"mm", 0.001}, {"deg", std::acos(-1.0) / 180}, {"kN", 1000}, {"kg", 1}};
+  pose.points = {{"A", {0.25, 0}}};
+  pose.reactions = {{"A", {{core::Quantity::fx, 500}, {core::Quantity::M, 3}}}};
+  pose.take_up = {{"A", {1e-5, 0}, std::acos(-1.0) / 2, {}, {}, {}, {}}};
+  const core::Pose shown = in_file_units(pose);
+  EXPECT_DOUBLE_EQ(shown.points[0].at[0], 250);
+  EXPECT_DOUBLE_EQ(shown.reactions[0].components[0].value, 0.5);
+  EXPECT_DOUBLE_EQ(shown.reactions[0].components[1].value, 3) << "couples stay in N m";
+  EXPECT_DOUBLE_EQ(shown.take_up[0].displacement[0], 0.01);
+  EXPECT_DOUBLE_EQ(*shown.take_up[0].beta, 90);
+}
+
+TEST(Wording, IsInEngineeringNotation) {
+  EXPECT_EQ(engineering(1.25e-5, 9), "12.5e-6");
+  EXPECT_EQ(engineering(-4.5e-4, 9), "-450e-6");
+  EXPECT_EQ(engineering(0.0025, 9), "0.0025");
+  EXPECT_EQ(engineering(123456.5, 9), "123456.5");
+  EXPECT_EQ(engineering(2.5e7, 9), "25e6");
+  EXPECT_EQ(engineering(0, 9), "0");
+  EXPECT_EQ(engineering(-0.0, 9), "0");
+  EXPECT_EQ(engineering(9.999999999999e-4, 9), "1e-3");
+  EXPECT_EQ(engineering(std::numeric_limits<double>::infinity(), 9), "inf");
+}
+
+TEST(Wording, SaysByVirtualWorkWhatAFactorMeans) {
+  const std::string heavy(200, 'x');
+  const auto words = [&](core::LocusKind kind, const std::vector<core::Vanishing>& vanishing) {
+    return reason_words(kind, vanishing, heavy, "", 60);
+  };
+  using K = core::LocusKind;
+  using Q = core::Quantity;
+  EXPECT_EQ(words(K::backlash, {{"A1", Q::M}}), "the loads do no work in the motion that A1 alone drives");
+  EXPECT_EQ(words(K::contact_loss, {{"B", Q::f}}),
+            "the loads do no work in any motion that B coming apart would allow");
+  EXPECT_EQ(words(K::component, {{"B", Q::fy}}), "the loads do no work in the motion of B giving way along y");
+  EXPECT_EQ(words(K::direct_singularity, {}), "the mechanism can move with its actuators locked");
+  EXPECT_EQ(reason_words(K::backlash, {}, "x - 1", "", 60), "x - 1");
+  EXPECT_EQ(reason_words(K::backlash, {}, heavy, "A, B, C aligned", 60), "A, B, C aligned");
+}
+
+TEST(Wording, TellsEachNoteOnce) {
+  const std::vector<std::string> notes = {"a", "fAx is zero in every pose: no load reaches it", "b", "a",
+                                          "TP is zero in every pose: no load reaches it"};
+  EXPECT_EQ(told_once(notes),
+            (std::vector<std::string>{"a", "fAx, TP are zero in every pose: no load reaches them", "b"}));
+}
+
+}  // namespace
+}  // namespace clearloci::report
