@@ -14,6 +14,12 @@ install(TARGETS clearloci RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONEN
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/clearloci" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT library)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
   DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
+# Schemas of the mechanism file, for editors, and of what --json prints.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/" DESTINATION "${CMAKE_INSTALL_DATADIR}/clearloci" COMPONENT program)
+# What the README refers to.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program
+  PATTERN Doxyfile EXCLUDE)
+install(FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
 
 # The folder libraries are static, so whoever links them needs the third-party targets they name; the package finds
