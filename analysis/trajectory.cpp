@@ -26,7 +26,9 @@ const std::string& joint_name(const numeric::Motion& motion, mechanism::JointInd
 }
 
 /// "m", "rad", or nothing where coordinates of both kinds are free.
-std::string distance_unit(const mechanism::Mechanism& mechanism) {
+std::string distance_unit(const numeric::Motion& motion) {
+  const mechanism::Mechanism& mechanism = motion.model.mechanism;
+  if (motion.timeline.timed) return "s";
   const auto angles = std::count_if(mechanism.coordinates.begin(), mechanism.coordinates.end(),
                                     [](const mechanism::Coordinate& own) { return own.angle; });
   if (angles == 0) return "m";
@@ -70,7 +72,7 @@ void put_joints(TableRows& row, const numeric::Motion& motion, const Instant& at
 core::Table table_of(const numeric::Motion& motion, const Samples& samples, double period) {
   core::Table table;
   TableRows row(table);
-  const std::string along = distance_unit(motion.model.mechanism);
+  const std::string along = distance_unit(motion);
   for (const auto& instants : samples) {
     for (const Instant& at : instants) {
       const numeric::InstantError e = numeric::instant_error(motion, at, period);
@@ -183,7 +185,7 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
   const numeric::Motion motion = numeric::compile_motion(mechanism, trajectory, sides);
-  const double own = trajectory.speed ? motion.timeline.path.length() / core::to_double(*trajectory.speed)
+  const double own = trajectory.speed ? motion.timeline.length() / core::to_double(*trajectory.speed)
                                       : core::to_double(trajectory.period);
   const double period = request.period.value_or(own);
   const Samples samples = numeric::sample(motion, request.samples);
@@ -197,8 +199,8 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   result.trajectory = trajectory.name;
   result.law = mechanism::to_string(trajectory.law.kind);
   result.period = period;
-  result.length = motion.timeline.path.length();
-  result.distance_unit = distance_unit(mechanism);
+  result.length = motion.timeline.length();
+  result.distance_unit = distance_unit(motion);
   result.min_force = thresholds.force;
   for (const mechanism::Joint& joint : mechanism.joints) result.joints.push_back(joint.name);
   result.losses = losses_of(motion, numeric::contact_losses(motion, samples, period, thresholds));

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <sstream>
 #include <utility>
 
 #include "mechanism/evaluate.hpp"
@@ -13,11 +15,16 @@ namespace {
 
 using core::InputError;
 
-constexpr std::array<std::pair<LawKind, const char*>, 5> laws = {{{LawKind::cycloidal, "cycloidal"},
+constexpr std::array<std::pair<LawKind, const char*>, 7> laws = {{{LawKind::cycloidal, "cycloidal"},
                                                                   {LawKind::polynomial_345, "3-4-5"},
                                                                   {LawKind::trapezoidal, "trapezoidal"},
                                                                   {LawKind::s_curve, "s-curve"},
-                                                                  {LawKind::constant, "constant"}}};
+                                                                  {LawKind::constant, "constant"},
+                                                                  {LawKind::expression, "expression"},
+                                                                  {LawKind::table, "table"}}};
+
+const std::vector<std::string> law_keys = {"law",        "accelerating", "jerking", "speed",
+                                           "coordinate", "coordinates",  "file"};
 
 Rational number(const Mechanism& mechanism, const Value& value, Sign sign) {
   return read_number(mechanism, value, sign).value;
@@ -151,7 +158,7 @@ MotionLaw read_law(const Mechanism& mechanism, const Value& value) {
   MotionLaw law;
   std::vector<std::string> known;
   for (const auto& [kind, name] : laws) known.emplace_back(name);
-  const Value named = value.is_map() ? Mapping(value, {"law", "accelerating", "jerking", "speed"}).at("law") : value;
+  const Value named = value.is_map() ? Mapping(value, law_keys).at("law") : value;
   const std::string text = text_of(named);
   const auto* const found = std::find_if(laws.begin(), laws.end(), [&](const auto& one) { return one.second == text; });
   if (found == laws.end())
@@ -171,6 +178,104 @@ MotionLaw read_law(const Mechanism& mechanism, const Value& value) {
     law.jerking = part(mechanism, *jerking, Rational(1, 2), "half of the accelerating time");
   }
   return law;
+}
+
+/// "6*sin(0.75*pi*t)": parameters and the time t, s.
+Expression read_of_time(const Mechanism& mechanism, const Value& value) {
+  for (const Parameter& parameter : mechanism.parameters)
+    if (parameter.name == "t")
+      throw InputError(value.where, "t is the time here, and a parameter of the mechanism", "rename the parameter");
+  Expression expression = parse_expression(text_of(value), value.where);
+  std::vector<std::string> known = {"t"};
+  for (const Parameter& parameter : mechanism.parameters) known.push_back(parameter.name);
+  for (const std::string& name : core::symbols(expression))
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(value.where, value.what + ": '" + name + "' is neither the time t nor a parameter",
+                       suggest(name, known, "names"));
+  return expression;
+}
+
+void read_expressions(const Mechanism& mechanism, const Mapping& mapping, const Value& motion, TimedMotion& timed) {
+  const auto one = mapping.find("coordinate"), all = mapping.find("coordinates");
+  if (one.has_value() == all.has_value())
+    throw InputError(motion.where, "the law expression needs the coordinate as a function of the time t",
+                     "write coordinate: 6*sin(0.75*pi*t), or coordinates: [..., ...]");
+  const std::vector<Value> values = one ? std::vector<Value>{*one} : elements(*all);
+  if (values.size() != mechanism.coordinates.size())
+    throw InputError(motion.where,
+                     "the motion gives " + std::to_string(values.size()) + " coordinates, but " +
+                         std::to_string(mechanism.coordinates.size()) + " are free",
+                     "write one expression for each");
+  for (const Value& value : values) timed.coordinates.push_back(read_of_time(mechanism, value));
+}
+
+/// Rows "time, coordinate, ..." after a heading that may be there.
+void read_table(const Mechanism& mechanism, const Value& file, const std::string& beside, TimedMotion& timed) {
+  constexpr std::size_t most_rows = 5000;
+  const std::filesystem::path path = std::filesystem::path(beside).parent_path() / text_of(file);
+  std::istringstream lines(read_text(path.string(), "a table of times and coordinates"));
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const core::SourcePosition where{path.string(), number, 1};
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.find_first_not_of(" \t,") == std::string::npos) continue;
+    std::vector<Rational> row;
+    std::istringstream cells(line);
+    bool heading = false;
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      const std::size_t first = cell.find_first_not_of(" \t"), last = cell.find_last_not_of(" \t");
+      const std::string text = first == std::string::npos ? "" : cell.substr(first, last - first + 1);
+      try {
+        row.push_back(core::rational_from_decimal(text));
+      } catch (const std::exception&) {
+        if (number > 1) throw InputError(where, "'" + text + "' is no number", "write decimals, separated by commas");
+        heading = true;
+      }
+    }
+    if (heading) continue;
+    if (row.size() != mechanism.coordinates.size() + 1)
+      throw InputError(where, "a row has " + std::to_string(row.size()) + " numbers",
+                       "write the time and one value for each of the " + std::to_string(mechanism.coordinates.size()) +
+                           " free coordinates");
+    for (const Rational& value : row)
+      if (const auto reason = unusable(value)) throw InputError(where, "a number of the row " + *reason, "change it");
+    if (!timed.times.empty() && row.front() <= timed.times.back())
+      throw InputError(where, "the time does not rise from the row before", "sort the rows by time");
+    timed.times.push_back(row.front());
+    timed.rows.emplace_back(row.begin() + 1, row.end());
+    if (timed.times.size() > most_rows)
+      throw InputError(where, "the table has more than 5000 rows", "leave some of them out");
+  }
+  if (timed.times.size() < 2)
+    throw InputError(file.where, "the table " + text_of(file) + " has fewer than two rows",
+                     "write rows of the time and the coordinates");
+}
+
+/// A motion that is given in time has no path; its two ends stand for waypoints.
+void read_timed(const Mechanism& mechanism, const Mapping& root, Trajectory& trajectory) {
+  const Value motion = root.at("motion");
+  if (const auto path = root.find("path"))
+    throw InputError(path->where, "the motion gives the coordinates in time, and needs no path",
+                     "remove path, or choose another law");
+  if (const auto payload = root.find("payload"))
+    throw InputError(payload->where, "a payload is picked and placed at the stops of a path, and there is none",
+                     "remove the payload, or choose another law");
+  const Mapping mapping(motion, law_keys);
+  trajectory.timed.emplace();
+  TimedMotion& timed = *trajectory.timed;
+  if (trajectory.law.kind == LawKind::expression) {
+    read_expressions(mechanism, mapping, motion, timed);
+    trajectory.period = number(mechanism, root.at("period"), Sign::positive);
+  } else {
+    read_table(mechanism, mapping.at("file"), trajectory.file, timed);
+    if (const auto period = root.find("period"))
+      throw InputError(period->where, "the table says how long the motion takes", "remove period");
+    trajectory.period = timed.times.back() - timed.times.front();
+  }
+  trajectory.waypoints.resize(2);
+  trajectory.waypoints[0].name = "start";
+  trajectory.waypoints[1].name = "end";
+  for (Waypoint& waypoint : trajectory.waypoints) waypoint.at.resize(mechanism.coordinates.size());
 }
 
 int read_stop(const Trajectory& trajectory, const Value& value) {
@@ -253,11 +358,14 @@ Trajectory parse_trajectory(const std::string& text, const std::string& file, co
   trajectory.file = file;
   const auto name = root.find("name");
   trajectory.name = name_of(name, file);
-  read_path(mechanism, root.at("path"), trajectory);
   trajectory.law = read_law(mechanism, root.at("motion"));
+  if (trajectory.law.kind == LawKind::expression || trajectory.law.kind == LawKind::table) {
+    read_timed(mechanism, root, trajectory);
+    return trajectory;
+  }
+  read_path(mechanism, root.at("path"), trajectory);
   const Value motion = root.at("motion");
-  const auto speed =
-      motion.is_map() ? Mapping(motion, {"law", "accelerating", "jerking", "speed"}).find("speed") : std::nullopt;
+  const auto speed = motion.is_map() ? Mapping(motion, law_keys).find("speed") : std::nullopt;
   if (speed && trajectory.law.kind != LawKind::constant)
     throw InputError(speed->where, "the law " + to_string(trajectory.law.kind) + " has no speed to choose",
                      "write law: constant, or give the period");

@@ -19,9 +19,9 @@ struct Waypoint {
   core::SourcePosition where;
 };
 
-enum class LawKind { cycloidal, polynomial_345, trapezoidal, s_curve, constant };
+enum class LawKind { cycloidal, polynomial_345, trapezoidal, s_curve, constant, expression, table };
 
-/// "cycloidal", "3-4-5", "trapezoidal", "s-curve", "constant".
+/// "cycloidal", "3-4-5", "trapezoidal", "s-curve", "constant", "expression", "table".
 std::string to_string(LawKind kind);
 
 /// The distance covered in a stage as a function of time, both from 0 to 1, at rest at both ends; but for `constant`,
@@ -30,6 +30,14 @@ struct MotionLaw {
   LawKind kind = LawKind::cycloidal;
   Rational accelerating = Rational(1, 3);  ///< trapezoidal, s-curve: part of the time; as much for slowing down
   Rational jerking = Rational(1, 4);       ///< s-curve: part of the accelerating time for each ramp of the acceleration
+};
+
+/// The coordinates as functions of time, in place of a path and a law: by expressions in t, or by natural cubic splines
+/// through the rows of a table.
+struct TimedMotion {
+  std::vector<Expression> coordinates;      ///< in t, s; empty: the table
+  std::vector<Rational> times;              ///< s, ascending
+  std::vector<std::vector<Rational>> rows;  ///< of each time one value a coordinate, m or rad
 };
 
 /// A body that a link carries from one stop to another.
@@ -50,7 +58,8 @@ struct Trajectory {
   bool closed = false;  ///< returns from the last waypoint to the first
   std::vector<Waypoint> waypoints;
   MotionLaw law;
-  Rational period = 1;                 ///< s, of the whole cycle
+  Rational period = 1;  ///< s, of the whole cycle
+  std::optional<TimedMotion> timed = {};
   std::optional<Rational> speed = {};  ///< of a constant law, m/s or rad/s, in place of the period
   std::vector<Payload> payloads;
 };

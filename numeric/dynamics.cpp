@@ -302,7 +302,7 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
 
 Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                       std::vector<int> mode) {
-  return motion_of(mechanism, compile_timeline(trajectory), std::move(mode));
+  return motion_of(mechanism, compile_timeline(trajectory, mechanism), std::move(mode));
 }
 
 Motion compile_motion(const mechanism::Mechanism& mechanism, std::vector<int> mode) {
@@ -322,7 +322,7 @@ Instant instant(const Motion& motion, std::size_t interval, double tau) {
   result.tau = tau;
   result.interval = interval;
   result.distance = distance_at(motion.timeline, stretch, tau);
-  result.coordinates = place_at(motion.timeline.path, stretch.path_piece, result.distance);
+  result.coordinates = coordinates_at(motion.timeline, stretch, tau);
   solve_at(motion, stretch, result);
   return result;
 }

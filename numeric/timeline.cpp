@@ -98,11 +98,32 @@ void add_stage(Timeline& timeline, int number) {
   }
 }
 
+/// One stage, of intervals from knot to knot of a table.
+void add_timed(Timeline& timeline, const mechanism::Mechanism& mechanism) {
+  const mechanism::Trajectory& trajectory = timeline.trajectory;
+  timeline.timed = compile(*trajectory.timed, mechanism, core::to_double(trajectory.period));
+  const CompiledTimed& timed = *timeline.timed;
+  timeline.stages.push_back({0, 1, 0, timed.duration, 0, 1, {}});
+  const std::size_t pieces = timed.knots.empty() ? 1 : timed.knots.size() - 1;
+  for (std::size_t k = 0; k < pieces; ++k) {
+    Interval interval;
+    interval.stage = 0;
+    interval.path_piece = k;
+    interval.begin = k == 0 ? 0 : timeline.intervals.back().end;
+    interval.end = k + 1 == pieces ? 1 : (timed.knots[k + 1] - timed.start) / timed.duration;
+    timeline.intervals.push_back(interval);
+  }
+}
+
 }  // namespace
 
-Timeline compile_timeline(const mechanism::Trajectory& trajectory) {
+Timeline compile_timeline(const mechanism::Trajectory& trajectory, const mechanism::Mechanism& mechanism) {
   Timeline timeline;
   timeline.trajectory = trajectory;
+  if (trajectory.timed) {
+    add_timed(timeline, mechanism);
+    return timeline;
+  }
   timeline.path = compile(trajectory);
   timeline.law = compile(trajectory.law);
   timeline.stages = stages_of(trajectory, timeline.path);
@@ -124,7 +145,17 @@ Timeline compile_timeline(const mechanism::Trajectory& trajectory) {
   return timeline;
 }
 
+std::vector<Series> coordinates_at(const Timeline& timeline, const Interval& interval, double tau) {
+  if (timeline.timed) return place_at(*timeline.timed, interval.path_piece, tau);
+  return place_at(timeline.path, interval.path_piece, distance_at(timeline, interval, tau));
+}
+
 Series distance_at(const Timeline& timeline, const Interval& interval, double tau) {
+  if (timeline.timed) {
+    Series t(tau * timeline.timed->duration);
+    t.c[1] = timeline.timed->duration;
+    return t;
+  }
   if (interval.stage < 0) return {interval.at};
   const Stage& stage = timeline.stages[static_cast<std::size_t>(interval.stage)];
   const double duration = stage.end - stage.begin;

@@ -6,6 +6,7 @@
 
 #include "mechanism/trajectory.hpp"
 #include "numeric/path.hpp"
+#include "numeric/timed_motion.hpp"
 
 namespace clearloci::numeric {
 
@@ -32,10 +33,19 @@ struct Timeline {
   CompiledLaw law;
   std::vector<Stage> stages;
   std::vector<Interval> intervals;  ///< without gaps from τ = 0 to 1
+  /// Coordinates that are given in time: there is no path then, one stage, and the time in s stands for the distance.
+  std::optional<CompiledTimed> timed = {};
+
+  /// Of the path; s where there is none.
+  double length() const { return timed ? timed->duration : path.length(); }
 };
 
 /// Bodies are picked when a stage begins and placed when one ends: while the path dwells between those two, neither.
-Timeline compile_timeline(const mechanism::Trajectory& trajectory);
+/// `mechanism`: whose parameters expressions of time use.
+Timeline compile_timeline(const mechanism::Trajectory& trajectory, const mechanism::Mechanism& mechanism);
+
+/// The free coordinates at an instant of an interval.
+std::vector<Series> coordinates_at(const Timeline& timeline, const Interval& interval, double tau);
 
 /// Length covered along the path as a series in τ, by the interval's own pieces (at its ends: the one-sided limit).
 Series distance_at(const Timeline& timeline, const Interval& interval, double tau);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "report/file_units.hpp"
 #include "report/files.hpp"
@@ -56,6 +57,18 @@ Json stages_json(const core::TrajectoryResult& result) {
   }
   return all;
 }
+
+/// Distances along the path as they are shown: angles in degrees.
+struct ShownDistance {
+  double scale = 1;
+  std::string unit;  ///< with the space before it
+
+  explicit ShownDistance(const std::string& of)
+      : scale(of == "rad" ? 180 / std::numbers::pi : 1),
+        unit(of == "rad"  ? " deg"
+             : of.empty() ? ""
+                          : " " + of) {}
+};
 
 std::string loss_words(const core::ContactLoss& loss) {
   const std::string what = reaction_name({loss.joint, loss.quantity});
@@ -124,8 +137,9 @@ core::Table sweep_table(const core::TrajectoryResult& result) {
 }
 
 std::string trajectory_text(const core::TrajectoryResult& result) {
-  std::string text = fmt::format("{}: {}, {} law, period {:.6g} s, length {:.6g} m\n\n", result.mechanism,
-                                 result.trajectory, result.law, result.period, result.length);
+  const ShownDistance shown(result.distance_unit);
+  std::string text = fmt::format("{}: {}, {} law, period {:.6g} s, length {:.6g}{}\n\n", result.mechanism,
+                                 result.trajectory, result.law, result.period, shown.scale * result.length, shown.unit);
   text += fmt::format("{:<6}{:<18}{:>12}{:>12}{:>14}{:>16}  lost last\n", "stage", "from - to", "begins [s]",
                       "ends [s]", "carried [kg]", "free above [s]");
   for (std::size_t k = 0; k < result.stages.size(); ++k) {
@@ -134,16 +148,18 @@ std::string trajectory_text(const core::TrajectoryResult& result) {
     text += fmt::format("{:<6}{:<18}{:>12.6g}{:>12.6g}{:>14.6g}{:>16}  {}\n", k + 1, s.from + " - " + s.to, s.begins,
                         s.ends, s.carried, critical,
                         s.lost_last ? reaction_name({s.lost_last->joint, s.lost_last->quantity}) +
-                                          fmt::format(" at {:.4g} m", s.lost_last->distance)
+                                          fmt::format(" at {:.4g}{}", shown.scale * s.lost_last->distance, shown.unit)
                                     : "");
   }
   text += fmt::format(
       "\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {:.4g} N: {} times\n",
       result.min_force, result.losses.size());
   if (result.losses.empty()) return text + notes_text(result);
-  text += fmt::format("{:>14}{:>14}{:>8}  {:<10}\n", "time [s]", "distance [m]", "stage", "what");
+  const std::string heading = shown.unit.empty() ? "distance" : "distance [" + shown.unit.substr(1) + "]";
+  text += fmt::format("{:>14}{:>14}{:>8}  {:<10}\n", "time [s]", heading, "stage", "what");
   for (const core::ContactLoss& loss : result.losses)
-    text += fmt::format("{:>14.9f}{:>14.6f}{:>8}  {}\n", loss.time, loss.distance, loss.stage, loss_words(loss));
+    text += fmt::format("{:>14.9f}{:>14.6f}{:>8}  {}\n", loss.time, shown.scale * loss.distance, loss.stage,
+                        loss_words(loss));
   return text + notes_text(result);
 }
 

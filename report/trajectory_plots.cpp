@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "report/plot_lines.hpp"
 #include "report/wording.hpp"
@@ -24,17 +25,30 @@ Plot frame(const core::TrajectoryResult& result, const std::string& what) {
   return plot;
 }
 
+/// "distance along the path (m)", "angle turned along the path (deg)", "time (s)".
+std::string distance_label(const core::TrajectoryResult& result, const std::string& angle_unit) {
+  if (result.distance_unit == "s") return "time (s)";
+  if (result.distance_unit == "rad") return "angle turned along the path (" + angle_unit + ")";
+  return result.distance_unit.empty() ? "distance along the path" : "distance along the path (m)";
+}
+
+/// Degrees in a radian where the path is one of angles.
+double shown_scale(const core::TrajectoryResult& result) {
+  return result.distance_unit == "rad" ? 180 / std::numbers::pi : 1;
+}
+
 /// Stops and contact losses, over time or distance.
 void add_marks(const core::TrajectoryResult& result, Plot& plot, bool over_time) {
+  const double scale = over_time ? 1 : shown_scale(result);
   plot.mark_labels = {"stop", "M = 0: backlash crossed", fmt::format("|f| down to {:.3g} N", result.min_force),
                       "reaction reversed at once"};
   for (const core::TrajectoryStage& stage : result.stages)
-    plot.marks.push_back({over_time ? stage.ends : stage.stops_at, stop_mark});
+    plot.marks.push_back({scale * (over_time ? stage.ends : stage.stops_at), stop_mark});
   for (const core::ContactLoss& loss : result.losses) {
     const int style = loss.kind == core::LossKind::zero      ? couple_mark
                       : loss.kind == core::LossKind::minimum ? force_mark
                                                              : jump_mark;
-    plot.marks.push_back({over_time ? loss.time : loss.distance, style});
+    plot.marks.push_back({scale * (over_time ? loss.time : loss.distance), style});
   }
 }
 
@@ -59,12 +73,14 @@ NamedPlot path_plot(const core::TrajectoryResult& result) {
 
 NamedPlot error_plot(const core::TrajectoryResult& result) {
   Plot plot = frame(result, "pose error");
-  plot.x_label = "distance along the path (m)";
+  plot.x_label = distance_label(result, "deg");
   const core::Table& c = result.samples;
+  std::vector<double> distance = c.at("distance");
+  for (double& value : distance) value *= shown_scale(result);
   const auto add = [&](const char* column, const char* label, const char* y_label, int number) {
     PlotPanel panel;
     panel.y_label = y_label;
-    panel.series.push_back({label, {line(c.at("distance"), c.at(column), 1e3)}, number});
+    panel.series.push_back({label, {line(distance, c.at(column), 1e3)}, number});
     plot.panels.push_back(std::move(panel));
   };
   add("dx", "error in x", "mm", 0);
@@ -151,7 +167,7 @@ NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& na
     plot.subtitle += std::isfinite(critical) ? fmt::format("{} {:.3g} s (stage {})", k == 0 ? "" : ",", critical, k + 1)
                                              : fmt::format("{} no period (stage {})", k == 0 ? "" : ",", k + 1);
   }
-  plot.x_label = "distance along the path (m)";
+  plot.x_label = distance_label(result, "rad");
   const double half = sweep.periods.size() > 1 ? (sweep.periods[1] - sweep.periods[0]) / 2 : 0.5 * sweep.periods[0];
   const double lowest = sweep.periods.front() - half, highest = sweep.periods.back() + half;
   plot.x_range = {0, result.length};

@@ -80,11 +80,13 @@ struct LossCurve {
 
 struct TrajectoryResult {
   std::string mechanism, trajectory;
-  std::string law;            ///< "cycloidal", "3-4-5", "trapezoidal", "s-curve"
-  double period = 0;          ///< s, of the whole cycle
-  double length = 0;          ///< of the path, in distance_unit
-  std::string distance_unit;  ///< "m", "rad"; empty where coordinates of both kinds are free, and taken as they are
-  double min_force = 0;       ///< N: a contact force at or below it is lost
+  std::string law;    ///< "cycloidal", "3-4-5", "trapezoidal", "s-curve", "constant", "expression", "table"
+  double period = 0;  ///< s, of the whole cycle
+  double length = 0;  ///< of the path, in distance_unit
+  /// "m", "rad"; empty where coordinates of both kinds are free, and taken as they are. "s" where the coordinates are
+  /// given in time: the time since the start then stands for the distance.
+  std::string distance_unit;
+  double min_force = 0;             ///< N: a contact force at or below it is lost
   std::vector<std::string> joints;  ///< in the file's order
   std::vector<TrajectoryStage> stages;
   std::vector<ContactLoss> losses;  ///< of the joints with a clearance, in order of time

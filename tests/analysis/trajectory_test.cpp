@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
+#include <numbers>
 
 #include "clearloci/mechanism.hpp"
+#include "clearloci/pose.hpp"
 
 namespace clearloci {
 namespace {
@@ -90,6 +94,69 @@ TEST(FollowTrajectory, RefusesWhatItCannotFollow) {
   refuses(manipulator(), {.periods = {2, 1}});
   refuses(manipulator(), {.working_mode = {1}});
   refuses(Model::read(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_slice.yaml"), {});
+}
+
+double at_time(const TrajectoryResult& result, const std::string& column, double time) {
+  const std::vector<double>& times = result.samples.at("time");
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (std::abs(times[i] - time) < std::abs(times[nearest] - time)) nearest = i;
+  EXPECT_NEAR(times[nearest], time, 1e-9);
+  return result.samples.at(column)[nearest];
+}
+
+TEST(FollowTrajectory, ACrankTurnsAtConstantSpeed) {
+  // Twice a second: 4 pi rad/s and no angular acceleration, from the first instant to the last.
+  const TrajectoryResult result =
+      follow_trajectory_text(Model::read(CLEARLOCI_SOURCE_DIR "/examples/slider_crank.yaml"),
+                             "format: 1\npath: {waypoints: [[0 deg], [360 deg]]}\n"
+                             "motion: {law: constant, speed: 120 rpm}\n",
+                             {.samples = 200});
+  EXPECT_EQ(result.law, "constant");
+  EXPECT_NEAR(result.period, 0.5, 1e-15);
+  EXPECT_EQ(result.distance_unit, "rad");
+  for (const double rate : result.samples.at("q_theta_rate")) EXPECT_NEAR(rate, 4 * std::numbers::pi, 1e-9);
+  for (const double rate : result.samples.at("q_theta_acceleration")) EXPECT_NEAR(rate, 0, 1e-9);
+  // The piston turns back at the end of its stroke with r w^2 (1 + r/l), its rod in line.
+  EXPECT_NEAR(result.samples.at("px_acceleration").front(), -0.153 * std::pow(4 * std::numbers::pi, 2) * 1.5, 1e-8);
+}
+
+TEST(FollowTrajectory, CoordinatesMayBeGivenInTime) {
+  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/slider_crank.yaml");
+  const TrajectoryResult given = follow_trajectory_text(
+      model, "format: 1\nmotion: {law: expression, coordinate: '6*sin(0.75*pi*t)'}\nperiod: 0.8\n", {.samples = 200});
+  EXPECT_EQ(given.law, "expression");
+  EXPECT_EQ(given.distance_unit, "s");
+  const double w = 0.75 * std::numbers::pi;
+  EXPECT_NEAR(at_time(given, "q_theta", 0.4), 6 * std::sin(0.4 * w), 1e-12);
+  EXPECT_NEAR(at_time(given, "q_theta_rate", 0.4), 6 * w * std::cos(0.4 * w), 1e-11);
+  EXPECT_NEAR(at_time(given, "q_theta_acceleration", 0.4), -6 * w * w * std::sin(0.4 * w), 1e-10);
+  // One pose of it by itself.
+  const Pose pose = solve_pose(model, {at_time(given, "q_theta", 0.4)},
+                               {.velocity = {at_time(given, "q_theta_rate", 0.4)},
+                                .acceleration = {at_time(given, "q_theta_acceleration", 0.4)}});
+  EXPECT_NEAR(pose.reactions.front().components.back().value, at_time(given, "MA", 0.4), 1e-9);
+}
+
+TEST(FollowTrajectory, ATableIsSplined) {
+  // Rows of sin t over a whole turn, from bending to bending of zero: natural ends are its own.
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "clearloci_motion_table";
+  std::filesystem::create_directories(folder);
+  std::ofstream table(folder / "motion.csv");
+  table << "time, theta\n" << std::setprecision(17);
+  constexpr int rows = 400;
+  for (int i = 0; i <= rows; ++i) {
+    const double t = 2 * std::numbers::pi * i / rows;
+    table << t << ", " << std::sin(t) << "\n";
+  }
+  table.close();
+  const TrajectoryResult result = follow_trajectory_text(
+      Model::read(CLEARLOCI_SOURCE_DIR "/examples/slider_crank.yaml"),
+      "format: 1\nmotion: {law: table, file: motion.csv}\n", {.samples = 800}, (folder / "motion.yaml").string());
+  std::filesystem::remove_all(folder);
+  EXPECT_NEAR(result.period, 2 * std::numbers::pi, 1e-12);
+  const std::vector<double>&times = result.samples.at("time"), &bend = result.samples.at("q_theta_acceleration");
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(bend[i], -std::sin(times[i]), 1e-4);
 }
 
 }  // namespace
