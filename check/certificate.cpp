@@ -42,7 +42,9 @@ class Reader {
     for (const Json& name : array(root, "quantities")) c.quantities.push_back(quantity(text(name)));
     for (const Json& entry : array(root, "roots")) {
       c.root_points.push_back(text(entry, "point"));
-      c.root_roles.push_back(text(entry, "role") == "length" ? core::RootRole::length : core::RootRole::working_mode);
+      const std::string own = text(entry, "role");
+      if (own == "limit") c.limit_roots.push_back(static_cast<int>(c.root_roles.size()));
+      c.root_roles.push_back(own == "length" || own == "limit" ? core::RootRole::length : core::RootRole::working_mode);
       c.squares.push_back(program(text(entry, "square"), 2 + c.squares.size()));
     }
     if (c.squares.size() > most_roots) fail("too many roots");

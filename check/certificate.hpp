@@ -89,6 +89,7 @@ struct CertificateFile {
   std::vector<core::Quantity> quantities;
   std::vector<std::string> root_points;
   std::vector<core::RootRole> root_roles;
+  std::vector<int> limit_roots;  ///< those of limits, which have the role `length`
   std::vector<core::StraightLine> squares;
   std::vector<Function> functions;
   std::vector<core::WorkingMode> modes;

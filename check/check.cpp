@@ -59,9 +59,6 @@ class Check {
     if (m_.space != mechanism::Space::planar || m_.coordinates.size() != 2 || m_.coordinates[0].angle ||
         m_.coordinates[1].angle)
       throw core::InputError({m_.file}, "only planar mechanisms over two lengths can be checked", "");
-    if (!m_.limits.empty())
-      throw core::InputError({m_.file}, "the model has limits, whose boundaries the checker does not know",
-                             "leave the limits out to have the rest checked");
     for (std::size_t i = 0; i < 2; ++i) {
       if (c_.coordinates[i] != m_.coordinates[i].name) throw FalseClaim("coordinates: they are not the model's");
       if (c_.box[2 * i] != m_.coordinates[i].lower || c_.box[2 * i + 1] != m_.coordinates[i].upper)
@@ -71,6 +68,10 @@ class Check {
     const auto dyads = static_cast<std::ptrdiff_t>(mechanism::dyad_points(m_).size());
     if (std::count(c_.root_roles.begin(), c_.root_roles.end(), core::RootRole::working_mode) != dyads)
       throw FalseClaim("roots: there is not one for every dyad and slider");
+    // One that no pose of the box is beyond bounds nothing, and has no root: such models are not checked.
+    if (c_.limit_roots.size() != limit_ends(m_))
+      throw core::InputError({m_.file}, "the model has a limit that the certificate knows no root of",
+                             "leave a limit out that no pose is beyond");
     for (const core::WorkingMode& mode : c_.modes)
       for (std::size_t j = 0; j < mode.size(); ++j)
         if (c_.root_roles[j] == core::RootRole::length && mode[j] != 1) throw FalseClaim("modes: a length is negative");
@@ -87,11 +88,12 @@ class Check {
     return exponents && (*exponents)[static_cast<std::size_t>(f)] > 0;
   }
 
-  /// Roots of dyads and sliders in the order of the model, as numbers of the certificate's roots.
+  /// Roots of dyads and sliders, then of limits, in the order of the model, as numbers of the certificate's roots.
   std::vector<int> mode_roots() const {
     std::vector<int> roots;
     for (std::size_t j = 0; j < c_.root_roles.size(); ++j)
       if (c_.root_roles[j] == core::RootRole::working_mode) roots.push_back(static_cast<int>(j));
+    roots.insert(roots.end(), c_.limit_roots.begin(), c_.limit_roots.end());
     return roots;
   }
 

@@ -90,7 +90,11 @@ struct LogSystem {
 class Fit {
  public:
   Fit(const mechanism::Mechanism& m, const CertificateFile& c, int mode)
-      : m_(m), c_(c), mode_(mode), unknowns_(reactions_of(m)), dyads_(mechanism::dyad_points(m).size()) {
+      : m_(m),
+        c_(c),
+        mode_(mode),
+        unknowns_(reactions_of(m)),
+        dyads_(mechanism::dyad_points(m).size() + limit_ends(m)) {
     // First those that cells tell of, the boundary's before all: others are made up of them.
     std::vector<int> rank(c.functions.size(), 2);
     for (const SheetCells& sheet : c.sheets)
@@ -171,11 +175,14 @@ class Fit {
       first_ = row.size();
       for (const std::size_t f : order_) row.push_back(log_of(sheet.value(static_cast<int>(f))));
       for (const Interval& q : here->squares) row.push_back(log_of(q));
-      std::size_t own = 0;
+      std::size_t own = 0, limit = dyads_ - c_.limit_roots.size();
       for (std::size_t j = 0; j < c_.squares.size(); ++j) {
         const Interval square = log_of(sheet.square(static_cast<int>(j)));
         row.push_back(square);
-        if (c_.root_roles[j] == core::RootRole::working_mode) root_row.push_back(square - log_of(here->squares[own++]));
+        const bool of_limit =
+            std::find(c_.limit_roots.begin(), c_.limit_roots.end(), static_cast<int>(j)) != c_.limit_roots.end();
+        if (of_limit || c_.root_roles[j] == core::RootRole::working_mode)
+          root_row.push_back(square - log_of(here->squares[of_limit ? limit++ : own++]));
       }
       system_.columns = row.size();
       row.push_back(log_of(solved->determinant));
@@ -215,7 +222,8 @@ class Fit {
     return result;
   }
 
-  /// Every root of a dyad or slider is the model's, times what the closure divides by: both are real in the same poses.
+  /// Every root of a dyad, slider or limit is the model's, times what the closure divides by: both are real in the same
+  /// poses.
   void check_roots() {
     roots_.eliminate();
     for (std::size_t column = roots_.columns; column < roots_.rows.front().size(); ++column)
@@ -236,7 +244,7 @@ class Fit {
   const CertificateFile& c_;
   int mode_;
   std::vector<mechanism::Unknown> unknowns_;
-  std::size_t dyads_;
+  std::size_t dyads_;               // with the ends of limits
   std::vector<std::size_t> order_;  // of the functions among the columns, from first_ on
   std::size_t first_ = 0;
   LogSystem system_, roots_;

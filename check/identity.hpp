@@ -29,7 +29,8 @@ struct Orders {
   /// In the order of reactions_of; none for one that is 0 in every pose, or not wanted.
   std::vector<std::optional<Exponents>> reactions;
   Exponents determinant;
-  std::vector<std::optional<Exponents>> squares;  ///< of every dyad and slider; none: the functions do not make it up
+  std::vector<std::optional<Exponents>>
+      squares;  ///< of every dyad, slider and limit's end; none: no functions make it up
 };
 
 /// Throws FalseClaim where no exponents fit, and where a function is part of nothing.

@@ -292,6 +292,29 @@ void add_guide_ends(const Mechanism& m, const Posture& posture, const Interval& 
   }
 }
 
+/// l^2 - |B - A|^2 and so on (docs/mechanism-file.md); of an angle in its cosine. False: a way may have no length.
+bool add_limit(const mechanism::Limit& limit, const Pose& pose, Posture& posture) {
+  const auto at = [&](std::size_t i) { return posture.points.at(static_cast<std::size_t>(limit.points.at(i))); };
+  if (!limit.is_angle()) {
+    const Interval square = square_of(at(1) - at(0));
+    if (limit.keeps_lower()) posture.squares.push_back(square - squared(pose.value(limit.lower)));
+    posture.squares.push_back(squared(pose.value(limit.upper)) - square);
+    return true;
+  }
+  const Vector a = at(0) - at(1), b = at(2) - at(1);
+  const auto cosine_of = [&](const Expression& angle) {
+    return pose.value(Expression::apply(Expression::Kind::cos, {angle}));
+  };
+  for (const Interval& divisor : {square_of(a), square_of(b)}) {
+    posture.divisors.push_back(divisor);
+    if (divisor.sign() == 0) return false;
+  }
+  const Interval cosine = dot(a, b) / (root_of(square_of(a)) * root_of(square_of(b)));
+  if (limit.keeps_lower()) posture.squares.push_back(cosine_of(limit.lower) - cosine);
+  if (limit.keeps_upper()) posture.squares.push_back(cosine - cosine_of(limit.upper));
+  return true;
+}
+
 }  // namespace
 
 std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Interval& x, const Interval& y) {
@@ -307,10 +330,23 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
     closure.result.divisors.push_back(square_of(at(spring.to_point) - at(spring.from_point)));
     if (closure.result.divisors.back().sign() == 0) return std::nullopt;
   }
+  for (const mechanism::Limit& limit : m.limits) {
+    const std::size_t before = closure.result.squares.size();
+    if (!add_limit(limit, pose, closure.result)) return std::nullopt;
+    for (std::size_t j = before; j < closure.result.squares.size(); ++j)
+      if (closure.result.squares[j].below()) return std::nullopt;
+  }
   for (const mechanism::Joint& joint : m.joints)
     if (joint.type == mechanism::JointType::prismatic)
       closure.result.divisors.push_back(square_of(pose.vector(joint.axes.at(0), closure.result.points)));
   return std::move(closure.result);
+}
+
+std::size_t limit_ends(const Mechanism& m) {
+  std::size_t count = 0;
+  for (const mechanism::Limit& limit : m.limits)
+    count += (limit.keeps_lower() ? 1U : 0U) + (limit.keeps_upper() ? 1U : 0U);
+  return count;
 }
 
 std::vector<mechanism::Unknown> reactions_of(const Mechanism& m) {

@@ -19,14 +19,18 @@ using Sides = std::vector<int>;
 
 struct Posture {
   std::vector<std::array<Interval, 2>> points;
-  std::vector<Interval> squares;  ///< Q of every dyad and slider
+  /// Q of every dyad and slider; then, of every limit, what is left to its lower and its upper end where it has one.
+  std::vector<Interval> squares;
   /// What the closure divides by: D of a dyad, |AB|^2 of an offset; and the squared lengths of the axes of guides, by
   /// which the unknowns along them and across are measured; and those of springs.
   std::vector<Interval> divisors;
 };
 
-/// None: some Q is negative for certain, or a divisor may be zero.
+/// None: some Q or what is left to a limit is negative for certain, or a divisor may be zero.
 std::optional<Posture> posture(const mechanism::Mechanism& m, const Sides& sides, const Interval& x, const Interval& y);
+
+/// How many squares of a posture are those of limits.
+std::size_t limit_ends(const mechanism::Mechanism& m);
 
 /// What may vanish: the unknowns of A w = -w_e, and behind them what the two ends of each guide's contact bear.
 std::vector<mechanism::Unknown> reactions_of(const mechanism::Mechanism& m);

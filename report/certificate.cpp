@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "core/fold.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -167,7 +168,9 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
   root["roots"] = Json::array();
   for (const core::Root& own : problem.tower.roots)
     root["roots"].push_back({{"point", own.point},
-                             {"role", own.role == core::RootRole::length ? "length" : "working-mode"},
+                             {"role", own.name == core::limit_name         ? "limit"
+                                      : own.role == core::RootRole::length ? "length"
+                                                                           : "working-mode"},
                              {"square", program_text(own.line.empty() ? line_of(own.square) : own.line)}});
   root["modes"] = problem.modes;
 

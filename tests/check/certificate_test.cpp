@@ -29,7 +29,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
                          testing::Values("five_bar.yaml", "five_bar_generic.yaml", "five_bar_coupler.yaml",
                                          "five_bar_horizontal.yaml", "five_bar_inclined.yaml", "five_bar_isolated.yaml",
                                          "five_bar_weights.yaml", "prrrp.yaml", "rprpr.yaml", "three_rpr.yaml",
-                                         "three_rrr.yaml"),
+                                         "three_rrr.yaml", "five_bar_preloaded.yaml", "five_bar_antagonistic.yaml",
+                                         "excavator.yaml"),
                          [](const auto& own) {
                            const std::string file = own.param;
                            return file.substr(0, file.find('.'));
@@ -41,6 +42,24 @@ TEST(Certificate, OfEveryWorkingModeIsAccepted) {
   request.all_working_modes = true;
   const check::Examination examination = examination_of(model, certificate_of(model, request));
   EXPECT_TRUE(examination.accepted) << summary(examination);
+}
+
+TEST(Certificate, LimitsAreThoseOfTheModel) {
+  const std::string plain = example("five_bar.yaml");
+  const auto limited = [&](const std::string& reach) {
+    return plain + "limits: [{distance: [A1, P], within: [0.31, " + reach + "]}]\n";
+  };
+  const std::string model = limited("0.92"), other = limited("0.93");
+  Json certificate = Json::parse(certificate_of(model));
+  const check::Examination own = examination_of(model, certificate.dump());
+  EXPECT_TRUE(own.accepted) << summary(own);
+  certificate["model"]["text"] = other;
+  EXPECT_FALSE(examination_of(other, certificate.dump()).accepted);
+  // Without a root for it the limit is not known to be kept.
+  certificate = Json::parse(certificate_of(model));
+  for (auto& root : certificate["roots"])
+    if (root["role"] == "limit") root["role"] = "length";
+  EXPECT_THROW((void)examination_of(model, certificate.dump()), core::InputError);
 }
 
 TEST(Certificate, OfZonesIsAccepted) {
