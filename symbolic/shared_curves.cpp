@@ -134,7 +134,8 @@ std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsign
       if (w == 0) return std::nullopt;
       const Residue inverse = n_invmod(w, prime);
       point[static_cast<std::size_t>(pair->x)] = product(value(reduced(pair->place.x), point), inverse);
-      point[static_cast<std::size_t>(pair->y)] = product(value(reduced(pair->place.y), point), inverse);
+      if (pair->y >= 0)
+        point[static_cast<std::size_t>(pair->y)] = product(value(reduced(pair->place.y), point), inverse);
       if (pair->z >= 0)
         point[static_cast<std::size_t>(pair->z)] = product(value(reduced(pair->place.z), point), inverse);
     }
