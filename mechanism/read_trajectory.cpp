@@ -165,7 +165,7 @@ MotionLaw read_law(const Mechanism& mechanism, const Value& value) {
     throw InputError(named.where, "there is no motion law '" + text + "'", suggest(text, known, "laws"));
   law.kind = found->first;
   if (!value.is_map()) return law;
-  const Mapping mapping(value, {"law", "accelerating", "jerking"});
+  const Mapping mapping(value, law_keys);
   const bool accelerates = law.kind == LawKind::trapezoidal || law.kind == LawKind::s_curve;
   if (const auto accelerating = mapping.find("accelerating")) {
     if (!accelerates)

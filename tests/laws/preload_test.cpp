@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "analysis/loci.hpp"
 #include "analysis/verification.hpp"
@@ -56,6 +58,20 @@ TEST(Preload, LociHoldAgainstTheWitness) {
 
 TEST(Preload, ALoadThatVariesWithThePoseHasItsLoci) {
   expect_witnessed(parsed(with(mechanism::five_bar_text, "force: [0, -100]", "force: [-40*(x - 1/4), -100]")));
+}
+
+TEST(Preload, InSpaceToo) {
+  std::ifstream file(folder + "gough_stewart_slice.yaml");
+  const std::string text = {std::istreambuf_iterator<char>(file), {}};
+  LociRequest request;
+  request.joints = {"S1", "S4"};
+  const LociValidation validation = validate_loci(
+      parsed(text + "springs: [{links: [ground, platform], at: [A1, P], stiffness: 300, free_length: 0.2}]\n"
+                    "limits: [{distance: [A1, B1], within: [0.3, 0.7]}]\n"),
+      request, {40, 40});
+  EXPECT_EQ(validation.report.disputed, 0U);
+  EXPECT_GT(validation.report.held, 1000U);
+  EXPECT_GT(validation.report.outside, 100U) << "beyond the limit";
 }
 
 const std::string limits = R"(limits:

@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"law: s-curve", "law: cycloidal", "10:40", "no accelerating part"},
                     Wrong{"accelerating: 2/5", "accelerating: 3/5", "10:38", "more than half"},
                     Wrong{"accelerating: 2/5", "speed: 3", "10:31", "no speed to choose"},
-                    Wrong{"law: s-curve", "law: expression", "", "needs no path"},
+                    Wrong{"law: s-curve, accelerating: 2/5, jerking: 1/3", "law: expression", "4:3", "needs no path"},
                     Wrong{"jerking: 1/3", "jerking: 0", "10:52", "is zero"},
                     Wrong{"at: [d, -0.6]", "at: [d]", "8:12", "the free coordinates are x, y"},
                     Wrong{"at: [d, -0.6]", "at: [d, -0.6, 0]", "8:12", "has 3 values"},
