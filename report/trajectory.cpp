@@ -155,7 +155,9 @@ std::string trajectory_text(const core::TrajectoryResult& result) {
       "\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {:.4g} N: {} times\n",
       result.min_force, result.losses.size());
   if (result.losses.empty()) return text + notes_text(result);
-  const std::string heading = shown.unit.empty() ? "distance" : "distance [" + shown.unit.substr(1) + "]";
+  const std::string heading = shown.unit == " deg" ? "angle [deg]"
+                              : shown.unit.empty() ? "distance"
+                                                   : "distance [" + shown.unit.substr(1) + "]";
   text += fmt::format("{:>14}{:>14}{:>8}  {:<10}\n", "time [s]", heading, "stage", "what");
   for (const core::ContactLoss& loss : result.losses)
     text += fmt::format("{:>14.9f}{:>14.6f}{:>8}  {}\n", loss.time, shown.scale * loss.distance, loss.stage,

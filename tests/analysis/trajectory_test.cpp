@@ -140,9 +140,9 @@ TEST(FollowTrajectory, CoordinatesMayBeGivenInTime) {
 
 TEST(FollowTrajectory, ATableIsSplined) {
   // Rows of sin t over a whole turn, from bending to bending of zero: natural ends are its own.
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "clearloci_motion_table";
-  std::filesystem::create_directories(folder);
-  std::ofstream table(folder / "motion.csv");
+  const std::filesystem::path scratch = std::filesystem::temp_directory_path() / "clearloci_motion_table";
+  std::filesystem::create_directories(scratch);
+  std::ofstream table(scratch / "motion.csv");
   table << "time, theta\n" << std::setprecision(17);
   constexpr int rows = 400;
   for (int i = 0; i <= rows; ++i) {
@@ -152,8 +152,8 @@ TEST(FollowTrajectory, ATableIsSplined) {
   table.close();
   const TrajectoryResult result = follow_trajectory_text(
       Model::read(CLEARLOCI_SOURCE_DIR "/examples/slider_crank.yaml"),
-      "format: 1\nmotion: {law: table, file: motion.csv}\n", {.samples = 800}, (folder / "motion.yaml").string());
-  std::filesystem::remove_all(folder);
+      "format: 1\nmotion: {law: table, file: motion.csv}\n", {.samples = 800}, (scratch / "motion.yaml").string());
+  std::filesystem::remove_all(scratch);
   EXPECT_NEAR(result.period, 2 * std::numbers::pi, 1e-12);
   const std::vector<double>&times = result.samples.at("time"), &bend = result.samples.at("q_theta_acceleration");
   for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(bend[i], -std::sin(times[i]), 1e-4);
