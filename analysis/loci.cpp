@@ -185,19 +185,6 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
   return traced;
 }
 
-/// Whether the free coordinates are x and y of the end effector's point: a picture over them then shows the mechanism.
-bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
-  const auto index = static_cast<std::size_t>(mechanism.end_effector_point);
-  const auto* const place = std::get_if<mechanism::ExplicitPoint>(&mechanism.points[index].form);
-  if (place == nullptr || mechanism.coordinates.size() != 2) return false;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const core::Expression& expression = place->coordinates[i];
-    if (expression.kind() != core::Expression::Kind::symbol || expression.name() != mechanism.coordinates[i].name)
-      return false;
-  }
-  return true;
-}
-
 TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
                            const symbolic::LocusFamily* family, core::Certificate* certificate) {
   require_coordinates(mechanism, 1, 3, "loci are traced");
@@ -356,6 +343,18 @@ LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest 
     throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
   numeric::ValidationReport report = numeric::validate(mechanism, map, grid, reactions);
   return {std::move(map), std::move(report)};
+}
+
+bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
+  const auto index = static_cast<std::size_t>(mechanism.end_effector_point);
+  const auto* const place = std::get_if<mechanism::ExplicitPoint>(&mechanism.points[index].form);
+  if (place == nullptr || mechanism.coordinates.size() != 2) return false;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const core::Expression& expression = place->coordinates[i];
+    if (expression.kind() != core::Expression::Kind::symbol || expression.name() != mechanism.coordinates[i].name)
+      return false;
+  }
+  return true;
 }
 
 std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {

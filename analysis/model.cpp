@@ -6,6 +6,17 @@
 #include "mechanism/read.hpp"
 
 namespace clearloci {
+namespace {
+
+std::string point_name(const mechanism::Mechanism& mechanism, mechanism::PointIndex point) {
+  return mechanism.points[static_cast<std::size_t>(point)].name;
+}
+
+std::string link_name(const mechanism::Mechanism& mechanism, mechanism::LinkIndex link) {
+  return link == mechanism::ground ? "ground" : mechanism.links[static_cast<std::size_t>(link)].name;
+}
+
+}  // namespace
 
 SharedDesign::SharedDesign(std::string text, std::string file, mechanism::Mechanism first)
     : text_(std::move(text)), file_(std::move(file)), first_(std::move(first)) {}
@@ -57,10 +68,32 @@ std::vector<Model::Coordinate> Model::coordinates() const {
 }
 
 std::vector<Model::Joint> Model::joints() const {
+  const mechanism::Mechanism& mechanism = content_->mechanism;
   std::vector<Joint> list;
-  for (const mechanism::Joint& own : content_->mechanism.joints)
-    list.push_back({own.name, mechanism::to_string(own.type), own.actuated, own.clearance.has_value()});
+  for (const mechanism::Joint& own : mechanism.joints)
+    list.push_back({.name = own.name,
+                    .type = mechanism::to_string(own.type),
+                    .actuated = own.actuated,
+                    .clearance = own.clearance.has_value(),
+                    .from = link_name(mechanism, own.from),
+                    .to = link_name(mechanism, own.to),
+                    .at = point_name(mechanism, own.at)});
   return list;
+}
+
+std::vector<Model::Link> Model::links() const {
+  const mechanism::Mechanism& mechanism = content_->mechanism;
+  std::vector<Link> list;
+  for (const mechanism::Link& own : mechanism.links) {
+    Link& link = list.emplace_back(Link{own.name, {}});
+    for (const mechanism::PointIndex point : own.points) link.points.push_back(point_name(mechanism, point));
+  }
+  return list;
+}
+
+Model::EndEffector Model::end_effector() const {
+  const mechanism::Mechanism& mechanism = content_->mechanism;
+  return {link_name(mechanism, mechanism.end_effector_link), point_name(mechanism, mechanism.end_effector_point)};
 }
 
 std::vector<Model::Dyad> Model::dyads() const {

@@ -41,16 +41,6 @@ core::Rational written(double value) {
   return core::rational_from_decimal({text.data(), static_cast<std::size_t>(end - text.data())});
 }
 
-void require_values(const mechanism::Mechanism& mechanism, std::size_t count) {
-  const std::size_t wanted = mechanism.coordinates.size();
-  if (count == wanted) return;
-  std::string names;
-  for (const mechanism::Coordinate& own : mechanism.coordinates) names += (names.empty() ? "" : ", ") + own.name;
-  throw core::InputError({mechanism.file},
-                         "a pose has " + std::to_string(wanted) + " values, not " + std::to_string(count),
-                         "give one for each free coordinate: " + names);
-}
-
 std::vector<PosePoint> named_points(const mechanism::Mechanism& mechanism, const auto& places) {
   std::vector<PosePoint> points;
   for (std::size_t i = 0; i < mechanism.points.size(); ++i)
@@ -312,6 +302,16 @@ Reactions reactions_in_space(const mechanism::Mechanism& mechanism, std::span<co
 }
 
 }  // namespace
+
+void require_values(const mechanism::Mechanism& mechanism, std::size_t count) {
+  const std::size_t wanted = mechanism.coordinates.size();
+  if (count == wanted) return;
+  std::string names;
+  for (const mechanism::Coordinate& own : mechanism.coordinates) names += (names.empty() ? "" : ", ") + own.name;
+  throw core::InputError({mechanism.file},
+                         "a pose has " + std::to_string(wanted) + " values, not " + std::to_string(count),
+                         "give one for each free coordinate: " + names);
+}
 
 std::vector<std::pair<std::string, std::string>> named_mode(const mechanism::Mechanism& mechanism,
                                                             const DyadSides& sides) {

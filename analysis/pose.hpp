@@ -2,6 +2,7 @@
 //     Mechanism -> numeric::posture -> reactions -> take-up -> pose error
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,5 +23,8 @@ std::vector<std::pair<std::string, std::string>> named_mode(const mechanism::Mec
 
 /// The sides that are meant: the file's where none are given. Throws core::InputError where their number is wrong.
 DyadSides sides_of(const mechanism::Mechanism& mechanism, const DyadSides& sides);
+
+/// Throws core::InputError where a pose has not one value for each free coordinate.
+void require_values(const mechanism::Mechanism& mechanism, std::size_t count);
 
 }  // namespace clearloci

@@ -61,15 +61,19 @@ void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
       ->type_name("SECONDS");
 }
 
-mechanism::Mechanism read_model(const CommonArguments& arguments) {
+std::vector<mechanism::Override> parse_overrides(const std::vector<std::string>& words) {
   std::vector<mechanism::Override> overrides;
-  for (const std::string& word : arguments.overrides) {
+  for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
       refuse("--set", fmt::format("'{}' is not name=value", word), "write e.g. --set L=0.4");
     overrides.emplace_back(word.substr(0, equals), word.substr(equals + 1));
   }
-  return mechanism::read_mechanism(arguments.model, overrides);
+  return overrides;
+}
+
+mechanism::Mechanism read_model(const CommonArguments& arguments) {
+  return mechanism::read_mechanism(arguments.model, parse_overrides(arguments.overrides));
 }
 
 std::filesystem::path output_folder(const CommonArguments& arguments) {

@@ -29,6 +29,9 @@ struct CommonArguments {
 
 void add_common_arguments(CLI::App& command, CommonArguments& arguments);
 
+/// {"L", "0.4"} of "L=0.4".
+std::vector<mechanism::Override> parse_overrides(const std::vector<std::string>& words);
+
 /// The mechanism file with its overrides.
 mechanism::Mechanism read_model(const CommonArguments& arguments);
 

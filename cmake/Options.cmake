@@ -2,6 +2,7 @@
 option(CLEARLOCI_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(CLEARLOCI_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 set(CLEARLOCI_PYTHON "AUTO" CACHE STRING "Build the Python module: ON, OFF, or AUTO where pybind11 is found")
+option(CLEARLOCI_WORKBENCH "Build `clearloci view` and `--export html`; wants Node.js, npm and cpp-httplib" ON)
 option(CLEARLOCI_WARNINGS_AS_ERRORS "Treat warnings in this project's code as errors" OFF)
 option(CLEARLOCI_FUZZ "Build the fuzzers alone, with what they throw bytes at; wants Clang" OFF)
 set(CLEARLOCI_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined")

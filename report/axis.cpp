@@ -11,8 +11,8 @@
 namespace clearloci::report {
 namespace {
 
-constexpr Colour ink{0.13, 0.13, 0.13};
-constexpr Colour frame{0.45, 0.45, 0.45};
+constexpr Colour ink = light_theme.ink;
+constexpr Colour frame = light_theme.frame;
 
 /// The smallest of 1, 2, 5 times a power of ten that is no less than `least`.
 double nice_step(double least) {

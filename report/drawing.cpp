@@ -19,11 +19,11 @@ namespace {
 using core::Point2;
 using Context = Cairo::RefPtr<Cairo::Context>;
 
-constexpr Colour ink{0.13, 0.13, 0.13};
-constexpr Colour faded_ink{0.40, 0.40, 0.40};
-constexpr Colour frame{0.45, 0.45, 0.45};
-constexpr Colour workspace_fill{0.925, 0.941, 0.957};
-constexpr Colour grid{0.86, 0.86, 0.86};
+constexpr Colour ink = light_theme.ink;
+constexpr Colour faded_ink = light_theme.faded_ink;
+constexpr Colour frame = light_theme.frame;
+constexpr Colour workspace_fill = light_theme.workspace;
+constexpr Colour grid = light_theme.grid;
 
 void trace_path(const Context& context, const Layout& layout, const core::Polyline& points) {
   for (const auto& point : points) {

@@ -8,6 +8,7 @@
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/verification.hpp"
+#include "report/viewer.hpp"
 #include "report/wording.hpp"
 #include "report/zones.hpp"
 
@@ -92,6 +93,8 @@ Files loci_stl(const LociSheet& loci) {
   return files;
 }
 
+Files loci_html(const LociSheet& loci) { return {{"loci.html", html_page(loci)}}; }
+
 constexpr PictureFormat svg = PictureFormat::svg, png = PictureFormat::png, pdf = PictureFormat::pdf;
 
 /// Writes what the formats that `wanted` picks make of an answer. `made`: the answer's column of the registry.
@@ -117,19 +120,25 @@ auto named(const std::set<std::string>& names) {
 }  // namespace
 
 const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {
-      {"json", any, loci_json, zones_json, verification_json},
-      {"csv", any, loci_csv, nullptr, nullptr},
-      {"svg", any, loci_pictures<svg>, zone_pictures<svg>, verification_picture<svg>},
-      {"png", any, loci_pictures<png>, zone_pictures<png>, verification_picture<png>},
-      {"pdf", any, loci_pictures<pdf>, zone_pictures<pdf>, verification_picture<pdf>},
-      {"dxf", curves, loci_dxf, nullptr, nullptr},
-      {"dxf-r12", curves, loci_dxf_r12, nullptr, nullptr},
-      {"geojson", curves, loci_geojson, zones_in_geojson, nullptr},
-      {"vtk", any, loci_vtk, nullptr, nullptr},
-      {"stl", surfaces, loci_stl, nullptr, nullptr},
-      {"obj", surfaces, loci_obj, nullptr, nullptr},
-  };
+  static const std::vector<Format> all = [] {
+    std::vector<Format> list = {
+        {"json", any, loci_json, zones_json, verification_json},
+        {"csv", any, loci_csv, nullptr, nullptr},
+        {"svg", any, loci_pictures<svg>, zone_pictures<svg>, verification_picture<svg>},
+        {"png", any, loci_pictures<png>, zone_pictures<png>, verification_picture<png>},
+        {"pdf", any, loci_pictures<pdf>, zone_pictures<pdf>, verification_picture<pdf>},
+        {"dxf", curves, loci_dxf, nullptr, nullptr},
+        {"dxf-r12", curves, loci_dxf_r12, nullptr, nullptr},
+        {"geojson", curves, loci_geojson, zones_in_geojson, nullptr},
+        {"vtk", any, loci_vtk, nullptr, nullptr},
+        {"stl", surfaces, loci_stl, nullptr, nullptr},
+        {"obj", surfaces, loci_obj, nullptr, nullptr},
+        {"html", any, loci_html, nullptr, nullptr},
+    };
+    // A build without the workbench has no viewer to put into a page.
+    if (viewer_bundle().script.empty()) std::erase_if(list, [](const Format& one) { return one.name == "html"; });
+    return list;
+  }();
   return all;
 }
 

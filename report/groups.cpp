@@ -1,21 +1,13 @@
 #include "report/groups.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "report/wording.hpp"
 
 namespace clearloci::report {
 namespace {
 
-// Okabe and Ito's palette (Color Universal Design, 2008) without black, which direct singularities have, and without
-// yellow, which is too light for a line on white. Ordered so that neighbours differ in lightness too.
-constexpr std::array<Colour, 6> palette = {{{0.000, 0.447, 0.698},    // blue
-                                            {0.835, 0.369, 0.000},    // vermilion
-                                            {0.000, 0.620, 0.451},    // bluish green
-                                            {0.800, 0.475, 0.655},    // reddish purple
-                                            {0.902, 0.624, 0.000},    // orange
-                                            {0.337, 0.706, 0.914}}};  // sky blue
+constexpr const auto& palette = light_theme.curves;
 
 using Dashes = std::vector<std::vector<double>>;
 
@@ -111,9 +103,9 @@ void choose_strokes(Groups& groups) {
     within_kind = previous != nullptr && previous->kind == group.kind ? within_kind + 1 : 0;
     previous = &group;
     if (group.kind == core::LocusKind::direct_singularity) {
-      group.stroke = {{0, 0, 0}, group.excited ? 1.3 : 0.7, {8, 2.5, 1.5, 2.5}, false};
+      group.stroke = {light_theme.singularity, group.excited ? 1.3 : 0.7, {8, 2.5, 1.5, 2.5}, false};
     } else if (group.kind == core::LocusKind::workspace_boundary) {
-      group.stroke = {{0.35, 0.35, 0.35}, 0.9, {}, false};
+      group.stroke = {light_theme.boundary, 0.9, {}, false};
     } else {
       group.number = number++;
       group.stroke = reaction_stroke(group.kind, within_kind, group.number);

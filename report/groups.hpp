@@ -6,12 +6,9 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
+#include "report/theme.hpp"
 
 namespace clearloci::report {
-
-struct Colour {
-  double red = 0, green = 0, blue = 0;
-};
 
 /// Lengths in points.
 struct Stroke {

@@ -12,9 +12,9 @@ namespace {
 using core::Point2;
 using Context = Cairo::RefPtr<Cairo::Context>;
 
-constexpr Colour outline{0.20, 0.24, 0.30};
-constexpr Colour link_fill{0.62, 0.68, 0.76};
-constexpr Colour load_colour{0.55, 0.05, 0.10};
+constexpr Colour outline = light_theme.outline;
+constexpr Colour link_fill = light_theme.link;
+constexpr Colour load_colour = light_theme.load;
 constexpr double bar_width = 8;
 constexpr double pin_radius = 3.4;
 constexpr double longest_arrow = 46;

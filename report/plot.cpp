@@ -23,22 +23,22 @@ namespace {
 using core::Point2;
 using Context = Cairo::RefPtr<Cairo::Context>;
 
-constexpr Colour ink{0.13, 0.13, 0.13};
-constexpr Colour faded_ink{0.40, 0.40, 0.40};
-constexpr Colour frame{0.45, 0.45, 0.45};
-constexpr Colour grid{0.86, 0.86, 0.86};
+constexpr Colour ink = light_theme.ink;
+constexpr Colour faded_ink = light_theme.faded_ink;
+constexpr Colour frame = light_theme.frame;
+constexpr Colour grid = light_theme.grid;
 constexpr Font title_font{13, true, false};
 constexpr Font subtitle_font{9.5, false, false};
 constexpr Font legend_text_font{8.5, false, false};
 
-// Okabe and Ito, as for the loci; then what Tol's muted colours (P. Tol, Colour schemes, 2021) add to them. A line more
-// has a colour again, dashed.
-constexpr std::array<Colour, 12> palette = {{{0.000, 0.447, 0.698},
-                                             {0.835, 0.369, 0.000},
-                                             {0.000, 0.620, 0.451},
-                                             {0.800, 0.475, 0.655},
-                                             {0.902, 0.624, 0.000},
-                                             {0.337, 0.706, 0.914},
+// The colours of the loci; then what Tol's muted colours (P. Tol, Colour schemes, 2021) add to them. A line more has a
+// colour again, dashed.
+constexpr std::array<Colour, 12> palette = {{light_theme.curves[0],
+                                             light_theme.curves[1],
+                                             light_theme.curves[2],
+                                             light_theme.curves[3],
+                                             light_theme.curves[4],
+                                             light_theme.curves[5],
                                              {0.200, 0.133, 0.533},
                                              {0.533, 0.133, 0.333},
                                              {0.600, 0.600, 0.200},

@@ -26,6 +26,16 @@ void check(const std::set<std::string>& wanted, const std::vector<std::string>& 
                              fmt::format("choose from {}", fmt::join(known, ", ")));
 }
 
+template <class Answer>
+std::vector<ExportedFile> files_in(report::Files (*report::Format::*made)(const Answer&), const Answer& answer,
+                                   const std::set<std::string>& names) {
+  std::vector<ExportedFile> files;
+  for (const report::Format& format : report::formats())
+    if (format.*made != nullptr && names.contains(std::string(format.name)))
+      for (report::File& file : (format.*made)(answer)) files.push_back({std::move(file.name), std::move(file.bytes)});
+  return files;
+}
+
 }  // namespace
 
 std::vector<std::string> loci_formats(std::size_t coordinates) {
@@ -53,6 +63,22 @@ std::vector<std::filesystem::path> export_verification(const Verification& answe
                                                        const std::set<std::string>& formats) {
   check(formats, verification_formats());
   return report::write_verification(answer, folder, formats);
+}
+
+std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats) {
+  check(formats, loci_formats(loci.tower.coordinates.size()));
+  const std::vector<core::ModeSketch> sketches = sample_sketches(model.content().mechanism, loci);
+  return files_in(&report::Format::loci, report::LociSheet{loci, sketches}, formats);
+}
+
+std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats) {
+  check(formats, zone_formats());
+  return files_in(&report::Format::zones, zones, formats);
+}
+
+std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats) {
+  check(formats, verification_formats());
+  return files_in(&report::Format::verification, answer, formats);
 }
 
 std::string to_json(const LocusMap& loci) { return report::json_text(report::loci_object(loci)); }

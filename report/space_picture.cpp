@@ -26,7 +26,7 @@ constexpr double pixels_per_point = 2;
 constexpr double elevation = 0.4;  // rad
 constexpr std::array<double, 2> azimuths = {-1.05, 0.52};
 constexpr Font title_font{13, true}, subtitle_font{9.5}, legend_font{8.5};
-constexpr Colour ink{0.13, 0.13, 0.13}, grey{0.42, 0.42, 0.42};
+constexpr Colour ink = light_theme.ink, grey{0.42, 0.42, 0.42};
 
 void set_ink(const Context& context, const Colour& colour, double opacity = 1) {
   context->set_source_rgba(colour.red, colour.green, colour.blue, opacity);

@@ -9,7 +9,7 @@ namespace {
 
 using Context = Cairo::RefPtr<Cairo::Context>;
 
-constexpr Colour good{0.00, 0.40, 0.22}, bad{0.75, 0.10, 0.10};
+constexpr Colour good = light_theme.verified, bad = light_theme.failed;
 constexpr double line_width = 1.8, ring = 5;
 
 Colour colour_of(const TaskMark& task) { return task.verified ? good : bad; }

@@ -100,7 +100,8 @@ Json verification_object(const core::Verification& result) {
   const core::LocusMap& loci = result.map.loci;
   Json root = {{"format", 1},
                {"mechanism", printable(loci.mechanism)},
-               {"working_mode", mode_object(loci.tower, result.mode)},
+               // A verdict alone comes without a map, and so without the names of the mode's points.
+               {"working_mode", loci.tower.roots.empty() ? Json::object() : mode_object(loci.tower, result.mode)},
                {"task", {{core::kind_of(result.task.shape), shape_json(result.task.shape)}}},
                {"verdict", core::to_string(result.verdict)},
                {"verified", result.verified()},

@@ -1,6 +1,5 @@
 #include "report/zone_drawing.hpp"
 
-#include <array>
 #include <numbers>
 
 #include "report/mechanism_drawing.hpp"
@@ -10,16 +9,9 @@ namespace {
 
 using Context = Cairo::RefPtr<Cairo::Context>;
 
-// The light scheme of P. Tol, Colour Schemes (SRON/EPS/TN/09-002, issue 3.2), distinct to the colour-blind.
-constexpr std::array<Colour, 7> fills = {{{0.467, 0.667, 0.867},
-                                          {0.933, 0.867, 0.533},
-                                          {0.267, 0.733, 0.600},
-                                          {1.000, 0.667, 0.733},
-                                          {0.600, 0.867, 1.000},
-                                          {0.933, 0.533, 0.400},
-                                          {0.733, 0.800, 0.200}}};
-constexpr double fill_strength = 0.5;
-constexpr Colour circle_colour{0.30, 0.30, 0.34};
+constexpr const auto& fills = light_theme.zones;
+constexpr double fill_strength = light_theme.zone_strength;
+constexpr Colour circle_colour = light_theme.circle;
 constexpr double least_numbered = 5;  // pt, radius of the largest circle
 constexpr Font number_font{9.5, true, false};
 

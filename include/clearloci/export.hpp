@@ -6,7 +6,7 @@
 //     for (const auto& file : export_loci(model, loci, "out", {"svg", "dxf"})) std::cout << file << "\n";
 //
 // Formats are known by name: "json" (always written), "csv", "svg", "png", "pdf", "dxf", "dxf-r12", "geojson", "vtk",
-// "stl", "obj". Coordinates in files are m and rad.
+// "stl", "obj", "html". Coordinates in files are m and rad.
 #pragma once
 
 #include <filesystem>
@@ -35,6 +35,16 @@ std::vector<std::filesystem::path> export_zones(const ZoneMap& zones, const std:
                                                 const std::set<std::string>& formats = {"svg", "png"});
 std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
                                                        const std::set<std::string>& formats = {"svg", "png"});
+
+/// A file that is not written.
+struct ExportedFile {
+  std::string name, bytes;
+};
+
+/// What the above would write in these formats alone, in memory.
+std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats);
+std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats);
+std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats);
 
 /// The bytes of loci.json, zones.json, verify.json.
 std::string to_json(const LocusMap& loci);

@@ -33,6 +33,15 @@ class Model {
   struct Joint {
     std::string name, type;  ///< "revolute", "prismatic", ...
     bool actuated = false, clearance = false;
+    std::string from, to;  ///< its links, or "ground"
+    std::string at;        ///< its point
+  };
+  struct Link {
+    std::string name;
+    std::vector<std::string> points;
+  };
+  struct EndEffector {
+    std::string link, at;  ///< its point
   };
   struct Dyad {
     std::string point;
@@ -57,6 +66,8 @@ class Model {
   std::vector<Parameter> parameters() const;
   std::vector<Coordinate> coordinates() const;  ///< the free ones
   std::vector<Joint> joints() const;
+  std::vector<Link> links() const;
+  EndEffector end_effector() const;
   std::vector<Dyad> dyads() const;  ///< points with two places each: what a working mode chooses
 
   struct Content;  ///< for the library's own sources (analysis/model.hpp)

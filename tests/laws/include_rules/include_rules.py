@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "check", "analysis", "report", "cli"}
+FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "check", "analysis", "report", "workbench", "cli"}
 # Public headers, of which core/ is made: they include the standard library, GMP's numbers and one another.
 PUBLIC = "clearloci"
 MAY_INCLUDE = {
@@ -20,6 +20,7 @@ MAY_INCLUDE = {
     "check": {"core", "mechanism"},
     "analysis": {"core", "mechanism", "symbolic", "loci", "numeric"},
     "report": {"core", "analysis"},
+    "workbench": {"report"},
     "cli": FOLDERS,
 }
 
@@ -37,8 +38,9 @@ THIRD_PARTIES = {
     "Eigen": (("Eigen/",), {"numeric"}, set()),
     "TBB": (("tbb/", "oneapi/tbb"), {"numeric"}, {"loci"}),
     "cairomm": (("cairomm/", "cairo"), set(), {"report"}),
-    "nlohmann-json": (("nlohmann/",), {"report", "cli"}, {"check"}),
-    "fmt": (("fmt/",), {"report", "cli"}, {"check"}),
+    "nlohmann-json": (("nlohmann/",), {"report", "workbench", "cli"}, {"check"}),
+    "fmt": (("fmt/",), {"report", "workbench", "cli"}, {"check"}),
+    "cpp-httplib": (("httplib.h",), set(), {"workbench"}),
     "CLI11": (("CLI/",), {"cli"}, set()),
 }
 

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "analysis/loci.hpp"
+#include "analysis/model.hpp"
+#include "analysis/pose.hpp"
+#include "clearloci/sketch.hpp"
+#include "core/errors.hpp"
+#include "numeric/sketch.hpp"
+#include "numeric/spatial.hpp"
+
+namespace clearloci {
+namespace {
+
+/// The reachable pose of a grid, off the box's symmetries, that is nearest to its middle.
+std::optional<std::vector<double>> middle_pose_in_space(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
+  constexpr int steps = 9;
+  const std::size_t n = mechanism.coordinates.size();
+  std::optional<std::vector<double>> best;
+  double nearest = std::numeric_limits<double>::infinity();
+  std::vector<int> index(n, 0);
+  while (true) {
+    std::vector<double> pose;
+    double away = 0;
+    for (std::size_t c = 0; c < n; ++c) {
+      const double lower = core::to_double(mechanism.coordinates[c].lower);
+      const double upper = core::to_double(mechanism.coordinates[c].upper);
+      const double part = (index[c] + 0.46) / steps;
+      pose.push_back(lower + (upper - lower) * part);
+      away = std::max(away, std::abs(part - 0.5));
+    }
+    if (away < nearest) {
+      const numeric::SpatialPosture posture = numeric::spatial_posture(mechanism, pose, sides);
+      if (!posture.unreachable && std::isfinite(posture.condition)) {
+        nearest = away;
+        best = std::move(pose);
+      }
+    }
+    std::size_t c = 0;
+    while (c < n && ++index[c] == steps) index[c++] = 0;
+    if (c == n) return best;
+  }
+}
+
+}  // namespace
+
+Sketch sketch_pose(const Model& model, const std::vector<double>& at, const DyadSides& working_mode) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  if (mechanism.space == mechanism::Space::spatial)
+    throw core::InputError({mechanism.file}, "a spatial mechanism is not sketched in the plane",
+                           "draw the points of its pose");
+  const DyadSides sides = sides_of(mechanism, working_mode);
+  require_values(mechanism, at.size());
+  const numeric::NumericModel compiled = numeric::compile(mechanism);
+  if (const auto point = numeric::posture(compiled, at, sides).unreachable)
+    throw core::InputError(
+        {mechanism.file},
+        "the pose is out of reach: " + mechanism.points[static_cast<std::size_t>(*point)].name + " cannot be placed",
+        "choose another pose");
+  return numeric::sketch(compiled, at, sides);
+}
+
+std::optional<std::vector<double>> sample_pose(const Model& model, const DyadSides& working_mode) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  const DyadSides sides = sides_of(mechanism, working_mode);
+  if (mechanism.space == mechanism::Space::spatial) return middle_pose_in_space(mechanism, sides);
+  const numeric::NumericModel compiled = numeric::compile(mechanism);
+  return numeric::sample_pose(compiled, sides, compiled.box);
+}
+
+bool pose_is_place(const Model& model) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  return mechanism.space == mechanism::Space::planar && pose_is_place_of_end_effector(mechanism);
+}
+
+}  // namespace clearloci

@@ -1,0 +1,73 @@
+// clearloci view: the workbench in a browser.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/arguments.hpp"
+#include "cli/commands.hpp"
+#include "cli/program.hpp"
+#include "core/errors.hpp"
+#include "core/rational.hpp"
+#include "mechanism/read.hpp"
+#ifdef CLEARLOCI_HAS_WORKBENCH
+#include "workbench/server/server.hpp"
+#endif
+
+namespace clearloci::cli {
+namespace {
+
+struct Arguments {
+  CommonArguments common;
+  int port = 0;
+};
+
+#ifdef CLEARLOCI_HAS_WORKBENCH
+int run(const Arguments& arguments) {
+  constexpr double usual_time_limit = 20;
+  read_model(arguments.common);  // complains in the words of every command
+  const double time_limit =
+      arguments.common.time_limit.empty()
+          ? usual_time_limit
+          : core::to_double(parse_positive(arguments.common.time_limit, "--time-limit", mechanism::Mechanism{}));
+  workbench::Server server({.file = arguments.common.model,
+                            .text = mechanism::read_text(arguments.common.model, "the mechanism file"),
+                            .values = parse_overrides(arguments.common.overrides),
+                            .port = arguments.port,
+                            .time_limit = time_limit});
+  fmt::print("The workbench is open at\n\n  {}\n\nuntil this is ended with Ctrl-C.\n", server.address());
+  std::fflush(stdout);
+  server.run();
+  return exit_done;
+}
+#else
+int run(const Arguments&) {
+  throw core::InputError({}, "this build has no workbench", "build with -DCLEARLOCI_WORKBENCH=ON, which wants Node.js");
+}
+#endif
+
+}  // namespace
+
+Command add_view_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("view", "Design in a browser: loci, zones and reactions follow the hand");
+  const auto arguments = std::make_shared<Arguments>();
+  app->add_option("MODEL", arguments->common.model, "The mechanism file (YAML)")->required()->type_name("FILE");
+  app->add_option("--set", arguments->common.overrides, "Override a parameter of the file: name=value (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+  constexpr int largest_port = 65535;
+  app->add_option("--port", arguments->port, "The port to listen on (default: one that is free)")
+      ->check(CLI::Range(1, largest_port))
+      ->type_name("PORT");
+  app->add_option("--time-limit", arguments->common.time_limit, "Seconds an answer may take (default: 20)")
+      ->type_name("SECONDS");
+  app->footer(
+      "Example: clearloci view examples/five_bar.yaml\n"
+      "Prints an address of this machine (127.0.0.1) for the browser; nobody else can reach it, and nothing is "
+      "written\n"
+      "but what is downloaded there. Ends with Ctrl-C.");
+  return {app, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace clearloci::cli

@@ -1,0 +1,140 @@
+// The server answers its own page alone, and what it answers is what the library says.
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "clearloci/export.hpp"
+#include "clearloci/pose.hpp"
+#include "tests/workbench/running_server.hpp"
+
+namespace clearloci::workbench {
+namespace {
+
+using Json = nlohmann::json;
+
+Json five_bar() { return {{"text", example("five_bar.yaml")}, {"client", "test"}}; }
+
+class TheServer : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { server = std::make_unique<RunningServer>(); }
+  static void TearDownTestSuite() { server.reset(); }
+  static std::unique_ptr<RunningServer> server;
+};
+std::unique_ptr<RunningServer> TheServer::server;
+
+TEST_F(TheServer, GivesThePageBelowItsTokenAlone) {
+  httplib::Client client = server->client();
+  const auto page = client.Get(server->path(""));
+  EXPECT_EQ(page->status, 200);
+  EXPECT_NE(page->body.find("app.js"), std::string::npos);
+  EXPECT_NE(page->get_header_value("Content-Security-Policy").find("default-src 'none'"), std::string::npos);
+  EXPECT_EQ(client.Get(server->path("app.js"))->get_header_value("Content-Type"), "text/javascript; charset=utf-8");
+  for (const char* path : {"/", "/index.html", "/0123456789abcdef0123456789abcdef/", "/api/start"})
+    EXPECT_EQ(client.Get(path)->status, 403) << path;
+}
+
+TEST_F(TheServer, AnswersNoOtherOriginAndNoOtherName) {
+  httplib::Client client = server->client();
+  const std::string port = std::to_string(server->port());
+  const auto status = [&](const httplib::Headers& headers) {
+    return client.Post(server->path("api/model"), headers, five_bar().dump(), "application/json")->status;
+  };
+  EXPECT_EQ(status({{"Origin", "http://127.0.0.1:" + port}}), 200);
+  EXPECT_EQ(status({{"Host", "localhost:" + port}, {"Origin", "http://localhost:" + port}}), 200);
+  for (const char* origin : {"http://example.org", "null", "https://127.0.0.1", "http://127.0.0.1", "file://"})
+    EXPECT_EQ(status({{"Origin", origin}}), 403) << origin;
+  EXPECT_EQ(status({{"Origin", "https://127.0.0.1:" + port}}), 403);
+  EXPECT_EQ(status({{"Origin", "http://127.0.0.1:" + port + ".example.org"}}), 403);
+  for (const std::string host : {"example.org", "127.0.0.1", "127.0.0.1.example.org"})
+    EXPECT_EQ(status({{"Host", host}}), 403) << host;
+  // Without a preflight another origin's page can send nothing but plain texts and forms.
+  EXPECT_EQ(client.Post(server->path("api/model"), five_bar().dump(), "text/plain")->status, 415);
+  EXPECT_EQ(client.Options(server->path("api/model"))->status, 405);
+}
+
+TEST_F(TheServer, ListensOnThisMachineAlone) {
+  httplib::Client elsewhere("127.0.0.2", server->port());
+  EXPECT_FALSE(elsewhere.Get("/"));
+}
+
+TEST_F(TheServer, SaysOfLociWhatTheLibrarySays) {
+  const auto answer = Json::parse(server->ask("loci", five_bar())->body);
+  const Json expected = Json::parse(to_json(trace_loci(Model::parse(example("five_bar.yaml")))));
+  ASSERT_EQ(answer["loci"]["curves"].size(), expected["curves"].size());
+  for (std::size_t k = 0; k < expected["curves"].size(); ++k)
+    for (const char* key : {"id", "kind", "vanishing", "implicit", "closed_form", "certified"})
+      EXPECT_EQ(answer["loci"]["curves"][k][key], expected["curves"][k][key]) << key;
+  EXPECT_FALSE(answer["curve_groups"].empty());
+}
+
+TEST_F(TheServer, SolvesPosesAndSketchesThem) {
+  Json question = five_bar();
+  question["at"] = {0.25, -0.7};
+  const auto answer = Json::parse(server->ask("pose", question)->body);
+  const Pose pose = solve_pose(Model::parse(example("five_bar.yaml")), {0.25, -0.7});
+  EXPECT_DOUBLE_EQ(answer["determinant"], pose.determinant);
+  EXPECT_EQ(answer["sketch"]["links"].size(), 4U);
+  question["at"] = {5, 5};
+  EXPECT_EQ(Json::parse(server->ask("pose", question)->body)["unreachable"], "B1");
+}
+
+TEST_F(TheServer, SaysWhatIsWrongInTheWordsOfTheCommandLine) {
+  Json question = five_bar();
+  std::string text = question["text"];
+  text.replace(text.find("L: 0.5"), 6, "L: 0,5");
+  question["text"] = text;
+  question["file"] = "five_bar.yaml";
+  const auto answer = server->ask("loci", question);
+  EXPECT_EQ(answer->status, 422);
+  const Json said = Json::parse(answer->body);
+  try {
+    Model::parse(text, "five_bar.yaml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(said["error"], error.what());
+    EXPECT_EQ(said["line"], error.position().line);
+  }
+}
+
+TEST_F(TheServer, VerifiesTasksAndExportsWhatIsAskedFor) {
+  Json question = five_bar();
+  question["task"] = example("tasks/pick_and_place.yaml");
+  EXPECT_EQ(Json::parse(server->ask("verify", question)->body)["verdict"], "verified");
+  question["what"] = "loci";
+  question["format"] = "dxf";
+  const Json files = Json::parse(server->ask("export", question)->body)["files"];
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files[0]["name"], "loci.dxf");
+  question["format"] = "gpx";
+  EXPECT_EQ(server->ask("export", question)->status, 422);
+}
+
+TEST(TheTimeLimit, IsKept) {
+  const RunningServer server(0.001);
+  const auto answer = server.ask("zones", {{"text", example("five_bar_weights.yaml")}});
+  EXPECT_EQ(answer->status, 422);
+  EXPECT_NE(answer->body.find("time limit"), std::string::npos);
+}
+
+/// Of many that ask the same question at once the newest is answered; the others hear that they were abandoned.
+TEST(ANewerRequest, AbandonsTheOlder) {
+  const RunningServer server;
+  std::atomic<int> answered = 0, abandoned = 0;
+  std::vector<std::thread> callers;
+  for (int i = 0; i < 6; ++i) {
+    callers.emplace_back([&] {
+      const auto answer = server.ask("loci", {{"text", example("three_rrr.yaml")}, {"client", "one"}});
+      if (answer && answer->status == 200) ++answered;
+      if (answer && answer->status == 409) ++abandoned;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(answered + abandoned, 6);
+  EXPECT_GE(answered, 1);
+  EXPECT_GE(abandoned, 1);
+  EXPECT_EQ(server.ask("loci", {{"text", example("five_bar.yaml")}, {"client", "one"}})->status, 200);
+}
+
+}  // namespace
+}  // namespace clearloci::workbench

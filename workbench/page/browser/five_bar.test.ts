@@ -1,0 +1,258 @@
+// The 5R on the page, as a designer uses it.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
+import { difference, launch, open, rest, Served, shot, source, type Opened } from "./session";
+
+let browser: Browser;
+let served: Served;
+let opened: Opened | undefined;
+
+beforeAll(async () => {
+  browser = await launch();
+  served = await Served.start("five_bar.yaml");
+});
+afterAll(async () => {
+  await browser.close();
+  served.stop();
+});
+afterEach(async () => {
+  expect(opened?.faults ?? []).toEqual([]);
+  await opened?.context.close();
+  opened = undefined;
+});
+
+async function start(options: Parameters<typeof open>[2] = {}, address = served.address): Promise<Page> {
+  opened = await open(browser, address, options);
+  await rest(opened.page);
+  return opened.page;
+}
+
+const exact = (page: Page, name: string) => page.getByLabel(`${name}, exact`, { exact: true });
+const pose = async (page: Page): Promise<number[]> => Promise.all(["x", "y"].map(async (name) => Number(await page.locator(`input.exact[aria-label="${name} of the pose"]`).inputValue())));
+
+/** Where a place of the plane stands on the page: the picture says how it is scaled. */
+async function onPage(page: Page, at: [number, number]): Promise<[number, number]> {
+  return page.evaluate(([x, y]) => {
+    const stage = document.querySelector<HTMLElement>(".stage");
+    const view = JSON.parse(stage?.dataset["view"] ?? "null") as { scale: [number, number]; origin: [number, number] };
+    const box = stage?.getBoundingClientRect();
+    return [(box?.left ?? 0) + view.origin[0] + x * view.scale[0], (box?.top ?? 0) + view.origin[1] - y * view.scale[1]];
+  }, at);
+}
+
+async function drag(page: Page, from: [number, number], to: [number, number]): Promise<void> {
+  const [x, y] = await onPage(page, from);
+  const [u, v] = await onPage(page, to);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move((x + u) / 2, (y + v) / 2, { steps: 3 });
+  await page.mouse.move(u, v, { steps: 3 });
+  await page.mouse.up();
+  await rest(page);
+}
+
+describe("the page", () => {
+  it("explains itself to a first visitor, and once", async () => {
+    const page = await start({ first: true });
+    const dialog = page.getByRole("dialog");
+    await expect.poll(() => dialog.isVisible()).toBe(true);
+    expect(await dialog.textContent()).toContain("the pin crosses its clearance");
+    await shot(page, "first-visit");
+    await page.getByRole("button", { name: "Start designing" }).click();
+    await page.reload();
+    await rest(page);
+    expect(await dialog.isVisible()).toBe(false);
+  });
+
+  it("looks like its reference", async () => {
+    const page = await start();
+    await shot(page, "wide");
+    expect(difference(await page.locator(".stage:not(.space)").screenshot(), "five_bar")).toBeLessThan(0.02);
+  });
+
+  it("fits a narrow window and a dark one", async () => {
+    const page = await start({ width: 390, height: 844, dark: true });
+    await shot(page, "narrow-dark");
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    expect(wide).toBeLessThanOrEqual(390);
+    expect(await page.evaluate(() => document.documentElement.dataset["theme"])).toBe("dark");
+  });
+});
+
+describe("the hand", () => {
+  it("drags the end effector, and undoes it in one step", async () => {
+    const page = await start();
+    const before = await pose(page);
+    await drag(page, before as [number, number], [0.3, -0.5]);
+    const after = await pose(page);
+    expect(after[0]).toBeCloseTo(0.3, 2);
+    expect(after[1]).toBeCloseTo(-0.5, 2);
+    expect(await page.locator('[data-fact="pose error"]').textContent()).toMatch(/dx .*m, dy/);
+    await page.keyboard.press("Control+z");
+    await rest(page);
+    expect(await pose(page)).toEqual(before);
+    await page.keyboard.press("Control+Shift+z");
+    await rest(page);
+    expect(await pose(page)).toEqual(after);
+  });
+
+  it("keeps the last posture where a pose is out of reach, and says so", async () => {
+    const page = await start();
+    await drag(page, (await pose(page)) as [number, number], [-0.45, 0.9]);
+    expect(await page.getByText("out of reach").textContent()).toContain("cannot be placed");
+  });
+
+  it("drags a joint on the ground", async () => {
+    const page = await start();
+    await drag(page, [0.5, 0], [0.62, 0.05]);
+    expect(Number(await exact(page, "d").inputValue())).toBeCloseTo(0.62, 2);
+    expect(await page.locator(".notice.fault").count()).toBe(0);
+  });
+
+  it("moves a slider, and the curves follow", async () => {
+    const page = await start();
+    const before = await page.locator(".stage:not(.space)").screenshot();
+    await page.getByLabel("L", { exact: true }).fill("0.4");
+    await rest(page);
+    expect(await exact(page, "L").inputValue()).toBe("0.4");
+    expect(Buffer.compare(before, await page.locator(".stage:not(.space)").screenshot())).not.toBe(0);
+  });
+
+  it("works from the keyboard alone", async () => {
+    const page = await start();
+    const before = await pose(page);
+    await page.locator(".stage:not(.space)").focus();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("Shift+ArrowUp");
+    await rest(page);
+    const after = await pose(page);
+    expect((after[0] ?? 0) - (before[0] ?? 0)).toBeCloseTo(0.015, 6);
+    expect((after[1] ?? 0) - (before[1] ?? 0)).toBeCloseTo(0.002, 6);
+    await page.keyboard.press("+");
+    await page.keyboard.press("0");
+  });
+});
+
+describe("values", () => {
+  it("are typed exactly, and stand in the address and in the file", async () => {
+    const page = await start();
+    await exact(page, "L").fill("7/20");
+    await exact(page, "L").press("Enter");
+    await rest(page);
+    await expect.poll(() => page.url()).toContain("#");
+    const link = page.url();
+    const waiting = page.waitForEvent("download");
+    await page.getByText("Download", { exact: true }).first().click();
+    await page.locator("#download-model").click();
+    const file = readFileSync(await (await waiting).path(), "utf8");
+    const original = readFileSync(join(source, "examples", "five_bar.yaml"), "utf8");
+    expect(file).toBe(original.replace("L: 0.5 ", "L: 7/20 "));
+
+    await opened?.context.close();
+    const again = await start({}, link);
+    expect(await exact(again, "L").inputValue()).toBe("7/20");
+  });
+
+  it("that are wrong are refused beside their field, and the last good picture stays", async () => {
+    const page = await start();
+    const stage = page.locator('canvas[data-layer="loci"]');
+    const before = await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+    await exact(page, "L").fill("0,5");
+    await exact(page, "L").press("Enter");
+    const said = page.locator('[id="fault-parameters/L"]');
+    await expect.poll(() => said.textContent()).toMatch(/^five_bar\.yaml:\d+:\d+: /);
+    expect(await exact(page, "L").getAttribute("aria-invalid")).toBe("true");
+    expect(await page.locator(".notice").textContent()).toContain("last design that works");
+    expect(await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL())).toBe(before);
+    await shot(page, "wrong-value");
+    // A length that cannot close.
+    await exact(page, "L").fill("0.1");
+    await exact(page, "L").press("Enter");
+    await expect.poll(async () => (await said.textContent()) !== "" || (await page.locator(".notice").textContent()) === "").toBe(true);
+    await exact(page, "L").fill("0.5");
+    await exact(page, "L").press("Enter");
+    await expect.poll(() => said.textContent()).toBe("");
+  });
+});
+
+describe("curves", () => {
+  it("say what vanishes, why, their degree and formula", async () => {
+    const page = await start();
+    // On the circle of radius 1/2 about (0, 1/2), on which B1P is parallel to the load.
+    const [x, y] = await onPage(page, [0.4, 0.2]);
+    await page.mouse.move(x, y);
+    const reading = page.locator(".curve-reading");
+    await expect.poll(() => reading.textContent()).toContain("f_B2");
+    expect(await reading.textContent()).toMatch(/link B1P parallel to the load.*degree 2.*x\^2 \+ y\^2 - y/s);
+    await shot(page, "hover");
+  });
+
+  it("are switched off and on", async () => {
+    const page = await start();
+    const stage = page.locator('canvas[data-layer="loci"]');
+    const before = await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+    const box = page.locator(".legend-row input").first();
+    await box.uncheck();
+    await rest(page);
+    expect(await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL())).not.toBe(before);
+    await box.check();
+    await rest(page);
+    expect(await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL())).toBe(before);
+  });
+
+  it("of a working mode are chosen by its picture", async () => {
+    const page = await start();
+    const modes = page.getByRole("radio");
+    await expect.poll(() => modes.count()).toBe(4);
+    await modes.nth(1).click();
+    await rest(page);
+    expect(await modes.nth(1).getAttribute("aria-checked")).toBe("true");
+  });
+
+  it("of a kept design stay to compare", async () => {
+    const page = await start();
+    await page.getByRole("button", { name: "Keep to compare" }).click();
+    await exact(page, "L").fill("0.6");
+    await exact(page, "L").press("Enter");
+    await rest(page);
+    await shot(page, "kept");
+    await page.getByRole("button", { name: "Drop the kept design" }).click();
+    await rest(page);
+  });
+});
+
+describe("a task", () => {
+  it("is drawn, verified, dragged to where it fails, and fitted", async () => {
+    const page = await start();
+    await page.getByText("Task", { exact: true }).click();
+    await page.getByRole("button", { name: "box", exact: true }).click();
+    const verdict = page.locator(".verdict");
+    await expect.poll(() => verdict.textContent()).toContain("Verified");
+    expect(await verdict.textContent()).toMatch(/Margin at least [\d.]+ m/);
+    await shot(page, "task-verified");
+    const [x, y] = await pose(page);
+    await drag(page, [(x ?? 0) + 0.06, (y ?? 0) + 0.06], [(x ?? 0) + 0.06, -0.38]);
+    await expect.poll(() => verdict.textContent()).toContain("Refuted");
+    await shot(page, "task-refuted");
+    await page.getByRole("button", { name: "Fit nearest" }).click();
+    await expect.poll(() => verdict.textContent(), { timeout: 30_000 }).toContain("Verified");
+    await page.getByLabel("margin", { exact: true }).fill("a lot");
+    await page.getByLabel("margin", { exact: true }).press("Enter");
+    await expect.poll(() => page.getByRole("alert").allTextContents()).toEqual(expect.arrayContaining([expect.stringContaining("task:")]));
+  });
+});
+
+describe("exports", () => {
+  it("are downloaded", async () => {
+    const page = await start();
+    await page.getByText("Download", { exact: true }).first().click();
+    for (const [id, beginning] of [["loci-dxf", "999"], ["loci-svg", "<?xml"], ["zones-geojson", "{"]]) {
+      const waiting = page.waitForEvent("download");
+      await page.locator(`[data-export="${id ?? ""}"]`).click();
+      const file = readFileSync(await (await waiting).path(), "utf8");
+      expect(file.trimStart().startsWith(beginning ?? "") || file.includes("SECTION")).toBe(true);
+    }
+  });
+});

@@ -1,0 +1,114 @@
+// Other mechanisms on the page: one, two and three coordinates, in the plane and in space.
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
+import { launch, open, rest, Served, shot, source, type Opened } from "./session";
+
+let browser: Browser;
+let served: Served;
+let opened: Opened | undefined;
+
+beforeAll(async () => {
+  browser = await launch();
+  served = await Served.start("five_bar.yaml");
+});
+afterAll(async () => {
+  await browser.close();
+  served.stop();
+});
+afterEach(async () => {
+  expect(opened?.faults ?? []).toEqual([]);
+  await opened?.context.close();
+  opened = undefined;
+});
+
+async function example(name: string): Promise<Page> {
+  opened = await open(browser, served.address);
+  const { page } = opened;
+  await rest(page);
+  await page.getByLabel("Open an example").selectOption(name);
+  await rest(page);
+  return page;
+}
+
+const image = async (page: Page, layer: string): Promise<string> => page.locator(`canvas[data-layer="${layer}"]`).evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+
+describe("one coordinate", () => {
+  it("shows the cycle with its loci as marks, and the linkage moving", async () => {
+    const page = await example("four_bar.yaml");
+    const strip = page.getByRole("slider", { name: "The coordinate of the linkage" });
+    expect(await strip.isVisible()).toBe(true);
+    const [linkage, marks] = [await image(page, "mechanism"), await image(page, "cycle")];
+    const box = await strip.boundingBox();
+    await page.mouse.click((box?.x ?? 0) + 0.7 * (box?.width ?? 0), (box?.y ?? 0) + 30);
+    await rest(page);
+    expect(await image(page, "mechanism")).not.toBe(linkage);
+    expect(await image(page, "cycle")).not.toBe(marks);
+    await strip.focus();
+    const at = await strip.getAttribute("aria-valuenow");
+    await page.keyboard.press("ArrowRight");
+    await rest(page);
+    expect(Number(await strip.getAttribute("aria-valuenow"))).toBeCloseTo(Number(at) + 0.02 * Math.PI, 6);
+    await expect.poll(() => page.locator(".plot canvas").count()).toBeGreaterThanOrEqual(3);
+    await shot(page, "four-bar");
+  });
+});
+
+describe("three coordinates", () => {
+  it("shows surfaces that turn, and a plane that slices them", async () => {
+    const page = await example("gough_stewart.yaml");
+    const stage = page.locator(".stage.space");
+    await expect.poll(() => stage.isVisible()).toBe(true);
+    const first = await image(page, "space");
+    expect(first.length).toBeGreaterThan(20_000); // more than an empty canvas
+    await shot(page, "gough-stewart");
+    await stage.focus();
+    await page.keyboard.press("ArrowRight");
+    await expect.poll(() => image(page, "space")).not.toBe(first);
+    const turned = await image(page, "space");
+    await page.getByLabel("slice", { exact: true }).check();
+    await rest(page);
+    await expect.poll(() => image(page, "space")).not.toBe(turned);
+    await shot(page, "gough-stewart-slice");
+  });
+});
+
+describe("a trajectory", () => {
+  it("is played back, with its contact losses", async () => {
+    const page = await example("pick_and_place/manipulator.yaml");
+    await page.getByText("Trajectory", { exact: true }).click();
+    await page.getByRole("button", { name: "The example's path" }).click();
+    await rest(page);
+    const player = page.getByLabel("Time");
+    await expect.poll(() => player.isVisible()).toBe(true);
+    expect(await page.locator("details:has-text('Trajectory') li").count()).toBeGreaterThan(2);
+    const before = await image(page, "mechanism");
+    await player.fill("0.3");
+    await rest(page);
+    expect(await image(page, "mechanism")).not.toBe(before);
+    await page.getByRole("button", { name: "Play" }).click();
+    await expect.poll(async () => Number(await player.inputValue())).not.toBe(0.3);
+    await page.getByRole("button", { name: "Pause" }).click();
+    await shot(page, "trajectory");
+  });
+});
+
+describe("every shipped example", () => {
+  // Those that take seconds to trace are opened by the test above, by hand, and by the tests of the program.
+  const slow = /three_ruu|three_rrr_orientation|three_upu|three_rpr_orientation|gough_stewart.yaml/;
+  const names = readdirSync(join(source, "examples")).filter((name) => name.endsWith(".yaml") && !slow.test(name));
+  it("is drawn", async () => {
+    opened = await open(browser, served.address);
+    const { page } = opened;
+    await rest(page);
+    for (const name of names) {
+      await page.getByLabel("Open an example").selectOption(name);
+      await rest(page);
+      const title = /^name: *(.+?)\s*(#.*)?$/m.exec(readFileSync(join(source, "examples", name), "utf8"))?.[1] ?? "";
+      expect(await page.locator("h1").textContent(), name).toBe(title);
+      expect(await page.locator(".notice.fault").count(), name).toBe(0);
+      expect(await page.locator(".legend-row").count(), name).toBeGreaterThan(0);
+    }
+  });
+});

@@ -1,0 +1,109 @@
+// Questions to the server. Of those that follow the hand only the newest counts: a question is asked when the one before
+// is answered, or has taken so long that the server is told to abandon it.
+
+export interface Fault {
+  status: number;
+  message: string;
+  line: number;
+  column: number;
+}
+
+export class AskingError extends Error {
+  constructor(readonly fault: Fault) {
+    super(fault.message);
+  }
+}
+
+export const client = Math.random().toString(36).slice(2, 12);
+
+export async function ask<T>(question: string, body: object): Promise<T> {
+  let response: Response;
+  try {
+    response = await fetch(`api/${question}`, {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify({ ...body, client }),
+    });
+  } catch {
+    throw new AskingError({ status: 0, message: "the program has ended: start clearloci view again", line: 0, column: 0 });
+  }
+  const answer = (await response.json()) as Record<string, unknown>;
+  if (response.ok) return answer as T;
+  throw new AskingError({
+    status: response.status,
+    message: typeof answer["error"] === "string" ? answer["error"] : "the question was not answered",
+    line: Number(answer["line"] ?? 0),
+    column: Number(answer["column"] ?? 0),
+  });
+}
+
+const patience = 400; // ms, after which newer work takes the place of older
+
+export class Following<T> {
+  private asked = 0;
+  private answered = 0;
+  private waiting: { body: object; made: number } | undefined;
+  private since = 0;
+  private inFlight = "";
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    private readonly question: string,
+    private readonly onAnswer: (answer: T, made: number) => void,
+    private readonly onFault: (fault: Fault) => void,
+  ) {}
+
+  /** `made`: when the hand moved. */
+  want(body: object, made = performance.now()): void {
+    const running = this.asked !== this.answered;
+    if (running && JSON.stringify(body) === this.inFlight) {
+      this.waiting = undefined; // what is being worked on is what is wanted
+      return;
+    }
+    this.waiting = { body, made };
+    if (!running || performance.now() - this.since > patience) this.send();
+    else this.timer ??= setTimeout(() => this.late(), patience);
+  }
+
+  get busy(): boolean {
+    return this.asked !== this.answered || this.waiting !== undefined;
+  }
+
+  forget(): void {
+    this.waiting = undefined;
+    this.answered = this.asked;
+  }
+
+  private late(): void {
+    this.timer = undefined;
+    if (this.waiting) this.send();
+  }
+
+  private send(): void {
+    const next = this.waiting;
+    if (!next) return;
+    this.waiting = undefined;
+    if (this.timer !== undefined) clearTimeout(this.timer);
+    this.timer = undefined;
+    const number = ++this.asked;
+    this.inFlight = JSON.stringify(next.body);
+    this.since = performance.now();
+    const finish = (then: () => void): void => {
+      if (number <= this.answered) return; // a newer one was answered already
+      this.answered = number;
+      then();
+      if (this.waiting && this.asked === this.answered) this.send();
+    };
+    ask<T>(this.question, next.body).then(
+      (answer) => finish(() => this.onAnswer(answer, next.made)),
+      (error: unknown) =>
+        finish(() => {
+          if (error instanceof AskingError) {
+            if (error.fault.status !== 409) this.onFault(error.fault);
+          } else {
+            throw error;
+          }
+        }),
+    );
+  }
+}

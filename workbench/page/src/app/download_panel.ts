@@ -1,0 +1,50 @@
+// The changed mechanism file, and every export of its loci, zones and verdict.
+import { ask, AskingError } from "./asking";
+import { download, h, replace, section } from "./dom";
+import type { Panel } from "./panels";
+import { taskText } from "./task_text";
+import type { Workbench } from "./workbench";
+
+interface Files {
+  files: { name: string; base64: string }[];
+}
+
+function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+}
+
+export function downloadPanel(bench: Workbench): Panel {
+  const fault = h("div", { class: "fault", role: "alert" });
+  const body = h("div", {});
+  const fetchFiles = async (what: string, format: string): Promise<void> => {
+    fault.textContent = "";
+    const { text, mode, file, task, joints, quantities } = bench.state;
+    try {
+      const answer = await ask<Files>("export", {
+        text, file, mode: mode ?? [], what, format, with_loci: true, lane: `export${what}${format}`,
+        ...(joints ? { joints } : {}), ...(quantities ? { quantities } : {}),
+        ...(what === "verification" && task ? { task: taskText(task, bench.model.coordinateNames) } : {}),
+      });
+      for (const one of answer.files) download(one.name, bytesOf(one.base64), "application/octet-stream");
+    } catch (error) {
+      if (!(error instanceof AskingError)) throw error;
+      fault.textContent = error.fault.message;
+    }
+  };
+  let shown = "";
+  const update = (): void => {
+    const { facts } = bench;
+    const now = JSON.stringify([facts?.formats, bench.state.task !== undefined]);
+    if (!facts || now === shown) return;
+    shown = now;
+    const rows: [string, string, string[]][] = [["loci", "Loci", facts.formats.loci]];
+    if (facts.coordinates.length === 2 && facts.coordinates.every((one) => !one.angle)) rows.push(["zones", "Zones", facts.formats.zones]);
+    if (bench.state.task) rows.push(["verification", "Verdict", facts.formats.verification]);
+    replace(
+      body,
+      h("div", { class: "buttons" }, h("button", { type: "button", id: "download-model", click: () => download(bench.state.file, bench.state.text, "application/yaml") }, "Mechanism file")),
+      ...rows.map(([what, words, formats]) => h("div", { class: "buttons" }, h("span", {}, words), ...formats.map((format) => h("button", { type: "button", "data-export": `${what}-${format}`, click: () => void fetchFiles(what, format) }, format)))),
+    );
+  };
+  return { element: section("Download", false, h("p", { class: "quiet" }, "The mechanism file keeps its comments."), body, fault), update: (news) => (news.has("model") || news.has("state")) && update() };
+}

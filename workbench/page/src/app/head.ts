@@ -1,0 +1,46 @@
+// The head of the page: which mechanism, undo and redo, comparing, the link, light and dark.
+import { h, replace } from "./dom";
+import { freshState } from "./state";
+import { openWelcome } from "./welcome";
+import type { Workbench } from "./workbench";
+
+export function buildHead(bench: Workbench): HTMLElement {
+  const title = h("h1", {}, "clearloci");
+  const picker = h("select", { id: "examples", "aria-label": "Open an example" });
+  picker.append(h("option", { value: "" }, "Examples …"), h("option", { value: "*" }, `${bench.start.file.split("/").pop()} (as it was opened)`));
+  for (const example of bench.start.examples) picker.append(h("option", { value: example.name }, nameOf(example.text, example.name)));
+  picker.addEventListener("change", () => {
+    const chosen = picker.value === "*" ? { name: bench.start.file, text: bench.start.text } : bench.start.examples.find((one) => one.name === picker.value);
+    picker.value = "";
+    if (chosen) bench.change({ ...freshState(chosen.name.split("/").pop() ?? "model.yaml", chosen.text), zones: bench.state.zones });
+  });
+  const undo = h("button", { type: "button", title: "Undo (Ctrl+Z)", click: () => bench.undo() }, "Undo");
+  const redo = h("button", { type: "button", title: "Redo (Ctrl+Shift+Z)", click: () => bench.redo() }, "Redo");
+  const keep = h("button", { type: "button", title: "Keep this design: its loci stay, faint, while you change it", click: () => bench.change({ kept: bench.state.kept ? undefined : { text: bench.state.text, mode: bench.state.mode } }) });
+  const link = h("button", { type: "button", title: "Copy the part of the address that holds everything shown", click: () => void copyLink(link) }, "Copy link");
+  const theme = h("button", { type: "button", title: "Light or dark", click: () => {
+    localStorage.setItem("clearloci-theme", bench.dark ? "light" : "dark");
+    window.dispatchEvent(new Event("clearloci-theme"));
+  } });
+  const help = h("button", { type: "button", click: () => openWelcome() }, "What is this?");
+  bench.watch(() => {
+    replace(title, bench.facts?.name ?? "clearloci");
+    undo.disabled = !bench.history.canUndo;
+    redo.disabled = !bench.history.canRedo;
+    keep.textContent = bench.state.kept ? "Drop the kept design" : "Keep to compare";
+    keep.setAttribute("aria-pressed", String(bench.state.kept !== undefined));
+    theme.textContent = bench.dark ? "Light" : "Dark";
+  });
+  return h("header", { class: "head" }, title, h("nav", { "aria-label": "Workbench" }, picker, undo, redo, keep, link, theme, help));
+}
+
+async function copyLink(button: HTMLButtonElement): Promise<void> {
+  await new Promise((resolve) => setTimeout(resolve, 300)); // the address follows the hand a little later
+  await navigator.clipboard.writeText(location.href);
+  button.textContent = "Copied";
+  setTimeout(() => (button.textContent = "Copy link"), 1500);
+}
+
+function nameOf(text: string, file: string): string {
+  return `${/^name: *(.+)$/m.exec(text)?.[1]?.replace(/\s*#.*/, "") ?? file} — ${file}`;
+}

@@ -1,0 +1,227 @@
+// The side of the page: what the curves mean, values to change, modes to choose, what the pose does.
+import type { Sketch, Zone } from "../data/answers";
+import { lengthWords, roundText, shortNumber } from "../data/exact";
+import type { Adjustable } from "../data/model_text";
+import { groupKey } from "../draw/loci";
+import { drawSketch } from "../draw/mechanism";
+import { fit } from "../draw/view";
+import { h, replace, section } from "./dom";
+import { legendSample } from "./legend_sample";
+import { readingOf } from "./reading";
+import type { Stage } from "./stage";
+import type { Workbench } from "./workbench";
+
+export interface Panel {
+  element: HTMLElement;
+  update(news: Set<string>): void;
+}
+
+/** What is under the pointer: what vanishes, why, its degree and formula. */
+export function readingPanel(bench: Workbench, stage: Stage): Panel {
+  const body = h("div", { class: "reading", "aria-live": "polite" });
+  const hint = "Point at a curve: what lets go there, why, and its formula stand here. Drag the end effector, the joints on the ground, or the empty plane.";
+  const zoneWords = (zone: Zone): string =>
+    `${zone.id}: ${shortNumber(zone.area)} m², largest circle ${lengthWords(zone.inscribed_circle.radius)}${zone.certified ? ", proven" : ", not proven"}`;
+  const show = (): void => {
+    const { hovered } = stage;
+    if (hovered?.curve) return replace(body, readingOf(bench.rules, hovered.curve));
+    const zone = bench.zones?.zones.find((one) => one.id === hovered?.zone);
+    replace(body, h("p", { class: "quiet" }, zone ? `zone ${zoneWords(zone)}` : hint));
+  };
+  stage.onHover = show;
+  show();
+  return { element: section("Under the pointer", true, body), update: (news) => news.has("loci") && show() };
+}
+
+/** The legend of the curves, each of which can be switched off. */
+export function legendPanel(bench: Workbench): Panel {
+  const body = h("div", { class: "legend" });
+  const notes = h("div", { class: "quiet" });
+  const toggle = (key: string, on: boolean): void => {
+    const hidden = bench.state.hidden.filter((one) => one !== key);
+    bench.change({ hidden: on ? hidden : [...hidden, key] });
+  };
+  let signature = "";
+  const show = (): void => {
+    const { picture, theme } = bench;
+    if (!picture) return;
+    const groups = [...picture.curve_groups, ...picture.point_groups, ...picture.surface_groups];
+    const now = JSON.stringify([groups.map((group) => [group.kind, group.what, groupKey(group)]), bench.state.hidden, bench.dark]);
+    if (now === signature) return;
+    signature = now;
+    const rows = groups.map((group) => {
+      const key = groupKey(group);
+      const box = h("input", { type: "checkbox", change: () => toggle(key, box.checked) });
+      box.checked = !bench.state.hidden.includes(key);
+      const why = "why" in group && group.why ? h("span", { class: "quiet" }, ` ${group.why}`) : undefined;
+      return h("label", { class: "legend-row" }, box, legendSample(group, theme), h("span", {}, group.what, why));
+    });
+    replace(body, ...rows);
+    replace(notes, ...picture.loci.notes.map((note) => h("p", {}, note)), picture.loci.complete ? undefined : h("p", { class: "fault" }, "incomplete: stopped at the time limit"));
+  };
+  return { element: section("Curves", true, body, notes), update: (news) => (news.has("loci") || news.has("state") || news.has("theme")) && show() };
+}
+
+const groups: [Adjustable["group"], string, boolean][] = [
+  ["parameters", "Parameters", true],
+  ["loads", "Loads", true],
+  ["springs", "Springs", true],
+  ["gravity", "Gravity", false],
+  ["points", "Points on the ground", false],
+  ["clearances", "Clearances", false],
+];
+
+/** Sliders with exact values beside them, for everything in the file that is a number of its own. */
+export function valuesPanel(bench: Workbench): Panel {
+  const body = h("div", {});
+  const rows = new Map<string, { text: HTMLInputElement; slider: HTMLInputElement; fault: HTMLElement }>();
+  let ids = "";
+
+  const row = (one: Adjustable): HTMLElement => {
+    const name = one.id;
+    const fault = h("div", { class: "fault", id: `fault-${name}`, role: "alert" });
+    const text = h("input", { type: "text", class: "exact", "aria-label": `${one.label}, exact`, "aria-describedby": `fault-${name}`, spellcheck: "false", autocomplete: "off" });
+    const slider = h("input", { type: "range", "aria-label": one.label, step: "any", "data-id": name });
+    text.addEventListener("change", () => bench.setValue(name, text.value));
+    slider.addEventListener("input", () => {
+      const step = (Number(slider.max) - Number(slider.min)) / 400;
+      bench.setValue(name, roundText(Number(slider.value), step), `slide-${name}`);
+    });
+    slider.addEventListener("change", () => {
+      bench.history.endGesture();
+      range(slider, bench.adjustable(name));
+    });
+    rows.set(name, { text, slider, fault });
+    return h("div", { class: "value-row" }, h("label", {}, h("span", { class: "value-name", title: one.label }, one.label), slider), text, h("span", { class: "unit" }, one.unit), fault);
+  };
+
+  const build = (list: Adjustable[]): void => {
+    rows.clear();
+    replace(
+      body,
+      ...groups.flatMap(([group, title, open]) => {
+        const own = list.filter((one) => one.group === group);
+        return own.length > 0 ? [section(title, open, ...own.map(row))] : [];
+      }),
+    );
+    for (const one of list) {
+      const entry = rows.get(one.id);
+      if (entry) range(entry.slider, one);
+    }
+  };
+
+  const update = (): void => {
+    const list = bench.model.adjustables;
+    const now = list.map((one) => one.id).join();
+    if (now !== ids) {
+      ids = now;
+      build(list);
+    }
+    for (const one of list) {
+      const entry = rows.get(one.id);
+      if (!entry) continue;
+      const wrong = bench.fault?.field === one.id;
+      if (document.activeElement !== entry.text || !wrong) entry.text.value = one.text;
+      entry.slider.disabled = one.value === undefined;
+      if (document.activeElement !== entry.slider && one.value !== undefined && (one.value > Number(entry.slider.max) || one.value < Number(entry.slider.min))) range(entry.slider, one);
+      if (one.value !== undefined) entry.slider.value = String(one.value);
+      entry.fault.textContent = wrong ? bench.fault?.message ?? "" : "";
+      entry.text.setAttribute("aria-invalid", String(wrong));
+    }
+  };
+  return { element: body, update: (news) => (news.has("state") || news.has("fault") || news.has("loci") || news.has("model")) && update() };
+}
+
+/** From nothing to twice the value; a value of nothing has room to both sides. */
+function range(slider: HTMLInputElement, one: Adjustable | undefined): void {
+  const value = one?.value;
+  if (value === undefined) return;
+  const size = Math.abs(value) || (one?.unit === "N" ? 100 : 1);
+  const free = one?.group === "points" || one?.group === "loads" || one?.group === "gravity" || value < 0;
+  slider.min = String(free ? value - size : 0);
+  slider.max = String(free ? value + size : 2 * size);
+  slider.value = String(value);
+}
+
+/** Working modes as small pictures. */
+export function modesPanel(bench: Workbench): Panel {
+  const body = h("div", { class: "modes", role: "radiogroup", "aria-label": "Working mode" });
+  const element = section("Working mode", true, body);
+  const show = (): void => {
+    const { modes, facts, state, theme } = bench;
+    element.hidden = (facts?.dyads.length ?? 0) === 0;
+    if (!facts) return;
+    const own = state.mode ?? facts.dyads.map((dyad) => dyad.side);
+    const words = (mode: number[]): string => facts.dyads.map((dyad, k) => `${dyad.point} ${mode[k] === 1 ? dyad.left : dyad.right}`).join(", ");
+    if (!modes || modes.modes.length === 0) {
+      const sides = facts.dyads.map((dyad, k) => {
+        const select = h("select", { "aria-label": dyad.point, change: () => bench.change({ mode: own.map((side, i) => (i === k ? Number(select.value) : side)) }) }, h("option", { value: 1 }, dyad.left), h("option", { value: -1 }, dyad.right));
+        select.value = String(own[k]);
+        return h("label", {}, dyad.point, " ", select);
+      });
+      return replace(body, ...sides);
+    }
+    replace(
+      body,
+      ...modes.modes.map((one) => {
+        const chosen = one.mode.length === own.length && one.mode.every((side, k) => side === own[k]);
+        const canvas = thumbnail(one.sketch, theme);
+        return h("button", { type: "button", class: "mode", role: "radio", "aria-checked": String(chosen), title: words(one.mode), disabled: one.sample === null, click: () => bench.change({ mode: one.mode, ...(state.at ? {} : { at: one.sample ?? undefined }) }) }, canvas, h("span", {}, one.sample === null ? "reaches nothing" : words(one.mode)));
+      }),
+    );
+  };
+  return { element, update: (news) => ["modes", "model", "theme", "state"].some((one) => news.has(one)) && show() };
+}
+
+function thumbnail(sketch: Sketch | undefined, theme: Workbench["theme"]): HTMLCanvasElement {
+  const ratio = window.devicePixelRatio || 1;
+  const size = { width: 84, height: 62 };
+  const canvas = h("canvas", { width: size.width * ratio, height: size.height * ratio, "aria-hidden": "true" });
+  const context = canvas.getContext("2d");
+  if (!context || !sketch) return canvas;
+  const places = [...sketch.joints.map((joint) => joint.at), ...sketch.links.flatMap((link) => link.points)];
+  const xs = places.map((at) => at[0]);
+  const ys = places.map((at) => at[1]);
+  context.scale(ratio, ratio);
+  drawSketch(context, fit({ low: [Math.min(...xs), Math.min(...ys)], high: [Math.max(...xs), Math.max(...ys)] }, size, true, 7), sketch, theme, 4);
+  return canvas;
+}
+
+/** Which joints and which reactions count. */
+export function countingPanel(bench: Workbench): Panel {
+  const body = h("div", { class: "counting" });
+  const element = section("What counts", false, body);
+  const quantities: [string, string][] = [["f", "contact forces"], ["M", "actuators' couples"], ["F", "actuators' forces"], ["N", "normal forces"], ["T", "couples borne"], ["fx", "fx alone"], ["fy", "fy alone"]];
+  const show = (): void => {
+    const { facts, state } = bench;
+    if (!facts) return;
+    const any = facts.joints.some((joint) => joint.clearance);
+    const usual = facts.joints.filter((joint) => joint.clearance || !any).map((joint) => joint.name);
+    const joints = state.joints ?? usual;
+    const chosen = state.quantities ?? ["f", "M"];
+    const box = (label: string, on: boolean, change: (on: boolean) => void): HTMLElement => {
+      const input = h("input", { type: "checkbox", change: () => change(input.checked) });
+      input.checked = on;
+      return h("label", { class: "tick" }, input, label);
+    };
+    const next = (list: string[], name: string, on: boolean): string[] => (on ? [...list, name] : list.filter((one) => one !== name));
+    replace(
+      body,
+      h("fieldset", {}, h("legend", {}, "Joints"), ...facts.joints.map((joint) => box(joint.name, joints.includes(joint.name), (on) => {
+        const list = facts.joints.map((one) => one.name).filter((name) => next(joints, joint.name, on).includes(name));
+        if (list.length > 0) bench.change({ joints: list });
+        else show();
+      }))),
+      h("fieldset", {}, h("legend", {}, "Reactions"), ...quantities.map(([name, words]) => box(`${name}: ${words}`, chosen.includes(name), (on) => {
+        const list = next(chosen, name, on);
+        if (list.length > 0) bench.change({ quantities: list });
+        else show();
+      }))),
+      h("fieldset", {}, h("legend", {}, "Drawn"),
+        box("zones", state.zones, (on) => bench.change({ zones: on })),
+        box("reactions as arrows", state.reactions, (on) => bench.change({ reactions: on })),
+        box("take-up of clearances", state.takeUp, (on) => bench.change({ takeUp: on }))),
+    );
+  };
+  return { element, update: (news) => (news.has("model") || news.has("state")) && show() };
+}

@@ -1,0 +1,109 @@
+// The stage of three coordinates.
+import { h, replace } from "./dom";
+import type { Panel } from "./panels";
+import { readingOf } from "./reading";
+import type { Workbench } from "./workbench";
+import type { Space as SpaceScene } from "../space/scene";
+import { Space } from "../space/scene";
+
+export class SpaceStage implements Panel {
+  readonly element = h("div", { class: "stage space", tabindex: 0, role: "application", "aria-label": "Surfaces on which reactions vanish. Arrow keys turn them, + and - zoom." });
+  readonly controls: HTMLElement;
+  private scene: SpaceScene | undefined;
+  private fault: string | undefined;
+  private readonly axis = h("select", { "aria-label": "Slice across" });
+  private readonly slider = h("input", { type: "range", step: "any", "aria-label": "Place of the slice" });
+  private readonly on = h("input", { type: "checkbox" });
+  private readonly words = h("span", { class: "quiet" });
+  private readonly under = h("div", { class: "under" });
+
+  constructor(private readonly bench: Workbench) {
+    this.controls = h("div", { class: "slice" }, h("label", { class: "tick" }, this.on, "slice"), this.axis, this.slider, this.words);
+    const change = (gesture?: string): void => {
+      const axis = Number(this.axis.value);
+      const range = bench.coordinates[axis];
+      const before = bench.state.slice;
+      const at = before?.axis === axis || gesture ? Number(this.slider.value) : range ? (range.lower + range.upper) / 2 : 0;
+      bench.change({ slice: { on: this.on.checked, axis, at } }, gesture);
+    };
+    this.on.addEventListener("change", () => change());
+    this.axis.addEventListener("change", () => change());
+    this.slider.addEventListener("input", () => {
+      this.on.checked = true;
+      change("slice");
+    });
+    this.slider.addEventListener("change", () => bench.history.endGesture());
+    this.element.append(this.under);
+    this.element.addEventListener("pointermove", (event) => this.hover(event));
+    this.element.addEventListener("keydown", (event) => this.key(event));
+    new ResizeObserver(() => this.scene?.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
+  }
+
+  private open(): SpaceScene | undefined {
+    if (this.scene || this.fault) return this.scene;
+    try {
+      this.scene = new Space(this.element);
+      this.scene.resize(this.element.clientWidth, this.element.clientHeight);
+    } catch {
+      this.fault = "this browser has no WebGL, which draws the surfaces";
+      replace(this.under, this.fault);
+    }
+    return this.scene;
+  }
+
+  update(news: Set<string>): void {
+    const { bench } = this;
+    const spatial = bench.coordinates.length === 3;
+    this.element.hidden = this.controls.hidden = !spatial;
+    if (!spatial || !bench.picture || bench.picture.loci.coordinates.length !== 3) return;
+    const scene = this.open();
+    if (this.axis.options.length !== 3) replace(this.axis, ...bench.coordinates.map((one, k) => h("option", { value: k }, one.name)));
+    const slice = bench.state.slice ?? { axis: 2, at: middleOf(bench, 2), on: false };
+    const range = bench.coordinates[slice.axis];
+    this.axis.value = String(slice.axis);
+    this.on.checked = slice.on;
+    this.slider.min = String(range?.lower ?? 0);
+    this.slider.max = String(range?.upper ?? 1);
+    this.slider.value = String(slice.at);
+    this.words.textContent = `${range?.name ?? ""} = ${range?.angle ? `${((slice.at * 180) / Math.PI).toFixed(1)} deg` : `${slice.at.toFixed(4)} m`}`;
+    if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice);
+    scene?.showPose(bench.state.at, this.bars());
+  }
+
+  /** The links, where the coordinates are the end effector's place in space. */
+  private bars(): number[][][] {
+    const { pose, facts } = this.bench;
+    if (!pose || !facts?.spatial || facts.coordinates.some((one) => one.angle)) return [];
+    const place = (name: string): number[] => pose.posture[name] ?? [];
+    const links = facts.links.map((link) => link.points.map(place)).map((points) => (points.length > 2 && points[0] ? [...points, points[0]] : points));
+    // A telescopic leg reaches from its cylinder's point to its rod's.
+    const first = (link: string): string | undefined => facts.links.find((one) => one.name === link)?.points[0];
+    const legs = facts.joints.filter((joint) => joint.type === "prismatic").flatMap((joint) => {
+      const [from, to] = [first(joint.from), first(joint.to)];
+      return from && to ? [[place(from), place(to)]] : [];
+    });
+    return [...links, ...legs].filter((line) => line.length > 1 && line.every((point) => point.length === 3));
+  }
+
+  private hover(event: PointerEvent): void {
+    if (event.buttons !== 0) return;
+    const box = this.element.getBoundingClientRect();
+    const id = this.scene?.at((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
+    const surface = this.bench.picture?.loci.surfaces?.find((one) => one.id === id);
+    replace(this.under, surface ? readingOf(this.bench.rules, surface) : undefined);
+  }
+
+  private key(event: KeyboardEvent): void {
+    const way = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }[event.key];
+    if (way) {
+      event.preventDefault();
+      this.scene?.turn(way[0] ?? 0, way[1] ?? 0);
+    } else if (event.key === "+" || event.key === "=") this.scene?.zoom(1.2);
+    else if (event.key === "-") this.scene?.zoom(1 / 1.2);
+  }
+}
+
+function middleOf(bench: Workbench, axis: number): number {
+  const range = bench.coordinates[axis];
+  return range ? (range.lower + range.upper) / 2 : 0;
+}

@@ -1,0 +1,74 @@
+import { describe, expect, it } from "vitest";
+import { fromHash, toHash } from "./address";
+import { freshState, History } from "./state";
+import { handles, movedShape, outline, taskText, withHandle } from "./task_text";
+import { alongPath, signChanges } from "./way";
+
+describe("undo", () => {
+  it("takes a gesture for one step", () => {
+    const history = new History(freshState("a", "0"));
+    for (const text of ["1", "2", "3"]) history.set({ ...history.present, text }, "slide");
+    history.endGesture();
+    history.set({ ...history.present, text: "4" }, "slide");
+    expect(history.present.text).toBe("4");
+    history.undo();
+    expect(history.present.text).toBe("3");
+    history.undo();
+    expect(history.present.text).toBe("0");
+    history.undo();
+    expect(history.present.text).toBe("0");
+    history.redo();
+    history.redo();
+    expect(history.present.text).toBe("4");
+    expect(history.canRedo).toBe(false);
+  });
+  it("forgets what was undone once something else is done", () => {
+    const history = new History(freshState("a", "0"));
+    history.set({ ...history.present, text: "1" });
+    history.undo();
+    history.set({ ...history.present, text: "2" });
+    expect(history.canRedo).toBe(false);
+  });
+});
+
+describe("the address", () => {
+  it("holds the whole state", async () => {
+    const state = { ...freshState("five.yaml", "name: Ü # comment\n".repeat(50)), at: [0.25, -0.7], mode: [1, -1], zones: false, hidden: ["a|b|c"] };
+    const hash = await toHash(state);
+    expect(hash.length).toBeLessThan(600);
+    expect(hash).toMatch(/^#[\w-]+$/);
+    expect(await fromHash(hash)).toEqual(state);
+  });
+  it.each(["", "#", "#nonsense", "#AAAA", "#%%%"])("gives nothing for %s", async (hash) => {
+    expect(await fromHash(hash)).toBeUndefined();
+  });
+});
+
+describe("tasks", () => {
+  const box = { kind: "box", low: [0, 0], high: [2, 1] } as const;
+  it("are written as their files are", () => {
+    const text = taskText({ shape: { ...box, low: [0, 0], high: [2, 1] }, margin: "1/100", minForce: "5", minCouple: "", loads: "" }, ["x", "y"]);
+    expect(text).toBe("format: 1\nbox: {x: [0, 2], y: [0, 1]}\nmargin: 1/100\nmin_force: 5\n");
+    expect(taskText({ shape: { kind: "path", points: [[0, 0.1], [1, 1]] }, margin: "", minForce: "", minCouple: "", loads: "[[1, 2], [3, 4]]" }, ["x", "y"])).toBe("format: 1\npath: [[0, 0.1], [1, 1]]\nloads_from: [[1, 2], [3, 4]]\n");
+  });
+  it("move, and change by their handles", () => {
+    expect(movedShape({ kind: "circle", centre: [1, 1], radius: 2 }, [1, -1])).toEqual({ kind: "circle", centre: [2, 0], radius: 2 });
+    const shape = { kind: "box" as const, low: [0, 0] as [number, number], high: [2, 1] as [number, number] };
+    expect(withHandle(shape, 2, [3, 4])).toEqual({ kind: "box", low: [0, 0], high: [3, 4] });
+    expect(withHandle(shape, 0, [5, 5])).toEqual({ kind: "box", low: [2, 1], high: [5, 5] }); // past the opposite corner
+    expect(handles(shape)).toHaveLength(4);
+    expect(outline(shape)).toHaveLength(5);
+  });
+});
+
+describe("ways", () => {
+  it("go along a path in even steps", () => {
+    const way = alongPath([[0, 0], [1, 0], [1, 1]], 4);
+    expect(way.x).toEqual([0, 0.5, 1, 1.5, 2]);
+    expect(way.poses).toEqual([0, 0, 0.5, 0, 1, 0, 1, 0.5, 1, 1]);
+  });
+  it("know where values change their sign", () => {
+    expect(signChanges([0, 1, 2, 3], [1, -1, null, 2])).toEqual([0.5]);
+    expect(signChanges([0, 1, 2], [1, 0, -1])).toEqual([1]);
+  });
+});

@@ -1,0 +1,83 @@
+// A task as its file says it (docs: clearloci verify).
+import type { TaskShape, TaskState } from "./state";
+
+function number(value: number): string {
+  return String(Number(value.toPrecision(9)));
+}
+
+function pair(point: readonly [number, number]): string {
+  return `[${number(point[0])}, ${number(point[1])}]`;
+}
+
+function shapeLine(shape: TaskShape, names: readonly string[]): string {
+  const [x, y] = [names[0] ?? "x", names[1] ?? "y"];
+  switch (shape.kind) {
+    case "box":
+      return `box: {${x}: [${number(shape.low[0])}, ${number(shape.high[0])}], ${y}: [${number(shape.low[1])}, ${number(shape.high[1])}]}`;
+    case "circle":
+      return `circle: {centre: ${pair(shape.centre)}, radius: ${number(shape.radius)}}`;
+    default:
+      return `${shape.kind}: [${shape.points.map(pair).join(", ")}]`;
+  }
+}
+
+export function taskText(task: TaskState, names: readonly string[]): string {
+  const lines = ["format: 1", shapeLine(task.shape, names)];
+  if (task.margin) lines.push(`margin: ${task.margin}`);
+  if (task.minForce) lines.push(`min_force: ${task.minForce}`);
+  if (task.minCouple) lines.push(`min_couple: ${task.minCouple}`);
+  if (task.loads) lines.push(`loads_from: ${task.loads}`);
+  return `${lines.join("\n")}\n`;
+}
+
+export function movedShape(shape: TaskShape, by: readonly [number, number]): TaskShape {
+  const move = (at: readonly [number, number]): [number, number] => [at[0] + by[0], at[1] + by[1]];
+  switch (shape.kind) {
+    case "box":
+      return { ...shape, low: move(shape.low), high: move(shape.high) };
+    case "circle":
+      return { ...shape, centre: move(shape.centre) };
+    default:
+      return { ...shape, points: shape.points.map(move) };
+  }
+}
+
+/** The points by which a hand changes the shape. */
+export function handles(shape: TaskShape): [number, number][] {
+  switch (shape.kind) {
+    case "box":
+      return [shape.low, [shape.high[0], shape.low[1]], shape.high, [shape.low[0], shape.high[1]]];
+    case "circle":
+      return [[shape.centre[0] + shape.radius, shape.centre[1]]];
+    default:
+      return shape.points;
+  }
+}
+
+export function withHandle(shape: TaskShape, index: number, to: [number, number]): TaskShape {
+  switch (shape.kind) {
+    case "box": {
+      const opposite = handles(shape)[(index + 2) % 4] ?? shape.low;
+      const low: [number, number] = [Math.min(to[0], opposite[0]), Math.min(to[1], opposite[1])];
+      return { ...shape, low, high: [Math.max(to[0], opposite[0]), Math.max(to[1], opposite[1])] };
+    }
+    case "circle":
+      return { ...shape, radius: Math.max(1e-6, Math.hypot(to[0] - shape.centre[0], to[1] - shape.centre[1])) };
+    default:
+      return { ...shape, points: shape.points.map((point, k) => (k === index ? to : point)) };
+  }
+}
+
+/** The outline as a polygon or, of a path, as it is. */
+export function outline(shape: TaskShape): [number, number][] {
+  if (shape.kind === "box") return [...handles(shape), shape.low];
+  if (shape.kind === "circle") {
+    const steps = 64;
+    return Array.from({ length: steps + 1 }, (_, k): [number, number] => {
+      const turn = (2 * Math.PI * k) / steps;
+      return [shape.centre[0] + shape.radius * Math.cos(turn), shape.centre[1] + shape.radius * Math.sin(turn)];
+    });
+  }
+  const first = shape.points[0];
+  return shape.kind === "polygon" && first ? [...shape.points, first] : shape.points;
+}

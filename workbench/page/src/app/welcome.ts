@@ -1,0 +1,31 @@
+// What a first visitor needs to know.
+import { h } from "./dom";
+import type { Workbench } from "./workbench";
+
+const seen = "clearloci-welcomed";
+let dialog: HTMLDialogElement | undefined;
+
+export function welcome(bench: Workbench): HTMLElement {
+  const kinds = bench.rules.kinds.filter((one) => ["contact-loss", "backlash", "direct-singularity", "workspace-boundary"].includes(one.kind));
+  const close = h("button", { type: "button", class: "primary", click: () => dialog?.close() }, "Start designing");
+  dialog = h(
+    "dialog",
+    { class: "welcome", "aria-label": "What this shows" },
+    h("h2", {}, "Where does this mechanism lose contact?"),
+    h("p", {}, "Every real joint has clearance. Where the reaction in a joint vanishes, its parts let go of one another, cross the clearance, and the end effector jumps. The coloured curves are all the places where that happens, computed exactly; the colours between them are zones without any."),
+    h("dl", {}, ...kinds.flatMap((one) => [h("dt", {}, one.words), h("dd", {}, one.happens)])),
+    h("ul", {},
+      h("li", {}, h("strong", {}, "Drag the end effector"), " — where the load arrow stands: posture, reactions and error follow; crossing a curve flashes what lets go."),
+      h("li", {}, h("strong", {}, "Drag a joint on the ground, or move a slider"), ": the curves follow. Type exact values such as 7/20."),
+      h("li", {}, h("strong", {}, "Draw a task"), ": it is proven free of loci while you move it, or refuted with a witness."),
+      h("li", {}, "With the keyboard: Tab to the picture, arrow keys move the end effector (Shift: small steps), + − 0 zoom, Ctrl+Z undoes.")),
+    close,
+  );
+  dialog.addEventListener("close", () => localStorage.setItem(seen, "1"));
+  if (!localStorage.getItem(seen)) queueMicrotask(() => dialog?.showModal());
+  return dialog;
+}
+
+export function openWelcome(): void {
+  dialog?.showModal();
+}

@@ -1,0 +1,335 @@
+// The one place where a change of the state becomes questions, and answers become what is drawn.
+import type { ModelFacts, Modes, Picture, Pose, Rules, Start, Sweep, Theme, Trajectory, Verdict, Zones } from "../data/answers";
+import { ModelText, type Adjustable } from "../data/model_text";
+import { toHash } from "./address";
+import { ask, AskingError, Following, type Fault } from "./asking";
+import { History, type State } from "./state";
+import { taskText } from "./task_text";
+
+/** An error beside the field that caused it; without one, above the picture. */
+export interface ShownFault {
+  message: string;
+  field: string | undefined;
+}
+
+export type Answer = "model" | "loci" | "zones" | "pose" | "verify" | "modes" | "kept" | "sweep" | "trajectory";
+
+export class Workbench {
+  readonly history: History;
+  rules: Rules;
+  dark = false;
+  model: ModelText;
+  facts: ModelFacts | undefined;
+  picture: Picture | undefined;
+  zones: Zones | undefined;
+  zonesStale = false;
+  pose: Pose | undefined;
+  modes: Modes | undefined;
+  verdict: Verdict | undefined;
+  kept: Picture | undefined;
+  sweep: { coordinate: number[]; answer: Sweep } | undefined;
+  trajectory: Trajectory | undefined;
+  fault: ShownFault | undefined;
+  poseFault: string | undefined;
+  taskFault: string | undefined;
+  trajectoryFault: string | undefined;
+  progress: { fraction: number; stage: string } | undefined;
+  /** The field that the hand changed last. */
+  private touched: string | undefined;
+  private watchers: ((what: Set<string>) => void)[] = [];
+  private news = new Set<string>();
+  private frame = 0;
+  private hashTimer: ReturnType<typeof setTimeout> | undefined;
+  private quietTimer: ReturnType<typeof setTimeout> | undefined;
+  private moves: { name: string; made: number }[] = [];
+
+  private readonly lanes = {
+    model: new Following<ModelFacts>("model", (facts) => this.onModel(facts), (fault) => this.onFault(fault)),
+    loci: new Following<Picture>("loci", (picture, made) => this.onLoci(picture, made), (fault) => this.onFault(fault)),
+    zones: new Following<Zones>("zones", (zones) => this.onZones(zones), () => this.onNoZones()),
+    pose: new Following<Pose>("pose", (pose, made) => this.onPose(pose, made), (fault) => this.onPoseFault(fault)),
+    verify: new Following<Verdict>("verify", (verdict) => this.onVerdict(verdict), (fault) => this.onTaskFault(fault)),
+    modes: new Following<Modes>("modes", (modes) => this.onModes(modes), () => undefined),
+    sweep: new Following<Sweep>("sweep", (sweep) => this.onSweep(sweep), () => undefined),
+  };
+  private sweepPoses: number[] = [];
+
+  constructor(readonly start: Start, state: State) {
+    this.rules = start.rules;
+    this.history = new History(state);
+    this.model = new ModelText(state.text);
+    setInterval(() => this.sayBusy(), 60);
+  }
+
+  /** Whether answers or drawings are still to come, for assistive programs and for tests. */
+  private sayBusy(): void {
+    const busy = this.frame !== 0 || this.timers > 0 || Object.values(this.lanes).some((lane) => lane.busy) || this.pending > 0;
+    document.documentElement.dataset["busy"] = String(busy);
+  }
+  private timers = 0;
+  private pending = 0;
+
+  get state(): State {
+    return this.history.present;
+  }
+  get theme(): Theme {
+    return this.dark ? this.rules.themes.dark : this.rules.themes.light;
+  }
+  get coordinates(): ModelFacts["coordinates"] {
+    return this.facts?.coordinates ?? [];
+  }
+  /** Whether the mechanism is drawn in the plane of its loci. */
+  get inPlace(): boolean {
+    return this.facts?.pose_is_place ?? false;
+  }
+  adjustable(id: string): Adjustable | undefined {
+    return this.model.adjustables.find((one) => one.id === id);
+  }
+
+  watch(watcher: (what: Set<string>) => void): void {
+    this.watchers.push(watcher);
+  }
+
+  /** Tells everyone, with the next frame. */
+  tell(...what: string[]): void {
+    what.forEach((one) => this.news.add(one));
+    this.frame ||= requestAnimationFrame(() => {
+      this.frame = 0;
+      const news = this.news;
+      this.news = new Set();
+      this.watchers.forEach((watcher) => watcher(news));
+      const moves = this.moves;
+      this.moves = [];
+      // After this frame's drawing has gone to the screen.
+      const channel = new MessageChannel();
+      channel.port1.onmessage = () => {
+        for (const move of moves) performance.measure(`clearloci-${move.name}`, { start: move.made, end: performance.now() });
+      };
+      channel.port2.postMessage(0);
+    });
+  }
+
+  /** A change by the hand. `gesture`: changes of one gesture are one step of undo; `field`: beside which an error stands. */
+  change(next: Partial<State>, gesture?: string, field?: string): void {
+    const before = this.state;
+    this.history.set({ ...before, ...next }, gesture);
+    this.touched = field;
+    this.follow(before);
+  }
+
+  undo(): void {
+    const before = this.state;
+    this.history.undo();
+    this.touched = undefined;
+    this.follow(before);
+  }
+  redo(): void {
+    const before = this.state;
+    this.history.redo();
+    this.touched = undefined;
+    this.follow(before);
+  }
+
+  setValue(id: string, value: string, gesture?: string): void {
+    const one = this.adjustable(id);
+    if (one && value.trim() !== "") this.change({ text: this.model.write(one.path, value.trim()).text }, gesture, id);
+  }
+
+  /** Asks for everything anew. */
+  begin(): void {
+    this.follow(undefined);
+  }
+
+  private question(state = this.state): object {
+    return { text: state.text, file: state.file, mode: state.mode ?? [] };
+  }
+
+  private lociQuestion(): object {
+    const { joints, quantities } = this.state;
+    return { ...this.question(), ...(joints ? { joints } : {}), ...(quantities?.length ? { quantities } : {}) };
+  }
+
+  private follow(before: State | undefined): void {
+    const now = this.state;
+    const made = performance.now();
+    document.documentElement.dataset["busy"] = "true";
+    const changed = (...keys: (keyof State)[]): boolean => !before || keys.some((key) => before[key] !== now[key]);
+    if (changed("text")) this.model = new ModelText(now.text);
+    if (changed("file")) this.forget();
+    if (changed("text", "mode", "joints", "quantities")) {
+      this.lanes.loci.want(this.lociQuestion(), made);
+      this.zonesStale = true;
+      if (!now.zones) this.zones = undefined;
+    }
+    if (changed("text", "mode")) this.lanes.model.want(this.question(), made);
+    if (changed("text", "mode", "at")) this.askPose(made);
+    if (changed("text", "mode", "task")) this.askVerdict();
+    if (changed("zones") && now.zones) this.askZones();
+    if (changed("kept")) void this.askKept();
+    if (changed("trajectory", "text", "mode")) void this.askTrajectory();
+    if (changed("text") && before && structureOf(before.text) !== structureOf(now.text)) this.modes = undefined;
+    this.atRest();
+    this.tell("state");
+  }
+
+  /** Another mechanism: nothing of the one before is shown. */
+  private forget(): void {
+    this.facts = this.picture = this.zones = this.pose = this.modes = this.verdict = this.sweep = undefined;
+    this.fault = undefined;
+  }
+
+  private askPose(made: number): void {
+    const at = this.state.at;
+    if (at && at.length === this.model.coordinateNames.length) this.lanes.pose.want({ ...this.question(), at }, made);
+  }
+
+  private askVerdict(): void {
+    const { task } = this.state;
+    if (task) this.lanes.verify.want({ ...this.lociQuestion(), task: taskText(task, this.model.coordinateNames) });
+    else this.verdict = undefined;
+  }
+
+  private askZones(): void {
+    if (this.coordinates.length === 2 && this.coordinates.every((one) => !one.angle)) this.lanes.zones.want(this.lociQuestion());
+  }
+
+  private async askKept(): Promise<void> {
+    const kept = this.state.kept;
+    this.kept = undefined;
+    if (kept) {
+      ++this.pending;
+      try {
+        const picture = await ask<Picture>("loci", { text: kept.text, mode: kept.mode ?? [], lane: "kept" });
+        if (this.state.kept === kept) this.kept = picture;
+      } catch (error) {
+        if (!(error instanceof AskingError)) throw error;
+      } finally {
+        --this.pending;
+      }
+    }
+    this.tell("kept");
+  }
+
+  private async askTrajectory(): Promise<void> {
+    const { trajectory } = this.state;
+    this.trajectoryFault = undefined;
+    if (!trajectory) {
+      this.trajectory = undefined;
+      return this.tell("trajectory");
+    }
+    ++this.pending;
+    try {
+      this.trajectory = await ask<Trajectory>("trajectory", { ...this.question(), trajectory });
+    } catch (error) {
+      if (!(error instanceof AskingError)) throw error;
+      if (error.fault.status !== 409) this.trajectoryFault = error.fault.message;
+    } finally {
+      --this.pending;
+    }
+    this.tell("trajectory");
+  }
+
+  /** Poses along a way, for plots and for the path of a linkage. */
+  askSweep(poses: number[]): void {
+    this.sweepPoses = poses;
+    this.lanes.sweep.want({ ...this.question(), poses, follow: this.facts?.end_effector.at ?? "" });
+  }
+
+  /** What can wait until the hand rests: the address, the small pictures of the modes. */
+  private atRest(): void {
+    clearTimeout(this.hashTimer);
+    clearTimeout(this.quietTimer);
+    this.timers = 2;
+    this.hashTimer = setTimeout(() => {
+      void toHash(this.state).then((hash) => {
+        history.replaceState(null, "", hash);
+        --this.timers;
+      });
+    }, 250);
+    this.quietTimer = setTimeout(() => {
+      this.lanes.modes.want(this.question());
+      this.tell("rest");
+      --this.timers;
+    }, 300);
+  }
+
+  private onModel(facts: ModelFacts): void {
+    const known = this.facts;
+    this.facts = facts;
+    const at = this.state.at;
+    const fits = at && at.length === facts.coordinates.length;
+    if (!fits && facts.sample) {
+      this.history.amend({ ...this.state, at: facts.sample });
+      this.askPose(performance.now());
+    }
+    if (!known && this.state.zones) this.askZones();
+    this.tell("model");
+  }
+
+  private onLoci(picture: Picture, made: number): void {
+    this.picture = picture;
+    this.fault = undefined;
+    this.progress = undefined;
+    this.moves.push({ name: "loci", made });
+    if (this.state.zones) this.askZones();
+    this.tell("loci");
+  }
+
+  private onZones(zones: Zones): void {
+    this.zones = zones;
+    this.zonesStale = this.lanes.loci.busy;
+    this.tell("zones");
+  }
+
+  private onNoZones(): void {
+    this.zones = undefined;
+    this.tell("zones");
+  }
+
+  private onPose(pose: Pose, made: number): void {
+    this.poseFault = pose.unreachable ? `out of reach: ${pose.unreachable} cannot be placed` : undefined;
+    if (!pose.unreachable) this.pose = pose;
+    this.moves.push({ name: "pose", made });
+    this.tell("pose");
+  }
+
+  private onPoseFault(fault: Fault): void {
+    this.poseFault = fault.message;
+    this.tell("pose");
+  }
+
+  private onVerdict(verdict: Verdict): void {
+    this.verdict = this.state.task ? verdict : undefined;
+    this.taskFault = undefined;
+    this.tell("verify");
+  }
+
+  private onTaskFault(fault: Fault): void {
+    this.verdict = undefined;
+    this.taskFault = fault.message;
+    this.tell("verify");
+  }
+
+  private onModes(modes: Modes): void {
+    this.modes = modes;
+    this.tell("modes");
+  }
+
+  private onSweep(answer: Sweep): void {
+    this.sweep = { coordinate: this.sweepPoses, answer };
+    this.tell("sweep");
+  }
+
+  /** The last good picture stays; the words stand beside the field that was changed, or where the file is wrong. */
+  private onFault(fault: Fault): void {
+    this.progress = undefined;
+    const placed = fault.line > 0 ? this.model.at(fault.line, fault.column, this.model.adjustables)?.id : undefined;
+    this.fault = { message: fault.message, field: this.touched ?? placed };
+    this.tell("fault");
+  }
+}
+
+/** What stays the same while values change: the file without its numbers. */
+function structureOf(text: string): string {
+  return text.replace(/[-+]?\d[\d./eE]*/g, "#");
+}

@@ -1,0 +1,52 @@
+import { readdirSync, readFileSync } from "node:fs";
+import { describe, expect, it } from "vitest";
+import { ModelText } from "./model_text";
+
+const examples = new URL("../../../../examples/", import.meta.url);
+const read = (name: string): string => readFileSync(new URL(name, examples), "utf8");
+const fiveBar = read("five_bar.yaml");
+
+describe("a mechanism file", () => {
+  it("changes one value and keeps everything else, comments too", () => {
+    const changed = new ModelText(fiveBar).write(["parameters", "L"], "7/20").text;
+    expect(changed).toBe(fiveBar.replace("L: 0.5 ", "L: 7/20 "));
+    const before = fiveBar.split("\n");
+    expect(changed.split("\n").filter((line, k) => line !== before[k])).toHaveLength(1);
+  });
+  it("changes values inside lists and mappings on one line", () => {
+    const model = new ModelText(fiveBar);
+    expect(model.write(["loads", 0, "force", 1], "-50").read(["loads", 0, "force", 1])).toBe("-50");
+    expect(model.write(["joints", "A1", "clearance", "radial"], "20e-6").text).toContain("clearance: {radial: 20e-6, angular: 0.5e-3}}");
+    expect(model.write(["points", "A1", 0], "0.1").text).toContain("A1: [0.1, 0]");
+  });
+  it("keeps a wrong value one value", () => {
+    const wrong = new ModelText(fiveBar).write(["loads", 0, "force", 0], "1, 2], x: [");
+    expect(wrong.read(["loads", 0, "force", 0])).toBe("1, 2], x: [");
+    expect(wrong.read(["loads", 0, "force", 1])).toBe("-100");
+  });
+  it("reads y as a name and not as a truth value", () => {
+    expect(new ModelText(fiveBar).coordinateNames).toEqual(["x", "y"]);
+  });
+  it("knows what can be changed", () => {
+    const ids = new ModelText(fiveBar).adjustables.map((one) => one.id);
+    expect(ids).toEqual(expect.arrayContaining(["parameters/L", "parameters/d", "loads/0/force/1", "points/A2/0", "joints/P/clearance/radial"]));
+    expect(ids).not.toContain("points/P/0"); // the end effector is no joint on the ground
+    expect(new ModelText(fiveBar).adjustables.find((one) => one.id === "parameters/d")?.value).toBeUndefined();
+  });
+  it("finds the value at a place of the file", () => {
+    const model = new ModelText(fiveBar);
+    const line = fiveBar.split("\n").findIndex((one) => one.startsWith("  L: ")) + 1;
+    expect(model.at(line, 6, model.adjustables)?.id).toBe("parameters/L");
+    expect(model.at(1, 1, model.adjustables)).toBeUndefined();
+  });
+  it("stays as it is where the path leads nowhere", () => {
+    expect(new ModelText(fiveBar).write(["parameters", "nothing"], "1").text).toBe(fiveBar);
+    expect(new ModelText(": : [").write(["a"], "1").text).toBe(": : [");
+  });
+  it.each(readdirSync(examples).filter((name) => name.endsWith(".yaml")))("%s: writing every value as it is changes nothing", (name) => {
+    const text = read(name);
+    const model = new ModelText(text);
+    expect(model.wrong).toBe(false);
+    for (const one of model.adjustables) expect(model.write(one.path, one.text).text).toBe(text);
+  });
+});

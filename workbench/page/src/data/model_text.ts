@@ -1,0 +1,141 @@
+// The mechanism file as text whose values change in place: comments, order and spelling of all else stay as they are.
+import { isMap, isScalar, isSeq, parseDocument, type Document, type Node, type YAMLMap } from "yaml";
+import { parseExact, toNumber } from "./exact";
+
+/** Where a value stands in the file. */
+export type ValuePath = (string | number)[];
+
+export interface Adjustable {
+  /** "parameters/L", "points/A1/0": the path as a name. */
+  id: string;
+  path: ValuePath;
+  label: string;
+  unit: string;
+  group: "parameters" | "loads" | "springs" | "gravity" | "points" | "clearances";
+  /** As written. */
+  text: string;
+  /** Of a plain number; an expression is typed, not slid. */
+  value: number | undefined;
+}
+
+export class ModelText {
+  private readonly document: Document.Parsed;
+
+  constructor(readonly text: string) {
+    // "failsafe": every scalar is a text, as the program reads it; `y` is no truth value.
+    this.document = parseDocument(text, { schema: "failsafe", keepSourceTokens: false });
+  }
+
+  private node(path: ValuePath): Node | undefined {
+    const found: unknown = this.document.getIn(path, true);
+    return found instanceof Object ? (found as Node) : undefined;
+  }
+
+  private mapOf(key: string): YAMLMap | undefined {
+    const found = this.node([key]);
+    return isMap(found) ? found : undefined;
+  }
+
+  private entries(key: string): [string, Node][] {
+    const map = this.mapOf(key);
+    if (!map) return [];
+    return map.items.flatMap((pair): [string, Node][] =>
+      isScalar(pair.key) && pair.value instanceof Object ? [[String(pair.key.value), pair.value as Node]] : [],
+    );
+  }
+
+  read(path: ValuePath): string | undefined {
+    const node = this.node(path);
+    return isScalar(node) ? String(node.value) : undefined;
+  }
+
+  /** The file with this value in the place of the old one. */
+  write(path: ValuePath, value: string): ModelText {
+    const node = this.node(path);
+    if (!isScalar(node) || !node.range) return this;
+    const [from, to] = node.range;
+    // What is no expression is quoted, so that it stays one value: the program then says what is wrong with it.
+    const written = /^[\w.+\-*/^() ]+$/.test(value) ? value : JSON.stringify(value);
+    return new ModelText(this.text.slice(0, from) + written + this.text.slice(to));
+  }
+
+  /** The path of the value at a place of the file (from 1 on), if one of these stands there. */
+  at(line: number, column: number, adjustables: Adjustable[]): Adjustable | undefined {
+    const lines = this.text.split("\n");
+    const place = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0) + column - 1;
+    let best: Adjustable | undefined;
+    let distance = 0;
+    for (const one of adjustables) {
+      const range = this.node(one.path)?.range;
+      if (!range || lineOf(this.text, range[0]) !== line) continue;
+      const away = place < range[0] ? range[0] - place : Math.max(0, place - range[1]);
+      if (!best || away < distance) [best, distance] = [one, away];
+    }
+    return best;
+  }
+
+  /** Points with coordinates that are numbers or parameters alone, by whose place the mechanism stands on the ground. */
+  get basePoints(): { name: string; path: ValuePath }[] {
+    const free = new Set(this.coordinateNames);
+    return this.entries("points").flatMap(([name, node]) => {
+      if (!isSeq(node) || node.items.length < 2) return [];
+      const words = node.items.map((one) => (isScalar(one) ? String(one.value) : "?"));
+      const fixed = words.every((word) => !(word.match(/[A-Za-z_]\w*/g) ?? []).some((symbol) => free.has(symbol)));
+      return fixed && !words.includes("?") ? [{ name, path: ["points", name] as ValuePath }] : [];
+    });
+  }
+
+  get coordinateNames(): string[] {
+    return this.entries("workspace").map(([name]) => name);
+  }
+
+  get adjustables(): Adjustable[] {
+    const list: Adjustable[] = [];
+    const add = (path: ValuePath, label: string, unit: string, group: Adjustable["group"]): void => {
+      const text = this.read(path);
+      if (text === undefined) return;
+      const exact = parseExact(text);
+      list.push({ id: path.join("/"), path, label, unit, group, text, value: exact && toNumber(exact) });
+    };
+    const addVector = (path: ValuePath, label: string, unit: string, group: Adjustable["group"]): void => {
+      const node = this.node(path);
+      if (!isSeq(node)) return;
+      node.items.forEach((_, axis) => add([...path, axis], `${label} ${"xyz"[axis] ?? axis}`, unit, group));
+    };
+    for (const [name] of this.entries("parameters")) add(["parameters", name], name, "", "parameters");
+    const loads = this.node(["loads"]);
+    if (isSeq(loads)) {
+      loads.items.forEach((_, index) => {
+        const where = this.read(["loads", index, "at"]) ?? this.read(["loads", index, "link"]) ?? "";
+        addVector(["loads", index, "force"], `force at ${where},`, "N", "loads");
+        add(["loads", index, "couple"], `couple on ${this.read(["loads", index, "link"]) ?? ""}`, "N m", "loads");
+        addVector(["loads", index, "couple"], `couple at ${where},`, "N m", "loads");
+      });
+    }
+    const springs = this.node(["springs"]);
+    if (isSeq(springs)) {
+      const units = { stiffness: "", free_length: "m", force: "N", rest: "rad" };
+      springs.items.forEach((_, index) => {
+        const name = this.read(["springs", index, "name"]) ?? `S${index + 1}`;
+        for (const [key, unit] of Object.entries(units)) add(["springs", index, key], `${name} ${key.replace("_", " ")}`, unit, "springs");
+      });
+    }
+    addVector(["gravity"], "gravity", "m/s²", "gravity");
+    for (const point of this.basePoints) addVector(point.path, point.name, "m", "points");
+    for (const [name] of this.entries("joints")) {
+      for (const [key, unit] of [["radial", "m"], ["angular", "rad"], ["gap", "m"], ["half_length", "m"], ["axial", "m"]])
+        add(["joints", name, "clearance", key ?? ""], `${name} ${(key ?? "").replace("_", " ")}`, unit ?? "", "clearances");
+    }
+    return list;
+  }
+
+  get wrong(): boolean {
+    return this.document.errors.length > 0;
+  }
+}
+
+function lineOf(text: string, place: number): number {
+  let line = 1;
+  for (let i = 0; i < place; ++i) if (text[i] === "\n") ++line;
+  return line;
+}

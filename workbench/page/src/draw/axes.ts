@@ -1,0 +1,63 @@
+// Grid, frame and numbers around the plane.
+import type { Theme } from "../data/answers";
+import { page, plane, ticks, tickText, type Box, type Size, type View } from "./view";
+
+export interface AxisNames {
+  names: [string, string];
+  angles: [boolean, boolean];
+}
+
+export function drawGrid(context: CanvasRenderingContext2D, view: View, size: Size, axes: AxisNames, theme: Theme): void {
+  const low = plane(view, [0, size.height]);
+  const high = plane(view, [size.width, 0]);
+  context.save();
+  context.strokeStyle = theme.grid;
+  context.fillStyle = theme.faded_ink;
+  context.lineWidth = 1;
+  context.font = "11px system-ui, sans-serif";
+  context.beginPath();
+  const xs = ticks(low[0], high[0], view.scale[0], 80, axes.angles[0]);
+  const ys = ticks(low[1], high[1], view.scale[1], 60, axes.angles[1]);
+  for (const x of xs) {
+    const at = Math.round(page(view, [x, 0])[0]) + 0.5;
+    context.moveTo(at, 0);
+    context.lineTo(at, size.height);
+  }
+  for (const y of ys) {
+    const at = Math.round(page(view, [0, y])[1]) + 0.5;
+    context.moveTo(0, at);
+    context.lineTo(size.width, at);
+  }
+  context.stroke();
+  context.textAlign = "center";
+  context.textBaseline = "bottom";
+  for (const x of xs) context.fillText(tickText(x, axes.angles[0]), page(view, [x, 0])[0], size.height - 3);
+  context.textAlign = "left";
+  context.textBaseline = "middle";
+  for (const y of ys) {
+    const at = page(view, [0, y])[1];
+    if (at < size.height - 22 && at > 10) context.fillText(tickText(y, axes.angles[1]), 4, at);
+  }
+  context.font = "italic 12px system-ui, sans-serif";
+  context.fillStyle = theme.ink;
+  const unit = (axis: 0 | 1): string => `${axes.names[axis]} (${axes.angles[axis] ? "deg" : "m"})`;
+  context.textAlign = "right";
+  context.textBaseline = "bottom";
+  context.fillText(unit(0), size.width - 6, size.height - 18);
+  context.textAlign = "left";
+  context.textBaseline = "top";
+  context.fillText(unit(1), 6, 6);
+  context.restore();
+}
+
+/** The searched box, dotted. */
+export function drawBox(context: CanvasRenderingContext2D, view: View, box: Box, theme: Theme): void {
+  const from = page(view, [box.low[0], box.high[1]]);
+  const to = page(view, [box.high[0], box.low[1]]);
+  context.save();
+  context.strokeStyle = theme.frame;
+  context.globalAlpha = 0.7;
+  context.setLineDash([2, 3]);
+  context.strokeRect(from[0], from[1], to[0] - from[0], to[1] - from[1]);
+  context.restore();
+}

@@ -1,0 +1,246 @@
+// The mechanism on a canvas, as the pictures draw it, and what its joints bear.
+import type { Point, Pose, Sketch, Theme } from "../data/answers";
+import { page, type View } from "./view";
+
+const bar = 9;
+
+function strokeBar(context: CanvasRenderingContext2D, points: Point[], width: number, theme: Theme): void {
+  const path = (): void => {
+    context.beginPath();
+    points.forEach(([x, y], k) => (k === 0 ? context.moveTo(x, y) : context.lineTo(x, y)));
+  };
+  context.lineCap = "round";
+  context.lineJoin = "round";
+  context.setLineDash([]);
+  path();
+  context.globalAlpha = 0.6;
+  context.lineWidth = width;
+  context.strokeStyle = theme.outline;
+  context.stroke();
+  context.globalAlpha = 0.9;
+  context.lineWidth = width - 2;
+  context.strokeStyle = theme.link;
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
+function disc(context: CanvasRenderingContext2D, at: Point, radius: number, colour: string): void {
+  context.beginPath();
+  context.arc(at[0], at[1], radius, 0, 2 * Math.PI);
+  context.fillStyle = colour;
+  context.fill();
+}
+
+function drawGround(context: CanvasRenderingContext2D, at: Point, theme: Theme): void {
+  const half = 9;
+  const height = 13;
+  context.lineWidth = 1;
+  context.strokeStyle = theme.outline;
+  context.fillStyle = theme.paper;
+  context.beginPath();
+  context.moveTo(at[0], at[1]);
+  context.lineTo(at[0] - 0.75 * half, at[1] + height);
+  context.lineTo(at[0] + 0.75 * half, at[1] + height);
+  context.closePath();
+  context.fill();
+  context.stroke();
+  context.beginPath();
+  context.moveTo(at[0] - 1.25 * half, at[1] + height);
+  context.lineTo(at[0] + 1.25 * half, at[1] + height);
+  for (let x = -1.25 * half + 4.5; x <= 1.25 * half + 0.01; x += 4.5) {
+    context.moveTo(at[0] + x, at[1] + height);
+    context.lineTo(at[0] + x - 4.5, at[1] + height + 4.5);
+  }
+  context.stroke();
+}
+
+export function drawSketch(context: CanvasRenderingContext2D, view: View, sketch: Sketch, theme: Theme, width = bar): void {
+  const small = width < bar;
+  context.save();
+  if (!small) for (const joint of sketch.joints) if (joint.on_ground) drawGround(context, page(view, joint.at), theme);
+  for (const slide of sketch.slides) {
+    const from = page(view, slide.from);
+    const to = page(view, slide.to);
+    if (slide.rail) {
+      context.globalAlpha = 0.5;
+      context.lineWidth = small ? 1.5 : 3;
+      context.strokeStyle = theme.outline;
+      context.beginPath();
+      context.moveTo(...from);
+      context.lineTo(...to);
+      context.stroke();
+      context.globalAlpha = 1;
+      continue;
+    }
+    const middle: Point = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
+    strokeBar(context, [middle, to], 0.55 * width, theme);
+    strokeBar(context, [from, middle], width, theme);
+  }
+  for (const link of sketch.links) {
+    const points = link.points.map((point) => page(view, point));
+    if (points.length > 2 && points[0]) points.push(points[0]);
+    if (points.length > 1) strokeBar(context, points, width, theme);
+  }
+  for (const joint of sketch.joints) {
+    const at = page(view, joint.at);
+    const radius = small ? 2 : 3.8;
+    if (joint.actuated && !small) {
+      disc(context, at, radius + 2.8, theme.outline);
+      disc(context, at, radius + 1.6, theme.paper);
+      disc(context, at, radius, theme.outline);
+    } else {
+      disc(context, at, radius, theme.outline);
+      if (!joint.actuated) disc(context, at, radius - (small ? 0.9 : 1.3), theme.paper);
+    }
+  }
+  context.restore();
+}
+
+/** A zigzag from end to end; of a torsion spring a coil around its joint. */
+export function drawSprings(context: CanvasRenderingContext2D, view: View, sketch: Sketch, theme: Theme): void {
+  context.save();
+  context.strokeStyle = theme.load;
+  context.lineWidth = 1.4;
+  context.lineJoin = "round";
+  for (const spring of sketch.springs ?? []) {
+    const from = page(view, spring.from);
+    const to = page(view, spring.to);
+    context.beginPath();
+    if (spring.torsion) {
+      for (let k = 0; k <= 48; ++k) {
+        const turn = (3 * Math.PI * k) / 48;
+        const radius = 7 + (5 * k) / 48;
+        context.lineTo(from[0] + radius * Math.cos(turn), from[1] - radius * Math.sin(turn));
+      }
+    } else {
+      const length = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1;
+      const across: Point = [(-5 * (to[1] - from[1])) / length, (5 * (to[0] - from[0])) / length];
+      context.moveTo(...from);
+      for (let k = 0; k < 12; ++k) {
+        const t = 0.15 + (0.7 * (k + 0.5)) / 12;
+        const sign = k % 2 === 0 ? 1 : -1;
+        context.lineTo(from[0] + t * (to[0] - from[0]) + sign * across[0], from[1] + t * (to[1] - from[1]) + sign * across[1]);
+      }
+      context.lineTo(...to);
+    }
+    context.stroke();
+  }
+  context.restore();
+}
+
+export function drawNames(context: CanvasRenderingContext2D, view: View, sketch: Sketch, theme: Theme): void {
+  context.save();
+  context.font = "600 12px system-ui, sans-serif";
+  context.lineJoin = "round";
+  context.lineWidth = 3;
+  context.strokeStyle = theme.paper;
+  context.fillStyle = theme.ink;
+  for (const joint of sketch.joints) {
+    const at = page(view, joint.at);
+    const below = joint.on_ground ? -10 : 16;
+    context.strokeText(joint.name, at[0] + 8, at[1] + below);
+    context.fillText(joint.name, at[0] + 8, at[1] + below);
+  }
+  context.restore();
+}
+
+export function drawArrow(context: CanvasRenderingContext2D, tail: Point, tip: Point, colour: string, width = 2): void {
+  const length = Math.hypot(tip[0] - tail[0], tip[1] - tail[1]);
+  if (length < 1) return;
+  const head = Math.min(9, length);
+  const ux = (tip[0] - tail[0]) / length;
+  const uy = (tip[1] - tail[1]) / length;
+  context.strokeStyle = colour;
+  context.fillStyle = colour;
+  context.lineWidth = width;
+  context.lineCap = "butt";
+  context.setLineDash([]);
+  context.beginPath();
+  context.moveTo(...tail);
+  context.lineTo(tip[0] - head * ux, tip[1] - head * uy);
+  context.stroke();
+  context.beginPath();
+  context.moveTo(...tip);
+  context.lineTo(tip[0] - head * ux - 0.4 * head * uy, tip[1] - head * uy + 0.4 * head * ux);
+  context.lineTo(tip[0] - head * ux + 0.4 * head * uy, tip[1] - head * uy - 0.4 * head * ux);
+  context.closePath();
+  context.fill();
+}
+
+/** Arrows of loads and reactions grow with the root of their size, so that small ones still show. */
+function arrowLength(size: number, largest: number, longest: number): number {
+  return largest > 0 ? longest * Math.sqrt(Math.min(1, size / largest)) : 0;
+}
+
+export function drawLoads(context: CanvasRenderingContext2D, view: View, sketch: Sketch, theme: Theme): void {
+  const largest = Math.max(0, ...sketch.loads.map((load) => Math.hypot(...load.force)));
+  context.save();
+  for (const load of sketch.loads) {
+    const size = Math.hypot(...load.force);
+    if (size === 0) continue;
+    const at = page(view, load.at);
+    const length = arrowLength(size, largest, 52);
+    const tip: Point = [at[0] + (load.force[0] / size) * (length + 6), at[1] - (load.force[1] / size) * (length + 6)];
+    drawArrow(context, [at[0] + (load.force[0] / size) * 6, at[1] - (load.force[1] / size) * 6], tip, theme.load, 2.4);
+    context.font = "600 11px system-ui, sans-serif";
+    context.fillStyle = theme.load;
+    context.fillText(`${Number(size.toPrecision(4))} N`, tip[0] + 6, tip[1] + 4);
+  }
+  context.restore();
+}
+
+export interface ReactionArrow {
+  joint: string;
+  force: Point;
+  couple: number | undefined;
+  lost: boolean;
+}
+
+/** What each joint's `from` exerts on its `to`, of a planar pose. */
+export function reactionArrows(pose: Pose): ReactionArrow[] {
+  const lost = new Set(pose.vanishing.map((one) => one.joint));
+  return Object.entries(pose.reactions).map(([joint, parts]) => ({
+    joint,
+    force: [parts["fx"] ?? 0, parts["fy"] ?? 0],
+    couple: parts["M"] ?? undefined,
+    lost: lost.has(joint),
+  }));
+}
+
+export function drawReactions(context: CanvasRenderingContext2D, view: View, sketch: Sketch, arrows: ReactionArrow[], theme: Theme): void {
+  const finite = arrows.filter((one) => one.force.every(Number.isFinite));
+  const largest = Math.max(0, ...finite.map((one) => Math.hypot(...one.force)));
+  const colour = theme.curves[0] ?? theme.ink;
+  context.save();
+  for (const one of finite) {
+    const joint = sketch.joints.find((own) => own.name === one.joint);
+    const size = Math.hypot(...one.force);
+    if (!joint || size === 0 || size < 1e-9 * largest) continue;
+    const at = page(view, joint.at);
+    const length = arrowLength(size, largest, 58);
+    drawArrow(context, at, [at[0] + (one.force[0] / size) * length, at[1] - (one.force[1] / size) * length], colour, 1.8);
+  }
+  context.restore();
+}
+
+/** Where the pin stands in its hub: the clearance as a ring, magnified. */
+export function drawTakeUp(context: CanvasRenderingContext2D, view: View, sketch: Sketch, pose: Pose, factor: number, theme: Theme): void {
+  context.save();
+  for (const joint of sketch.joints) {
+    const own = pose.take_up[joint.name];
+    if (!own || own.dx === undefined) continue;
+    const at = page(view, joint.at);
+    const lost = own.dx === null || own.dy === null || own.dy === undefined;
+    const dx = own.dx ?? 0;
+    const dy = own.dy ?? 0;
+    const radius = lost ? 10 : Math.hypot(dx, dy) * factor * view.scale[0];
+    context.lineWidth = 1.4;
+    context.strokeStyle = lost ? theme.failed : theme.curves[1] ?? theme.ink;
+    context.setLineDash(lost ? [3, 3] : []);
+    context.beginPath();
+    context.arc(at[0], at[1], Math.max(radius, 4), 0, 2 * Math.PI);
+    context.stroke();
+    if (!lost) disc(context, [at[0] + dx * factor * view.scale[0], at[1] - dy * factor * view.scale[1]], 2.6, theme.curves[1] ?? theme.ink);
+  }
+  context.restore();
+}

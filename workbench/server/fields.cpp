@@ -1,0 +1,202 @@
+#include "workbench/server/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "workbench/server/refusal.hpp"
+
+namespace clearloci::workbench {
+namespace {
+
+constexpr std::size_t longest_list = 200'000;
+
+[[noreturn]] void refuse(const char* name, const char* wanted) {
+  throw Refusal(400, fmt::format("'{}' is to be {}", name, wanted));
+}
+
+std::optional<Quantity> quantity_named(const std::string& name) {
+  for (const Quantity quantity : all_quantities)
+    if (to_string(quantity) == name) return quantity;
+  return std::nullopt;
+}
+
+/// "7/20", "0.35", "1e-3" as the exact number it is.
+std::optional<Rational> exact_number(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  constexpr int largest_power = 300;
+  std::string digits;
+  std::size_t at = 0;
+  int power = 0;
+  bool any = false, fraction = false;
+  for (; at < text.size() && at < longest; ++at) {
+    const char c = text[at];
+    if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+      digits += c;
+      any = true;
+      if (fraction) --power;
+    } else if (c == '.' && !fraction) {
+      fraction = true;
+    } else {
+      break;
+    }
+  }
+  if (!any) return std::nullopt;
+  std::string below = "1";
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    std::size_t read = 0;
+    int exponent = 0;
+    try {
+      exponent = std::stoi(text.substr(at + 1), &read);
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+    if (std::abs(exponent) > largest_power) return std::nullopt;
+    power += exponent;
+    at += 1 + read;
+  } else if (at < text.size() && text[at] == '/' && !fraction) {
+    below = text.substr(at + 1, longest);
+    const bool whole =
+        !below.empty() && std::all_of(below.begin(), below.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (!whole || Integer(below) == 0) return std::nullopt;
+    at = text.size();
+  }
+  if (at != text.size()) return std::nullopt;
+  Rational value{Integer(digits), Integer(below)};
+  Integer ten;
+  mpz_ui_pow_ui(ten.get_mpz_t(), 10, static_cast<unsigned long>(std::abs(power)));
+  if (power < 0)
+    value /= Rational(ten);
+  else
+    value *= Rational(ten);
+  value.canonicalize();
+  return value;
+}
+
+}  // namespace
+
+Json parse_body(const std::string& body) {
+  constexpr int deepest = 16;
+  bool deep = false;
+  Json value = Json::parse(
+      body,
+      [&](int depth, Json::parse_event_t, Json&) {
+        if (depth > deepest) deep = true;
+        return !deep;
+      },
+      false);
+  if (deep) throw Refusal(400, "the request is nested deeper than any question");
+  if (!value.is_object()) throw Refusal(400, "the request is no JSON object");
+  return value;
+}
+
+const Json& Fields::find(const char* name) const {
+  static const Json absent;
+  const auto found = body_.find(name);
+  return found == body_.end() ? absent : *found;
+}
+
+bool Fields::has(const char* name) const { return !find(name).is_null(); }
+
+std::string Fields::text(const char* name) const {
+  const Json& value = find(name);
+  if (!value.is_string()) refuse(name, "a text");
+  return value.get<std::string>();
+}
+
+std::string Fields::text(const char* name, const std::string& absent) const { return has(name) ? text(name) : absent; }
+
+bool Fields::flag(const char* name) const {
+  const Json& value = find(name);
+  if (!value.is_null() && !value.is_boolean()) refuse(name, "true or false");
+  return value.is_boolean() && value.get<bool>();
+}
+
+double Fields::number(const char* name, double absent, double least, double most) const {
+  const Json& value = find(name);
+  if (value.is_null()) return absent;
+  if (!value.is_number()) refuse(name, "a number");
+  const double number = value.get<double>();
+  if (!(number >= least && number <= most))
+    throw Refusal(400, fmt::format("'{}' is to be from {} to {}", name, least, most));
+  return number;
+}
+
+int Fields::count(const char* name, int absent, int least, int most) const {
+  const double value = number(name, absent, least, most);
+  if (value != std::floor(value)) refuse(name, "a whole number");
+  return static_cast<int>(value);
+}
+
+std::vector<std::string> Fields::words(const char* name) const {
+  const Json& value = find(name);
+  if (value.is_null()) return {};
+  if (!value.is_array() || value.size() > longest_list) refuse(name, "a list of texts");
+  std::vector<std::string> list;
+  for (const Json& one : value) {
+    if (!one.is_string()) refuse(name, "a list of texts");
+    list.push_back(one.get<std::string>());
+  }
+  return list;
+}
+
+std::vector<double> Fields::numbers(const char* name) const {
+  const Json& value = find(name);
+  if (value.is_null()) return {};
+  if (!value.is_array() || value.size() > longest_list) refuse(name, "a list of numbers");
+  std::vector<double> list;
+  for (const Json& one : value) {
+    if (!one.is_number()) refuse(name, "a list of numbers");
+    list.push_back(one.get<double>());
+  }
+  return list;
+}
+
+std::optional<Rational> Fields::positive(const char* name) const {
+  if (!has(name)) return std::nullopt;
+  const std::optional<Rational> value = exact_number(text(name));
+  if (!value || *value <= 0) refuse(name, "a number above zero, such as 5, 0.25 or 7/20");
+  return value;
+}
+
+Model model_of(const Fields& fields) { return Model::parse(fields.text("text"), fields.text("file", "model.yaml")); }
+
+DyadSides sides_of(const Fields& fields) {
+  DyadSides sides;
+  for (const double side : fields.numbers("mode")) {
+    if (side != 1 && side != -1) refuse("mode", "a list of 1 and -1");
+    sides.push_back(static_cast<int>(side));
+  }
+  return sides;
+}
+
+LociRequest loci_request(const Fields& fields, const Model& model) {
+  LociRequest request;
+  request.joints = fields.words("joints");
+  if (fields.has("quantities")) {
+    request.quantities.clear();
+    for (const std::string& word : fields.words("quantities")) {
+      const std::optional<Quantity> quantity = quantity_named(word);
+      if (!quantity) refuse("quantities", "a list of quantities such as f, M, F, N, T");
+      request.quantities.push_back(*quantity);
+    }
+    if (request.quantities.empty()) refuse("quantities", "a list of at least one quantity");
+  }
+  request.min_force = fields.positive("min_force");
+  request.min_couple = fields.positive("min_couple");
+  if (const DyadSides sides = sides_of(fields); !sides.empty()) request.working_modes = {sides};
+  request.all_working_modes = fields.flag("all_modes");
+  // Of the box's longest side: what is too small to see in a picture is fine enough.
+  constexpr double finest = 1e-7, coarsest = 1e-1, usual = 5e-6;
+  const double part = fields.number("tolerance", usual, finest, coarsest);
+  double extent = 0;
+  for (const Model::Coordinate& coordinate : model.coordinates())
+    if (!coordinate.angle) extent = std::max(extent, coordinate.upper - coordinate.lower);
+  request.tolerance = part * (extent > 0 ? extent : 1);
+  request.mesh_size = fields.number("mesh_size", request.mesh_size, 1.0 / 128, 1.0 / 4);
+  return request;
+}
+
+}  // namespace clearloci::workbench

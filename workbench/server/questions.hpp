@@ -1,0 +1,45 @@
+// What a page may ask, and the answers as JSON: the questions of include/clearloci, each in one request that carries
+// the whole mechanism, so that the server keeps nothing between them.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "workbench/server/fields.hpp"
+
+namespace clearloci::workbench {
+
+/// How the work is watched while it is done.
+struct Watch {
+  std::chrono::steady_clock::time_point deadline;
+  std::function<bool()> abandoned;
+  std::function<void(double fraction, std::string_view stage)> progress;
+};
+
+using Question = Json (*)(const Json& body, const Watch& watch);
+
+/// "model", "loci", "zones", "verify", "pose", "sweep", "cycle", "modes", "trajectory", "export"; null for another
+/// name.
+Question question_named(const std::string& name);
+
+// By what they answer (questions_*.cpp). Each throws Refusal, InputError or LimitReached.
+Json answer_model(const Json& body, const Watch& watch);
+Json answer_loci(const Json& body, const Watch& watch);
+Json answer_zones(const Json& body, const Watch& watch);
+Json answer_verify(const Json& body, const Watch& watch);
+Json answer_pose(const Json& body, const Watch& watch);
+Json answer_sweep(const Json& body, const Watch& watch);
+Json answer_cycle(const Json& body, const Watch& watch);
+Json answer_modes(const Json& body, const Watch& watch);
+Json answer_trajectory(const Json& body, const Watch& watch);
+Json answer_export(const Json& body, const Watch& watch);
+
+/// A request's loci under the watch: its deadline, and an end as soon as it is abandoned.
+LociRequest watched(LociRequest request, const Watch& watch);
+
+/// Throws where the work has become pointless or its time is over; for loops of our own.
+void check(const Watch& watch);
+
+}  // namespace clearloci::workbench

@@ -1,0 +1,71 @@
+// Loci, zones, verdicts, and their files.
+#include <nlohmann/json.hpp>
+
+#include "clearloci/export.hpp"
+#include "clearloci/verify.hpp"
+#include "clearloci/zones.hpp"
+#include "report/base64.hpp"
+#include "report/formats.hpp"
+#include "report/verification.hpp"
+#include "report/viewer.hpp"
+#include "report/zones.hpp"
+#include "workbench/server/questions.hpp"
+#include "workbench/server/refusal.hpp"
+
+namespace clearloci::workbench {
+namespace {
+
+Json loci_json(const LocusMap& map) { return report::viewer_object({map, {}}); }
+
+Json files_json(const std::vector<ExportedFile>& files) {
+  Json list = Json::array();
+  for (const ExportedFile& file : files) list.push_back({{"name", file.name}, {"base64", report::base64(file.bytes)}});
+  return {{"files", std::move(list)}};
+}
+
+/// `task`: the text of a task file.
+Verification verification(const Fields& fields, const Watch& watch) {
+  const Model model = model_of(fields);
+  const Task task = parse_task(fields.text("task"), model);
+  const LociRequest request = watched(loci_request(fields, model), watch);
+  const std::string fit = fields.text("fit", "");
+  if (fit.empty())
+    return fields.flag("with_loci") ? verify_task(model, task, request) : decide_task(model, task, request);
+  if (fit != "nearest" && fit != "best") throw Refusal(400, "'fit' is to be nearest or best");
+  return fit_task(model, task, request, fit == "best" ? FitGoal::best : FitGoal::nearest);
+}
+
+}  // namespace
+
+Json answer_loci(const Json& body, const Watch& watch) {
+  const Fields fields(body);
+  const Model model = model_of(fields);
+  return loci_json(trace_loci(model, watched(loci_request(fields, model), watch)));
+}
+
+Json answer_zones(const Json& body, const Watch& watch) {
+  const Fields fields(body);
+  const Model model = model_of(fields);
+  const ZoneMap map = find_zones(model, watched(loci_request(fields, model), watch));
+  Json answer = report::zones_object(map);
+  if (fields.flag("with_loci")) answer["picture"] = loci_json(map.loci);
+  return answer;
+}
+
+Json answer_verify(const Json& body, const Watch& watch) {
+  return report::verification_object(verification(Fields(body), watch));
+}
+
+Json answer_export(const Json& body, const Watch& watch) {
+  const Fields fields(body);
+  const std::string what = fields.text("what", "loci");
+  const std::set<std::string> formats = {fields.text("format")};
+  const Model model = model_of(fields);
+  if (what == "verification") return files_json(verification_files(verification(fields, watch), formats));
+  const LociRequest request = watched(loci_request(fields, model), watch);
+  if (what == "zones") return files_json(zone_files(find_zones(model, request), formats));
+  if (what == "loci") return files_json(loci_files(model, trace_loci(model, request), formats));
+  throw Refusal(400, "'what' is to be loci, zones or verification");
+}
+
+}  // namespace clearloci::workbench
