@@ -16,12 +16,12 @@ namespace {
 
 using core::InputError;
 
-const std::vector<std::string> top_keys = {"format", "name",   "space",        "units", "parameters", "workspace",
-                                           "frames", "points", "links",        "joints", "springs",    "end_effector",
-                                           "loads",  "limits", "gravity",      "repeat"};
+const std::vector<std::string> top_keys = {"format", "name",   "space",   "units",  "parameters", "workspace",
+                                           "frames", "points", "links",   "joints", "springs",    "end_effector",
+                                           "loads",  "limits", "gravity", "repeat"};
 /// What may be written once for parts that are alike.
-const std::vector<std::string> repeatable_keys = {"parameters", "frames",  "points", "links", "joints",
-                                                  "loads",      "springs", "limits"};
+const std::vector<std::string> repeatable_keys = {"parameters", "frames", "points",  "links",
+                                                  "joints",     "loads",  "springs", "limits"};
 
 void check_format(const Value& value) {
   const std::string text = text_of(value);

@@ -101,6 +101,8 @@ class Results(InOwnFolder):
 
     def test_validate(self):
         self.holds("validate", "validate", FIVE_BAR, "--grid", "20x20")
+        self.holds("validate", "validate", EXAMPLES / "minitaur_leg.yaml", "--grid", "20x20")
+        self.holds("validate", "validate", EXAMPLES / "hexapod.yaml", "--grid", "20x20", "--joint", "S1")
 
     def test_equations(self):
         self.holds("equations", "equations", FIVE_BAR)
