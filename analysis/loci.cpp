@@ -96,9 +96,12 @@ core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symb
 /// Of the pieces and sheets of one mechanism together. `parts`: those of a single piece, where there are several.
 core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociRequest& request,
                             std::vector<symbolic::DerivedProblem>& derived, const std::vector<DyadSides>& sides,
-                            std::vector<TracedSheet>& parts, core::Certificate* certificate) {
-  const loci::TraceOptions options{
-      .engine = request.engine, .progress = request.progress, .deadline = request.deadline, .certificate = certificate};
+                            std::vector<TracedSheet>& parts, core::Certificate* certificate, TraceEffort effort) {
+  const loci::TraceOptions options{.engine = request.engine,
+                                   .progress = request.progress,
+                                   .deadline = request.deadline,
+                                   .sketch = effort == TraceEffort::sketch,
+                                   .certificate = certificate};
   if (options.certificate != nullptr)
     for (const core::Root& root : derived.front().problem.tower.roots)
       if (root.square.is_constant() || root.name == core::fold_name)
@@ -141,7 +144,8 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
 /// `family`: of which the mechanism is a member; may be null.
 TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                               const symbolic::LocusFamily* family, core::Certificate* certificate) {
+                               const symbolic::LocusFamily* family, core::Certificate* certificate,
+                               TraceEffort effort) {
   const auto check_deadline = [&] {
     if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
   };
@@ -164,7 +168,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
 
     start = Clock::now();
     check_deadline();
-    map = trace_pieces(mechanism, request, derived, selection.working_modes, traced.sheets, certificate);
+    map = trace_pieces(mechanism, request, derived, selection.working_modes, traced.sheets, certificate, effort);
     tracing = seconds_since(start);
     if (certificate != nullptr) {
       auto& factors = certificate->problem.factors;
@@ -186,10 +190,11 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
 }
 
 TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                           const symbolic::LocusFamily* family, core::Certificate* certificate) {
+                           const symbolic::LocusFamily* family, core::Certificate* certificate,
+                           TraceEffort effort = TraceEffort::full) {
   require_coordinates(mechanism, 1, 3, "loci are traced");
   check_sides(mechanism, request);
-  TracedProblem traced = derive_and_trace(mechanism, request, family, certificate);
+  TracedProblem traced = derive_and_trace(mechanism, request, family, certificate, effort);
   core::LocusMap& map = traced.map;
   map.mechanism = mechanism.name;
   map.units = mechanism.units;
@@ -288,8 +293,8 @@ core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociReque
 }
 
 TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                            core::Certificate* certificate) {
-  return trace_member(mechanism, request, nullptr, certificate);
+                            core::Certificate* certificate, TraceEffort effort) {
+  return trace_member(mechanism, request, nullptr, certificate, effort);
 }
 
 core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,

@@ -44,8 +44,10 @@ struct TracedProblem {
   core::LocusMap map;
   std::vector<TracedSheet> sheets = {};
 };
+/// A sketch is for pictures and names, where something else proves what counts (loci::TraceOptions::sketch).
+enum class TraceEffort { full, sketch };
 TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request = {},
-                            core::Certificate* certificate = nullptr);
+                            core::Certificate* certificate = nullptr, TraceEffort effort = TraceEffort::full);
 
 /// The same for a member of a family of designs, whose equations are derived already.
 core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,

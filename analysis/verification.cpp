@@ -185,12 +185,14 @@ class Verifier {
     return prove(region, core::to_double(task.margin), witness_for(region), ignored).verdict == Verdict::verified;
   }
 
-  /// The loci under each load, traced once; fewer where the deadline came first.
-  void trace() {
-    if (traced_ || !notes_.empty()) return;
+  /// The loci under each load, traced once by an effort; fewer where the deadline came first.
+  void trace(TraceEffort effort) {
+    const bool known = traced_ && (effort_ == TraceEffort::full || effort == TraceEffort::sketch);
+    if (known || !notes_.empty()) return;
+    effort_ = effort;
     std::vector<TracedProblem> all;
     for (const LoadCase& one : cases_) {
-      all.push_back(on_sheet_of(task_, trace_problem(one.mechanism, request_)));
+      all.push_back(on_sheet_of(task_, trace_problem(one.mechanism, request_, nullptr, effort)));
       if (all.back().map.complete) continue;
       notes_.emplace_back("the loci could not be traced within the time limit");
       return;
@@ -198,6 +200,7 @@ class Verifier {
     traced_ = std::move(all);
   }
   const std::optional<std::vector<TracedProblem>>& traced() const { return traced_; }
+  TraceEffort effort() const { return effort_; }
   const std::vector<std::string>& notes() const { return notes_; }
   const DyadSides& sides() const { return sides_; }
   const LociRequest& request() const { return request_; }
@@ -265,7 +268,7 @@ class Verifier {
 
   bool refuted_by_loci(const loci::TaskRegion& region, double margin, const numeric::TaskWitness& judge,
                        std::optional<TaskWitness>& witness) {
-    trace();
+    trace(TraceEffort::full);
     if (!traced_) return false;
     core::Polyline suspects;
     for (const TracedProblem& one : *traced_) {
@@ -349,7 +352,7 @@ class Verifier {
   /// From the traced loci. Under a range of loads they are those of its ends, and the loads between have others.
   std::optional<NearestOfTask> nearest(const loci::TaskRegion& region) {
     if (task_.loads) return std::nullopt;
-    trace();
+    trace(TraceEffort::sketch);
     if (!traced_) return std::nullopt;
     const TracedProblem& one = traced_->front();
     const core::LocusMap& map = one.map;
@@ -409,6 +412,7 @@ class Verifier {
   DyadSides sides_;
   core::WorkingMode mode_;  ///< of the conditions' tower
   std::optional<std::vector<TracedProblem>> traced_;
+  TraceEffort effort_ = TraceEffort::sketch;
   std::vector<std::string> notes_;
 };
 
@@ -423,11 +427,11 @@ void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verifi
   result.notes = verifier.notes();
   std::optional<TracedProblem> traced;
   if (result.task.loads && result.notes.empty())
-    traced = on_sheet_of(result.task, trace_problem(mechanism, verifier.request()));
+    traced = on_sheet_of(result.task, trace_problem(mechanism, verifier.request(), nullptr, verifier.effort()));
   else if (verifier.traced())
     traced = verifier.traced()->front();
   if (traced && traced->map.complete) {
-    result.map = loci::zones(traced->problem, std::move(traced->map));
+    result.map = loci::zones(traced->problem, std::move(traced->map), verifier.effort() == TraceEffort::sketch);
     result.notes = result.map.loci.notes;
   } else {
     result.map.loci = empty_map(mechanism);
@@ -474,7 +478,7 @@ Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, c
     return other;
   };
   const auto accept = [&](const loci::Fit& fit) { return verifier.proven(moved(fit.by)); };
-  verifier.trace();
+  verifier.trace(TraceEffort::full);
   if (!verifier.traced()) throw core::LimitReached("the loci could not be traced completely within the time limit");
   std::vector<const core::LocusMap*> maps;
   for (const TracedProblem& one : *verifier.traced()) maps.push_back(&one.map);

@@ -141,7 +141,7 @@ LocusMap gathered(const LocusProblem& problem, const TraceOptions& options, std:
   LocusMap map;
   for (SheetShare& share : shares) share.settled = false;
   try {
-    if (options.engine != Engine::adaptive) settle_exactly(problem, options, shares, map);
+    if (options.engine != Engine::adaptive && !options.sketch) settle_exactly(problem, options, shares, map);
   } catch (const core::LimitReached&) {
     map.complete = false;  // what is open stays so
   }

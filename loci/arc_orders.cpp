@@ -48,13 +48,41 @@ std::optional<CurvePoint> curve_point(const Polynomial& curve, const std::array<
   return point;
 }
 
+const CurveAlgebra::Divided& CurveAlgebra::divided(const Polynomial& p) {
+  const auto known = std::find_if(divided_.begin(), divided_.end(), [&](const auto& own) { return own.first == p; });
+  if (known != divided_.end()) return known->second;
+  Divided own{0, core::with_variables(p, curve_.variables)};
+  while (std::optional<Polynomial> quotient = sheet::exact_quotient(own.rest, curve_)) {
+    own.rest = std::move(*quotient);
+    ++own.order;
+  }
+  return divided_.emplace_back(p, std::move(own)).second;
+}
+
+const Polynomial& CurveAlgebra::conjugate(const Polynomial& p, int root) {
+  // A polynomial names its own root: the last that it holds.
+  const auto known =
+      std::find_if(conjugates_.begin(), conjugates_.end(), [&](const auto& own) { return own.first == p; });
+  if (known != conjugates_.end()) return known->second;
+  Polynomial product = conjugate_product(p, root, tower_);
+  if (!product.is_zero()) product = core::scaled_for_doubles(product);
+  return conjugates_.emplace_back(p, std::move(product)).second;
+}
+
 ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, Polynomial curve, const CurvePoint& at)
-    : tower_(tower), mode_(std::move(mode)), curve_(std::move(curve)) {
+    : ArcOrders(tower, std::move(mode), std::make_shared<CurveAlgebra>(tower, std::move(curve)), at) {}
+
+ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, std::shared_ptr<CurveAlgebra> curve,
+                     const CurvePoint& at)
+    : tower_(tower), mode_(std::move(mode)), algebra_(std::move(curve)) {
   place_roots(at);
 }
 
 ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, CoordinateGerm germ, const CurvePoint& at)
-    : tower_(tower), mode_(std::move(mode)), rule_(std::move(germ)) {
+    : tower_(tower),
+      mode_(std::move(mode)),
+      algebra_(std::make_shared<CurveAlgebra>(tower, Polynomial{})),
+      rule_(std::move(germ)) {
   place_roots(at);
 }
 
@@ -97,17 +125,10 @@ bool ArcOrders::place_roots_on(int side) {
 
 std::optional<Germ> ArcOrders::coordinate_germ(const Polynomial& p, int side) {
   if (rule_) return rule_(p, side);
-  Polynomial rest = core::with_variables(p, curve_.variables);
-  Germ germ;
-  while (const std::optional<Polynomial> quotient = sheet::exact_quotient(rest, curve_)) {
-    rest = *quotient;
-    germ.order += 1;
-    germ.sign = germ.sign == 0 ? side : germ.sign * side;
-  }
-  const int cofactor = evaluate(rest, at_).sign();
+  const CurveAlgebra::Divided& own = algebra_->divided(p);
+  const int cofactor = evaluate(own.rest, at_).sign();
   if (cofactor == 0) return std::nullopt;
-  germ.sign = germ.order == 0 ? cofactor : germ.sign * cofactor;
-  return germ;
+  return Germ{own.order, own.order % 2 == 0 ? cofactor : side * cofactor};
 }
 
 std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
@@ -129,9 +150,9 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
   if (plain->is_zero()) return rooted;
   if (plain->order != rooted->order) return plain->order < rooted->order ? plain : rooted;
   if (plain->sign == rooted->sign) return plain;
-  Polynomial product = conjugate_product(p, top, tower_);
+  const Polynomial& product = algebra_->conjugate(p, top);
   if (product.is_zero()) return Germ{};
-  std::optional<Germ> both = germ(core::scaled_for_doubles(product), side);
+  std::optional<Germ> both = germ(product, side);
   if (!both || both->is_zero()) return both;
   return Germ{both->order - plain->order, both->sign * plain->sign};
 }

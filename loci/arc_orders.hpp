@@ -11,7 +11,9 @@
 #pragma once
 
 #include <functional>
+#include <list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,10 +37,35 @@ using CurvePoint = std::vector<std::pair<core::Rational, core::Rational>>;
 /// The germs of polynomials in the coordinates, on the sides +1 and -1 of a curve; nothing where it is not told.
 using CoordinateGerm = std::function<std::optional<Germ>(const core::Polynomial& p, int side)>;
 
+/// The exact algebra that orders along a curve rest on. It is the same at every point of it: computed when it is first
+/// asked for. Not for several threads at once.
+class CurveAlgebra {
+ public:
+  /// `curve`: irreducible, in the coordinates. The tower outlives this.
+  CurveAlgebra(const core::RootTower& tower, core::Polynomial curve) : tower_(tower), curve_(std::move(curve)) {}
+
+  struct Divided {
+    int order = 0;          ///< how often the curve divides the polynomial
+    core::Polynomial rest;  ///< what is left of it then
+  };
+  const Divided& divided(const core::Polynomial& p);
+  /// p times its conjugate by a root, scaled for doubles.
+  const core::Polynomial& conjugate(const core::Polynomial& p, int root);
+
+ private:
+  const core::RootTower& tower_;
+  core::Polynomial curve_;
+  std::list<std::pair<core::Polynomial, Divided>> divided_;
+  std::list<std::pair<core::Polynomial, core::Polynomial>> conjugates_;
+};
+
 class ArcOrders {
  public:
   /// `curve`: irreducible, in the coordinates; side +1 is where it is positive.
   ArcOrders(const core::RootTower& tower, core::WorkingMode mode, core::Polynomial curve, const CurvePoint& at);
+  /// The same with what is known of the curve from other points of it.
+  ArcOrders(const core::RootTower& tower, core::WorkingMode mode, std::shared_ptr<CurveAlgebra> curve,
+            const CurvePoint& at);
   /// At what another rule tells the germs of.
   ArcOrders(const core::RootTower& tower, core::WorkingMode mode, CoordinateGerm germ, const CurvePoint& at);
 
@@ -59,8 +86,8 @@ class ArcOrders {
 
   const core::RootTower& tower_;
   core::WorkingMode mode_;
-  core::Polynomial curve_;
-  CoordinateGerm rule_;
+  std::shared_ptr<CurveAlgebra> algebra_;
+  CoordinateGerm rule_;                       ///< instead of the curve's own; may be empty
   std::vector<sheet::MultiInterval> at_;      ///< coordinates, then the roots placed so far
   std::map<int, std::vector<Germ>> squares_;  ///< of every side: of the squares placed so far
   std::vector<int> sides_;

@@ -67,7 +67,7 @@ std::vector<Point2> stretch_samples(const core::RootTower& tower, const core::Wo
 }
 
 bool same_orders_all_along(const LocusProblem& problem, const core::WorkingMode& mode, const core::Polynomial& curve,
-                           const core::Polyline& vertices) {
+                           const std::shared_ptr<CurveAlgebra>& algebra, const core::Polyline& vertices) {
   const std::vector<int> candidates = factors_on(problem, curve);
   if (candidates.size() < 2 && !needs_orders(problem, curve)) return true;
   const std::vector<Point2> samples = stretch_samples(problem.tower, mode, vertices);
@@ -78,7 +78,7 @@ bool same_orders_all_along(const LocusProblem& problem, const core::WorkingMode&
   for (const Point2& at : samples) {
     const std::optional<CurvePoint> point = curve_point(curve, at, reach);
     if (!point) return false;
-    ArcOrders arc(problem.tower, mode, curve, *point);
+    ArcOrders arc(problem.tower, mode, algebra, *point);
     ReactionOrders orders = reaction_orders(problem, arc, candidates);
     if (!orders.decided) return false;
     if (first && !(orders.vanishes == first->vanishes && orders.vanishing == first->vanishing &&

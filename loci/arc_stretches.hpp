@@ -4,11 +4,13 @@
 //     s = sigma sqrt(Q), Q = t^2 q along the arc  ->  s = sigma |t| sqrt(q), which is not analytic in t
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
 #include "core/polynomial.hpp"
+#include "loci/arc_orders.hpp"
 
 namespace clearloci::loci {
 
@@ -18,8 +20,9 @@ std::vector<core::Point2> stretch_samples(const core::RootTower& tower, const co
                                           const core::Polyline& vertices);
 
 /// Whether the same factors vanish, to the same orders, on all stretches of an arc of `curve`. False too where that is
-/// not decided on one of several.
+/// not decided on one of several. `algebra`: the curve's.
 bool same_orders_all_along(const core::LocusProblem& problem, const core::WorkingMode& mode,
-                           const core::Polynomial& curve, const core::Polyline& vertices);
+                           const core::Polynomial& curve, const std::shared_ptr<CurveAlgebra>& algebra,
+                           const core::Polyline& vertices);
 
 }  // namespace clearloci::loci

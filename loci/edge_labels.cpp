@@ -132,14 +132,14 @@ constexpr int attempts = 4;
 
 /// The orders along an edge of the arrangement.
 ReactionOrders orders_along(const LocusProblem& problem, const core::WorkingMode& mode,
-                            const CurveArrangement& arrangement, int edge,
+                            const CurveArrangement& arrangement, int edge, const std::shared_ptr<CurveAlgebra>& algebra,
                             const std::function<void(ArcOrders&)>& look) {
   const auto curve = static_cast<std::size_t>(arrangement.edges()[static_cast<std::size_t>(edge)].curve);
   const core::Polynomial& polynomial = arrangement.curves()[curve];
   ReactionOrders orders;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const PointEnclosure at = arrangement.sample(edge, attempt);
-    ArcOrders arc(problem.tower, mode, polynomial, {{at.lower[0], at.upper[0]}, {at.lower[1], at.upper[1]}});
+    ArcOrders arc(problem.tower, mode, algebra, {{at.lower[0], at.upper[0]}, {at.lower[1], at.upper[1]}});
     orders = reaction_orders(problem, arc, factors_on(problem, polynomial));
     if (!orders.decided) continue;
     look(arc);
@@ -155,6 +155,9 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
                                     const std::vector<std::vector<int>>& curves_of_factor, SheetSigns& signs,
                                     const std::vector<int>& sheet_of_factor) {
   std::vector<EdgeInMode> result(arrangement.edges().size());
+  std::vector<std::shared_ptr<CurveAlgebra>> algebra;  // of every curve
+  for (const core::Polynomial& curve : arrangement.curves())
+    algebra.push_back(std::make_shared<CurveAlgebra>(problem.tower, curve));
   for (std::size_t e = 0; e < result.size(); ++e) {
     EdgeInMode& edge = result[e];
     const int index = static_cast<int>(e);
@@ -188,10 +191,12 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
     });
     const bool compared = (singular && (idle || margins)) || ((singular || !edge.interior) && !reactions.empty());
     if (compared)
-      orders = orders_along(problem, mode, arrangement, index, [&](ArcOrders& arc) {
-        for (const core::LocusFactor* factor : vanishing)
-          if (factor->role == FactorRole::margin) margin[factor] = is_margin(*factor, arc).value_or(true);
-      });
+      orders = orders_along(problem, mode, arrangement, index,
+                            algebra[static_cast<std::size_t>(arrangement.edges()[e].curve)], [&](ArcOrders& arc) {
+                              for (const core::LocusFactor* factor : vanishing)
+                                if (factor->role == FactorRole::margin)
+                                  margin[factor] = is_margin(*factor, arc).value_or(true);
+                            });
     for (const core::LocusFactor* factor : vanishing) {
       if (factor->role == FactorRole::margin && !(margin.contains(factor) && !margin.at(factor)))
         edge.labels.push_back({LocusKind::margin, factor->vanishing, factor->expression, factor->cause});

@@ -160,7 +160,7 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
 }  // namespace
 
 void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map,
-                             const std::function<bool()>& stop) {
+                             const std::function<bool()>& stop, int most_cells) {
   if (std::find(problem.quantities.begin(), problem.quantities.end(), Quantity::f) == problem.quantities.end()) return;
   const std::size_t first = map.isolated_points.size();
   const std::vector<sheet::Star> cones = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
@@ -181,8 +181,9 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         // Joints along one chain bear the same force.
         const auto [place, fresh] = known.try_emplace({fx, fy});
         if (fresh)
-          place->second = sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line},
-                                                problem.lower, problem.upper, {.special = cones, .stop = stop});
+          place->second =
+              sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
+                                    problem.upper, {.most_cells = most_cells, .special = cones, .stop = stop});
         const sheet::ZeroSet& found = place->second;
         const auto add = [&](const core::Point2& at, bool certified) {
           if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;

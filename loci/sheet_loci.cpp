@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -31,6 +32,8 @@ using sheet::TracedArc;
 
 // A point is on a curve where the curve is this near, relative to the box, to first order.
 constexpr double on_curve = 1e-9;
+// Of a patch: several times what a curve without doubtful places takes.
+constexpr int cells_of_a_sketch = 8000;
 
 /// What vanishes where all the given factors do.
 EdgeLabel label_of(const LocusProblem& problem, const std::vector<int>& factors) {
@@ -113,12 +116,13 @@ std::optional<CurvePoint> point_of(const LocusProblem& problem, const core::Poly
 
 /// Whether a factor vanishes all along every arc of a trace of another.
 bool vanishes_along_all(const LocusProblem& problem, const core::WorkingMode& mode, const LocusFactor& own,
-                        const sheet::SheetTrace& trace, const core::Polynomial& sheet) {
+                        const std::vector<std::shared_ptr<CurveAlgebra>>& algebra, const sheet::SheetTrace& trace,
+                        const core::Polynomial& sheet) {
   return std::all_of(trace.arcs.begin(), trace.arcs.end(), [&](const TracedArc& traced) {
     const core::Polynomial& curve = own.implicit[static_cast<std::size_t>(traced.colour)];
     const std::optional<CurvePoint> point = point_of(problem, curve, traced.inner);
     if (!point) return false;
-    ArcOrders arc(problem.tower, mode, curve, *point);
+    ArcOrders arc(problem.tower, mode, algebra[static_cast<std::size_t>(traced.colour)], *point);
     if (!arc.decided()) return false;
     return std::all_of(arc.sides().begin(), arc.sides().end(), [&](int side) {
       const std::optional<Germ> germ = arc.germ(sheet, side);
@@ -177,7 +181,9 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
                               sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
   std::vector<core::ClosedForm> forms;
+  std::vector<std::shared_ptr<CurveAlgebra>> algebra;
   for (const core::Polynomial& p : factor.implicit) {
+    algebra.push_back(std::make_shared<CurveAlgebra>(problem.tower, p));
     forms.push_back(core::recognise_closed_form(p));
     options.closed_form.push_back(is_line_or_circle(forms.back()));
     options.along_side.push_back(side_along(problem, p));
@@ -205,7 +211,7 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
   sheet::SheetTrace traced = trace();
   // Where |A| vanishes all along an arc it does not cut it. Where it does so in another mode only, it may.
   const bool along = std::all_of(shared.begin(), shared.end(), [&](const LocusFactor* other) {
-    return vanishes_along_all(problem, mode, factor, traced, other->sheet);
+    return vanishes_along_all(problem, mode, factor, algebra, traced, other->sheet);
   });
   if (!along) {
     for (const LocusFactor* other : shared)
@@ -217,7 +223,8 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
     if (colour >= forms.size()) continue;
     arc.arc = finished(arc, forms[colour], problem.tolerance);
     // What vanishes along it must do so all along; else it is left to the exact engine.
-    if (same_orders_all_along(problem, mode, factor.implicit[colour], close_vertices(arc.arc.points, forms[colour])))
+    if (same_orders_all_along(problem, mode, factor.implicit[colour], algebra[colour],
+                              close_vertices(arc.arc.points, forms[colour])))
       continue;
     traced.certified = false;
     traced.undecided.push_back({arc.inner[0], arc.inner[0], arc.inner[1], arc.inner[1]});
@@ -311,6 +318,13 @@ class Gathering {
     }
   }
 
+  std::shared_ptr<CurveAlgebra> algebra_of(const core::Polynomial& implicit) const {
+    const auto known =
+        std::find_if(algebra_.begin(), algebra_.end(), [&](const auto& own) { return own.first == implicit; });
+    if (known != algebra_.end()) return known->second;
+    return algebra_.emplace_back(implicit, std::make_shared<CurveAlgebra>(problem_.tower, implicit)).second;
+  }
+
   /// Orders along an arc, exactly. Undecided where no point of it lends itself, or the arc's own factor is not among
   /// what vanishes there.
   ReactionOrders orders_along(const SheetShare& share, const TracedArc& traced, const core::Polynomial& implicit,
@@ -321,7 +335,7 @@ class Gathering {
     for (const Point2& at : {traced.inner, points[points.size() / 3], points[2 * points.size() / 3]}) {
       const std::optional<CurvePoint> point = point_of(problem_, implicit, at);
       if (!point) continue;
-      ArcOrders arc(problem_.tower, mode(share), implicit, *point);
+      ArcOrders arc(problem_.tower, mode(share), algebra_of(implicit), *point);
       orders = reaction_orders(problem_, arc, factors_on(problem_, implicit));
       const FactorRole role = factor(share).role;
       const bool own_too = role != FactorRole::reaction && role != FactorRole::direct_singularity;
@@ -418,6 +432,7 @@ class Gathering {
   const std::vector<const SheetShare*>& shares_;
   LocusMap& map_;
   std::vector<LocusCurve> curves_;
+  mutable std::vector<std::pair<core::Polynomial, std::shared_ptr<CurveAlgebra>>> algebra_;  ///< known so far
 };
 
 }  // namespace
@@ -432,6 +447,10 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
   sheet_options.certificate = options.certificate != nullptr;
+  if (options.sketch) {
+    sheet_options.sketch = true;
+    sheet_options.most_cells = cells_of_a_sketch;
+  }
   if (options.deadline)
     sheet_options.stop = [deadline = *options.deadline] { return std::chrono::steady_clock::now() > deadline; };
 

@@ -8,6 +8,7 @@
 #include "loci/exact_engine.hpp"
 #include "loci/isolated_points.hpp"
 #include "loci/points.hpp"
+#include "loci/sheet/isolated_zeros.hpp"
 #include "loci/sheet_maps.hpp"
 
 namespace clearloci::loci {
@@ -15,6 +16,9 @@ namespace {
 
 using core::LocusMap;
 using core::LocusProblem;
+
+/// Live cells of a search for points of contact loss, where it is for a picture.
+constexpr int cells_of_a_sketch = 256;
 
 struct EngineEntry {
   Engine engine;
@@ -39,7 +43,8 @@ void add_points(const LocusProblem& problem, const TraceOptions& options, bool w
   };
   for (const core::WorkingMode& mode : problem.modes) {
     if (stop()) throw core::LimitReached("the time limit was reached");
-    add_contact_loss_points(problem, mode, map, stop);
+    add_contact_loss_points(problem, mode, map, stop,
+                            options.sketch ? cells_of_a_sketch : sheet::ZeroOptions().most_cells);
     add_touching_points(problem, mode, map);
   }
   // A point that lies on an arc which is withheld looks isolated.
@@ -56,7 +61,7 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
     if (coordinates == 1) {
       add_points_of_one_coordinate(problem, options, map);
     } else {
-      Found found = finder_of(options.engine)(problem, options);
+      Found found = finder_of(options.sketch ? Engine::adaptive : options.engine)(problem, options);
       map = std::move(found.map);
       add_points(problem, options, found.withheld, map);
     }

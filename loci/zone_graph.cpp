@@ -26,6 +26,8 @@ constexpr int agreeing_circles = 1;
 constexpr double rounding = 1e-13;  // of points moved onto a curve
 // The exact arrangement of two curves is quick up to this degree.
 constexpr int exact_degree = 8;
+// Live cells of a search for crossings, where it is for a picture.
+constexpr int cells_of_a_sketch = 256;
 
 double distance(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
@@ -70,8 +72,9 @@ struct Strand {
 class Builder {
  public:
   Builder(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
-          CurveProjections& projections)
-      : problem_(problem), map_(map), mode_(mode), projections_(projections) {
+          CurveProjections& projections, bool sketch)
+      : problem_(problem), map_(map), mode_(mode), sketch_(sketch), projections_(projections) {
+    if (sketch) effort_.most_cells = cells_of_a_sketch;
     for (std::size_t i = 0; i < 2; ++i) {
       low_[i] = core::to_double(map.lower[i]);
       high_[i] = core::to_double(map.upper[i]);
@@ -148,7 +151,7 @@ class Builder {
           add_plane_crossings(a, b);
         } else if (done.emplace(std::minmax(first, second), true).second) {
           if (!add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line},
-                                               {second->sheet, second->line}, map_.lower, map_.upper)))
+                                               {second->sheet, second->line}, map_.lower, map_.upper, effort_)))
             add_plane_crossings(a, b);
         }
       }
@@ -169,7 +172,7 @@ class Builder {
 
   /// The rung above: the exact arrangement of the two curves, for all modes at once.
   void add_plane_crossings(const core::LocusCurve& a, const core::LocusCurve& b) {
-    if (std::max(core::total_degree(a.implicit), core::total_degree(b.implicit)) > exact_degree)
+    if (sketch_ || std::max(core::total_degree(a.implicit), core::total_degree(b.implicit)) > exact_degree)
       return doubt("crossings of " + a.id + " and " + b.id + " are not proven");
     const CurveArrangement both({a.implicit, b.implicit}, {map_.lower[0], map_.lower[1]},
                                 {map_.upper[0], map_.upper[1]});
@@ -442,6 +445,8 @@ class Builder {
   const core::LocusProblem& problem_;
   const core::LocusMap& map_;
   core::WorkingMode mode_;
+  bool sketch_;
+  sheet::ZeroOptions effort_;
   Point2 low_{}, high_{};
   double size_ = 1;
   std::vector<Strand> strands_;
@@ -454,8 +459,8 @@ class Builder {
 bool cuts_workspace(const core::LocusCurve& curve) { return curve.kind != LocusKind::component; }
 
 ZoneGraph zone_graph(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
-                     CurveProjections& projections) {
-  return Builder(problem, map, mode, projections).build();
+                     CurveProjections& projections, bool sketch) {
+  return Builder(problem, map, mode, projections, sketch).build();
 }
 
 }  // namespace clearloci::loci

@@ -25,7 +25,7 @@ using core::Zone;
 
 class ModeZones {
  public:
-  ModeZones(const core::LocusProblem& problem, const LocusMap& map, const core::WorkingMode& mode)
+  ModeZones(const core::LocusProblem& problem, const LocusMap& map, const core::WorkingMode& mode, bool sketch)
       : problem_(problem),
         map_(map),
         mode_(mode),
@@ -33,7 +33,7 @@ class ModeZones {
         singularities_(problem.tower, determinants(problem)),
         sign_(singularities_, mode),
         projections_(problem, map),
-        cut_(zone_graph(problem, map, mode, projections_)) {
+        cut_(zone_graph(problem, map, mode, projections_, sketch)) {
     for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
       if (map.isolated_points[i].mode == mode) points_.push_back(static_cast<int>(i));
     }
@@ -322,11 +322,11 @@ class ModeZones {
 
 }  // namespace
 
-core::ZoneMap zones(const core::LocusProblem& problem, core::LocusMap traced) {
+core::ZoneMap zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch) {
   core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
   core::ZoneMap map;
   map.loci = std::move(traced);
-  for (const core::WorkingMode& mode : problem.modes) ModeZones(problem, map.loci, mode).find(map);
+  for (const core::WorkingMode& mode : problem.modes) ModeZones(problem, map.loci, mode, sketch).find(map);
   int number = 0;
   for (Zone& zone : map.zones) zone.id = "z" + std::to_string(++number);
   return map;

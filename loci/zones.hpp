@@ -8,6 +8,7 @@ namespace clearloci::loci {
 
 /// Polylines of borders get more vertices where areas correct to 1e-6 need them; `assembly_mode` and `signs` are left
 /// to the caller, who knows reactions. `traced`: the loci of the problem, complete. Two free coordinates required.
-core::ZoneMap zones(const core::LocusProblem& problem, core::LocusMap traced);
+/// `sketch`: as of zone_graph.
+core::ZoneMap zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch = false);
 
 }  // namespace clearloci::loci

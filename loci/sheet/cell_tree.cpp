@@ -32,13 +32,14 @@ double scatter(unsigned index, unsigned attempt) {
 /// The budget, while cells are examined generation by generation: the children of all cells that one of them left.
 class Budget {
  public:
-  explicit Budget(int most_cells) : most_cells_(static_cast<std::size_t>(most_cells)) {}
+  explicit Budget(const TreeOptions& options)
+      : most_cells_(static_cast<std::size_t>(options.most_cells)), may_extend_(options.extended) {}
 
   /// Before cell `next` is examined, of `all` that there are.
   void reach(std::size_t next, std::size_t all) {
     if (next < end_of_generation_) return;
     const std::size_t own = all - next;
-    in_sight_ = static_cast<double>(own) <= growth_in_sight * static_cast<double>(last_but_one_);
+    in_sight_ = may_extend_ && static_cast<double>(own) <= growth_in_sight * static_cast<double>(last_but_one_);
     last_but_one_ = last_;
     last_ = own;
     end_of_generation_ = all;
@@ -47,7 +48,7 @@ class Budget {
 
  private:
   std::size_t most_cells_, end_of_generation_ = 0, last_ = 0, last_but_one_ = 0;
-  bool in_sight_ = false;
+  bool may_extend_, in_sight_ = false;
 };
 
 struct Judgement {
@@ -132,7 +133,7 @@ CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, c
 void CellTree::build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions& options) {
   const double size = std::max(domain().x.width(), domain().y.width());
   bool stopped = false;
-  Budget budget(options.most_cells);
+  Budget budget(options);
   // Breadth first: a budget that runs out leaves cells of one size undecided instead of one corner.
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node node = nodes_[i];

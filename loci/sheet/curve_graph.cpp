@@ -19,6 +19,8 @@ constexpr std::size_t most_cells_on_edge = 512;
 // Of crossings, relative to the patch: a tenth of what vertices are held to.
 constexpr double accuracy = 1e-13;
 constexpr std::size_t most_rim_cells = 8192;
+// In a sketch a curve with more cells than this next to a rim, along which it then runs, is left open there.
+constexpr std::size_t most_rim_cells_of_a_sketch = 512;
 // Where one patch has spent its budget the curve is not proven whatever the others tell: they get this part of theirs.
 constexpr int share_of_spent_budget = 8;
 
@@ -207,6 +209,10 @@ class GraphBuilder {
       for (const Leaf& candidate : graph_.patches[patch].tree->leaves())
         if (candidate.rim >> j & 1u) seeds.push_back(candidate.cell);
       if (seeds.empty()) continue;
+      if (!options_.extended && seeds.size() > most_rim_cells_of_a_sketch) {
+        for (const Cell& cell : seeds) graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));
+        continue;
+      }
       const core::Root& root = program.tower().roots[j];
       const SheetProgram rim(on_rim(program.tower(), j),
                              std::vector<SheetFunction>{without_variable(program.function(0), 2 + j),
@@ -215,8 +221,9 @@ class GraphBuilder {
       mode.erase(mode.begin() + j);
       const Cell& domain = graph_.patches[patch].domain;
       const double size = std::max(domain.x.width(), domain.y.width());
+      const std::size_t most_cells = options_.extended ? most_rim_cells : most_rim_cells_of_a_sketch;
       FoundZeros found =
-          ZeroSearch(rim, mode, {}).run(seeds, {1e-12 * size, most_rim_cells, accuracy * size, options_.stop});
+          ZeroSearch(rim, mode, {}).run(seeds, {1e-12 * size, most_cells, accuracy * size, options_.stop});
       for (const Cell& cell : found.undecided) {
         unlucky_ = true;
         graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));
@@ -372,7 +379,8 @@ CurveGraph curve_graph(const core::RootTower& tower, const SheetFunction& curve,
   for (unsigned attempt = 0;; ++attempt) {
     TreeOptions own = options;
     own.attempt = attempt;
-    const bool last = attempt + 1 >= most_attempts || (options.stop && options.stop());
+    // A budget that is not to be extended is none to be spent several times either.
+    const bool last = attempt + 1 >= most_attempts || !options.extended || (options.stop && options.stop());
     if (auto graph = GraphBuilder(tower, curve, mode, parts, own, last).run()) return std::move(*graph);
   }
 }

@@ -28,7 +28,7 @@ constexpr double widest_touch = 1e-10;
 constexpr double longest_touch = 1e-6;
 // Zeros of (N, cutter) closer than this, relative to the patch, are a touch; more live cells than this a shared curve.
 constexpr double smallest_cut = 1e-12;
-constexpr std::size_t most_cut_cells = 8192, most_star_cells = 256;
+constexpr std::size_t most_cut_cells = 8192, most_cut_cells_of_a_sketch = 256, most_star_cells = 256;
 // Nearer than this, relative to the region, a point is on the curve to rounding.
 constexpr double at_rounding = 1e-14;
 // Vertices are this near to their curve, relative to the region.
@@ -112,6 +112,7 @@ class Tracer {
     const Partition parts = parts_of(own_);
     TreeOptions tree;
     tree.most_cells = options_.most_cells;
+    tree.extended = !options_.sketch;
     tree.stop = options_.stop;
     own_stars_ = parts.stars;
     graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
@@ -144,6 +145,8 @@ class Tracer {
   }
 
  private:
+  std::size_t cut_cells() const { return options_.sketch ? most_cut_cells_of_a_sketch : most_cut_cells; }
+
   Partition parts_of(const Subtower& part) const {
     return partition(part.tower, wide_, bases_, narrowed(options_.special, part));
   }
@@ -249,7 +252,7 @@ class Tracer {
       TouchSearch touches(sheet.tower, sheet.functions, own_.mode, size);
       const FoundZeros found =
           ZeroSearch(program, own_.mode, {})
-              .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop, &touches});
+              .run(seeds, {smallest_cut * size, cut_cells(), 1e-13 * size, options_.stop, &touches});
       std::vector<Cell> open = found.undecided;
       for (const std::vector<Interval>& place : found.touches) open.push_back({place[0], place[1]});
       for (const std::vector<Interval>& zero : found.enclosures)
@@ -364,7 +367,7 @@ class Tracer {
       TouchSearch touches(sheet.tower, sheet.functions, both.mode, size);
       const FoundZeros found =
           ZeroSearch(program, both.mode, {})
-              .run(seeds, {smallest_cut * size, most_cut_cells, 1e-13 * size, options_.stop, &touches});
+              .run(seeds, {smallest_cut * size, cut_cells(), 1e-13 * size, options_.stop, &touches});
       for (const std::vector<Interval>& place : found.touches) {
         const Cell cell = {place[0], place[1]};
         if (!at_star(chart, cell)) open.push_back(chart.to_plane(cell));

@@ -100,6 +100,25 @@ TEST(Verify, HoldsTheLeastForceBetweenTheEndsOfARangeOfLoads) {
       core::Verdict::refuted);
 }
 
+TEST(Verify, DrawsWhatLociTracesWhereNothingIsDoubtful) {
+  // Pictures and names come from a sketch: of these all is proven within its small budget, and it is the full map.
+  for (const char* name : {"five_bar", "five_bar_generic", "three_rpr"}) {
+    const mechanism::Mechanism mechanism =
+        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+    const core::LocusMap full = trace_problem(mechanism).map;
+    const core::LocusMap sketch = trace_problem(mechanism, {}, nullptr, TraceEffort::sketch).map;
+    EXPECT_EQ(sketch.notes, full.notes) << name;
+    ASSERT_EQ(sketch.curves.size(), full.curves.size()) << name;
+    for (std::size_t c = 0; c < full.curves.size(); ++c) {
+      EXPECT_EQ(sketch.curves[c].id, full.curves[c].id) << name;
+      EXPECT_TRUE(sketch.curves[c].certified) << name << " " << full.curves[c].id;
+      ASSERT_EQ(sketch.curves[c].arcs.size(), full.curves[c].arcs.size()) << name << " " << full.curves[c].id;
+      for (std::size_t a = 0; a < full.curves[c].arcs.size(); ++a)
+        EXPECT_EQ(sketch.curves[c].arcs[a].points, full.curves[c].arcs[a].points) << name << " " << full.curves[c].id;
+    }
+  }
+}
+
 TEST(Verify, FindsASingularityOnALineThroughZero) {
   const Verification result = decided(kept("tests/corpus/verify/singular_at_zero.yaml"), "singular_at_zero_task.yaml");
   EXPECT_EQ(result.verdict, core::Verdict::refuted);
