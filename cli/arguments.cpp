@@ -61,7 +61,7 @@ void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
       ->type_name("SECONDS");
 }
 
-mechanism::Mechanism read_model(const CommonArguments& arguments) {
+std::vector<mechanism::Override> parse_overrides(const CommonArguments& arguments) {
   std::vector<mechanism::Override> overrides;
   for (const std::string& word : arguments.overrides) {
     const std::size_t equals = word.find('=');
@@ -69,7 +69,11 @@ mechanism::Mechanism read_model(const CommonArguments& arguments) {
       refuse("--set", fmt::format("'{}' is not name=value", word), "write e.g. --set L=0.4");
     overrides.emplace_back(word.substr(0, equals), word.substr(equals + 1));
   }
-  return mechanism::read_mechanism(arguments.model, overrides);
+  return overrides;
+}
+
+mechanism::Mechanism read_model(const CommonArguments& arguments) {
+  return mechanism::read_mechanism(arguments.model, parse_overrides(arguments));
 }
 
 std::filesystem::path output_folder(const CommonArguments& arguments) {

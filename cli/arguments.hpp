@@ -29,6 +29,9 @@ struct CommonArguments {
 
 void add_common_arguments(CLI::App& command, CommonArguments& arguments);
 
+/// `--set name=value`.
+std::vector<std::pair<std::string, std::string>> parse_overrides(const CommonArguments& arguments);
+
 /// The mechanism file with its overrides.
 mechanism::Mechanism read_model(const CommonArguments& arguments);
 

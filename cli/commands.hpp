@@ -21,5 +21,6 @@ Command add_verify_command(CLI::App& program);
 Command add_error_command(CLI::App& program);
 Command add_trajectory_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
+Command add_design_command(CLI::App& program);
 
 }  // namespace clearloci::cli

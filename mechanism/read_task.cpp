@@ -180,6 +180,7 @@ std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const V
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
       throw InputError(entry.where, "there is no parameter '" + entry.key + "' in " + mechanism.file,
                        known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
+    check_plain(mechanism, entry.key, entry.where);
     entry.value.what = "the tolerance of " + entry.key;
     core::Tolerance own{entry.key, 0, 0};
     if (entry.value.is_sequence()) {
@@ -230,6 +231,13 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
 }
 
 }  // namespace
+
+void check_plain(const Mechanism& mechanism, const std::string& parameter, const core::SourcePosition& where) {
+  for (const Parameter& own : mechanism.parameters)
+    if (own.name == parameter && mechanism.units.declared && own.dimension != Dimension{})
+      throw InputError(where, "parameter " + parameter + " is written with a unit in a file that declares units",
+                       "write it as a plain number there");
+}
 
 core::Task task_of(const Value& document, const Mechanism& mechanism) {
   if (!document.is_map())

@@ -91,6 +91,8 @@ void read_springs(Mechanism& mechanism, const std::optional<Value>& value);
 void read_limits(Mechanism& mechanism, const std::optional<Value>& value);
 
 // --- read_task.cpp
+/// Designs take plain numbers: throws for a parameter that was written with a unit in a file of other units than SI.
+void check_plain(const Mechanism& mechanism, const std::string& parameter, const core::SourcePosition& where);
 /// A task from the mapping of its keys, whatever it says of its format.
 core::Task task_of(const Value& document, const Mechanism& mechanism);
 
