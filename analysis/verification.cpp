@@ -7,6 +7,8 @@
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/singular_modes.hpp"
+#include "analysis/task_demands.hpp"
+#include "analysis/tolerant_verification.hpp"
 #include "core/errors.hpp"
 #include "loci/plane_graph.hpp"
 #include "loci/sheet_maps.hpp"
@@ -35,11 +37,6 @@ constexpr int cells_of_the_task = 400'000, cells_of_a_margin = 40'000;
 
 int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 : value.value < -value.error ? -1 : 0; }
 
-mechanism::Mechanism under_load(mechanism::Mechanism mechanism, const core::RationalPoint& load) {
-  for (std::size_t c = 0; c < 2; ++c) mechanism.loads.front().force[c] = core::Expression::number(load[c]);
-  return mechanism;
-}
-
 /// One load: the mechanism under it.
 struct LoadCase {
   explicit LoadCase(mechanism::Mechanism loaded) : mechanism(std::move(loaded)), model(numeric::compile(mechanism)) {}
@@ -49,62 +46,8 @@ struct LoadCase {
 
 std::vector<LoadCase> load_cases(const mechanism::Mechanism& mechanism, const Task& task) {
   std::vector<LoadCase> cases;
-  if (!task.loads) {
-    cases.emplace_back(mechanism);
-  } else {
-    cases.emplace_back(under_load(mechanism, task.loads->first));
-    if (task.loads->second != task.loads->first) cases.emplace_back(under_load(mechanism, task.loads->second));
-  }
+  for (mechanism::Mechanism& own : under_loads_of(task, mechanism)) cases.emplace_back(std::move(own));
   return cases;
-}
-
-LociRequest request_of(const Task& task, LociRequest request) {
-  if (task.min_force) request.min_force = task.min_force;
-  if (task.min_couple) request.min_couple = task.min_couple;
-  request.all_working_modes = false;
-  if (request.working_modes.size() > 1) request.working_modes.resize(1);
-  return request;
-}
-
-/// What the loci of a request are zeros of, and what its margins hold.
-std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  std::vector<TaskDemand> demands;
-  const auto wanted = [&](Quantity quantity) {
-    return std::find(request.quantities.begin(), request.quantities.end(), quantity) != request.quantities.end();
-  };
-  for (const numeric::TracedReaction& reaction : selected_reactions(mechanism, request)) {
-    const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
-                                    [&](const mechanism::Joint& j) { return j.name == reaction.joint; });
-    const std::vector<Quantity> force = mechanism::force_components(mechanism, *joint);
-    const auto add = [&](Quantity quantity, const std::optional<core::Rational>& least) {
-      demands.push_back({reaction.joint, quantity, least.value_or(0)});
-    };
-    switch (const Quantity q = reaction.quantity; q) {
-      case Quantity::M:
-      case Quantity::F: {
-        const bool couple = q == Quantity::M && request.min_couple;
-        if (wanted(q) || wanted(Quantity::M) || couple) add(q, couple ? request.min_couple : std::nullopt);
-        break;
-      }
-      case Quantity::end_ahead:
-      case Quantity::end_behind:
-        if (wanted(q) || wanted(Quantity::f) || request.min_force) add(q, request.min_force);
-        break;
-      case Quantity::N:
-        // A guide whose ends are not known loses its contact where N and T vanish together.
-        if (mechanism.space == mechanism::Space::planar && !mechanism::has_guide_ends(mechanism, *joint) &&
-            wanted(Quantity::f))
-          add(Quantity::f, std::nullopt);
-        break;
-      case Quantity::T:
-        break;
-      default:
-        // Once a joint, with the first component of its force.
-        if (!force.empty() && q == force.front() && (wanted(Quantity::f) || request.min_force))
-          add(Quantity::f, request.min_force);
-    }
-  }
-  return demands;
 }
 
 /// Where roots depend on one another: the sheet that holds the task. A fold that the task meets bounds it.
@@ -447,6 +390,11 @@ void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verifi
 }  // namespace
 
 Verification verify_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request) {
+  if (is_tolerant(task)) {
+    Verification result = verify_task(mechanism, nominal(task), request);
+    decide_tolerant(mechanism, task, request, result);
+    return result;
+  }
   if (const std::optional<Framed> own = framed(mechanism))
     return from_frame(verify_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame)), task,
                       mechanism, own->frame);
@@ -458,6 +406,11 @@ Verification verify_task(const mechanism::Mechanism& mechanism, const Task& task
 }
 
 Verification decide_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request) {
+  if (is_tolerant(task)) {
+    Verification result = decide_task(mechanism, nominal(task), request);
+    decide_tolerant(mechanism, task, request, result);
+    return result;
+  }
   if (const std::optional<Framed> own = framed(mechanism))
     return from_frame(decide_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame)), task,
                       mechanism, own->frame);
@@ -467,6 +420,9 @@ Verification decide_task(const mechanism::Mechanism& mechanism, const Task& task
 
 Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request,
                       FitGoal goal) {
+  if (is_tolerant(task))
+    throw core::InputError({task.file}, "a task with tolerances or loads_within is verified where it lies",
+                           "leave out --fit, or the tolerances and loads_within");
   if (const std::optional<Framed> own = framed(mechanism))
     return from_frame(fit_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame), goal), task,
                       mechanism, own->frame);

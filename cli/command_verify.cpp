@@ -55,8 +55,10 @@ void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, 
              const LociRequest& request) {
   core::Certificate certificate;
   const core::LocusMap map = trace_loci(mechanism, request, &certificate);
+  const bool nominal =
+      result.verified() && !result.task.loads && result.task.tolerances.empty() && result.task.loads_within.empty();
   write_certificate(arguments.certificate, "verify", arguments.common, certificate, map,
-                    {.task = result.verified() && !result.task.loads ? &result.task : nullptr});
+                    {.task = nominal ? &result.task : nullptr});
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {

@@ -57,11 +57,11 @@ int parse_and_run(int argc, const char* const* argv) {
       "Exit status: 0 done; 1 a check said no; 2 the input or the call is wrong; 3 a limit of time or memory was "
       "reached;\n"
       "70 an error of the program itself.");
-  const std::vector<Command> commands = {add_loci_command(program),     add_equations_command(program),
-                                         add_validate_command(program), add_pose_command(program),
-                                         add_error_command(program),    add_zones_command(program),
-                                         add_verify_command(program),   add_trajectory_command(program),
-                                         add_check_command(program),    add_view_command(program)};
+  const std::vector<Command> commands = {
+      add_loci_command(program),   add_equations_command(program),  add_validate_command(program),
+      add_pose_command(program),   add_error_command(program),      add_zones_command(program),
+      add_verify_command(program), add_trajectory_command(program), add_check_command(program),
+      add_design_command(program), add_view_command(program)};
   try {
     check_command_word(commands, argc, argv);
     program.parse(argc, argv);

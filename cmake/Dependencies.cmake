@@ -24,6 +24,15 @@ if(NOT TARGET flint)
   target_link_libraries(flint INTERFACE "${FLINT_LIBRARY}" PkgConfig::mpfr)
 endif()
 
+# NLopt's CMake package names its library without saying where the header is.
+if(NOT TARGET nlopt)
+  find_path(NLOPT_INCLUDE_DIR nlopt.h REQUIRED)
+  find_library(NLOPT_LIBRARY nlopt REQUIRED)
+  add_library(nlopt INTERFACE IMPORTED)
+  target_include_directories(nlopt SYSTEM INTERFACE "${NLOPT_INCLUDE_DIR}")
+  target_link_libraries(nlopt INTERFACE "${NLOPT_LIBRARY}")
+endif()
+
 # MPFI ships neither.
 if(NOT TARGET mpfi)
   find_path(MPFI_INCLUDE_DIR mpfi.h REQUIRED)

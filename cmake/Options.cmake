@@ -1,6 +1,7 @@
 # What a build can choose, and the flags every target of this project is compiled with.
 option(CLEARLOCI_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(CLEARLOCI_BUILD_BENCHMARKS "Build the benchmarks" OFF)
+set(CLEARLOCI_MPI "AUTO" CACHE STRING "Studies on several machines by MPI: ON, OFF, or AUTO where it is found")
 set(CLEARLOCI_PYTHON "AUTO" CACHE STRING "Build the Python module: ON, OFF, or AUTO where pybind11 is found")
 option(CLEARLOCI_WORKBENCH "Build `clearloci view` and `--export html`; wants Node.js, npm and cpp-httplib" ON)
 option(CLEARLOCI_WARNINGS_AS_ERRORS "Treat warnings in this project's code as errors" OFF)

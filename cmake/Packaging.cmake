@@ -3,7 +3,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/clearloci")
-set(folders core mechanism symbolic loci numeric check analysis report)
+set(folders core mechanism symbolic loci numeric check analysis studies report)
 list(TRANSFORM folders PREPEND clearloci_ OUTPUT_VARIABLE folder_targets)
 
 install(TARGETS ${folder_targets} clearloci_library EXPORT clearlociTargets
@@ -53,7 +53,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
 string(CONCAT CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
   "libginac-dev, libcln-dev, libeigen3-dev, libcgal-dev, libgmp-dev, libmpfr-dev, libmpfi-dev, libflint-dev, libyaml-cpp-dev, "
-  "libfmt-dev, nlohmann-json3-dev, libcairomm-1.16-dev, libboost-dev, libtbb-dev, zlib1g-dev")
+  "libnlopt-dev, libfmt-dev, nlohmann-json3-dev, libcairomm-1.16-dev, libboost-dev, libtbb-dev, zlib1g-dev")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-clearloci)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")

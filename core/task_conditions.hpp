@@ -27,6 +27,8 @@ struct TaskCondition {
   std::vector<int> factors;
   /// Load by load the components of what is left of w D; nothing where that is a constant other than 0.
   std::vector<std::vector<int>> parts;
+  /// Likewise what each direction of TaskConditions adds to w D: N_i of w = N / D + sum l_i N_i / D.
+  std::vector<std::vector<int>> directions = {};
   int denominator = -1;   ///< D, where `least` is not 0
   int squared_axis = -1;  ///< of a couple about an axis u that is no unit vector: |u|^2, for w is M |u|
   /// Zero in every pose under one of the loads: the demand is met nowhere.
@@ -42,6 +44,7 @@ struct TaskConditions {
   /// Demands that no pose can fail to meet otherwise: the reaction is zero whatever the pose and the load.
   std::vector<TaskDemand> never_loaded;
   std::size_t loads = 1;
+  std::size_t directions = 0;  ///< unit loads, of which any may be added to every load
 };
 
 }  // namespace clearloci::inline core

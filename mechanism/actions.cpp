@@ -1,7 +1,9 @@
 #include "mechanism/actions.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <numbers>
+#include <set>
 
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -52,7 +54,14 @@ Action action_of(const Joint& joint, std::size_t index) {
 
 bool Action::needs_length(const Mechanism& mechanism) const {
   if (law == Law::constant) return along.has_value();
-  return law == Law::linear && !free_length.is_zero_literal() && value_of(free_length, mechanism) != 0;
+  if (law != Law::linear || free_length.is_zero_literal()) return false;
+  // Of an open design (open_design.hpp) it may be any.
+  const auto is_open = [&](const std::string& symbol) {
+    return std::none_of(mechanism.parameters.begin(), mechanism.parameters.end(),
+                        [&](const Parameter& own) { return own.name == symbol; });
+  };
+  const std::set<std::string> names = core::symbols(free_length);
+  return std::any_of(names.begin(), names.end(), is_open) || value_of(free_length, mechanism) != 0;
 }
 
 std::vector<Action> actions(const Mechanism& mechanism) {

@@ -165,12 +165,13 @@ double van_der_corput(unsigned i, unsigned base) {
 }  // namespace
 
 std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::size_t count, std::size_t first) {
-  constexpr std::array<unsigned, 3> base = {2, 3, 5};
+  // Open designs (open_design.hpp) have more coordinates than poses; beyond these bases they share them.
+  constexpr std::array<unsigned, 12> base = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
   std::vector<std::vector<double>> poses(count);
   for (const Coordinate& coordinate : mechanism.coordinates) {
     const double lower = core::to_double(coordinate.lower), upper = core::to_double(coordinate.upper);
     for (std::size_t i = 0; i < count; ++i) {
-      const double part = van_der_corput(static_cast<unsigned>(first + i) + 1, base[poses[i].size()]);
+      const double part = van_der_corput(static_cast<unsigned>(first + i) + 1, base[poses[i].size() % base.size()]);
       poses[i].push_back(lower + (upper - lower) * part);
     }
   }

@@ -13,6 +13,9 @@ using core::InputError;
 using core::RationalPoint;
 
 const std::vector<std::string> shape_keys = {"box", "circle", "polygon", "path"};
+const std::vector<std::string> task_keys = {"format",     "name",       "box",        "circle",
+                                            "polygon",    "path",       "margin",     "min_force",
+                                            "min_couple", "loads_from", "tolerances", "loads_within"};
 
 RationalPoint read_pair(const Mechanism& mechanism, const Value& value) {
   const std::vector<Value> parts = elements(value, 2);
@@ -168,18 +171,78 @@ core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) 
   return range;
 }
 
+/// {L1: 0.1e-3, d: [-0.2e-3, 0.1e-3]}
+std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const Value& value) {
+  std::vector<std::string> known;
+  for (const Parameter& parameter : mechanism.parameters) known.push_back(parameter.name);
+  std::vector<core::Tolerance> tolerances;
+  for (Entry& entry : entries(value)) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+      throw InputError(entry.where, "there is no parameter '" + entry.key + "' in " + mechanism.file,
+                       known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
+    check_plain(mechanism, entry.key, entry.where);
+    entry.value.what = "the tolerance of " + entry.key;
+    core::Tolerance own{entry.key, 0, 0};
+    if (entry.value.is_sequence()) {
+      const RationalPoint ends = read_pair(mechanism, entry.value);
+      own.below = ends[0];
+      own.above = ends[1];
+    } else {
+      own.above = read_number(mechanism, entry.value, Sign::not_negative).value;
+      own.below = -own.above;
+    }
+    if (own.below > 0 || own.above < 0)
+      throw InputError(entry.value.where, entry.value.what + " leaves out the parameter's own value",
+                       "write a number, or [below, above] with below <= 0 <= above");
+    tolerances.push_back(std::move(own));
+  }
+  return tolerances;
+}
+
+/// [{load: 1, radius: 20, couple: 2}], loads counted from 1.
+std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, const Value& value) {
+  if (mechanism.space == Space::spatial)
+    throw InputError(value.where, value.what + " are loads of the plane, and " + mechanism.file + " is spatial",
+                     "leave it out and verify the task once for every load");
+  std::vector<core::LoadWithin> all;
+  for (Value own : elements(value)) {
+    own.what = "entry " + std::to_string(all.size() + 1) + " of " + value.what;
+    const Mapping keys(own, {"load", "radius", "couple"});
+    const Value which = keys.at("load");
+    const Rational number = read_number(mechanism, which, Sign::positive).value;
+    if (number.get_den() != 1 || number > static_cast<long>(mechanism.loads.size()))
+      throw InputError(which.where,
+                       "there is no load " + core::to_string(number) + " in " + mechanism.file + ", which has " +
+                           std::to_string(mechanism.loads.size()),
+                       "count its loads from 1");
+    core::LoadWithin within{static_cast<std::size_t>(number.get_num().get_ui()) - 1};
+    if (auto radius = keys.find("radius")) {
+      radius->field = "force";  // not the length that a circle's radius is
+      within.force = read_number(mechanism, *radius, Sign::not_negative).value;
+    }
+    if (const auto couple = keys.find("couple"))
+      within.couple = read_number(mechanism, *couple, Sign::not_negative).value;
+    if (within.force > 0 && !mechanism.loads[within.load].at)
+      throw InputError(own.where, own.what + " varies the force of a load that is a couple alone",
+                       "give the load a point and a force, or leave out the radius");
+    all.push_back(within);
+  }
+  return all;
+}
+
 }  // namespace
 
-core::Task parse_task(const std::string& text, const std::string& file, const Mechanism& mechanism) {
-  const Value document = parse_document(text, file);
+void check_plain(const Mechanism& mechanism, const std::string& parameter, const core::SourcePosition& where) {
+  for (const Parameter& own : mechanism.parameters)
+    if (own.name == parameter && mechanism.units.declared && own.dimension != Dimension{})
+      throw InputError(where, "parameter " + parameter + " is written with a unit in a file that declares units",
+                       "write it as a plain number there");
+}
+
+core::Task task_of(const Value& document, const Mechanism& mechanism) {
   if (!document.is_map())
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
-  const Mapping root(document, {"format", "name", "box", "circle", "polygon", "path", "margin", "min_force",
-                                "min_couple", "loads_from"});
-  const Value format = root.at("format");
-  if (text_of(format) != "1")
-    throw InputError(format.where, "the format is '" + text_of(format) + "', but this version reads format 1",
-                     "write format: 1");
+  const Mapping root(document, task_keys);
   const std::size_t coordinates = mechanism.coordinates.size();
   const bool angle = std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
                                  [](const Coordinate& c) { return c.angle; });
@@ -191,7 +254,7 @@ core::Task parse_task(const std::string& text, const std::string& file, const Me
         "make the others numbers or parameters");
 
   core::Task task;
-  task.file = file;
+  task.file = document.where.file;
   auto [shape, place] = read_shape(mechanism, document, root);
   check_inside_box(mechanism, shape, place);
   task.shape = std::move(shape);
@@ -200,7 +263,21 @@ core::Task parse_task(const std::string& text, const std::string& file, const Me
   if (const auto couple = root.find("min_couple"))
     task.min_couple = read_number(mechanism, *couple, Sign::positive).value;
   if (const auto loads = root.find("loads_from")) task.loads = read_loads_from(mechanism, *loads);
+  if (const auto own = root.find("tolerances")) task.tolerances = read_tolerances(mechanism, *own);
+  if (const auto own = root.find("loads_within")) task.loads_within = read_loads_within(mechanism, *own);
   return task;
+}
+
+core::Task parse_task(const std::string& text, const std::string& file, const Mechanism& mechanism) {
+  const Value document = parse_document(text, file);
+  if (document.is_map()) {
+    const Mapping root(document, task_keys);
+    const Value format = root.at("format");
+    if (text_of(format) != "1")
+      throw InputError(format.where, "the format is '" + text_of(format) + "', but this version reads format 1",
+                       "write format: 1");
+  }
+  return task_of(document, mechanism);
 }
 
 core::Task read_task(const std::string& path, const Mechanism& mechanism) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/task.hpp"
 #include "mechanism/mechanism.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/yaml_input.hpp"
@@ -88,6 +89,12 @@ void read_gravity(Mechanism& mechanism, const std::optional<Value>& value);
 // --- read_springs.cpp: springs and limits
 void read_springs(Mechanism& mechanism, const std::optional<Value>& value);
 void read_limits(Mechanism& mechanism, const std::optional<Value>& value);
+
+// --- read_task.cpp
+/// Designs take plain numbers: throws for a parameter that was written with a unit in a file of other units than SI.
+void check_plain(const Mechanism& mechanism, const std::string& parameter, const core::SourcePosition& where);
+/// A task from the mapping of its keys, whatever it says of its format.
+core::Task task_of(const Value& document, const Mechanism& mechanism);
 
 // --- checks.cpp: what only the whole mechanism shows
 /// The free coordinates that a point depends on, through the points it is built from.

@@ -40,8 +40,8 @@ TaskWitness::TaskWitness(std::vector<const NumericModel*> loads, std::vector<int
   }
 }
 
-std::vector<Bounded> TaskWitness::parts_of(const core::TaskDemand& demand, const BoundedNumerators& numerators) const {
-  const NumericModel& model = *loads_.front();
+std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskDemand& demand,
+                                    const BoundedNumerators& numerators) {
   const auto joint = std::find_if(model.mechanism.joints.begin(), model.mechanism.joints.end(),
                                   [&](const mechanism::Joint& j) { return j.name == demand.joint; });
   core::ensure(joint != model.mechanism.joints.end(), "a demand is of a joint of the mechanism");
@@ -118,7 +118,8 @@ std::vector<TaskFailure> TaskWitness::some_failures(const Point2& at, bool close
 std::optional<TaskFailure> TaskWitness::failure_of(const core::TaskDemand& demand,
                                                    const std::vector<BoundedNumerators>& numerators) const {
   const BoundedNumerators& first = numerators.front();
-  const std::vector<Bounded> at_first = parts_of(demand, first), at_last = parts_of(demand, numerators.back());
+  const std::vector<Bounded> at_first = demanded_parts(*loads_.front(), demand, first),
+                             at_last = demanded_parts(*loads_.front(), demand, numerators.back());
   double along = 0, length2 = 0;
   for (std::size_t k = 0; k < at_first.size(); ++k) {
     const double a = at_first[k].value;

@@ -28,6 +28,10 @@ struct TaskFailure {
   double size = 0;          ///< of the reaction there, N or N m
 };
 
+/// The components of what is demanded, times |A|: two of a guide's contact as a whole, one of either end of it.
+std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskDemand& demand,
+                                    const BoundedNumerators& numerators);
+
 class TaskWitness {
  public:
   /// `loads`: the mechanism under the one load, or under the first and the last; must outlive the witness. `demands`:
@@ -47,8 +51,6 @@ class TaskWitness {
   std::vector<TaskFailure> some_failures(const Point2& at, bool closely, std::size_t most) const;
   std::optional<TaskFailure> failure_of(const core::TaskDemand& demand,
                                         const std::vector<BoundedNumerators>& numerators) const;
-  /// The components of what is demanded, times |A|: two of a guide's contact as a whole, one of either end of it.
-  std::vector<Bounded> parts_of(const core::TaskDemand& demand, const BoundedNumerators& numerators) const;
   bool reachable_at(const Point2& at) const;
 
   std::vector<const NumericModel*> loads_;

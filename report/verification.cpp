@@ -91,6 +91,12 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
   if (witness.load)
     words +=
         fmt::format(" under the load ({:.9g}, {:.9g}) {}", (*witness.load)[0], (*witness.load)[1], units.force.name);
+  for (const core::WitnessLoad& own : witness.loads)
+    words += fmt::format(" under ({:.9g}, {:.9g}) N and {:.9g} N m as load {}", own.force[0], own.force[1], own.couple,
+                         own.load + 1);
+  for (std::size_t i = 0; i < witness.design.size(); ++i)
+    words += fmt::format("{}{} = {}", i == 0 ? " of the design " : ", ", witness.design[i].first,
+                         exact_number(witness.design[i].second));
   if (witness.distance > rounding_of_distance)
     words += fmt::format("; {:.6g} {} from the task, within its margin", witness.distance, units.length.name);
   return words;
@@ -135,6 +141,17 @@ Json verification_object(const core::Verification& result) {
                        {"too_small", vanishing_array(witness.too_small)},
                        {"size", witness.size ? Json(*witness.size) : Json(nullptr)}};
     if (!witness.limit.empty()) root["witness"]["limit"] = witness.limit;
+    if (!witness.design.empty()) {
+      Json design = Json::object();
+      for (const auto& [name, value] : witness.design) design[name] = value;
+      root["witness"]["design"] = design;
+    }
+    if (!witness.loads.empty()) {
+      Json loads = Json::array();
+      for (const core::WitnessLoad& own : witness.loads)
+        loads.push_back({{"load", own.load + 1}, {"force", own.force}, {"couple", own.couple}});
+      root["witness"]["loads"] = loads;
+    }
   }
   if (result.open)
     root["open"] = {{"lower", result.open->lower},
@@ -162,6 +179,10 @@ std::string verification_text(const core::Verification& in_si, bool fit) {
   else if (fit)
     put("No place in the box was found that verifies; where the task lies:\n");
   put("{}\n", verdict_line(result.verdict));
+  if (!result.task.tolerances.empty() || !result.task.loads_within.empty())
+    put("of            every design within the tolerances of {} parameter{}, every load within {} ball{}\n",
+        result.task.tolerances.size(), result.task.tolerances.size() == 1 ? "" : "s", result.task.loads_within.size(),
+        result.task.loads_within.size() == 1 ? "" : "s");
   if (!result.zone.empty()) put("zone          {}\n", result.zone);
   if (result.verified()) put("margin        at least {:.6g} {}, proven\n", result.margin, unit);
   if (result.nearest) {

@@ -58,16 +58,14 @@ StraightLine StraightLines::square(std::size_t root) {
   const TowerRoot& own = geometry_->roots()[root];
   if (!known || own.role != core::RootRole::working_mode || own.value) return {};
   const int scale = builder_.power(known->scale, 2);
-  const Rational &a = known->from_length, &b = known->to_length;
   if (known->axis) {
-    const int k = excess(*known);
-    const int reach = builder_.multiply(builder_.constant(4 * a * a), known->axis->d);
+    const int k = excess(*known), twice_a = builder_.add(known->sum, known->difference);
+    const int reach = builder_.multiply(builder_.power(twice_a, 2), known->axis->d);
     const int q = builder_.subtract(reach, builder_.multiply(known->axis->n2, builder_.power(k, 2)));
     return builder_.line(builder_.multiply(scale, q));
   }
-  const Rational sum = a + b, difference = a - b;
-  const int outer = builder_.subtract(builder_.constant(sum * sum), known->distance2);
-  const int inner = builder_.subtract(known->distance2, builder_.constant(difference * difference));
+  const int outer = builder_.subtract(builder_.power(known->sum, 2), known->distance2);
+  const int inner = builder_.subtract(known->distance2, builder_.power(known->difference, 2));
   return builder_.line(builder_.multiply(scale, builder_.multiply(outer, inner)));
 }
 
@@ -148,8 +146,7 @@ int StraightLines::dot(const Place& a, const Place& b) {
 
 /// k = a^2 - b^2 + |P - A|^2.
 int StraightLines::excess(const Dyad& dyad) {
-  const Rational difference = dyad.from_length * dyad.from_length - dyad.to_length * dyad.to_length;
-  return builder_.add(builder_.constant(difference), dyad.distance2);
+  return builder_.add(builder_.multiply(dyad.sum, dyad.difference), dyad.distance2);
 }
 
 std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex point) {
@@ -158,7 +155,6 @@ std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex poi
   if (own == nullptr) return std::nullopt;
   const Poly from_length = geometry_->poly(geometry_->expression(own->from_length).expand());
   const Poly to_length = geometry_->poly(geometry_->expression(own->to_length).expand());
-  if (!from_length.is_constant() || !to_length.is_constant()) return std::nullopt;
   const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                  [&](const TowerRoot& r) { return r.point == point; });
   if (root == geometry_->roots().end()) return std::nullopt;
@@ -166,7 +162,8 @@ std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex poi
   Place way{};
   for (std::size_t i = 0; i < 3; ++i) way[i] = builder_.subtract(p[i], a[i]);
   const int scale = builder_.multiply(value(root->scale.plain()), builder_.inverse(value(root->scale_divisor.plain())));
-  Dyad dyad{way, dot(way, way), scale, from_length.constant(), to_length.constant()};
+  const int from = value(from_length.plain()), to = value(to_length.plain());
+  Dyad dyad{way, dot(way, way), scale, builder_.add(from, to), builder_.subtract(from, to)};
   if (!own->axis) return dyad;
   const Place n = vector(*own->axis);
   const int n2 = dot(n, n), h = dot(n, way);
@@ -207,9 +204,8 @@ StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& po
   }
   const Rational half(1, 2);
   const int inverse = builder_.inverse(known->distance2);
-  const Rational excess = known->from_length * known->from_length - known->to_length * known->to_length;
-  const int lambda =
-      builder_.add(builder_.constant(half), builder_.multiply(builder_.constant(excess * half), inverse));
+  const int half_excess = builder_.multiply(builder_.constant(half), builder_.multiply(known->sum, known->difference));
+  const int lambda = builder_.add(builder_.constant(half), builder_.multiply(half_excess, inverse));
   const int mu = builder_.multiply(builder_.multiply(builder_.constant(half), s), inverse);
   const auto& [u, v, flat] = known->way;
   const int x = builder_.subtract(builder_.multiply(lambda, u), builder_.multiply(mu, v));

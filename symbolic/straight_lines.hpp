@@ -43,10 +43,10 @@ class StraightLines {
  private:
   using Place = std::array<int, 3>;  ///< z = 0 in the plane
   struct Dyad {
-    Place way;      ///< P - A
-    int distance2;  ///< |P - A|^2
-    int scale;      ///< s of the tower = scale * the true root
-    core::Rational from_length, to_length;
+    Place way;            ///< P - A
+    int distance2;        ///< |P - A|^2
+    int scale;            ///< s of the tower = scale * the true root
+    int sum, difference;  ///< a + b, a - b
     /// In space: n, N, h and D.
     struct Axis {
       Place n;

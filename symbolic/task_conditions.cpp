@@ -26,12 +26,14 @@ using core::TaskDemand;
 
 class Conditions {
  public:
-  explicit Conditions(const std::vector<const mechanism::Mechanism*>& loads)
+  Conditions(const std::vector<const mechanism::Mechanism*>& loads,
+             const std::vector<const mechanism::Mechanism*>& directions)
       : mechanism_(*loads.front()),
         geometry_(mechanism_, false, {}, {.all_sheets = true}),
         elimination_(geometry_),
         lines_(geometry_) {
     result_.loads = loads.size();
+    result_.directions = directions.size();
     result_.tower = lines_.tower();
     for (const LimitCondition& limit : limit_conditions(geometry_)) {
       const Poly sheet = elimination_.over_tower(limit.natural);
@@ -46,7 +48,9 @@ class Conditions {
       root.line = lines_.of(limit.natural);
       append(std::move(root));
     }
-    for (const mechanism::Mechanism* load : loads) {
+    std::vector<const mechanism::Mechanism*> all = loads;
+    all.insert(all.end(), directions.begin(), directions.end());
+    for (const mechanism::Mechanism* load : all) {
       const FactoredDeterminants determinants = load == &mechanism_ ? factored_determinants(geometry_) : under(*load);
       reactions_.push_back(reactions(geometry_, determinants));
       for (const Guide& guide : guides(geometry_, elimination_, reactions_.back())) add_ends(guide, determinants);
@@ -76,7 +80,7 @@ class Conditions {
                                  " cannot be traced: its components lie across a moving axis",
                              "leave the least force out, or name the other joints with --joint");
     // Components that are zero whatever the pose and the load say nothing.
-    std::vector<std::vector<FactoredPoly>> parts(result_.loads);
+    std::vector<std::vector<FactoredPoly>> parts(result_.loads + result_.directions);
     for (const Quantity quantity : quantities) {
       std::vector<FactoredPoly> own;
       for (const auto& all : reactions_) {
@@ -96,14 +100,14 @@ class Conditions {
       }
       for (std::size_t i = 0; i < result_.loads; ++i) condition.unloaded.push_back(static_cast<int>(i));
     }
-    for (std::size_t i = 0; i < parts.size() && !parts.front().empty(); ++i)
+    for (std::size_t i = 0; i < result_.loads && !parts.front().empty(); ++i)
       if (std::all_of(parts[i].begin(), parts[i].end(), [](const FactoredPoly& p) { return p.is_zero(); }))
         condition.unloaded.push_back(static_cast<int>(i));
     if (condition.unloaded.empty()) fill(condition, joint, parts);
     const auto known = std::find_if(result_.conditions.begin(), result_.conditions.end(), [&](const TaskCondition& c) {
       return condition.unloaded.empty() && c.unloaded.empty() && c.least == condition.least &&
-             c.factors == condition.factors && c.parts == condition.parts && c.denominator == condition.denominator &&
-             c.squared_axis == condition.squared_axis;
+             c.factors == condition.factors && c.parts == condition.parts && c.directions == condition.directions &&
+             c.denominator == condition.denominator && c.squared_axis == condition.squared_axis;
     });
     if (known == result_.conditions.end())
       result_.conditions.push_back(std::move(condition));
@@ -219,8 +223,9 @@ class Conditions {
     const Rational unit = size ? denominator.constant : all.front().constant;
     if (size) condition.denominator = function_of(denominator, unit);
     bool constant = true;
-    for (const auto& load : parts) {
-      std::vector<int>& own = condition.parts.emplace_back();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto& load = parts[i];
+      std::vector<int>& own = (i < result_.loads ? condition.parts : condition.directions).emplace_back();
       for (FactoredPoly part : load) {
         if (!part.is_zero()) multiply(part, size ? of_determinant : shared, -1);
         constant = constant && part.factors.empty();
@@ -255,8 +260,9 @@ class Conditions {
 }  // namespace
 
 core::TaskConditions task_conditions(const std::vector<const mechanism::Mechanism*>& loads,
-                                     const std::vector<TaskDemand>& demands) {
-  Conditions conditions(loads);
+                                     const std::vector<TaskDemand>& demands,
+                                     const std::vector<const mechanism::Mechanism*>& directions) {
+  Conditions conditions(loads, directions);
   for (const TaskDemand& demand : demands) conditions.add(demand);
   return conditions.take();
 }

@@ -12,6 +12,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -44,6 +45,18 @@ struct LoadRange {
   RationalPoint first, second;
 };
 
+/// A parameter of the mechanism file, and how far below and above its value designs may be (below <= 0 <= above).
+struct Tolerance {
+  std::string parameter;
+  Rational below, above;
+};
+
+/// Any force that differs from a load's by at most `force`, N, in any direction, and any couple by `couple`, N m.
+struct LoadWithin {
+  std::size_t load = 0;  ///< of the mechanism file, from 0
+  Rational force = 0, couple = 0;
+};
+
 struct Task {
   std::string file;
   TaskShape shape;
@@ -51,6 +64,8 @@ struct Task {
   std::optional<Rational> min_force;   ///< N, that every wanted joint keeps
   std::optional<Rational> min_couple;  ///< N m
   std::optional<LoadRange> loads;      ///< instead of the force of the mechanism's one load
+  std::vector<Tolerance> tolerances = {};
+  std::vector<LoadWithin> loads_within = {};
 };
 
 /// What is not proven is never called refuted.
@@ -62,6 +77,13 @@ std::string to_string(Verdict verdict);
 /// Where a task is moved to that fails where it lies: the nearest place that verifies, or the one of the largest
 /// margin.
 enum class FitGoal { nearest, best };
+
+/// One load of the mechanism file at a witness.
+struct WitnessLoad {
+  std::size_t load = 0;  ///< from 0
+  Point2 force{};        ///< N
+  double couple = 0;     ///< N m
+};
 
 /// A pose of the task, or of the margin around it, at which it fails, confirmed by numeric/.
 struct TaskWitness {
@@ -81,6 +103,8 @@ struct TaskWitness {
   std::optional<Rational> least = {};  ///< that is asked of it, N or N m
   double distance = 0;                 ///< m from the task
   std::string limit = {};              ///< of the first two kinds, the one that is broken: "distance A1-P at 0.52 m"
+  std::vector<std::pair<std::string, double>> design = {};  ///< parameters that have a tolerance
+  std::vector<WitnessLoad> loads = {};                      ///< those that may differ
 };
 
 struct NearestOfTask {

@@ -55,4 +55,5 @@ PYBIND11_MODULE(_clearloci, module) {
   bind_zones(module);
   bind_verify(module);
   bind_motion(module);
+  bind_design(module);
 }

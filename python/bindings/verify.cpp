@@ -24,6 +24,14 @@ py::object witness_of(const Verification& answer) {
   one["size"] = witness.size;
   one["load"] = witness.load ? py::object(pair_of(*witness.load)) : py::none();
   one["distance"] = witness.distance;
+  py::dict design;
+  for (const auto& [name, value] : witness.design) design[py::str(name)] = value;
+  one["design"] = design;
+  py::list loads;
+  for (const WitnessLoad& own : witness.loads)
+    loads.append(py::dict(py::arg("load") = own.load + 1, py::arg("force") = pair_of(own.force),
+                          py::arg("couple") = own.couple));
+  one["loads"] = loads;
   return one;
 }
 

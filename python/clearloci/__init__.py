@@ -13,12 +13,14 @@ Units are SI throughout: m, rad, N, N m. Names and defaults are those of the com
 
 from ._clearloci import InputError, LimitReached, __version__
 from .answers import Curve, Loci, Surface, Verification, Zone, Zones
+from .design import Designs, design
 from .model import Model, parse, read
 from .motion import CoordinateErrors, ErrorMap, Pose, Trajectory
 
 __all__ = [
     "CoordinateErrors",
     "Curve",
+    "Designs",
     "ErrorMap",
     "InputError",
     "LimitReached",
@@ -31,6 +33,7 @@ __all__ = [
     "Zone",
     "Zones",
     "__version__",
+    "design",
     "parse",
     "read",
 ]

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "check", "analysis", "report", "workbench", "cli"}
+FOLDERS = {"core", "mechanism", "symbolic", "loci", "numeric", "check", "analysis", "studies", "report", "workbench", "cli"}
 # Public headers, of which core/ is made: they include the standard library, GMP's numbers and one another.
 PUBLIC = "clearloci"
 MAY_INCLUDE = {
@@ -19,6 +19,7 @@ MAY_INCLUDE = {
     "numeric": {"core", "mechanism"},
     "check": {"core", "mechanism"},
     "analysis": {"core", "mechanism", "symbolic", "loci", "numeric"},
+    "studies": {"core", "mechanism", "analysis", "loci"},
     "report": {"core", "analysis"},
     "workbench": {"report"},
     "cli": FOLDERS,
@@ -37,6 +38,8 @@ THIRD_PARTIES = {
     "CGAL": (("CGAL/", "boost/"), set(), {"loci"}),
     "Eigen": (("Eigen/",), {"numeric"}, set()),
     "TBB": (("tbb/", "oneapi/tbb"), {"numeric"}, {"loci"}),
+    "MPI": (("mpi.h",), set(), {"studies"}),
+    "NLopt": (("nlopt.h",), set(), {"studies"}),
     "cairomm": (("cairomm/", "cairo"), set(), {"report"}),
     "nlohmann-json": (("nlohmann/",), {"report", "workbench", "cli"}, {"check"}),
     "fmt": (("fmt/",), {"report", "workbench", "cli"}, {"check"}),

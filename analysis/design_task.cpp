@@ -1,0 +1,211 @@
+#include "analysis/design_task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "analysis/enclosure.hpp"
+#include "analysis/task_demands.hpp"
+#include "core/errors.hpp"
+#include "symbolic/task_conditions.hpp"
+
+namespace clearloci {
+namespace {
+
+using core::Quantity;
+using core::Rational;
+using core::TaskDemand;
+using mechanism::Mechanism;
+using mechanism::ParameterRange;
+
+const mechanism::Parameter* parameter_named(const Mechanism& mechanism, const std::string& name) {
+  for (const mechanism::Parameter& own : mechanism.parameters)
+    if (own.name == name) return &own;
+  return nullptr;
+}
+
+/// What is left open: what varies, then what has a tolerance besides, each with all it may be.
+std::vector<ParameterRange> opened(const Mechanism& mechanism, std::vector<ParameterRange> ranges,
+                                   const core::Task& task) {
+  for (const core::Tolerance& tolerance : task.tolerances) {
+    const auto known = std::find_if(ranges.begin(), ranges.end(),
+                                    [&](const ParameterRange& r) { return r.name == tolerance.parameter; });
+    if (known == ranges.end()) {
+      const mechanism::Parameter* own = parameter_named(mechanism, tolerance.parameter);
+      if (own == nullptr)
+        throw core::InputError({task.file}, "there is no parameter '" + tolerance.parameter + "' in " + mechanism.file,
+                               "give tolerances to parameters of the mechanism file");
+      ranges.push_back({own->name, own->value + tolerance.below, own->value + tolerance.above});
+    } else {
+      known->lower += tolerance.below;
+      known->upper += tolerance.above;
+    }
+  }
+  return ranges;
+}
+
+std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task, std::vector<loci::LoadBall>& balls) {
+  std::vector<Mechanism> directions;
+  for (const core::LoadWithin& within : task.loads_within) {
+    loci::LoadBall ball;
+    // Radii are rounded up: more loads than asked for.
+    ball.force = std::nextafter(core::to_double(within.force), within.force > 0 ? 1e300 : 0.0);
+    ball.couple_size = std::nextafter(core::to_double(within.couple), within.couple > 0 ? 1e300 : 0.0);
+    const auto add = [&](int fx, int fy, int couple) {
+      Mechanism own = open;
+      mechanism::Load load = open.loads[within.load];
+      load.force.clear();
+      load.force_vector.reset();
+      load.couple_vector.clear();
+      if (fx != 0 || fy != 0) load.force = {core::Expression::number(fx), core::Expression::number(fy)};
+      load.couple = core::Expression::number(couple);
+      own.loads = {load};
+      own.gravity.clear();
+      own.springs.clear();
+      for (mechanism::Joint& joint : own.joints) joint.effort.reset();
+      directions.push_back(std::move(own));
+      return static_cast<int>(directions.size()) - 1;
+    };
+    if (within.force > 0) {
+      ball.fx = add(1, 0, 0);
+      ball.fy = add(0, 1, 0);
+    }
+    if (within.couple > 0) ball.couple = add(0, 0, 1);
+    if (within.force > 0 || within.couple > 0) balls.push_back(ball);
+  }
+  return directions;
+}
+
+std::string joints_of(const core::TaskCondition& condition) {
+  std::string names;
+  for (const core::Vanishing& own : condition.reactions) names += (names.empty() ? "" : ", ") + own.joint;
+  return names;
+}
+
+bool is_effort(Quantity quantity) { return quantity == Quantity::M || quantity == Quantity::F; }
+
+}  // namespace
+
+DesignTask::DesignTask(const Mechanism& mechanism, const std::vector<ParameterRange>& vary, const core::Task& task,
+                       const LociRequest& request)
+    : mechanism_(mechanism),
+      vary_(vary),
+      task_(task),
+      request_(request_of(task, request)),
+      open_(mechanism::open_design(mechanism, opened(mechanism, vary, task))),
+      loads_(under_loads_of(task, open_.mechanism)),
+      directions_(unit_loads(open_.mechanism, task, balls_)),
+      demands_(demands_of(open_.mechanism, request_)),
+      conditions_(conditions_for(demands_)),
+      sides_(requested_modes(mechanism, request_).front()),
+      mode_(mode_of(sides_, names_of(conditions_.tower))),
+      region_(task.shape),
+      margin_(core::to_double(task.margin)) {}
+
+core::TaskConditions DesignTask::conditions_for(const std::vector<TaskDemand>& demands) const {
+  std::vector<const Mechanism*> loads, directions;
+  for (const Mechanism& own : loads_) loads.push_back(&own);
+  for (const Mechanism& own : directions_) directions.push_back(&own);
+  return symbolic::task_conditions(loads, demands, directions);
+}
+
+std::vector<TaskDemand> DesignTask::demands() const {
+  std::vector<TaskDemand> demands = demands_;
+  for (const TaskDemand& never : conditions_.never_loaded)
+    std::erase_if(demands, [&](const TaskDemand& demand) {
+      return demand.joint == never.joint && demand.quantity == never.quantity;
+    });
+  return demands;
+}
+
+std::optional<loci::DesignBox> DesignTask::box(const std::vector<ExactRange>& values) const {
+  core::ensure(values.size() == vary_.size(), "a range for every parameter that varies");
+  Ranges nominal;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    nominal[vary_[i].name] = range_of(values[i].first, values[i].second);
+    names.push_back(vary_[i].name);
+  }
+  Ranges ranges = nominal;
+  for (const core::Tolerance& tolerance : task_.tolerances) {
+    const auto varied = std::find(names.begin(), names.end(), tolerance.parameter);
+    if (varied != names.end()) {
+      const ExactRange& own = values[static_cast<std::size_t>(varied - names.begin())];
+      ranges[tolerance.parameter] = range_of(own.first + tolerance.below, own.second + tolerance.above);
+    } else {  // around the value that the file computes for each design
+      const core::Expression own =
+          mechanism::in_varied(core::Expression::symbol(tolerance.parameter), mechanism_, names);
+      ranges[tolerance.parameter] = enclosure(own, nominal) + range_of(tolerance.below, tolerance.above);
+    }
+  }
+  for (const core::Expression& length : open_.lengths)
+    if (!(enclosure(length, ranges).lower() > 0)) return std::nullopt;
+  loci::DesignBox box;
+  for (const std::string& name : open_.varied) box.push_back(ranges.at(name));
+  return box;
+}
+
+loci::DesignVariables DesignTask::variables() const {
+  loci::DesignVariables own;
+  for (const mechanism::DesignVariable& variable : open_.variables) {
+    const std::set<std::string> names = core::symbols(variable.meaning);
+    std::vector<std::size_t>& list = own.parameters.emplace_back();
+    for (std::size_t p = 0; p < open_.varied.size(); ++p)
+      if (names.contains(open_.varied[p])) list.push_back(p);
+  }
+  own.enclosure = [this](std::size_t v, const loci::DesignBox& parameters) {
+    const core::Expression& meaning = open_.variables[v].meaning;
+    if (meaning.kind() == core::Expression::Kind::symbol)
+      for (std::size_t p = 0; p < open_.varied.size(); ++p)
+        if (open_.varied[p] == meaning.name()) return parameters[p];
+    Ranges ranges;
+    for (std::size_t p = 0; p < open_.varied.size(); ++p) ranges[open_.varied[p]] = parameters[p];
+    return enclosure(meaning, ranges);
+  };
+  return own;
+}
+
+std::unique_ptr<loci::DesignJudge> DesignTask::judge() const {
+  return std::make_unique<loci::DesignJudge>(conditions_, mode_, region_, variables(), balls_);
+}
+
+const DesignTask::Measured& DesignTask::measured() const {
+  const std::lock_guard lock(mutex_);
+  if (measured_) return *measured_;
+  Measured own;
+  std::vector<TaskDemand> demands = demands_;
+  // A least size that anything has: conditions then say what sizes are.
+  for (TaskDemand& demand : demands) demand.least = 1;
+  own.conditions = conditions_for(demands);
+  own.mode = mode_of(sides_, names_of(own.conditions.tower));
+  for (std::size_t i = 0; i < own.conditions.conditions.size(); ++i) {
+    const core::TaskCondition& condition = own.conditions.conditions[i];
+    if (condition.denominator < 0) continue;
+    (is_effort(condition.reactions.front().quantity) ? own.efforts : own.forces).push_back(static_cast<int>(i));
+  }
+  measured_ = std::move(own);
+  return *measured_;
+}
+
+std::unique_ptr<loci::DesignJudge> DesignTask::measure() const {
+  if (!balls_.empty()) return nullptr;
+  const Measured& own = measured();
+  return std::make_unique<loci::DesignJudge>(own.conditions, own.mode, region_, variables());
+}
+
+std::vector<int> DesignTask::forces() const { return measured().forces; }
+std::vector<int> DesignTask::efforts() const { return measured().efforts; }
+
+std::string DesignTask::reason(const loci::DesignFailure& failure) const {
+  using Kind = loci::DesignFailure::Kind;
+  const std::string where = region_.signed_distance(failure.at) > 1e-12 ? "margin: " : "";
+  if (failure.kind == Kind::unreachable) return where + "workspace";
+  if (failure.kind == Kind::singular || failure.condition < 0) return where + "singularity";
+  const core::TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(failure.condition)];
+  const bool effort = is_effort(condition.reactions.front().quantity);
+  if (failure.kind == Kind::too_small && condition.least > 0)
+    return where + (effort ? "min_couple in " : "min_force in ") + joints_of(condition);
+  return where + (effort ? "backlash in " : "contact lost in ") + joints_of(condition);
+}
+
+}  // namespace clearloci

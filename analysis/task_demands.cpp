@@ -1,0 +1,72 @@
+#include "analysis/task_demands.hpp"
+
+#include <algorithm>
+
+#include "mechanism/guide.hpp"
+
+namespace clearloci {
+
+using core::Quantity;
+using core::TaskDemand;
+
+mechanism::Mechanism under_load(mechanism::Mechanism mechanism, const core::RationalPoint& load) {
+  for (std::size_t c = 0; c < 2; ++c) mechanism.loads.front().force[c] = core::Expression::number(load[c]);
+  return mechanism;
+}
+
+std::vector<mechanism::Mechanism> under_loads_of(const core::Task& task, const mechanism::Mechanism& mechanism) {
+  if (!task.loads) return {mechanism};
+  std::vector<mechanism::Mechanism> all = {under_load(mechanism, task.loads->first)};
+  if (task.loads->second != task.loads->first) all.push_back(under_load(mechanism, task.loads->second));
+  return all;
+}
+
+LociRequest request_of(const core::Task& task, LociRequest request) {
+  if (task.min_force) request.min_force = task.min_force;
+  if (task.min_couple) request.min_couple = task.min_couple;
+  request.all_working_modes = false;
+  if (request.working_modes.size() > 1) request.working_modes.resize(1);
+  return request;
+}
+
+std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  std::vector<TaskDemand> demands;
+  const auto wanted = [&](Quantity quantity) {
+    return std::find(request.quantities.begin(), request.quantities.end(), quantity) != request.quantities.end();
+  };
+  for (const numeric::TracedReaction& reaction : selected_reactions(mechanism, request)) {
+    const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
+                                    [&](const mechanism::Joint& j) { return j.name == reaction.joint; });
+    const std::vector<Quantity> force = mechanism::force_components(mechanism, *joint);
+    const auto add = [&](Quantity quantity, const std::optional<core::Rational>& least) {
+      demands.push_back({reaction.joint, quantity, least.value_or(0)});
+    };
+    switch (const Quantity q = reaction.quantity; q) {
+      case Quantity::M:
+      case Quantity::F: {
+        const bool couple = q == Quantity::M && request.min_couple;
+        if (wanted(q) || wanted(Quantity::M) || couple) add(q, couple ? request.min_couple : std::nullopt);
+        break;
+      }
+      case Quantity::end_ahead:
+      case Quantity::end_behind:
+        if (wanted(q) || wanted(Quantity::f) || request.min_force) add(q, request.min_force);
+        break;
+      case Quantity::N:
+        // A guide whose ends are not known loses its contact where N and T vanish together.
+        if (mechanism.space == mechanism::Space::planar && !mechanism::has_guide_ends(mechanism, *joint) &&
+            wanted(Quantity::f))
+          add(Quantity::f, std::nullopt);
+        break;
+      case Quantity::T:
+        break;
+      default:
+        // Once a joint, with the first component of its force.
+        if (!force.empty() && q == force.front() && (wanted(Quantity::f) || request.min_force))
+          add(Quantity::f, request.min_force);
+    }
+  }
+  return demands;
+}
+
+}  // namespace clearloci

@@ -1,0 +1,275 @@
+#include "analysis/tolerant_verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/design_task.hpp"
+#include "core/errors.hpp"
+#include "numeric/design_witness.hpp"
+
+namespace clearloci {
+namespace {
+
+using core::Point2;
+using core::Quantity;
+using loci::DesignFailure;
+using numeric::Bounded;
+
+constexpr loci::DesignEffort effort_of_the_task = {.most_cells = 400'000, .most_cells_in_vain = 20'000};
+constexpr int cells_of_a_margin = 40'000;
+/// What ends the margin is told apart to this part of the task.
+constexpr double margin_accuracy = 1e-4;
+
+double apart(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+/// A way between two poses of the task or its margin that stays there: straight, or along the outline.
+core::Polyline way_within(const DesignTask& task, const Point2& from, const Point2& to) {
+  constexpr int looks = 64;
+  bool inside = true;
+  for (int i = 0; i <= looks && inside; ++i) {
+    const double t = static_cast<double>(i) / looks;
+    const Point2 at = {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])};
+    inside = task.region().signed_distance(at) <= task.margin() + 1e-12 * (1 + apart(from, to));
+  }
+  if (inside) return {from, to};
+  const core::Polyline line = core::outline(task.task().shape);
+  const auto nearest = [&](const Point2& at) {
+    const Point2 foot = task.region().closest(at);
+    std::size_t best = 1;
+    double least = 1e300;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const double detour = apart(line[i - 1], foot) + apart(foot, line[i]) - apart(line[i - 1], line[i]);
+      if (detour < least) least = detour, best = i;
+    }
+    return std::pair(best, foot);
+  };
+  const auto [first, out] = nearest(from);
+  const auto [last, in] = nearest(to);
+  core::Polyline way = {from, out};
+  if (first <= last)
+    for (std::size_t i = first; i < last; ++i) way.push_back(line[i]);
+  else
+    for (std::size_t i = first; i-- > last;) way.push_back(line[i]);
+  way.push_back(in);
+  way.push_back(to);
+  return way;
+}
+
+class Tolerant {
+ public:
+  Tolerant(const mechanism::Mechanism& mechanism, const core::Task& task, const LociRequest& request)
+      : mechanism_(mechanism), request_(request), task_(mechanism, {}, task, request), judge_(task_.judge()) {
+    for (const mechanism::Mechanism& own : task_.loads()) loads_.push_back(numeric::compile(own));
+    for (const mechanism::Mechanism& own : task_.directions()) directions_.push_back(numeric::compile(own));
+  }
+
+  void decide(Verification& result) {
+    const auto designs = task_.box({});
+    if (!designs)
+      throw core::InputError({task_.task().file}, "a link has no length above zero within the tolerances",
+                             "make the tolerances smaller");
+    loci::DesignEffort effort = effort_of_the_task;
+    effort.deadline = request_.deadline;
+    if (request_.progress) request_.progress(0, "proof");
+    const loci::DesignProof proof = judge_->judge(*designs, task_.margin(), loci::Refuting::one, effort);
+    result.mode = task_.mode();
+    result.verdict = proof.verdict;
+    result.open.reset();
+    result.witness.reset();
+    result.margin = 0;
+    if (result.verified()) {
+      if (request_.progress) request_.progress(0, "margin");
+      effort.most_cells = cells_of_a_margin;
+      result.margin = judge_->clearance(*designs, task_.margin(), limit(), margin_accuracy, effort);
+      return;
+    }
+    using Reason = core::OpenTask::Reason;
+    if (result.verdict == core::Verdict::undecided) {
+      result.open = core::OpenTask{proof.open, proof.lower, proof.upper,
+                                   proof.out_of_time    ? Reason::time
+                                   : proof.out_of_cells ? Reason::cells
+                                                        : Reason::doubles,
+                                   proof.cells};
+      return;
+    }
+    result.witness = witness_of(*proof.failure);
+    if (result.witness) return;
+    result.verdict = core::Verdict::undecided;
+    result.notes.push_back("enclosures refute the task (" + task_.reason(*proof.failure) +
+                           "), but no witness was found that the numeric solution confirms");
+  }
+
+ private:
+  double limit() const {
+    double limit = task_.margin();
+    for (std::size_t c = 0; c < 2; ++c)
+      limit += core::to_double(mechanism_.coordinates[c].upper - mechanism_.coordinates[c].lower);
+    return limit;
+  }
+
+  std::optional<core::TaskWitness> witness_of(const DesignFailure& failure) {
+    if (!failure.watched) return confirmed(failure.at, failure.parameters);
+    // The sign changes between two poses and two designs: first the design changes, then the pose.
+    const std::size_t w = *failure.watched;
+    const auto& [from, to] = std::tie(failure.other_parameters, failure.parameters);
+    const int sign = judge_->sign_at(w, failure.other, from);
+    const auto design = [&](double t) {
+      std::vector<double> own;
+      for (std::size_t p = 0; p < from.size(); ++p) own.push_back(t == 1 ? to[p] : from[p] + t * (to[p] - from[p]));
+      return own;
+    };
+    if (judge_->sign_at(w, failure.other, to) != sign)
+      return between(w, sign, [&](double t) { return std::pair(failure.other, design(t)); });
+    const core::Polyline way = way_within(task_, failure.other, failure.at);
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      if (judge_->sign_at(w, way[i], to) == sign) continue;
+      const Point2 &a = way[i - 1], &b = way[i];
+      return between(w, sign, [&](double t) {
+        return std::pair(t == 1 ? b : Point2{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])}, to);
+      });
+    }
+    return std::nullopt;
+  }
+
+  template <class Place>
+  std::optional<core::TaskWitness> between(std::size_t watched, int sign, const Place& place) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 100 && high - low > 0; ++i) {
+      const double middle = 0.5 * (low + high);
+      if (middle == low || middle == high) break;
+      const auto [pose, design] = place(middle);
+      (judge_->sign_at(watched, pose, design) == sign ? low : high) = middle;
+    }
+    for (const double t : {high, low, 0.5 * (low + high)}) {
+      const auto [pose, design] = place(t);
+      if (auto found = confirmed(pose, design)) return found;
+    }
+    return std::nullopt;
+  }
+
+  numeric::DesignWitness& witness(const std::vector<double>& parameters) {
+    if (witness_) return *witness_;
+    std::vector<const numeric::NumericModel*> loads, directions;
+    for (const numeric::NumericModel& own : loads_) loads.push_back(&own);
+    for (const numeric::NumericModel& own : directions_) directions.push_back(&own);
+    std::vector<numeric::WitnessBall> balls;
+    for (const loci::LoadBall& own : task_.balls())
+      balls.push_back({own.fx, own.fy, inwards(own.force), own.couple, inwards(own.couple_size)});
+    std::vector<std::vector<double>> usual;
+    for (const Point2& pose : task_.region().samples()) {
+      std::vector<double>& at = usual.emplace_back();
+      for (const Bounded& own : bounded(pose, parameters)) at.push_back(own.value);
+    }
+    return witness_.emplace(std::move(loads), std::move(directions), std::move(balls), task_.sides(), task_.demands(),
+                            usual);
+  }
+
+  /// Radii were rounded up for the proof; a witness is within what was asked.
+  static double inwards(double radius) { return radius > 0 ? radius * (1 - 0x1p-50) : 0; }
+
+  std::vector<Bounded> bounded(const Point2& pose, const std::vector<double>& parameters) const {
+    std::vector<Bounded> at;
+    for (const loci::sheet::Interval& own : judge_->coordinates(pose, parameters))
+      at.emplace_back(own.middle(), 0.5 * own.width());
+    return at;
+  }
+
+  std::optional<core::TaskWitness> confirmed(const Point2& pose, const std::vector<double>& parameters) {
+    const double distance = task_.region().signed_distance(pose);
+    if (distance > 0 && distance >= task_.margin() && distance > 0x1p-48 * (1 + std::hypot(pose[0], pose[1])))
+      return std::nullopt;
+    const auto found = witness(parameters).failures(bounded(pose, parameters));
+    return found.empty() ? std::nullopt : std::optional(described(pose, parameters, found));
+  }
+
+  core::TaskWitness described(const Point2& pose, const std::vector<double>& parameters,
+                              const std::vector<numeric::DesignFailureAt>& found) const {
+    using Kind = numeric::TaskFailure::Kind;
+    using Told = core::TaskWitness::Kind;
+    core::TaskWitness told;
+    told.at = pose;
+    told.distance = std::max(0.0, task_.region().signed_distance(pose));
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+      told.design.emplace_back(task_.design().varied[p], parameters[p]);
+    const numeric::DesignFailureAt& first = found.front();
+    const Kind kind = first.failure.kind;
+    told.kind = kind == Kind::unreachable ? Told::unreachable
+                : kind == Kind::boundary  ? Told::boundary
+                : kind == Kind::singular  ? Told::singular
+                : kind == Kind::vanishing ? Told::vanishing
+                                          : Told::too_small;
+    if (kind != Kind::vanishing && kind != Kind::too_small) return told;
+    const core::Vanishing reaction = {first.failure.demand.joint, first.failure.demand.quantity, 1};
+    (kind == Kind::vanishing ? told.vanishing : told.too_small).push_back(reaction);
+    if (kind == Kind::too_small) {
+      told.size = first.failure.size;
+      told.least = first.failure.demand.least;
+    }
+    add_loads(told, first, parameters);
+    return told;
+  }
+
+  void add_loads(core::TaskWitness& told, const numeric::DesignFailureAt& found,
+                 const std::vector<double>& parameters) const {
+    const double t = found.failure.load;
+    const auto& range = task_.task().loads;
+    if (range) {
+      Point2 load{};
+      for (std::size_t c = 0; c < 2; ++c)
+        load[c] = (1 - t) * core::to_double(range->first[c]) + t * core::to_double(range->second[c]);
+      told.load = load;
+    }
+    // The file's loads at this design.
+    const numeric::Posture posture = numeric::posture(loads_.front(), values(told.at, parameters), task_.sides());
+    std::size_t ball = 0;
+    for (const core::LoadWithin& within : task_.task().loads_within) {
+      if (!(within.force > 0) && !(within.couple > 0)) continue;
+      const numeric::LoadChange& change = found.changes[ball++];
+      core::WitnessLoad load{within.load};
+      if (posture.reachable()) {
+        load.force = posture.loads[within.load].force;
+        load.couple = posture.loads[within.load].couple;
+      }
+      if (told.load && within.load == 0) load.force = *told.load;
+      load.force[0] += change.fx;
+      load.force[1] += change.fy;
+      load.couple += change.couple;
+      told.loads.push_back(load);
+    }
+  }
+
+  std::vector<double> values(const Point2& pose, const std::vector<double>& parameters) const {
+    std::vector<double> list;
+    for (const Bounded& own : bounded(pose, parameters)) list.push_back(own.value);
+    return list;
+  }
+
+  const mechanism::Mechanism& mechanism_;
+  const LociRequest& request_;
+  DesignTask task_;
+  std::unique_ptr<loci::DesignJudge> judge_;
+  std::vector<numeric::NumericModel> loads_, directions_;
+  std::optional<numeric::DesignWitness> witness_;
+};
+
+}  // namespace
+
+bool is_tolerant(const core::Task& task) { return !task.tolerances.empty() || !task.loads_within.empty(); }
+
+core::Task nominal(core::Task task) {
+  task.tolerances.clear();
+  task.loads_within.clear();
+  return task;
+}
+
+void decide_tolerant(const mechanism::Mechanism& mechanism, const core::Task& task, const LociRequest& request,
+                     Verification& result) {
+  // What the file's own design fails, the task fails.
+  result.task = task;
+  if (result.verdict == core::Verdict::refuted) return;
+  result.zone = result.verified() ? result.zone : "";
+  Tolerant(mechanism, task, request).decide(result);
+  if (!result.verified()) result.zone.clear();
+}
+
+}  // namespace clearloci

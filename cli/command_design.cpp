@@ -1,0 +1,147 @@
+// clearloci design: which of many designs are good, and which is best?
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "clearloci/study.hpp"
+#include "cli/commands.hpp"
+#include "cli/program.hpp"
+#include "cli/progress.hpp"
+#include "cli/standard_streams.hpp"
+#include "cli/time_limit.hpp"
+#include "core/errors.hpp"
+#include "core/text.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/study.hpp"
+#include "studies/mpi_ranks.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+struct Arguments {
+  CommonArguments common;
+  std::string study;
+  std::string formats = "csv,svg,png";
+  std::string threads;
+  bool resume = false;
+};
+
+int parse_threads(const std::string& text) {
+  if (text.empty()) return 0;
+  const core::Rational number = parse_positive(text, "--threads", mechanism::Mechanism{});
+  if (number.get_den() != 1 || number > 1024)
+    throw core::InputError({.file = "--threads"}, "'" + text + "' is no number of threads", "write a number to 1024");
+  return static_cast<int>(number.get_num().get_si());
+}
+
+std::string words_of(const StudyProgress& progress) {
+  std::string words = fmt::format("{} of {}, {} feasible", progress.done, progress.total, progress.feasible);
+  if (progress.best) words += fmt::format(", best {:.4g}", *progress.best);
+  return words + fmt::format(", {:.0f} s left", progress.seconds_left);
+}
+
+/// What verify says of the best design: of the first task that it does not verify, if any.
+Verification proof_of(const Model& best, const Study& study, const TimeLimit& limit) {
+  Verification answer;
+  for (const Task& task : study.tasks) {
+    answer = decide_task(best, task, {.deadline = limit.deadline()});
+    if (!answer.verified()) break;
+  }
+  return answer;
+}
+
+std::string words_of(const Verification& proof) {
+  return proof.verified() ? fmt::format("verify: VERIFIED, margin at least {:.6g} m", proof.margin)
+                          : fmt::format("verify: {}", to_string(proof.verdict));
+}
+
+/// Of rank 0, or of the only process there is.
+int lead(const Arguments& arguments, const StudyRanks* ranks, TimeLimit& limit) {
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::study_format_names());
+  const Model model = Model::read(arguments.common.model, parse_overrides(arguments.common.overrides));
+  const Study study = read_study(arguments.study, model);
+  const std::filesystem::path folder = output_folder(arguments.common);
+  Progress progress(arguments.common.quiet);
+  StudyOptions options;
+  options.table = folder / "designs.table";
+  options.resume = arguments.resume;
+  options.threads = parse_threads(arguments.threads);
+  options.deadline = limit.deadline();
+  options.ranks = ranks;
+  if (ranks != nullptr && ranks->rank != 0) {
+    (void)run_study(model, study, options);
+    return exit_done;
+  }
+  options.progress = [&](const StudyProgress& own) {
+    progress.show(static_cast<double>(own.done) / static_cast<double>(std::max<std::uint64_t>(own.total, 1)),
+                  words_of(own));
+  };
+  const StudyResult result = run_study(model, study, options);
+  progress.clear();
+  limit.writing();
+  std::vector<std::filesystem::path> files = report::write_study(result, folder, formats);
+  std::optional<Verification> proof;
+  if (result.best) {
+    const StudyDesign& best = result.designs[*result.best];
+    files.push_back(folder / "best.yaml");
+    report::write_atomically(files.back(), design_text(model, result, best));
+    proof = proof_of(design_model(model, result, best), study, limit);
+  }
+  if (arguments.common.json) {
+    fmt::print("{}", report::json_text(report::study_object(result)));
+  } else if (!arguments.common.quiet) {
+    fmt::print("{}", report::study_text(result));
+    if (proof) fmt::print("  {}\n", words_of(*proof));
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+    fmt::print("\nWritten to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
+  }
+  return result.complete ? exit_done : exit_limit_reached;
+}
+
+int run(const Arguments& arguments, TimeLimit& limit) {
+  if (!started_by_mpi()) return lead(arguments, nullptr, limit);
+  const MpiRanks mpi;
+  const StudyRanks& ranks = mpi.ranks();
+  try {
+    return lead(arguments, &ranks, limit);
+  } catch (const core::InputError&) {
+    if (ranks.rank == 0) throw;
+    return exit_wrong_input;  // rank 0 says what is wrong
+  } catch (const std::exception& error) {
+    if (ranks.rank == 0 && dynamic_cast<const core::LimitReached*>(&error) != nullptr) throw;
+    complain(error.what());
+    mpi.abort(exit_internal_error);
+  }
+}
+
+}  // namespace
+
+Command add_design_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("design", "Judge many designs by a task, and find the best");
+  const auto arguments = std::make_shared<Arguments>();
+  add_common_arguments(*app, arguments->common);
+  app->add_option("STUDY", arguments->study, "The study file: what varies, the task, the goal, the method")->required();
+  app->add_flag("--resume", arguments->resume, "Go on where a run of the same study was stopped");
+  app->add_option("--threads", arguments->threads, "Designs judged at a time (default: as many as there are cores)")
+      ->type_name("COUNT");
+  app->add_option("--export", arguments->formats,
+                  fmt::format("Files besides designs.json, several after commas: {}",
+                              fmt::join(report::study_format_names(), ", ")))
+      ->type_name("LIST")
+      ->capture_default_str();
+  app->footer(
+      "Example: clearloci design examples/five_bar.yaml examples/studies/pick_and_place.yaml\n"
+      "Ends with 3 where the time limit came first; --resume then goes on. The same study gives the same files\n"
+      "whatever the number of threads. They go to ./out/<name of MODEL>, or to the folder of -o.");
+  return {app, [arguments] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
+}
+
+}  // namespace clearloci::cli

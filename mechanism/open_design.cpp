@@ -1,0 +1,247 @@
+#include "mechanism/open_design.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "mechanism/evaluate.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using Kind = Expression::Kind;
+
+const Parameter* parameter_named(const Mechanism& mechanism, const std::string& name) {
+  for (const Parameter& parameter : mechanism.parameters)
+    if (parameter.name == name) return &parameter;
+  return nullptr;
+}
+
+/// Rewrites expressions of the file in the open design's coordinates.
+class Opening {
+ public:
+  Opening(const Mechanism& mechanism, std::vector<std::string> varied)
+      : mechanism_(mechanism), varied_(varied.begin(), varied.end()) {}
+
+  /// Polynomial in coordinates and variables, as far as the file's expression is one in its coordinates.
+  Expression opened(const Expression& e) {
+    const Dependence on = dependence(e);
+    if (!on.varied && !on.coordinates) return Expression::number(value_of(e, mechanism_));
+    const auto argument = [&](std::size_t i) { return opened(e.arguments()[i]); };
+    switch (e.kind()) {
+      case Kind::symbol:
+        if (varied_.contains(e.name())) return variable(e.name(), e);
+        if (const Parameter* own = parameter_named(mechanism_, e.name())) return opened(own->expression);
+        return e;
+      case Kind::add:
+      case Kind::multiply:
+        return Expression::apply(e.kind(), {argument(0), argument(1)});
+      case Kind::negate:
+        return Expression::apply(Kind::negate, {argument(0)});
+      case Kind::divide: {
+        const Dependence below = dependence(e.arguments()[1]);
+        if (!below.varied || below.coordinates) return Expression::apply(Kind::divide, {argument(0), argument(1)});
+        const Expression inverse = meaning(Expression::apply(Kind::divide, {Expression::number(1), e.arguments()[1]}));
+        return Expression::apply(Kind::multiply, {argument(0), variable(core::to_string(inverse), inverse)});
+      }
+      case Kind::power:
+        if (!dependence(e.arguments()[1]).any() && is_whole(e.arguments()[1]))
+          return Expression::apply(Kind::power, {argument(0), argument(1)});
+        break;
+      default:
+        break;
+    }
+    if (!on.coordinates) {
+      const Expression own = meaning(e);
+      return variable(core::to_string(own), own);
+    }
+    std::vector<Expression> arguments;
+    for (const Expression& own : e.arguments()) arguments.push_back(opened(own));
+    return Expression::apply(e.kind(), std::move(arguments));
+  }
+
+  /// With parameters that are not varied replaced by their values.
+  Expression meaning(const Expression& e) const {
+    if (!dependence(e).any()) return Expression::number(value_of(e, mechanism_));
+    if (e.kind() == Kind::symbol) {
+      const Parameter* own = varied_.contains(e.name()) ? nullptr : parameter_named(mechanism_, e.name());
+      return own == nullptr ? e : meaning(own->expression);
+    }
+    std::vector<Expression> arguments;
+    for (const Expression& own : e.arguments()) arguments.push_back(meaning(own));
+    return Expression::apply(e.kind(), std::move(arguments));
+  }
+
+  struct Dependence {
+    bool varied = false, coordinates = false;
+    bool any() const { return varied || coordinates; }
+  };
+  Dependence dependence(const Expression& e) const {
+    Dependence result;
+    for (const std::string& name : core::symbols(e)) {
+      const Parameter* own = parameter_named(mechanism_, name);
+      if (varied_.contains(name))
+        result.varied = true;
+      else if (own == nullptr)
+        result.coordinates = true;
+      else if (dependence(own->expression).varied)
+        result.varied = true;
+    }
+    return result;
+  }
+
+  std::vector<DesignVariable> take() { return std::move(variables_); }
+
+ private:
+  bool is_whole(const Expression& exponent) const {
+    const Rational value = value_of(exponent, mechanism_);
+    return value >= 0 && value.get_den() == 1;
+  }
+
+  Expression variable(const std::string& name, const Expression& what) {
+    if (std::none_of(variables_.begin(), variables_.end(), [&](const DesignVariable& v) { return v.name == name; }))
+      variables_.push_back({name, what});
+    return Expression::symbol(name);
+  }
+
+  const Mechanism& mechanism_;
+  std::set<std::string> varied_;
+  std::vector<DesignVariable> variables_;
+};
+
+using Change = std::function<Expression(const Expression&)>;
+
+void change(std::vector<Expression>& expressions, const Change& by) {
+  for (Expression& e : expressions) e = by(e);
+}
+
+void change(VectorExpression& vector, const Change& by) {
+  change(vector.numbers, by);
+  for (VectorExpression& argument : vector.arguments) change(argument, by);
+}
+
+void change(PointForm& form, const Change& by) {
+  if (auto* own = std::get_if<ExplicitPoint>(&form)) change(own->coordinates, by);
+  if (auto* own = std::get_if<DyadPoint>(&form)) {
+    own->from_length = by(own->from_length);
+    own->to_length = by(own->to_length);
+    if (own->axis) change(*own->axis, by);
+  }
+  if (auto* own = std::get_if<OffsetPoint>(&form)) {
+    own->along = by(own->along);
+    own->left = by(own->left);
+  }
+  if (auto* own = std::get_if<SliderPoint>(&form)) {
+    change(own->along, by);
+    own->length = by(own->length);
+  }
+}
+
+/// Every expression that the statics are made of.
+void change(Mechanism& m, const Change& by) {
+  for (Point& point : m.points) change(point.form, by);
+  for (Link& link : m.links) {
+    link.mass = by(link.mass);
+    for (PointMass& own : link.masses) own.mass = by(own.mass);
+    if (link.inertia) link.inertia = by(*link.inertia);
+  }
+  for (Joint& joint : m.joints) {
+    for (VectorExpression& axis : joint.axes) change(axis, by);
+    if (joint.effort) joint.effort = by(*joint.effort);
+  }
+  for (Spring& spring : m.springs) {
+    for (Expression* own : {&spring.stiffness, &spring.free_length, &spring.force, &spring.rest}) *own = by(*own);
+  }
+  for (Load& load : m.loads) {
+    change(load.force, by);
+    if (load.force_vector) change(*load.force_vector, by);
+    load.couple = by(load.couple);
+    change(load.couple_vector, by);
+  }
+  change(m.gravity, by);
+  for (BodyFrame& frame : m.body_frames) change(frame.rotation, by);
+}
+
+/// About where a variable lies: for the sizes that the equations are scaled by. No result rests on it.
+std::pair<Rational, Rational> rough_range(const Expression& meaning, Mechanism mechanism,
+                                          const std::vector<ParameterRange>& ranges) {
+  std::vector<Rational> values;
+  for (const int part : {0, 1, 2}) {
+    for (Parameter& parameter : mechanism.parameters)
+      for (const ParameterRange& range : ranges)
+        if (range.name == parameter.name) {
+          parameter.value = range.lower + (range.upper - range.lower) * part / 2;
+          parameter.expression = Expression::number(parameter.value);
+        }
+    try {
+      values.push_back(value_of(meaning, mechanism));
+    } catch (const std::exception&) {  // division by zero, or the root of a negative number, at one end
+    }
+  }
+  if (values.empty()) return {-1, 1};
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (*low == *high) return {*low - abs(*low) / 16 - Rational(1, 1024), *high + abs(*high) / 16 + Rational(1, 1024)};
+  return {*low, *high};
+}
+
+Clearance opened(const Clearance& clearance, const Change& by) {
+  return {by(clearance.radial), by(clearance.angular), by(clearance.gap), by(clearance.half_length),
+          by(clearance.axial)};
+}
+
+}  // namespace
+
+Expression in_varied(const Expression& expression, const Mechanism& mechanism, const std::vector<std::string>& varied) {
+  return Opening(mechanism, varied).meaning(expression);
+}
+
+OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRange>& ranges) {
+  OpenDesign result;
+  result.mechanism = mechanism;
+  for (const ParameterRange& range : ranges) {
+    if (parameter_named(mechanism, range.name) == nullptr)
+      throw core::InputError({mechanism.file}, "there is no parameter '" + range.name + "' in the file",
+                             "vary one of the parameters that it has");
+    result.varied.push_back(range.name);
+  }
+  Opening opening(mechanism, result.varied);
+  const Change by = [&](const Expression& e) { return opening.opened(e); };
+  for (const Point& point : mechanism.points) {
+    std::vector<Expression> own;
+    if (const auto* dyad = std::get_if<DyadPoint>(&point.form)) own = {dyad->from_length, dyad->to_length};
+    if (const auto* slider = std::get_if<SliderPoint>(&point.form)) own = {slider->length};
+    for (const Expression& length : own)
+      if (opening.dependence(length).varied) result.lengths.push_back(opening.meaning(length));
+  }
+  change(result.mechanism, by);
+  const Change meaning = [&](const Expression& e) { return opening.meaning(e); };
+  for (Joint& joint : result.mechanism.joints) {
+    if (!joint.clearance) continue;
+    if (opening.dependence(joint.clearance->half_length).varied)
+      throw core::InputError(joint.where, "the half length of the guide " + joint.name + " is varied",
+                             "vary other parameters, or give the guide a number");
+    result.clearances.push_back(opened(*joint.clearance, meaning));
+    // The statics ask for the half length alone; what is varied is nominal here.
+    joint.clearance =
+        opened(*joint.clearance, [&](const Expression& e) { return Expression::number(value_of(e, mechanism)); });
+  }
+  for (Limit& limit : result.mechanism.limits) {
+    for (Expression* own : {&limit.lower, &limit.upper}) {
+      if (opening.dependence(*own).varied)
+        throw core::InputError(limit.where, "a limit of the workspace is varied",
+                               "vary other parameters, or give the limit numbers");
+      *own = Expression::number(value_of(*own, mechanism));
+    }
+  }
+  result.variables = opening.take();
+  for (const DesignVariable& variable : result.variables) {
+    const auto [low, high] = rough_range(variable.meaning, mechanism, ranges);
+    result.mechanism.coordinates.push_back(
+        {variable.name, false, Expression::number(low), Expression::number(high), low, high});
+  }
+  result.mechanism.parameters.clear();
+  return result;
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,27 @@
+// From a study file (docs/studies.md) to a Study.
+#pragma once
+
+#include <string>
+
+#include "clearloci/study.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::mechanism {
+
+/// Throws core::InputError, with file, line, column, problem and mend, for whatever is wrong with the file or with a
+/// task that it names, which is found beside it.
+core::Study read_study(const std::string& path, const Mechanism& mechanism);
+
+/// The same for a text; `file` is the name that errors show.
+core::Study parse_study(const std::string& text, const std::string& file, const Mechanism& mechanism);
+
+/// One side of a `keep` and the other, of which left - right >= 0 is asked, or > 0 where `strict`.
+struct Keep {
+  Expression left, right;
+  bool strict = false;
+};
+
+/// "L1 + L2 <= 0.9". Throws core::InputError at `where`.
+Keep parse_keep(const std::string& text, const core::SourcePosition& where);
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,80 @@
+"""Many designs: which are good, why the others fail, which is best (docs/studies.md)."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Mapping
+
+import numpy as np
+
+from . import _clearloci
+from .model import Model, parse
+
+
+@dataclass(frozen=True)
+class Designs:
+    """The designs of a study, column by column; `pandas.DataFrame(designs.columns)` is a table of them."""
+
+    columns: dict[str, Any]  #: varied parameters and figures: float64 (n,); "status", "reason": lists of str
+    parameters: list[str]
+    figures: list[str]
+    best: int | None  #: row of the best by the first goal
+    best_model: str | None = field(repr=False, default=None)  #: its mechanism file
+    front: list[int] = field(default_factory=list)  #: rows, with several goals
+    cells: list[tuple] = field(default_factory=list, repr=False)  #: of a proof: lower, upper, status, reason
+    tolerances: tuple[list[float], list[float]] | None = None  #: of a proof: the box around the file's design
+    complete: bool = True
+
+    def __len__(self) -> int:
+        return len(self.columns["status"])
+
+    @property
+    def feasible(self) -> np.ndarray:
+        """bool (n,): verified for every task, and what is required holds."""
+        return np.asarray([status == "feasible" for status in self.columns["status"]], dtype=bool)
+
+    @property
+    def best_design(self) -> Model | None:
+        """The best one as a model."""
+        return None if self.best_model is None else parse(self.best_model, "best.yaml")
+
+
+def _judged(handle: _clearloci.Model, text: str, file: str, first: int, count: int) -> str:
+    return _clearloci.judge_designs(handle, text, file, first, count)
+
+
+def design(
+    model: Model,
+    study: str | os.PathLike[str] | Mapping[str, Any],
+    executor: Any = None,
+    chunk: int = 512,
+    threads: int = 0,
+    table: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+) -> Designs:
+    """Judge the designs of a study: a file, or a dictionary with its keys.
+
+    With `executor` the designs of a grid or a sample are judged by any concurrent.futures executor, Dask's among them,
+    `chunk` designs a call; the answer is the same. Otherwise `threads` of this process do it (0: one a core), and with
+    `table`, a path, finished designs are kept as they come, from which `resume` goes on.
+    """
+    if isinstance(study, Mapping):
+        content = {"format": 1, **study}
+        text = json.dumps(content, default=lambda value: np.asarray(value).tolist())
+        file = os.path.join(os.getcwd(), "study")
+    else:
+        file = os.fspath(study)
+        text = Path(file).read_text(encoding="utf-8")
+    handle = model._handle
+    if executor is None:
+        return Designs(**_clearloci.run_study(handle, text, file, threads, os.fspath(table or ""), resume))
+    count = _clearloci.design_count(handle, text, file)
+    futures = [
+        executor.submit(_judged, handle, text, file, first, min(chunk, count - first))
+        for first in range(0, count, chunk)
+    ]
+    lines = "".join(future.result() for future in futures)
+    return Designs(**_clearloci.study_result(handle, text, file, lines))

@@ -1,0 +1,318 @@
+#include "report/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/task.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/table_json.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using core::StudyDesign;
+using core::StudyResult;
+using Json = nlohmann::ordered_json;
+
+std::string quoted(const std::string& text) {
+  return text.find_first_of(",\"\n") == std::string::npos ? text : fmt::format("\"{}\"", text);
+}
+
+std::string number(double value) { return std::isnan(value) ? std::string() : exact_number(value); }
+
+std::size_t count(const StudyResult& result, StudyDesign::Status status) {
+  return static_cast<std::size_t>(std::count_if(result.designs.begin(), result.designs.end(),
+                                                [&](const StudyDesign& d) { return d.status == status; }));
+}
+
+std::string unit_of(core::Figure figure) {
+  switch (figure) {
+    case core::Figure::margin:
+    case core::Figure::pose_error:
+    case core::Figure::largest_circle:
+      return "m";
+    case core::Figure::min_force:
+      return "N";
+    case core::Figure::effort:
+      return "N m or N";
+    case core::Figure::zone_area:
+      return "m^2";
+  }
+  return {};
+}
+
+std::string method_words(const core::StudyMethod& method) {
+  using Kind = core::StudyMethod::Kind;
+  switch (method.kind) {
+    case Kind::grid: {
+      std::string words;
+      for (const int own : method.counts) words += (words.empty() ? "grid of " : " x ") + std::to_string(own);
+      return words;
+    }
+    case Kind::sample:
+      return fmt::format("Sobol sample of {}", method.count);
+    case Kind::search:
+      return fmt::format("search with {} evaluations", method.count);
+    case Kind::prove:
+      return "proof down to " + core::to_string(method.finest) + " of each range";
+  }
+  return {};
+}
+
+std::string goal_words(const core::StudyGoal& goal) {
+  return std::string(goal.maximise ? "maximise " : "minimise ") +
+         (goal.figure ? core::to_string(*goal.figure) : printable(goal.expression));
+}
+
+Json design_object(const StudyResult& result, const StudyDesign& design) {
+  Json object = {{"index", design.index}};
+  Json parameters = Json::object(), figures = Json::object();
+  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+    parameters[result.parameters[i]] = number_json(design.values[i]);
+  for (std::size_t f = 0; f < result.figures.size() && f < design.figures.size(); ++f)
+    figures[core::to_string(result.figures[f])] = number_json(design.figures[f]);
+  object["parameters"] = parameters;
+  object["status"] = to_string(design.status);
+  if (!design.reason.empty()) object["reason"] = design.reason;
+  object["figures"] = figures;
+  return object;
+}
+
+double volume(const core::StudyCell& cell) {
+  double product = 1;
+  for (std::size_t i = 0; i < cell.lower.size(); ++i) product *= cell.upper[i] - cell.lower[i];
+  return product;
+}
+
+/// The part of the box that cells of one status make up.
+double share(const StudyResult& result, StudyDesign::Status status) {
+  double own = 0, all = 0;
+  for (const core::StudyCell& cell : result.cells) {
+    all += volume(cell);
+    if (cell.status == status) own += volume(cell);
+  }
+  return all > 0 ? own / all : 0;
+}
+
+Json cell_object(const StudyResult& result, const core::StudyCell& cell) {
+  Json object = Json::object();
+  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+    object[result.parameters[i]] = {number_json(cell.lower[i]), number_json(cell.upper[i])};
+  return object;
+}
+
+Json cells_object(const StudyResult& result) {
+  Json columns = Json::object();
+  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+    Json lower = Json::array(), upper = Json::array();
+    for (const core::StudyCell& own : result.cells) {
+      lower.push_back(number_json(own.lower[i]));
+      upper.push_back(number_json(own.upper[i]));
+    }
+    columns[result.parameters[i] + "_from"] = std::move(lower);
+    columns[result.parameters[i] + "_to"] = std::move(upper);
+  }
+  Json status = Json::array(), reason = Json::array();
+  for (const core::StudyCell& own : result.cells) {
+    status.push_back(to_string(own.status));
+    reason.push_back(own.reason);
+  }
+  columns["status"] = std::move(status);
+  columns["reason"] = std::move(reason);
+  return columns;
+}
+
+std::string cells_csv(const StudyResult& result) {
+  std::string out;
+  for (const std::string& own : result.parameters) out += own + "_from," + own + "_to,";
+  out += "status,reason\n";
+  for (const core::StudyCell& own : result.cells) {
+    for (std::size_t i = 0; i < own.lower.size(); ++i) out += number(own.lower[i]) + "," + number(own.upper[i]) + ",";
+    out += to_string(own.status) + "," + quoted(own.reason) + "\n";
+  }
+  return out;
+}
+
+/// Column by column: a million designs are a million numbers a column, not a million objects.
+Json designs_object(const StudyResult& result) {
+  Json columns = Json::object();
+  Json index = Json::array(), status = Json::array(), reason = Json::array(), task = Json::array(), at = Json::array();
+  for (const StudyDesign& own : result.designs) {
+    index.push_back(own.index);
+    status.push_back(to_string(own.status));
+    reason.push_back(own.reason);
+    task.push_back(own.task + 1);
+    at.push_back(own.at ? Json{number_json((*own.at)[0]), number_json((*own.at)[1])} : Json(nullptr));
+  }
+  columns["index"] = std::move(index);
+  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+    Json values = Json::array();
+    for (const StudyDesign& own : result.designs) values.push_back(number_json(own.values[i]));
+    columns[result.parameters[i]] = std::move(values);
+  }
+  columns["status"] = std::move(status);
+  columns["reason"] = std::move(reason);
+  columns["task"] = std::move(task);
+  columns["at"] = std::move(at);
+  for (std::size_t f = 0; f < result.figures.size(); ++f) {
+    Json values = Json::array();
+    for (const StudyDesign& own : result.designs)
+      values.push_back(f < own.figures.size() ? number_json(own.figures[f]) : Json(nullptr));
+    columns[core::to_string(result.figures[f])] = std::move(values);
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::size_t>> study_reasons(const StudyResult& result) {
+  std::map<std::string, std::size_t> counts;
+  for (const StudyDesign& own : result.designs)
+    if (own.status != StudyDesign::Status::feasible) ++counts[own.reason];
+  std::vector<std::pair<std::string, std::size_t>> list(counts.begin(), counts.end());
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  return list;
+}
+
+std::string study_csv(const StudyResult& result) {
+  if (result.study.method.kind == core::StudyMethod::Kind::prove) return cells_csv(result);
+  std::string out = "index";
+  for (const std::string& own : result.parameters) out += "," + own;
+  out += ",status,reason,task,at_1,at_2";
+  for (const core::Figure own : result.figures) out += "," + core::to_string(own);
+  out += '\n';
+  for (const StudyDesign& own : result.designs) {
+    out += std::to_string(own.index);
+    for (const double value : own.values) out += "," + number(value);
+    out += "," + to_string(own.status) + "," + quoted(own.reason) + ",";
+    const bool fails = own.status == StudyDesign::Status::infeasible || own.status == StudyDesign::Status::undecided;
+    if (fails) out += std::to_string(own.task + 1);
+    for (std::size_t c = 0; c < 2; ++c) out += "," + (own.at ? number((*own.at)[c]) : std::string());
+    for (const double value : own.figures) out += "," + number(value);
+    out += '\n';
+  }
+  return out;
+}
+
+Json study_object(const StudyResult& result) {
+  Json object = {{"format", 1}, {"mechanism", printable(result.mechanism)}, {"study", printable(result.study.file)}};
+  Json vary = Json::object();
+  for (const core::StudyParameter& own : result.study.vary)
+    vary[own.name] = {core::to_string(own.lower), core::to_string(own.upper)};
+  object["vary"] = vary;
+  object["method"] = method_words(result.study.method);
+  Json goals = Json::array();
+  for (const core::StudyGoal& own : result.study.goals) goals.push_back(goal_words(own));
+  object["goals"] = goals;
+  Json figures = Json::object();
+  for (const core::Figure own : result.figures) figures[core::to_string(own)] = unit_of(own);
+  object["figures"] = figures;
+  object["complete"] = result.complete;
+  using Status = StudyDesign::Status;
+  if (result.study.method.kind == core::StudyMethod::Kind::prove) {
+    Json shares = Json::object();
+    for (const Status status : {Status::feasible, Status::infeasible, Status::undecided, Status::left_out})
+      shares[to_string(status)] = share(result, status);
+    object["shares"] = shares;
+    object["tolerances"] = result.tolerances ? cell_object(result, *result.tolerances) : Json(nullptr);
+    object["cells"] = cells_object(result);
+    return object;
+  }
+  Json counts = Json::object();
+  for (const Status status : {Status::feasible, Status::infeasible, Status::undecided, Status::left_out})
+    counts[to_string(status)] = count(result, status);
+  object["counts"] = counts;
+  Json reasons = Json::object();
+  for (const auto& [reason, many] : study_reasons(result)) reasons[reason] = many;
+  object["reasons"] = reasons;
+  object["best"] = result.best ? design_object(result, result.designs[*result.best]) : Json(nullptr);
+  if (result.study.goals.size() > 1) {
+    Json front = Json::array();
+    for (const std::size_t own : result.front) front.push_back(design_object(result, result.designs[own]));
+    object["front"] = front;
+  }
+  object["designs"] = designs_object(result);
+  return object;
+}
+
+namespace {
+
+std::string proof_text(const StudyResult& result) {
+  using Status = StudyDesign::Status;
+  std::string out = fmt::format("{}: {} cells, {}\n\n", printable(result.mechanism), result.cells.size(),
+                                method_words(result.study.method));
+  const std::pair<Status, const char*> lines[] = {{Status::feasible, "every design verifies, proven"},
+                                                  {Status::infeasible, "every design fails, proven"},
+                                                  {Status::undecided, "neither is proven down to the finest cells"},
+                                                  {Status::left_out, "keep does not hold"}};
+  for (const auto& [status, words] : lines) {
+    const double part = share(result, status);
+    if (part > 0 || status == Status::feasible)
+      out += fmt::format("{:<12}{:>9.4f} %  {}\n", to_string(status), 100 * part, words);
+  }
+  if (!result.complete) out += "\nincomplete: --resume goes on\n";
+  if (!result.tolerances) return out;
+  out += "\naround the file's design every design verifies with\n";
+  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+    out += fmt::format("  {} from {} to {}\n", result.parameters[i], exact_number(result.tolerances->lower[i]),
+                       exact_number(result.tolerances->upper[i]));
+  return out;
+}
+
+}  // namespace
+
+std::string study_text(const StudyResult& result) {
+  using Status = StudyDesign::Status;
+  if (result.study.method.kind == core::StudyMethod::Kind::prove) return proof_text(result);
+  std::string out = fmt::format("{}: {} designs, {}\n\n", printable(result.mechanism), result.designs.size(),
+                                method_words(result.study.method));
+  for (const Status status : {Status::feasible, Status::infeasible, Status::undecided, Status::left_out}) {
+    const std::size_t many = count(result, status);
+    if (many == 0 && status != Status::feasible) continue;
+    out += fmt::format("{:<12}{:>9}{}\n", to_string(status), many,
+                       status == Status::feasible ? "  proven for every pose of the task" : "");
+  }
+  const auto reasons = study_reasons(result);
+  if (!reasons.empty()) out += "\nwhy designs fail\n";
+  constexpr std::size_t most = 12;
+  for (std::size_t i = 0; i < std::min(reasons.size(), most); ++i)
+    out += fmt::format("{:>9}  {}\n", reasons[i].second, printable(reasons[i].first));
+  if (reasons.size() > most) out += fmt::format("{:>9}  further reasons: designs.json\n", reasons.size() - most);
+  if (!result.complete) out += "\nincomplete: --resume goes on\n";
+  if (!result.best) return out;
+  const StudyDesign& best = result.designs[*result.best];
+  out += fmt::format("\nbest         {}\n", goal_words(result.study.goals.front()));
+  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+    out += fmt::format("  {} = {}\n", result.parameters[i], exact_number(best.values[i]));
+  for (std::size_t f = 0; f < result.figures.size(); ++f)
+    out += fmt::format("  {:<14} {} {}\n", core::to_string(result.figures[f]), short_number(best.figures[f], 6),
+                       unit_of(result.figures[f]));
+  if (result.front.size() > 1)
+    out += fmt::format("front        {} designs, none better in every goal\n", result.front.size());
+  return out;
+}
+
+std::vector<std::string> study_format_names() { return {"csv", "svg", "png", "pdf"}; }
+
+std::vector<std::filesystem::path> write_study(const StudyResult& result, const std::filesystem::path& directory,
+                                               const std::set<std::string>& formats) {
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    files.push_back(directory / name);
+    write_atomically(files.back(), bytes);
+  };
+  write("designs.json", json_text(study_object(result)));
+  if (formats.contains("csv")) write("designs.csv", study_csv(result));
+  if (formats.contains("svg")) write("designs.svg", study_picture(result, PictureFormat::svg));
+  if (formats.contains("png")) write("designs.png", study_picture(result, PictureFormat::png));
+  if (formats.contains("pdf")) write("designs.pdf", study_picture(result, PictureFormat::pdf));
+  return files;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,38 @@
+// Studies as files, tables and pictures (docs/studies.md).
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "clearloci/study.hpp"
+#include "report/picture.hpp"
+
+namespace clearloci::report {
+
+/// A row a design: index, the varied parameters, status, reason, which task fails, where, and the figures.
+std::string study_csv(const core::StudyResult& result);
+
+/// The object of designs.json.
+nlohmann::ordered_json study_object(const core::StudyResult& result);
+
+/// How many designs are what and why, and the best.
+std::string study_text(const core::StudyResult& result);
+
+/// Why designs fail: reasons with how many designs have them, most first.
+std::vector<std::pair<std::string, std::size_t>> study_reasons(const core::StudyResult& result);
+
+/// Two parameters: a map of the designs, in the colours of the first figure where they are feasible and in those of
+/// their reasons where they are not. More: a matrix of such plots, one a pair; one: a strip.
+std::string study_picture(const core::StudyResult& result, PictureFormat format);
+
+/// The names of the formats besides designs.json.
+std::vector<std::string> study_format_names();
+
+/// designs.json, and the formats named. Returns the files in the order written.
+std::vector<std::filesystem::path> write_study(const core::StudyResult& result, const std::filesystem::path& directory,
+                                               const std::set<std::string>& formats);
+
+}  // namespace clearloci::report

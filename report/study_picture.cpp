@@ -1,0 +1,265 @@
+#include <algorithm>
+#include <cmath>
+
+#include "report/axis.hpp"
+#include "report/mechanism_drawing.hpp"
+#include "report/study.hpp"
+#include "report/surface.hpp"
+#include "report/typesetting.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using core::StudyDesign;
+using core::StudyResult;
+using Context = Cairo::RefPtr<Cairo::Context>;
+using Status = StudyDesign::Status;
+
+constexpr Colour ink{0.13, 0.13, 0.13}, frame_colour{0.45, 0.45, 0.45}, plain{0.0, 0.5, 0.35};
+constexpr Font title_font{13, true, false}, subtitle_font{9.5, false, false}, legend_font{8.5, false, false};
+constexpr double margin = 12, head = 40, legend_width = 170, gap = 16;
+/// Feasible designs have the strong colours; reasons take pale ones in turn.
+constexpr std::size_t most_reasons = 8;
+
+Colour reason_colour(std::size_t number) {
+  const Colour full = palette_colour(static_cast<int>(number));
+  constexpr double pale = 0.62;
+  const auto mix = [](double c) { return pale + (1 - pale) * c; };
+  return {mix(full.red), mix(full.green), mix(full.blue)};
+}
+
+class StudyDrawing {
+ public:
+  explicit StudyDrawing(const StudyResult& result) : result_(result) {
+    for (const auto& [reason, many] : study_reasons(result)) reasons_.push_back(reason);
+    for (const core::StudyCell& own : result.cells)
+      if (!own.reason.empty() && std::find(reasons_.begin(), reasons_.end(), own.reason) == reasons_.end())
+        reasons_.push_back(own.reason);
+    if (!result.figures.empty()) {
+      std::vector<double> values;
+      for (const StudyDesign& own : result.designs)
+        if (own.status == Status::feasible) values.push_back(own.figures.front());
+      scale_ = scale_of(values, false, unit());
+    }
+    for (std::size_t i = 0; i < result.designs.size(); ++i) order_.push_back(i);
+    // What is feasible is drawn last, the best on top.
+    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    const std::size_t n = result.parameters.size();
+    panels_ = n < 2 ? 1 : n - 1;
+    side_ = panels_ == 1 ? 380 : std::max(110.0, 520.0 / static_cast<double>(panels_));
+  }
+
+  Page page() const {
+    const double plots = static_cast<double>(panels_) * (side_ + (panels_ > 1 ? 8 : 0));
+    std::string description = "Designs of a study";
+    for (const std::string& reason : reasons_) description += "\n" + printable(reason);
+    return {margin + 60 + plots + gap + legend_width + margin, margin + head + plots + 46, title(), description};
+  }
+
+  void draw(const Context& context) const {
+    const Page own = page();
+    set_colour(context, {1, 1, 1});
+    context->rectangle(0, 0, own.width, own.height);
+    context->fill();
+    set_colour(context, ink);
+    write_text(context, title(), margin + 60, margin + 13, title_font);
+    write_text(context, subtitle(), margin + 60, margin + 28, subtitle_font);
+    const std::size_t n = result_.parameters.size();
+    for (std::size_t row = 0; row < panels_; ++row)
+      for (std::size_t column = 0; column <= (n < 2 ? 0 : row); ++column)
+        draw_panel(context, column, n < 2 ? std::optional<std::size_t>() : row + 1, row, column);
+    draw_legend(context, own.width - margin - legend_width, margin + head);
+  }
+
+ private:
+  std::string title() const { return printable(result_.mechanism); }
+  std::string subtitle() const {
+    if (!result_.cells.empty())
+      return std::to_string(result_.cells.size()) + " cells of designs, each proven or undecided";
+    const auto feasible = std::count_if(result_.designs.begin(), result_.designs.end(),
+                                        [](const StudyDesign& d) { return d.status == Status::feasible; });
+    return std::to_string(feasible) + " of " + std::to_string(result_.designs.size()) + " designs feasible";
+  }
+  std::string unit() const {
+    using core::Figure;
+    switch (result_.figures.front()) {
+      case Figure::min_force:
+        return "N";
+      case Figure::effort:
+        return "N m";
+      case Figure::zone_area:
+        return "m^2";
+      default:
+        return "m";
+    }
+  }
+
+  double rank(std::size_t i) const {
+    const StudyDesign& own = result_.designs[i];
+    if (own.status == Status::left_out) return -3;
+    if (own.status == Status::infeasible) return -2;
+    if (own.status == Status::undecided) return -1;
+    if (result_.figures.empty() || std::isnan(own.figures.front())) return 0;
+    const bool less = !result_.study.goals.empty() && !result_.study.goals.front().maximise;
+    return less ? 1 / (1 + own.figures.front()) : 1 + own.figures.front();
+  }
+
+  Colour colour(const StudyDesign& own) const {
+    if (own.status == Status::feasible) {
+      if (result_.figures.empty() || std::isnan(own.figures.front())) return plain;
+      return scale_.colour(own.figures.front());
+    }
+    if (own.status == Status::undecided) return {0.25, 0.25, 0.25};
+    const auto place = std::find(reasons_.begin(), reasons_.end(), own.reason) - reasons_.begin();
+    const auto number = static_cast<std::size_t>(place);
+    return number < most_reasons ? reason_colour(number) : Colour{0.85, 0.85, 0.85};
+  }
+
+  void draw_panel(const Context& context, std::size_t x, std::optional<std::size_t> y, std::size_t row,
+                  std::size_t column) const {
+    const double step = side_ + (panels_ > 1 ? 8 : 0);
+    const Box box{margin + 60 + static_cast<double>(column) * step, margin + head + static_cast<double>(row) * step,
+                  side_, side_};
+    const auto range = [&](std::size_t p) {
+      const core::StudyParameter& own = result_.study.vary[p];
+      return std::array{core::to_double(own.lower), core::to_double(own.upper)};
+    };
+    const std::array<double, 2> across = range(x), up = y ? range(*y) : std::array{0.0, 1.0};
+    const double mark = mark_size(x, y, box.width);
+    context->save();
+    context->rectangle(box.x, box.y, box.width, box.height);
+    context->clip();
+    const auto inset = [&](double part) { return mark / 2 + part * (box.width - mark); };
+    for (const core::StudyCell& own : result_.cells) draw_cell(context, own, box, across, up, x, y);
+    for (const std::size_t i : order_) {
+      const StudyDesign& own = result_.designs[i];
+      const double px = box.x + inset((own.values[x] - across[0]) / (across[1] - across[0]));
+      const double py = y ? box.bottom() - inset((own.values[*y] - up[0]) / (up[1] - up[0])) : box.y + box.height / 2;
+      set_colour(context, colour(own));
+      context->rectangle(px - mark / 2, y ? py - mark / 2 : box.y, mark + 0.05, y ? mark + 0.05 : box.height);
+      context->fill();
+    }
+    if (result_.best) {
+      const StudyDesign& own = result_.designs[*result_.best];
+      set_colour(context, {0.85, 0.1, 0.1});
+      context->set_line_width(1.4);
+      context->arc(box.x + inset((own.values[x] - across[0]) / (across[1] - across[0])),
+                   y ? box.bottom() - inset((own.values[*y] - up[0]) / (up[1] - up[0])) : box.y + box.height / 2, 5, 0,
+                   6.28318530717958648);
+      context->stroke();
+    }
+    context->restore();
+    set_colour(context, frame_colour);
+    context->set_line_width(0.8);
+    context->rectangle(box.x, box.y, box.width, box.height);
+    context->stroke();
+    draw_axes(context, box, across, up, x, y, row + 1 == panels_, column == 0);
+  }
+
+  /// Of a proof over more than two parameters cells lie over one another: what verifies shows through.
+  void draw_cell(const Context& context, const core::StudyCell& own, const Box& box,
+                 const std::array<double, 2>& across, const std::array<double, 2>& up, std::size_t x,
+                 std::optional<std::size_t> y) const {
+    const auto part = [](double value, const std::array<double, 2>& range) {
+      return (value - range[0]) / (range[1] - range[0]);
+    };
+    const double left = box.x + box.width * part(own.lower[x], across);
+    const double right = box.x + box.width * part(own.upper[x], across);
+    const double top = y ? box.bottom() - box.height * part(own.upper[*y], up) : box.y;
+    const double bottom = y ? box.bottom() - box.height * part(own.lower[*y], up) : box.bottom();
+    StudyDesign like;
+    like.status = own.status;
+    like.reason = own.reason;
+    set_colour(context, colour(like), result_.parameters.size() > 2 ? 0.25 : 1);
+    context->rectangle(left, top, right - left, bottom - top);
+    context->fill();
+  }
+
+  /// On a grid designs are cells; else they are dots that leave room for one another.
+  double mark_size(std::size_t x, std::optional<std::size_t> y, double side) const {
+    const core::StudyMethod& method = result_.study.method;
+    if (method.kind == core::StudyMethod::Kind::grid && method.counts.size() <= 2 &&
+        (!y || method.counts.size() == 2)) {
+      const int most = y ? std::max(method.counts[x], method.counts[*y]) : method.counts[x];
+      return side / most;
+    }
+    const double share = side / std::sqrt(static_cast<double>(std::max<std::size_t>(1, result_.designs.size())));
+    return std::clamp(share, 1.5, 6.0);
+  }
+
+  void draw_axes(const Context& context, const Box& box, const std::array<double, 2>& across,
+                 const std::array<double, 2>& up, std::size_t x, std::optional<std::size_t> y, bool below,
+                 bool beside) const {
+    set_colour(context, ink);
+    if (below) {
+      for (const Tick& tick : ticks(across[0], across[1], 52 / box.width * (across[1] - across[0])))
+        write_text(context, tick.label, box.x + (tick.at - across[0]) / (across[1] - across[0]) * box.width,
+                   box.bottom() + 13, tick_font, Align::centre);
+      write_text(context, result_.parameters[x], box.x + box.width / 2, box.bottom() + 28, label_font, Align::centre);
+    }
+    if (!beside || !y) return;
+    for (const Tick& tick : ticks(up[0], up[1], 30 / box.height * (up[1] - up[0])))
+      write_text(context, tick.label, box.x - 5, box.bottom() - (tick.at - up[0]) / (up[1] - up[0]) * box.height + 3,
+                 tick_font, Align::right);
+    context->save();
+    context->translate(margin + 12, box.y + box.height / 2);
+    context->rotate(-1.57079632679489662);
+    write_text(context, result_.parameters[*y], 0, 0, label_font, Align::centre);
+    context->restore();
+  }
+
+  void draw_legend(const Context& context, double x, double y) const {
+    const Measure measure = measure_in(legend_font);
+    const auto entry = [&](const Colour& colour, const std::string& words) {
+      set_colour(context, colour);
+      context->rectangle(x, y + 1, 10, 10);
+      context->fill();
+      set_colour(context, ink);
+      for (const std::string& piece : wrap(printable(words), legend_width - 16, measure)) {
+        write_text(context, piece, x + 16, y + 9.5, legend_font);
+        y += 11.5;
+      }
+      y += 2;
+    };
+    set_colour(context, ink);
+    if (!result_.figures.empty()) {
+      write_text(context, "feasible: " + core::to_string(result_.figures.front()) + " (" + scale_.unit + ")", x, y + 9,
+                 legend_font);
+      y += 14;
+      draw_colour_bar(context, scale_, {x, y, legend_width, colour_bar_room});
+      y += colour_bar_room + 8;
+    } else {
+      entry(plain, "feasible");
+    }
+    if (std::any_of(result_.cells.begin(), result_.cells.end(),
+                    [](const core::StudyCell& c) { return c.status == Status::undecided; }))
+      entry({0.25, 0.25, 0.25}, "undecided");
+    for (std::size_t i = 0; i < std::min(reasons_.size(), most_reasons); ++i) entry(reason_colour(i), reasons_[i]);
+    if (reasons_.size() > most_reasons) entry({0.85, 0.85, 0.85}, "other reasons");
+    if (result_.best) {
+      set_colour(context, {0.85, 0.1, 0.1});
+      context->set_line_width(1.4);
+      context->arc(x + 5, y + 6, 4.5, 0, 6.28318530717958648);
+      context->stroke();
+      set_colour(context, ink);
+      write_text(context, "best", x + 16, y + 9.5, legend_font);
+    }
+  }
+
+  const StudyResult& result_;
+  std::vector<std::string> reasons_;
+  std::vector<std::size_t> order_;
+  FieldScale scale_;
+  std::size_t panels_ = 1;
+  double side_ = 380;
+};
+
+}  // namespace
+
+std::string study_picture(const StudyResult& result, PictureFormat format) {
+  const StudyDrawing drawing(result);
+  return render(drawing.page(), format, [&](const Context& context) { drawing.draw(context); });
+}
+
+}  // namespace clearloci::report

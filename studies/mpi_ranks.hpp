@@ -1,0 +1,31 @@
+// Studies on more than one machine: the processes that mpirun or srun started, by MPI (docs/cluster.md). A target of
+// its own, which the program links: the library asks for no MPI.
+#pragma once
+
+#include <memory>
+
+#include "clearloci/study.hpp"
+
+namespace clearloci {
+
+/// Whether this process is one of several that MPI started.
+bool started_by_mpi();
+
+/// MPI for as long as it lives; once in a process. Throws core::InputError where this build knows no MPI.
+class MpiRanks {
+ public:
+  MpiRanks();
+  ~MpiRanks();
+  MpiRanks(const MpiRanks&) = delete;
+  MpiRanks& operator=(const MpiRanks&) = delete;
+
+  const StudyRanks& ranks() const { return ranks_; }
+
+  /// Ends every rank.
+  [[noreturn]] void abort(int status) const;
+
+ private:
+  StudyRanks ranks_;
+};
+
+}  // namespace clearloci

@@ -1,0 +1,141 @@
+#include "studies/prove.hpp"
+
+#include <array>
+#include <bit>
+
+#include "analysis/model.hpp"
+#include "core/errors.hpp"
+
+namespace clearloci {
+namespace {
+
+using core::Rational;
+using core::StudyDesign;
+using Status = StudyDesign::Status;
+
+/// Large cells seldom come out as a whole: little is spent on them. The finest are asked in earnest.
+constexpr loci::DesignEffort of_coarse_cells = {.most_cells = 400, .most_cells_in_vain = 48};
+constexpr loci::DesignEffort of_finest_cells = {.most_cells = 4'000, .most_cells_in_vain = 400};
+constexpr loci::DesignEffort of_tolerances = {.most_cells = 40'000, .most_cells_in_vain = 2'000};
+
+}  // namespace
+
+CellTree::CellTree(const core::Study& study) : study_(study) {
+  int halvings = 0;
+  for (Rational part = 1; part > study.method.finest; part /= 2) ++halvings;
+  total_ = static_cast<std::size_t>(halvings) * study.vary.size();
+  if (total_ > 62)
+    throw core::InputError({study.file}, "the cells would be too many to be numbered",
+                           "prove to a coarser part, or vary fewer parameters");
+}
+
+std::vector<ExactRange> CellTree::ranges(std::uint64_t path) const {
+  std::vector<ExactRange> ranges;
+  for (const core::StudyParameter& own : study_.vary) ranges.emplace_back(own.lower, own.upper);
+  const int bits = 63 - std::countl_zero(path);
+  for (int level = 0; level < bits; ++level) {
+    // All are halved in turn.
+    ExactRange& own = ranges[static_cast<std::size_t>(level) % ranges.size()];
+    const Rational middle = (own.first + own.second) / 2;
+    ((path >> (bits - 1 - level)) & 1U ? own.first : own.second) = middle;
+  }
+  return ranges;
+}
+
+bool CellTree::is_finest(std::uint64_t path) const {
+  return static_cast<std::size_t>(63 - std::countl_zero(path)) >= total_;
+}
+
+CellJudge::CellJudge(const StudyProblem& problem) : problem_(problem), tree_(problem.study()) {
+  for (const auto& task : problem.tasks()) judges_.push_back(task->judge());
+}
+
+StudyDesign CellJudge::judge(std::uint64_t path) {
+  StudyDesign cell;
+  cell.index = path;
+  const std::vector<ExactRange> ranges = tree_.ranges(path);
+  const StudyProblem::Kept kept = problem_.kept(ranges);
+  if (kept == StudyProblem::Kept::none) {
+    cell.status = Status::left_out;
+    cell.reason = "keep";
+    return cell;
+  }
+  const loci::DesignEffort& effort = tree_.is_finest(path) ? of_finest_cells : of_coarse_cells;
+  bool all = kept == StudyProblem::Kept::all;
+  for (std::size_t t = 0; t < judges_.size(); ++t) {
+    const DesignTask& task = *problem_.tasks()[t];
+    const auto box = task.box(ranges);
+    if (!box) {
+      all = false;  // some lengths, or all, are not above zero
+      continue;
+    }
+    const loci::DesignProof proof = judges_[t]->judge(*box, task.margin(), loci::Refuting::all, effort);
+    if (proof.verdict == core::Verdict::refuted) {
+      cell.status = Status::infeasible;
+      cell.reason = task.reason(*proof.failure);
+      cell.task = t;
+      return cell;
+    }
+    all = all && proof.verdict == core::Verdict::verified;
+  }
+  if (all) cell.status = Status::feasible;
+  return cell;
+}
+
+bool CellJudge::proven(const std::vector<ExactRange>& ranges) {
+  if (problem_.kept(ranges) != StudyProblem::Kept::all) return false;
+  for (std::size_t t = 0; t < judges_.size(); ++t) {
+    const DesignTask& task = *problem_.tasks()[t];
+    const auto box = task.box(ranges);
+    if (!box ||
+        judges_[t]->judge(*box, task.margin(), loci::Refuting::one, of_tolerances).verdict != core::Verdict::verified)
+      return false;
+  }
+  return true;
+}
+
+std::optional<core::StudyCell> proven_tolerances(const StudyProblem& problem) {
+  const core::Study& study = problem.study();
+  std::vector<Rational> centre;
+  for (const core::StudyParameter& own : study.vary)
+    for (const mechanism::Parameter& parameter : problem.model().content().mechanism.parameters)
+      if (parameter.name == own.name) centre.push_back(parameter.value);
+  for (std::size_t i = 0; i < centre.size(); ++i)
+    if (centre[i] < study.vary[i].lower || centre[i] > study.vary[i].upper) return std::nullopt;
+  // Parts of the ways to the ends of the ranges, in 256ths.
+  constexpr int parts = 256;
+  std::vector<std::array<int, 2>> grown(centre.size(), {0, 0});
+  const auto ranges = [&] {
+    std::vector<ExactRange> list;
+    for (std::size_t i = 0; i < centre.size(); ++i)
+      list.emplace_back(centre[i] - (centre[i] - study.vary[i].lower) * grown[i][0] / parts,
+                        centre[i] + (study.vary[i].upper - centre[i]) * grown[i][1] / parts);
+    return list;
+  };
+  CellJudge judge(problem);
+  if (!judge.proven(ranges())) return std::nullopt;
+  // The most that is proven, by bisection: of what is larger nothing is known.
+  const auto grow = [&](const std::vector<int*>& sides) {
+    int low = *sides.front(), high = parts + 1;
+    while (high - low > 1) {
+      const int middle = (low + high) / 2;
+      for (int* own : sides) *own = middle;
+      (judge.proven(ranges()) ? low : high) = middle;
+    }
+    for (int* own : sides) *own = low;
+  };
+  std::vector<int*> all;
+  for (auto& own : grown)
+    for (int& side : own) all.push_back(&side);
+  grow(all);
+  for (int* own : all) grow({own});
+  core::StudyCell cell;
+  cell.status = Status::feasible;
+  for (const ExactRange& own : ranges()) {
+    cell.lower.push_back(core::to_double(own.first));
+    cell.upper.push_back(core::to_double(own.second));
+  }
+  return cell;
+}
+
+}  // namespace clearloci

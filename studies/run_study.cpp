@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <memory>
+
+#include "analysis/model.hpp"
+#include "clearloci/study.hpp"
+#include "core/errors.hpp"
+#include "core/rational.hpp"
+#include "mechanism/read_study.hpp"
+#include "mechanism/write_values.hpp"
+#include "studies/collection.hpp"
+#include "studies/design_table.hpp"
+#include "studies/designs.hpp"
+#include "studies/pareto.hpp"
+#include "studies/prove.hpp"
+#include "studies/search.hpp"
+#include "studies/study_judge.hpp"
+#include "studies/work.hpp"
+
+namespace clearloci {
+namespace {
+
+using core::StudyDesign;
+using Kind = core::StudyMethod::Kind;
+using Status = StudyDesign::Status;
+
+bool is_rank_0(const StudyOptions& options) { return options.ranks == nullptr || options.ranks->rank == 0; }
+
+/// Of rank 0 the work as `lead` does it; the others serve. Rank 0 lets them go, however its own work ends.
+template <class Lead>
+void with_ranks(const Work& work, const StudyOptions& options, const Lead& lead) {
+  if (!is_rank_0(options)) return serve(work, options);
+  try {
+    lead();
+  } catch (...) {
+    dismiss(options);
+    throw;
+  }
+  dismiss(options);
+}
+
+/// In their order, with their values, and what is best of them.
+void complete(const StudyProblem& problem, const Designs& designs, StudyResult& result) {
+  std::sort(result.designs.begin(), result.designs.end(),
+            [](const StudyDesign& a, const StudyDesign& b) { return a.index < b.index; });
+  for (StudyDesign& own : result.designs)
+    if (own.values.empty())
+      for (const core::Rational& value : designs.values(own.index)) own.values.push_back(core::to_double(value));
+  choose(problem, result);
+}
+
+StudyResult begun(const Model& model, const core::Study& study) {
+  StudyResult result;
+  result.mechanism = model.name();
+  result.study = study;
+  for (const core::StudyParameter& own : study.vary) result.parameters.push_back(own.name);
+  return result;
+}
+
+void require_numbered(const core::Study& study) {
+  if (study.method.kind == Kind::grid || study.method.kind == Kind::sample) return;
+  throw core::InputError({study.file}, "only designs of a grid or a sample are known beforehand",
+                         "choose one of these methods, or run the study as a whole");
+}
+
+/// Every design of a grid or a sample that is not known yet.
+void judge_all(const StudyProblem& problem, const StudyOptions& options, StudyResult& result) {
+  const Designs designs(problem.study());
+  Work work;
+  work.figures = problem.figures().size();
+  work.worker = [&]() -> Worker {
+    return [&designs, judge = std::make_shared<StudyJudge>(problem)](std::uint64_t index) {
+      return judge->judge(index, designs.values(index));
+    };
+  };
+  with_ranks(work, options, [&] {
+    Collection found(problem, designs.count(), options);
+    const std::vector<bool> known = found.known(designs.count());
+    std::uint64_t next = 0;
+    work.next = [&]() -> std::optional<std::uint64_t> {
+      while (next < designs.count() && known[next]) ++next;
+      return next < designs.count() ? std::optional(next++) : std::nullopt;
+    };
+    work.found = [&](std::vector<StudyDesign> some) { found.add(std::move(some)); };
+    result.complete = do_work(work, options);
+    result.designs = found.take();
+    complete(problem, designs, result);
+  });
+}
+
+core::StudyCell cell_of(const StudyDesign& design, const CellTree& tree) {
+  core::StudyCell cell;
+  cell.status = design.status;
+  cell.reason = design.reason;
+  for (const ExactRange& own : tree.ranges(design.index)) {
+    cell.lower.push_back(core::to_double(own.first));
+    cell.upper.push_back(core::to_double(own.second));
+  }
+  return cell;
+}
+
+/// Cells level by level: what is undecided is cut, down to the finest.
+void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyResult& result) {
+  for (const core::Figure figure : problem.figures())
+    if (std::any_of(problem.study().require.begin(), problem.study().require.end(),
+                    [&](const core::StudyRequirement& own) { return own.figure == figure; }))
+      throw core::InputError({problem.study().file}, core::to_string(figure) + " is not proven for boxes of designs",
+                             "require margin or min_force, or choose another method");
+  const CellTree tree(problem.study());
+  Work work;
+  work.worker = [&]() -> Worker {
+    return [judge = std::make_shared<CellJudge>(problem)](std::uint64_t path) { return judge->judge(path); };
+  };
+  with_ranks(work, options, [&] {
+    Collection found(problem, 0, options);
+    std::map<std::uint64_t, StudyDesign> known;
+    for (const StudyDesign& own : found.designs()) known.emplace(own.index, own);
+    std::vector<std::uint64_t> level = {1};
+    std::vector<StudyDesign> leaves;
+    while (!level.empty() && result.complete) {
+      std::size_t next = 0;
+      work.next = [&]() -> std::optional<std::uint64_t> {
+        while (next < level.size() && known.contains(level[next])) ++next;
+        return next < level.size() ? std::optional(level[next++]) : std::nullopt;
+      };
+      work.found = [&](std::vector<StudyDesign> some) {
+        for (const StudyDesign& own : some) known.insert_or_assign(own.index, own);
+        found.add(std::move(some));
+      };
+      result.complete = do_work(work, options);
+      std::vector<std::uint64_t> finer;
+      for (const std::uint64_t path : level) {
+        const auto own = known.find(path);
+        if (own == known.end()) continue;
+        if (own->second.status == Status::undecided && !tree.is_finest(path)) {
+          finer.push_back(2 * path);
+          finer.push_back(2 * path + 1);
+        } else {
+          leaves.push_back(own->second);
+        }
+      }
+      found.expect(finer.size());
+      level = std::move(finer);
+    }
+    (void)found.take();
+    for (const StudyDesign& own : leaves) result.cells.push_back(cell_of(own, tree));
+    if (result.complete) result.tolerances = proven_tolerances(problem);
+  });
+}
+
+}  // namespace
+
+core::Study read_study(const std::string& path, const Model& model) {
+  return mechanism::read_study(path, model.content().mechanism);
+}
+
+core::Study parse_study(const std::string& text, const Model& model, const std::string& file) {
+  return mechanism::parse_study(text, file, model.content().mechanism);
+}
+
+namespace {
+
+/// The shortest decimal where that is the number itself, else a fraction.
+std::string written(const core::Rational& value) {
+  std::array<char, 40> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), core::to_double(value));
+  const std::string decimal(text.data(), end);
+  return core::rational_from_decimal(decimal) == value ? decimal : core::to_string(value);
+}
+
+std::vector<Model::Value> values_of(const Model& model, const StudyResult& result, const StudyDesign& design) {
+  std::vector<Model::Value> values;
+  const core::Study& study = result.study;
+  const bool numbered = study.method.kind == Kind::grid || study.method.kind == Kind::sample;
+  const std::vector<core::Rational> exact =
+      numbered ? Designs(study).values(design.index) : std::vector<core::Rational>{};
+  for (std::size_t i = 0; i < study.vary.size(); ++i) {
+    std::array<char, 40> text{};
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), design.values[i]);
+    // Of a search values are short decimals, of which the double knows all digits.
+    const core::Rational value = numbered ? exact[i] : core::rational_from_decimal(std::string(text.data(), end));
+    values.emplace_back(study.vary[i].name, written(value));
+  }
+  for (const Model::Value& own : model.values())
+    if (std::none_of(values.begin(), values.end(), [&](const Model::Value& v) { return v.first == own.first; }))
+      values.push_back(own);
+  return values;
+}
+
+}  // namespace
+
+std::uint64_t design_count(const core::Study& study) {
+  require_numbered(study);
+  return Designs(study).count();
+}
+
+std::string judge_designs(const Model& model, const core::Study& study, std::uint64_t first, std::uint64_t count,
+                          int threads) {
+  require_numbered(study);
+  const Designs designs(study);
+  const StudyProblem problem(model, study);
+  const std::uint64_t end = first + std::min(count, designs.count() - std::min(first, designs.count()));
+  std::uint64_t next = first;
+  std::vector<StudyDesign> found;
+  Work work;
+  work.figures = problem.figures().size();
+  work.worker = [&]() -> Worker {
+    return [&designs, judge = std::make_shared<StudyJudge>(problem)](std::uint64_t index) {
+      return judge->judge(index, designs.values(index));
+    };
+  };
+  work.next = [&]() -> std::optional<std::uint64_t> { return next < end ? std::optional(next++) : std::nullopt; };
+  work.found = [&](std::vector<StudyDesign> some) { found.insert(found.end(), some.begin(), some.end()); };
+  (void)do_work(work, {.threads = std::max(1, threads)});
+  std::sort(found.begin(), found.end(), [](const StudyDesign& a, const StudyDesign& b) { return a.index < b.index; });
+  std::string lines;
+  for (const StudyDesign& own : found) lines += table_line(own);
+  return lines;
+}
+
+StudyResult study_result(const Model& model, const core::Study& study, const std::string& lines) {
+  require_numbered(study);
+  const Designs designs(study);
+  const StudyProblem problem(model, study);
+  StudyResult result = begun(model, study);
+  result.figures = problem.figures();
+  std::vector<bool> known(designs.count(), false);
+  for (std::size_t at = 0; at < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', at), lines.size());
+    StudyDesign own;
+    if (!read_table_line(std::string_view(lines).substr(at, end - at), result.figures.size(), own) ||
+        own.index >= known.size())
+      throw core::InputError({"lines"}, "a line of designs is damaged or of another study",
+                             "hand over what judge_designs gave, whole");
+    if (!known[own.index]) result.designs.push_back(own);
+    known[own.index] = true;
+    at = end + 1;
+  }
+  result.complete = result.designs.size() == designs.count();
+  complete(problem, designs, result);
+  return result;
+}
+
+std::string design_text(const Model& model, const StudyResult& result, const StudyDesign& design) {
+  return mechanism::with_values(model.text(), model.file(), values_of(model, result, design));
+}
+
+Model design_model(const Model& model, const StudyResult& result, const StudyDesign& design) {
+  return model.with(values_of(model, result, design));
+}
+
+StudyResult run_study(const Model& model, const core::Study& study, const StudyOptions& options) {
+  StudyResult result = begun(model, study);
+  const StudyProblem problem(model, study);
+  if (study.method.kind == Kind::prove) {
+    prove_all(problem, options, result);
+    return result;
+  }
+  result.figures = problem.figures();
+  if (study.method.kind == Kind::search)
+    with_ranks({}, options, [&] { search(problem, options, result); });
+  else
+    judge_all(problem, options, result);
+  return result;
+}
+
+}  // namespace clearloci

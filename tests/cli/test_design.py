@@ -1,0 +1,144 @@
+"""Studies as their user meets them: the same bytes from any number of threads, and nothing lost by kill -9."""
+
+import csv
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from program import FIVE_BAR, PROGRAM, InOwnFolder
+
+STUDY = """format: 1
+vary: {L: [0.3, 0.7], d: [0.3, 0.7]}
+keep: [L + d <= 1.3]
+task: {box: {x: [0.1, 0.4], y: [-0.7, -0.5]}}
+goal: {maximise: margin}
+method: {grid: [%d, %d]}
+"""
+
+
+class Design(InOwnFolder):
+    def study(self, side, name="study.yaml"):
+        path = self.folder / name
+        path.write_text(STUDY % (side, side), encoding="utf-8")
+        return path
+
+    def test_files_agree(self):
+        process = self.run_program("design", FIVE_BAR, self.study(12), "-o", "here")
+        self.assertIn("feasible", process.stdout)
+        result = json.loads((self.folder / "here" / "designs.json").read_text(encoding="utf-8"))
+        with open(self.folder / "here" / "designs.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 144)
+        self.assertEqual(sum(result["counts"].values()), 144)
+        for status, many in result["counts"].items():
+            self.assertEqual(sum(row["status"] == status for row in rows), many)
+        self.assertEqual(result["designs"]["status"], [row["status"] for row in rows])
+        best = max((float(row["margin"]) for row in rows if row["status"] == "feasible"))
+        self.assertEqual(result["best"]["figures"]["margin"], best)
+        for name in ("designs.svg", "designs.png"):
+            self.assertGreater((self.folder / "here" / name).stat().st_size, 5000)
+
+    def test_same_bytes_whatever_the_threads(self):
+        study = self.study(10)
+        for threads in (1, 4):
+            self.run_program("design", FIVE_BAR, study, "-o", f"by{threads}", "--threads", threads, "--quiet")
+        for name in ("designs.csv", "designs.json", "designs.svg"):
+            self.assertEqual((self.folder / "by1" / name).read_bytes(), (self.folder / "by4" / name).read_bytes())
+
+    def test_nothing_is_lost_by_kill(self):
+        """Killed at ten random moments, then left to end."""
+        study = self.study(40)
+        self.run_program("design", FIVE_BAR, study, "-o", "whole", "--quiet")
+        moments = random.Random(16)
+        words = [PROGRAM, "design", FIVE_BAR, study, "-o", self.folder / "killed", "--quiet", "--resume"]
+        table = self.folder / "killed" / "designs.table"
+        kept = b""
+        for _ in range(10):
+            process = subprocess.Popen(words, cwd=self.folder, stderr=subprocess.DEVNULL)
+            time.sleep(moments.uniform(0.02, 0.5))
+            process.kill()
+            process.wait()
+            now = table.read_bytes() if table.exists() else b""
+            whole_lines = kept[: kept.rfind(b"\n") + 1]
+            self.assertTrue(now.startswith(whole_lines), "what was written stays")
+            kept = now
+        self.run_program("design", FIVE_BAR, study, "-o", "killed", "--quiet", "--resume")
+        for name in ("designs.csv", "designs.json"):
+            self.assertEqual((self.folder / "whole" / name).read_bytes(), (self.folder / "killed" / name).read_bytes())
+
+    def test_another_study_is_not_gone_on_with(self):
+        self.run_program("design", FIVE_BAR, self.study(4), "-o", "here", "--quiet")
+        process = self.run_program("design", FIVE_BAR, self.study(5), "-o", "here", "--resume", status=2)
+        self.assertIn("another study", process.stderr)
+
+    def test_a_time_limit_keeps_what_is_done(self):
+        study = self.study(200)
+        self.run_program("design", FIVE_BAR, study, "-o", "here", "--quiet", "--time-limit", 1, status=3)
+        result = json.loads((self.folder / "here" / "designs.json").read_text(encoding="utf-8"))
+        self.assertFalse(result["complete"])
+        self.assertGreater(len(result["designs"]["index"]), 0)
+
+
+@unittest.skipUnless(shutil.which("mpirun"), "MPI is not installed")
+class Ranks(InOwnFolder):
+    """Three ranks on one machine: the bytes of one process; a rank that is killed ends the run, and it goes on."""
+
+    ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+    def words(self, side, folder):
+        study = self.folder / "study.yaml"
+        study.write_text(STUDY % (side, side), encoding="utf-8")
+        return ["mpirun", "-n", "3", "--oversubscribe", PROGRAM, "design", FIVE_BAR, study, "-o", folder, "--quiet"]
+
+    def run_ranks(self, *words):
+        return subprocess.run(
+            [str(word) for word in words], cwd=self.folder, env=self.ENVIRONMENT, capture_output=True, text=True
+        )
+
+    def require_mpi(self, process):
+        if "built without MPI" in process.stderr:
+            self.skipTest("the program knows no MPI")
+
+    def test_three_ranks_write_the_bytes_of_one_process(self):
+        process = self.run_ranks(*self.words(20, "ranks"))
+        self.require_mpi(process)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.run_program("design", FIVE_BAR, self.folder / "study.yaml", "-o", "alone", "--quiet")
+        for name in ("designs.csv", "designs.json"):
+            self.assertEqual((self.folder / "ranks" / name).read_bytes(), (self.folder / "alone" / name).read_bytes())
+
+    def test_a_killed_rank_ends_the_run_and_resume_goes_on(self):
+        words = self.words(120, "ranks")
+        process = subprocess.Popen(
+            [str(word) for word in words], cwd=self.folder, env=self.ENVIRONMENT, stderr=subprocess.PIPE, text=True
+        )
+        table = self.folder / "ranks" / "designs.table"
+        for _ in range(600):
+            if process.poll() is not None or (table.exists() and table.stat().st_size > 20000):
+                break
+            time.sleep(0.05)
+        children = subprocess.run(["ps", "--ppid", str(process.pid), "-o", "pid="], capture_output=True, text=True)
+        ranks = [int(word) for word in children.stdout.split()]
+        if process.poll() is None and ranks:
+            os.kill(ranks[-1], signal.SIGKILL)
+            _, complaint = process.communicate(timeout=60)
+            self.assertNotEqual(process.returncode, 0, complaint)
+        else:
+            self.skipTest("the ranks were done, or refused, before one could be killed")
+        kept = table.read_bytes()
+        again = self.run_ranks(*words, "--resume")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertTrue(table.read_bytes().startswith(kept[: kept.rfind(b"\n") + 1]))
+        self.run_program("design", FIVE_BAR, self.folder / "study.yaml", "-o", "alone", "--quiet")
+        self.assertEqual(
+            (self.folder / "ranks" / "designs.csv").read_bytes(), (self.folder / "alone" / "designs.csv").read_bytes()
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()

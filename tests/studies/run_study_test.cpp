@@ -1,0 +1,200 @@
+// Studies as a whole: the same verdicts as single designs have, whatever the number of threads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "clearloci/study.hpp"
+#include "clearloci/verify.hpp"
+#include "core/errors.hpp"
+#include "tests/report/scratch_folder.hpp"
+
+namespace clearloci {
+namespace {
+
+using Status = StudyDesign::Status;
+
+Model five_bar() { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml"); }
+
+std::string study_text(const std::string& method, const std::string& more = "goal: {maximise: margin}") {
+  return "format: 1\nvary: {L: [0.3, 0.7], d: [0.3, 0.7]}\n"
+         "task: {box: {x: [0.1, 0.4], y: [-0.7, -0.5]}}\n" +
+         more + "\nmethod: " + method + "\n";
+}
+
+std::string told(const StudyResult& result) {
+  std::string text;
+  for (const StudyDesign& own : result.designs) {
+    text += std::to_string(own.index) + " " + to_string(own.status) + " " + own.reason;
+    for (const double value : own.values) text += " " + std::to_string(value);
+    for (const double value : own.figures) text += " " + std::to_string(value);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(Study, SaysOfEveryDesignWhatVerifySays) {
+  const Model model = five_bar();
+  const Study study = parse_study(study_text("{grid: [7, 6]}"), model);
+  const StudyResult result = run_study(model, study);
+  ASSERT_EQ(result.designs.size(), 42U);
+  std::size_t feasible = 0;
+  for (const StudyDesign& own : result.designs) {
+    std::vector<Model::Value> values;
+    for (std::size_t i = 0; i < 2; ++i) values.emplace_back(result.parameters[i], std::to_string(own.values[i]));
+    const Model member = model.with(values);
+    Task task = study.tasks.front();
+    const Verification answer = decide_task(member, task);
+    EXPECT_EQ(own.status == Status::feasible, answer.verdict == Verdict::verified) << own.index << " " << own.reason;
+    EXPECT_EQ(own.status == Status::infeasible, answer.verdict == Verdict::refuted) << own.index << " " << own.reason;
+    if (own.status != Status::feasible) continue;
+    ++feasible;
+    // Both are proven lower bounds of one number.
+    EXPECT_NEAR(own.figures.front(), answer.margin, 2e-3 * (answer.margin + 0.3)) << own.index;
+  }
+  EXPECT_GT(feasible, 5U);
+  EXPECT_LT(feasible, 37U);
+  ASSERT_TRUE(result.best);
+  for (const StudyDesign& own : result.designs)
+    if (own.status == Status::feasible) {
+      EXPECT_LE(own.figures.front(), result.designs[*result.best].figures.front());
+    }
+}
+
+TEST(Study, HasTheSameAnswerWhateverTheThreads) {
+  const Model model = five_bar();
+  const Study study = parse_study(study_text("{sample: 100}"), model);
+  EXPECT_EQ(told(run_study(model, study, {.threads = 1})), told(run_study(model, study, {.threads = 5})));
+}
+
+TEST(Study, GoesOnWhereItWasStopped) {
+  const report::fixture::ScratchFolder folder;
+  const Model model = five_bar();
+  const Study study = parse_study(study_text("{sample: 200}"), model);
+  StudyOptions options = {.table = folder.path() / "designs.table", .threads = 2};
+  const std::string whole = told(run_study(model, study, options));
+  // Half of the table, cut in a line.
+  std::filesystem::resize_file(options.table, std::filesystem::file_size(options.table) / 2);
+  const std::string half = report::fixture::read_file(options.table);
+  options.resume = true;
+  EXPECT_EQ(told(run_study(model, study, options)), whole);
+  const std::string lines = half.substr(0, half.rfind('\n') + 1), again = report::fixture::read_file(options.table);
+  EXPECT_TRUE(again.starts_with(lines)) << "what the table holds is not judged again";
+  EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), 201);
+}
+
+TEST(Study, LeavesOutWhatIsNotKept) {
+  const Model model = five_bar();
+  const StudyResult result = run_study(model, parse_study(study_text("{grid: [9, 9]}", "keep: [L + d <= 1]"), model));
+  for (const StudyDesign& own : result.designs)
+    EXPECT_EQ(own.status == Status::left_out, own.values[0] + own.values[1] > 1 + 1e-12) << own.index;
+}
+
+TEST(Study, AFrontHasNoDesignThatAnotherBeatsInEveryGoal) {
+  const Model model = five_bar();
+  const StudyResult result = run_study(
+      model, parse_study(study_text("{sample: 150}", "goal: [{maximise: margin}, {minimise: L + d}]"), model));
+  ASSERT_GT(result.front.size(), 2U);
+  const auto goals = [&](std::size_t i) {
+    const StudyDesign& own = result.designs[i];
+    return std::array{own.figures.front(), -(own.values[0] + own.values[1])};
+  };
+  for (const std::size_t own : result.front)
+    for (std::size_t i = 0; i < result.designs.size(); ++i) {
+      if (result.designs[i].status != Status::feasible) continue;
+      EXPECT_FALSE(goals(i)[0] > goals(own)[0] && goals(i)[1] > goals(own)[1]) << i << " beats " << own;
+    }
+}
+
+Verdict verdict_of(const Model& model, const StudyResult& result, const std::vector<double>& values) {
+  std::vector<Model::Value> own;
+  for (std::size_t i = 0; i < values.size(); ++i) own.emplace_back(result.parameters[i], std::to_string(values[i]));
+  return decide_task(model.with(own), result.study.tasks.front()).verdict;
+}
+
+TEST(Study, ParametersMayEnterByQuotientsAndCosines) {
+  std::string text = report::fixture::read_file(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
+  const auto change = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  change("  d: L ", "  g: 1\n  tilt: 0\n  d: L/g ");
+  change("A2: [d, 0]", "A2: [d*cos(tilt), d*sin(tilt)]");
+  const Model model = Model::parse(text);
+  const std::string study =
+      "format: 1\nvary: {g: [0.7, 1.6], tilt: [-0.6, 0.6]}\ntask: {box: {x: [0.1, 0.4], y: [-0.7, -0.5]}}\n"
+      "method: {grid: [6, 5]}\n";
+  const StudyResult result = run_study(model, parse_study(study, model));
+  std::size_t feasible = 0;
+  for (const StudyDesign& own : result.designs) {
+    const Verdict verdict = verdict_of(model, result, own.values);
+    EXPECT_EQ(own.status == Status::feasible, verdict == Verdict::verified) << own.index << " " << own.reason;
+    feasible += own.status == Status::feasible;
+  }
+  EXPECT_GT(feasible, 3U);
+  EXPECT_LT(feasible, 30U);
+}
+
+TEST(Study, ProvesCellsOfDesigns) {
+  const Model model = five_bar();
+  const StudyResult result = run_study(model, parse_study(study_text("{prove: 1/16}", ""), model), {.threads = 2});
+  double area = 0, open = 0;
+  for (const StudyCell& own : result.cells) {
+    const double size = (own.upper[0] - own.lower[0]) * (own.upper[1] - own.lower[1]);
+    area += size;
+    if (own.status == Status::undecided) open += size;
+    // Corners and the middle of a cell that is decided are designs like others.
+    for (const double part : {0.01, 0.5, 0.99}) {
+      if (own.status == Status::undecided) continue;
+      const Verdict verdict = verdict_of(
+          model, result,
+          {own.lower[0] + part * (own.upper[0] - own.lower[0]), own.lower[1] + part * (own.upper[1] - own.lower[1])});
+      EXPECT_EQ(verdict, own.status == Status::feasible ? Verdict::verified : Verdict::refuted) << own.reason;
+    }
+  }
+  EXPECT_NEAR(area, 0.16, 1e-12) << "cells make up the box";
+  EXPECT_LT(open, 0.05);
+  ASSERT_TRUE(result.tolerances);
+  for (const double x : {1e-4, 1 - 1e-4})
+    for (const double y : {1e-4, 1 - 1e-4})
+      EXPECT_EQ(
+          verdict_of(model, result,
+                     {result.tolerances->lower[0] + x * (result.tolerances->upper[0] - result.tolerances->lower[0]),
+                      result.tolerances->lower[1] + y * (result.tolerances->upper[1] - result.tolerances->lower[1])}),
+          Verdict::verified);
+}
+
+TEST(Study, ASearchBeatsAGrid) {
+  const Model model = five_bar();
+  const StudyResult grid = run_study(model, parse_study(study_text("{grid: [9, 9]}"), model));
+  const Study study = parse_study(study_text("{search: 150}"), model);
+  const StudyResult found = run_study(model, study);
+  ASSERT_TRUE(grid.best && found.best);
+  EXPECT_LE(found.designs.size(), 150U);
+  EXPECT_GT(found.designs[*found.best].figures.front(), grid.designs[*grid.best].figures.front());
+  EXPECT_EQ(told(found), told(run_study(model, study))) << "the same from run to run";
+}
+
+TEST(Study, WritesADesignAsTheFileThatItComesFrom) {
+  const Model model = five_bar();
+  const StudyResult result = run_study(model, parse_study(study_text("{grid: [8, 8]}"), model));
+  ASSERT_TRUE(result.best);
+  const std::string text = design_text(model, result, result.designs[*result.best]);
+  EXPECT_NE(text.find("# named exact numbers"), std::string::npos) << "comments stay";
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), std::count(model.text().begin(), model.text().end(), '\n'));
+  const Model best = Model::parse(text);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(best.parameters()[i].value, result.designs[*result.best].values[i]);
+  EXPECT_TRUE(decide_task(best, result.study.tasks.front()).verified());
+}
+
+TEST(Study, RefusesWhatHasNoMeaning) {
+  const Model model = five_bar();
+  for (const std::string& text :
+       {study_text("{grid: [0, 2]}"), study_text("{walk: 3}"), study_text("{grid: [2, 2]}", "goal: {maximise: beauty}"),
+        study_text("{grid: [2, 2]}", "keep: [L + q <= 1]"), study_text("{grid: [2, 2]}", "keep: [L + d]"),
+        study_text("{search: 100}", ""), std::string("format: 1\nvary: {q: [0, 1]}\ntask: {}\nmethod: {sample: 3}\n")})
+    EXPECT_THROW((void)parse_study(text, model), InputError) << text;
+}
+
+}  // namespace
+}  // namespace clearloci
