@@ -26,6 +26,8 @@ constexpr int agreeing_circles = 1;
 constexpr double rounding = 1e-13;  // of points moved onto a curve
 // The exact arrangement of two curves is quick up to this degree.
 constexpr int exact_degree = 8;
+// Of a picture, where crossings of other curves may stay open: of lines, circles and pairs of these.
+constexpr int sketch_degree = 4;
 // Live cells of a search for crossings, where it is for a picture.
 constexpr int cells_of_a_sketch = 256;
 
@@ -172,7 +174,8 @@ class Builder {
 
   /// The rung above: the exact arrangement of the two curves, for all modes at once.
   void add_plane_crossings(const core::LocusCurve& a, const core::LocusCurve& b) {
-    if (sketch_ || std::max(core::total_degree(a.implicit), core::total_degree(b.implicit)) > exact_degree)
+    const int bearable = sketch_ ? sketch_degree : exact_degree;
+    if (std::max(core::total_degree(a.implicit), core::total_degree(b.implicit)) > bearable)
       return doubt("crossings of " + a.id + " and " + b.id + " are not proven");
     const CurveArrangement both({a.implicit, b.implicit}, {map_.lower[0], map_.lower[1]},
                                 {map_.upper[0], map_.upper[1]});

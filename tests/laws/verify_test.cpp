@@ -31,6 +31,7 @@ TEST(Verify, ThePapersPathLiesInOneZone) {
   const Verification result = verify_task(mechanism, mechanism::read_task(file, mechanism), {});
   EXPECT_TRUE(result.verified());
   EXPECT_EQ(result.zone, "z1");
+  EXPECT_TRUE(result.notes.empty()) << result.notes.front();  // nothing is left open in its picture
   // The outer boundary of leg 2 is the circle of radius 1 about (1/2, 0).
   const double distance = 1 - std::hypot(0.5, 0.7);
   EXPECT_NEAR(result.nearest->distance, distance, 1e-9);

@@ -144,7 +144,7 @@ describe("values", () => {
     await expect.poll(() => page.url()).toContain("#");
     const link = page.url();
     const waiting = page.waitForEvent("download");
-    await page.getByText("Download", { exact: true }).first().click();
+    await page.locator("summary", { hasText: "Download" }).click();
     await page.locator("#download-model").click();
     const file = readFileSync(await (await waiting).path(), "utf8");
     const original = readFileSync(join(source, "examples", "five_bar.yaml"), "utf8");
@@ -247,7 +247,7 @@ describe("a task", () => {
 describe("exports", () => {
   it("are downloaded", async () => {
     const page = await start();
-    await page.getByText("Download", { exact: true }).first().click();
+    await page.locator("summary", { hasText: "Download" }).click();
     for (const [id, beginning] of [["loci-dxf", "999"], ["loci-svg", "<?xml"], ["zones-geojson", "{"]]) {
       const waiting = page.waitForEvent("download");
       await page.locator(`[data-export="${id ?? ""}"]`).click();

@@ -23,7 +23,7 @@ export function downloadPanel(bench: Workbench): Panel {
       const answer = await ask<Files>("export", {
         text, file, mode: mode ?? [], what, format, with_loci: true, lane: `export${what}${format}`,
         ...(joints ? { joints } : {}), ...(quantities ? { quantities } : {}),
-        ...(what === "verification" && task ? { task: taskText(task, bench.model.coordinateNames) } : {}),
+        ...(what === "verification" && task ? { task: taskText(task, bench.model.coordinateNames, bench.model.taskUnit) } : {}),
       });
       for (const one of answer.files) download(one.name, bytesOf(one.base64), "application/octet-stream");
     } catch (error) {

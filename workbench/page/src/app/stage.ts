@@ -169,7 +169,7 @@ export class Stage {
     const { view, bench } = this;
     if (!view || !this.active) return;
     const { theme, state, pose } = bench;
-    if (state.task && !this.cycle) drawTask(context, view, state.task, bench.verdict, theme);
+    if (state.task && !this.cycle) drawTask(context, view, state.task, bench.verdict, theme, bench.model.metres ?? 1);
     const sketch = this.sketch;
     if (sketch) {
       context.globalAlpha = bench.poseFault ? 0.45 : 1;
@@ -321,10 +321,11 @@ export class Stage {
   private dragBase(name: string, to: Point): void {
     const { bench } = this;
     const point = bench.model.basePoints.find((one) => one.name === name);
-    if (!point) return;
+    const metres = bench.model.metres;
+    if (!point || metres === undefined) return;
     let model = bench.model;
     this.slots(point.path).forEach((slot, axis) => {
-      if (slot) model = model.write(slot, roundText(to[axis as 0 | 1], 1 / (this.view?.scale[0] ?? 1)));
+      if (slot) model = model.write(slot, roundText(to[axis as 0 | 1] / metres, 1 / metres / (this.view?.scale[0] ?? 1)));
     });
     if (model.text !== bench.state.text) bench.change({ text: model.text }, `drag-${name}`, `points/${name}/0`);
   }

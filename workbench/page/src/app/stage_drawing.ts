@@ -8,10 +8,10 @@ import { parseExact, toNumber } from "../data/exact";
 import type { Workbench } from "./workbench";
 
 /** Green and solid where it is verified, red and dashed where it is refuted, grey while it is not known. */
-export function drawTask(context: CanvasRenderingContext2D, view: View, task: TaskState, verdict: Verdict | undefined, theme: Theme): void {
+export function drawTask(context: CanvasRenderingContext2D, view: View, task: TaskState, verdict: Verdict | undefined, theme: Theme, metres: number): void {
   const colour = !verdict || verdict.verdict === "undecided" ? theme.faded_ink : verdict.verified ? theme.verified : theme.failed;
   const exact = parseExact(task.margin);
-  const margin = exact ? toNumber(exact) : 0;
+  const margin = exact ? toNumber(exact) * metres : 0;
   const line = outline(task.shape);
   context.save();
   context.lineJoin = "round";

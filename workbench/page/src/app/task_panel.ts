@@ -66,7 +66,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     if (!task) return;
     words.textContent = "Looking for a place …";
     try {
-      const verdict = await ask<Verdict>("verify", { text: bench.state.text, mode: bench.state.mode ?? [], task: taskText(task, bench.model.coordinateNames), fit: goal, lane: "fit" });
+      const verdict = await ask<Verdict>("verify", { text: bench.state.text, mode: bench.state.mode ?? [], task: taskText(task, bench.model.coordinateNames, bench.model.taskUnit), fit: goal, lane: "fit" });
       if (verdict.moved_by) set({ shape: movedShape(task.shape, verdict.moved_by) });
       else words.textContent = verdict.verified ? "It fits where it is." : "No place was found that verifies.";
     } catch (error) {
@@ -78,7 +78,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     h("button", { type: "button", title: "Move it to the nearest place that verifies", click: () => void fit("nearest") }, "Fit nearest"),
     h("button", { type: "button", title: "Move it to the place with the largest margin", click: () => void fit("best") }, "Fit best"),
     h("button", { type: "button", click: () => addPoint() }, "Add a point"),
-    h("button", { type: "button", click: () => bench.state.task && download("task.yaml", taskText(bench.state.task, bench.model.coordinateNames), "application/yaml") }, "Download"),
+    h("button", { type: "button", click: () => bench.state.task && download("task.yaml", taskText(bench.state.task, bench.model.coordinateNames, bench.model.taskUnit), "application/yaml") }, "Download"),
     h("button", { type: "button", click: () => bench.change({ task: undefined }) }, "Remove"),
   );
   const addPoint = (): void => {

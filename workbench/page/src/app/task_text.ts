@@ -1,15 +1,19 @@
 // A task as its file says it (docs: clearloci verify).
 import type { TaskShape, TaskState } from "./state";
 
-function number(value: number): string {
-  return String(Number(value.toPrecision(9)));
+/** `unit`: what m are called where the mechanism file has units of its own. */
+export function taskText(task: TaskState, names: readonly string[], unit = ""): string {
+  const number = (value: number): string => `${Number(value.toPrecision(9))}${unit && ` ${unit}`}`;
+  const pair = (point: readonly [number, number]): string => `[${number(point[0])}, ${number(point[1])}]`;
+  const lines = ["format: 1", shapeLine(task.shape, names, number, pair)];
+  if (task.margin) lines.push(`margin: ${task.margin}`);
+  if (task.minForce) lines.push(`min_force: ${task.minForce}`);
+  if (task.minCouple) lines.push(`min_couple: ${task.minCouple}`);
+  if (task.loads) lines.push(`loads_from: ${task.loads}`);
+  return `${lines.join("\n")}\n`;
 }
 
-function pair(point: readonly [number, number]): string {
-  return `[${number(point[0])}, ${number(point[1])}]`;
-}
-
-function shapeLine(shape: TaskShape, names: readonly string[]): string {
+function shapeLine(shape: TaskShape, names: readonly string[], number: (value: number) => string, pair: (point: readonly [number, number]) => string): string {
   const [x, y] = [names[0] ?? "x", names[1] ?? "y"];
   switch (shape.kind) {
     case "box":
@@ -19,15 +23,6 @@ function shapeLine(shape: TaskShape, names: readonly string[]): string {
     default:
       return `${shape.kind}: [${shape.points.map(pair).join(", ")}]`;
   }
-}
-
-export function taskText(task: TaskState, names: readonly string[]): string {
-  const lines = ["format: 1", shapeLine(task.shape, names)];
-  if (task.margin) lines.push(`margin: ${task.margin}`);
-  if (task.minForce) lines.push(`min_force: ${task.minForce}`);
-  if (task.minCouple) lines.push(`min_couple: ${task.minCouple}`);
-  if (task.loads) lines.push(`loads_from: ${task.loads}`);
-  return `${lines.join("\n")}\n`;
 }
 
 export function movedShape(shape: TaskShape, by: readonly [number, number]): TaskShape {

@@ -185,7 +185,7 @@ export class Workbench {
 
   private askVerdict(): void {
     const { task } = this.state;
-    if (task) this.lanes.verify.want({ ...this.lociQuestion(), task: taskText(task, this.model.coordinateNames) });
+    if (task) this.lanes.verify.want({ ...this.lociQuestion(), task: taskText(task, this.model.coordinateNames, this.model.taskUnit) });
     else this.verdict = undefined;
   }
 
@@ -323,9 +323,10 @@ export class Workbench {
   /** The last good picture stays; the words stand beside the field that was changed, or where the file is wrong. */
   private onFault(fault: Fault): void {
     this.progress = undefined;
+    this.zonesStale = false; // they are those of the picture that stays
     const placed = fault.line > 0 ? this.model.at(fault.line, fault.column, this.model.adjustables)?.id : undefined;
     this.fault = { message: fault.message, field: this.touched ?? placed };
-    this.tell("fault");
+    this.tell("fault", "zones");
   }
 }
 

@@ -85,6 +85,21 @@ export class ModelText {
     });
   }
 
+  /** The file's own unit of this measure; without any, SI. */
+  unit(measure: "length" | "angle" | "force"): string {
+    return this.read(["units", measure]) ?? { length: "m", angle: "rad", force: "N" }[measure];
+  }
+
+  /** How many m the file's unit of length is; nothing where it is none of these. */
+  get metres(): number | undefined {
+    return { m: 1, dm: 0.1, cm: 0.01, mm: 1e-3, um: 1e-6, km: 1e3, in: 0.0254, ft: 0.3048 }[this.unit("length")];
+  }
+
+  /** How tasks write their lengths, which are m on the page. */
+  get taskUnit(): string {
+    return this.read(["units", "length"]) === undefined ? "" : "m";
+  }
+
   get coordinateNames(): string[] {
     return this.entries("workspace").map(([name]) => name);
   }
@@ -95,7 +110,8 @@ export class ModelText {
       const text = this.read(path);
       if (text === undefined) return;
       const exact = parseExact(text);
-      list.push({ id: path.join("/"), path, label, unit, group, text, value: exact && toNumber(exact) });
+      const shown = { m: this.unit("length"), rad: this.unit("angle"), N: this.unit("force"), "N m": `${this.unit("force")} m` }[unit] ?? unit;
+      list.push({ id: path.join("/"), path, label, unit: shown, group, text, value: exact && toNumber(exact) });
     };
     const addVector = (path: ValuePath, label: string, unit: string, group: Adjustable["group"]): void => {
       const node = this.node(path);
