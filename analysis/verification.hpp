@@ -1,7 +1,8 @@
 // Whether a mechanism keeps clear of its loci over a task, in one call:
 //     Mechanism, Task -> symbolic::task_conditions -> loci::prove_task <-> numeric::TaskWitness -> Verification
-// The traced loci and zones come after the verdict: they name what is near and are drawn, and prove nothing. So a sketch
-// of them is enough (loci::TraceOptions::sketch), unless the verdict is open or a place for the task is looked for.
+// The traced loci and zones come after the verdict: they name what is near and are drawn, and prove nothing. So a
+// sketch of them is enough (loci::TraceOptions::sketch), unless the verdict is open or a place for the task is looked
+// for.
 #pragma once
 
 #include <optional>

@@ -47,9 +47,7 @@ void hold_designs(int first, int count, bool with_weights, int nodes) {
 class RandomDesigns : public testing::TestWithParam<int> {};
 
 // 80 in eight parts, so that they run side by side; most designs of CI are drawn by the laws beside this one.
-TEST_P(RandomDesigns, HoldAgainstTheWitness) {
-  hold_designs(GetParam() * designs(80) / 8, designs(80) / 8, false, 50);
-}
+TEST_P(RandomDesigns, HoldAgainstTheWitness) { hold_designs(GetParam() * designs(80) / 8, designs(80) / 8, false, 50); }
 
 INSTANTIATE_TEST_SUITE_P(Parts, RandomDesigns, testing::Range(0, 8));
 
