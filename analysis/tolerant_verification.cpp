@@ -111,7 +111,8 @@ class Tolerant {
     if (!failure.watched) return confirmed(failure.at, failure.parameters);
     // The sign changes between two poses and two designs: first the design changes, then the pose.
     const std::size_t w = *failure.watched;
-    const auto& [from, to] = std::tie(failure.other_parameters, failure.parameters);
+    const auto& from = failure.other_parameters;
+    const auto& to = failure.parameters;
     const int sign = judge_->sign_at(w, failure.other, from);
     const auto design = [&](double t) {
       std::vector<double> own;

@@ -21,4 +21,9 @@ export default tseslint.config(
     },
   },
   { files: ["**/*.mjs"], languageOptions: { globals: { process: "readonly", console: "readonly" } } },
+  // What these hand to the browser runs there.
+  {
+    files: ["browser/*.mjs"],
+    languageOptions: { globals: { document: "readonly", localStorage: "readonly", Event: "readonly" } },
+  },
 );

@@ -1,7 +1,7 @@
 // The 5R on the page, as a designer uses it.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser, Page } from "playwright-core";
+import type { Browser, Locator, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
 import { difference, launch, open, rest, Served, shot, source, type Opened } from "./session";
 
@@ -29,7 +29,7 @@ async function start(options: Parameters<typeof open>[2] = {}, address = served.
   return opened.page;
 }
 
-const exact = (page: Page, name: string) => page.getByLabel(`${name}, exact`, { exact: true });
+const exact = (page: Page, name: string): Locator => page.getByLabel(`${name}, exact`, { exact: true });
 const pose = async (page: Page): Promise<number[]> => Promise.all(["x", "y"].map(async (name) => Number(await page.locator(`input.exact[aria-label="${name} of the pose"]`).inputValue())));
 
 /** Where a place of the plane stands on the page: the picture says how it is scaled. */
