@@ -11,7 +11,6 @@ namespace clearloci {
 namespace {
 
 using core::Point2;
-using core::Quantity;
 using loci::DesignFailure;
 using numeric::Bounded;
 

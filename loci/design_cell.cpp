@@ -147,7 +147,8 @@ const std::vector<Interval>& DesignCell::slopes(int function) {
   for (int v = 0; v < program_.variables(); ++v) gradient_[static_cast<std::size_t>(v)] = over_.partial(function, v);
   // ds_j/dv = (dQ_j/dv + sum_{i<j} dQ_j/ds_i ds_i/dv) / (2 s_j)
   for (int j = program_.roots() - 1; j >= 0; --j) {
-    const Interval factor = gradient_[static_cast<std::size_t>(n + j)] * half_inverse_[static_cast<std::size_t>(j)];
+    const auto root = static_cast<std::size_t>(j), first = static_cast<std::size_t>(n);
+    const Interval factor = gradient_[first + root] * half_inverse_[root];
     if (factor.lower() == 0 && factor.upper() == 0) continue;
     for (int v = 0; v < n + j; ++v) {
       Interval& slope = gradient_[static_cast<std::size_t>(v)];
