@@ -81,11 +81,10 @@ class Opening {
     Dependence result;
     for (const std::string& name : core::symbols(e)) {
       const Parameter* own = parameter_named(mechanism_, name);
-      if (varied_.contains(name))
-        result.varied = true;
-      else if (own == nullptr)
+      const bool varied = varied_.contains(name);
+      if (!varied && own == nullptr)
         result.coordinates = true;
-      else if (dependence(own->expression).varied)
+      else if (varied || dependence(own->expression).varied)
         result.varied = true;
     }
     return result;

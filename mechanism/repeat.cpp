@@ -17,8 +17,7 @@ constexpr std::size_t most_values = 100, most_text = std::size_t{4} << 20;
 /// One block of `repeat`, with what is left to copy of the text that a file may have.
 class Block {
  public:
-  Block(const Value& value, const std::vector<std::string>& sections, std::size_t& text_left)
-      : sections_(sections), text_left_(text_left) {
+  Block(const Value& value, const std::vector<std::string>& sections, std::size_t& text_left) : text_left_(text_left) {
     std::vector<std::string> keys = {"i", "table"};
     keys.insert(keys.end(), sections.begin(), sections.end());
     const Mapping mapping(value, keys);
@@ -155,7 +154,6 @@ class Block {
     whole = Node::map(std::move(pairs), whole.where());
   }
 
-  const std::vector<std::string>& sections_;
   std::size_t& text_left_;
   std::vector<std::string> values_;
   std::optional<Value> table_;
