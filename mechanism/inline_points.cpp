@@ -138,7 +138,7 @@ class Hoist {
         '_');
     if (names_.insert(name).second) return name;
     for (int k = 1;; ++k)
-      if (const std::string numbered = name + "_" + std::to_string(k); names_.insert(numbered).second) return numbered;
+      if (std::string numbered = name + "_" + std::to_string(k); names_.insert(numbered).second) return numbered;
   }
 
   std::set<std::string> names_;               ///< taken

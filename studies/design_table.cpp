@@ -18,8 +18,6 @@
 namespace clearloci {
 namespace {
 
-using core::StudyDesign;
-
 std::uint64_t fnv(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
