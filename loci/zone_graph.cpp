@@ -26,8 +26,8 @@ constexpr int agreeing_circles = 1;
 constexpr double rounding = 1e-13;  // of points moved onto a curve
 // The exact arrangement of two curves is quick up to this degree.
 constexpr int exact_degree = 8;
-// Of a picture, where crossings of other curves may stay open: of lines, circles and pairs of these.
-constexpr int sketch_degree = 4;
+// Of a picture, where crossings of other curves may stay open: of circles and of what the coupler of a 5R draws.
+constexpr int sketch_degree = 6;
 // Live cells of a search for crossings, where it is for a picture.
 constexpr int cells_of_a_sketch = 256;
 

@@ -17,7 +17,6 @@ namespace {
 
 using core::Figure;
 using core::Rational;
-using core::StudyDesign;
 using loci::sheet::Interval;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
