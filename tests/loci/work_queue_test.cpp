@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace clearloci::loci {
@@ -23,6 +25,7 @@ TEST(WorkQueue, BeginsNothingAfterAFailure) {
     run_in_order(100000, [&](std::size_t i) {
       ++begun;
       if (i == 3) throw std::runtime_error("the fourth");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // all of them would take a minute
     });
     FAIL() << "the failure was lost";
   } catch (const std::runtime_error& failure) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+
 #include "core/errors.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"

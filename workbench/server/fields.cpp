@@ -156,7 +156,7 @@ std::vector<double> Fields::numbers(const char* name) const {
 
 std::optional<Rational> Fields::positive(const char* name) const {
   if (!has(name)) return std::nullopt;
-  const std::optional<Rational> value = exact_number(text(name));
+  std::optional<Rational> value = exact_number(text(name));
   if (!value || *value <= 0) refuse(name, "a number above zero, such as 5, 0.25 or 7/20");
   return value;
 }
