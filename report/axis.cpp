@@ -80,9 +80,4 @@ void draw_colour_bar(const Cairo::RefPtr<Cairo::Context>& context, const FieldSc
   }
 }
 
-std::uint32_t pixel_of(const Colour& colour) {
-  const auto channel = [](double value) { return static_cast<std::uint32_t>(std::lround(255 * value)); };
-  return 0xFF000000U | channel(colour.red) << 16 | channel(colour.green) << 8 | channel(colour.blue);
-}
-
 }  // namespace clearloci::report

@@ -4,7 +4,6 @@
 
 #include <cairomm/context.h>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -40,8 +39,5 @@ inline constexpr double colour_bar_room = 32;    ///< pt: bar, ticks and their l
 
 /// At the lower end of a box, over its width.
 void draw_colour_bar(const Cairo::RefPtr<Cairo::Context>& context, const FieldScale& scale, const Box& box);
-
-/// Opaque, as Cairo's ARGB32 wants it.
-std::uint32_t pixel_of(const Colour& colour);
 
 }  // namespace clearloci::report

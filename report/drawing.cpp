@@ -1,15 +1,11 @@
 #include "report/drawing.hpp"
 
-#include <cairomm/pattern.h>
-#include <cairomm/surface.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <numbers>
 
 #include "report/mechanism_drawing.hpp"
+#include "report/pixel_image.hpp"
 #include "report/task_drawing.hpp"
 #include "report/zone_drawing.hpp"
 
@@ -69,39 +65,24 @@ void draw_search_box(const Context& context, const Box& box) {
   context->unset_dash();
 }
 
-/// The field as an image of two pixels a point: cell edges stay sharp, and every format shows the same.
 void draw_field(const Context& context, const FieldLayer& layer, const Layout& layout) {
-  constexpr int pixels_per_point = 2;
-  const int width = static_cast<int>(std::lround(layout.plot.width * pixels_per_point));
-  const int height = static_cast<int>(std::lround(layout.plot.height * pixels_per_point));
-  const auto image = Cairo::ImageSurface::create(Cairo::ImageSurface::Format::ARGB32, width, height);
+  PixelImage image(layout.plot);
   const core::FieldMap& map = *layer.map;
   const auto cell = [](double at, double low, double high, int cells) {
     const double place = (at - low) / (high - low) * cells;
     return place < 0 || place >= cells ? -1 : static_cast<int>(place);
   };
-  for (int row = 0; row < height; ++row) {
-    unsigned char* const pixels = image->get_data() + static_cast<std::ptrdiff_t>(row) * image->get_stride();
-    const double y = layout.high[1] - (row + 0.5) / pixels_per_point / layout.scale[1];
+  for (int row = 0; row < image.height(); ++row) {
+    const double y = layout.high[1] - (row + 0.5) / PixelImage::pixels_per_point / layout.scale[1];
     const int j = cell(y, map.lower[1], map.upper[1], map.ny);
-    for (int column = 0; column < width; ++column) {
-      const double x = layout.low[0] + (column + 0.5) / pixels_per_point / layout.scale[0];
+    for (int column = 0; column < image.width(); ++column) {
+      const double x = layout.low[0] + (column + 0.5) / PixelImage::pixels_per_point / layout.scale[0];
       const int i = cell(x, map.lower[0], map.upper[0], map.nx);
       const double value = i < 0 || j < 0 ? NAN : layer.field->values[map.index(i, j)];
-      std::uint32_t pixel = 0;
-      if (!std::isnan(value)) pixel = pixel_of(layer.scale.colour(value));
-      std::memcpy(pixels + 4 * static_cast<std::ptrdiff_t>(column), &pixel, sizeof pixel);
+      if (!std::isnan(value)) image.put(column, row, layer.scale.colour(value));
     }
   }
-  image->mark_dirty();
-  context->save();
-  context->translate(layout.plot.x, layout.plot.y);
-  context->scale(1.0 / pixels_per_point, 1.0 / pixels_per_point);
-  const auto pattern = Cairo::SurfacePattern::create(image);
-  pattern->set_filter(Cairo::SurfacePattern::Filter::NEAREST);
-  context->set_source(pattern);
-  context->paint();
-  context->restore();
+  image.paint(context);
 }
 
 /// `lines` at the ticks, and the searched box where the plot shows more than that.

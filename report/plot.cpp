@@ -1,18 +1,15 @@
 #include "report/plot.hpp"
 
-#include <cairomm/pattern.h>
-#include <cairomm/surface.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
 #include "report/axis.hpp"
 #include "report/mechanism_drawing.hpp"
+#include "report/pixel_image.hpp"
 #include "report/surface.hpp"
 #include "report/typesetting.hpp"
 #include "report/wording.hpp"
@@ -206,28 +203,15 @@ class PlotDrawing {
   }
 
   static void draw_field(const Context& context, const PlotField& field, const FieldScale& scale, const Frame& f) {
-    constexpr int pixels_per_point = 2;
-    const int width = static_cast<int>(std::lround(f.box.width * pixels_per_point));
-    const int height = static_cast<int>(std::lround(f.box.height * pixels_per_point));
-    const auto image = Cairo::ImageSurface::create(Cairo::ImageSurface::Format::ARGB32, width, height);
-    for (int row = 0; row < height; ++row) {
-      unsigned char* const pixels = image->get_data() + static_cast<std::ptrdiff_t>(row) * image->get_stride();
-      const double y = f.high[1] - (row + 0.5) / height * (f.high[1] - f.low[1]);
-      for (int column = 0; column < width; ++column) {
-        const double value = field.at(f.low[0] + (column + 0.5) / width * (f.high[0] - f.low[0]), y);
-        const std::uint32_t pixel = std::isnan(value) ? 0 : pixel_of(scale.colour(value));
-        std::memcpy(pixels + 4 * static_cast<std::ptrdiff_t>(column), &pixel, sizeof pixel);
+    PixelImage image(f.box);
+    for (int row = 0; row < image.height(); ++row) {
+      const double y = f.high[1] - (row + 0.5) / image.height() * (f.high[1] - f.low[1]);
+      for (int column = 0; column < image.width(); ++column) {
+        const double value = field.at(f.low[0] + (column + 0.5) / image.width() * (f.high[0] - f.low[0]), y);
+        if (!std::isnan(value)) image.put(column, row, scale.colour(value));
       }
     }
-    image->mark_dirty();
-    context->save();
-    context->translate(f.box.x, f.box.y);
-    context->scale(1.0 / pixels_per_point, 1.0 / pixels_per_point);
-    const auto pattern = Cairo::SurfacePattern::create(image);
-    pattern->set_filter(Cairo::SurfacePattern::Filter::NEAREST);
-    context->set_source(pattern);
-    context->paint();
-    context->restore();
+    image.paint(context);
   }
 
   std::vector<Tick> x_ticks(const Frame& f) const {
