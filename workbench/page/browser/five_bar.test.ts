@@ -1,33 +1,11 @@
 // The 5R on the page, as a designer uses it.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser, Locator, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { difference, launch, open, rest, Served, shot, source, type Opened } from "./session";
+import type { Locator, Page } from "playwright-core";
+import { describe, expect, it } from "vitest";
+import { difference, rest, session, shot, source } from "./session";
 
-let browser: Browser;
-let served: Served;
-let opened: Opened | undefined;
-
-beforeAll(async () => {
-  browser = await launch();
-  served = await Served.start("five_bar.yaml");
-});
-afterAll(async () => {
-  await browser.close();
-  served.stop();
-});
-afterEach(async () => {
-  expect(opened?.faults ?? []).toEqual([]);
-  await opened?.context.close();
-  opened = undefined;
-});
-
-async function start(options: Parameters<typeof open>[2] = {}, address = served.address): Promise<Page> {
-  opened = await open(browser, address, options);
-  await rest(opened.page);
-  return opened.page;
-}
+const start = session("five_bar.yaml");
 
 const exact = (page: Page, name: string): Locator => page.getByLabel(`${name}, exact`, { exact: true });
 const pose = async (page: Page): Promise<number[]> => Promise.all(["x", "y"].map(async (name) => Number(await page.locator(`input.exact[aria-label="${name} of the pose"]`).inputValue())));
@@ -150,7 +128,6 @@ describe("values", () => {
     const original = readFileSync(join(source, "examples", "five_bar.yaml"), "utf8");
     expect(file).toBe(original.replace("L: 0.5 ", "L: 7/20 "));
 
-    await opened?.context.close();
     const again = await start({}, link);
     expect(await exact(again, "L").inputValue()).toBe("7/20");
   });

@@ -1,32 +1,14 @@
 // Other mechanisms on the page: one, two and three coordinates, in the plane and in space.
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { launch, open, rest, Served, shot, source, type Opened } from "./session";
+import type { Page } from "playwright-core";
+import { describe, expect, it } from "vitest";
+import { rest, session, shot, source } from "./session";
 
-let browser: Browser;
-let served: Served;
-let opened: Opened | undefined;
-
-beforeAll(async () => {
-  browser = await launch();
-  served = await Served.start("five_bar.yaml");
-});
-afterAll(async () => {
-  await browser.close();
-  served.stop();
-});
-afterEach(async () => {
-  expect(opened?.faults ?? []).toEqual([]);
-  await opened?.context.close();
-  opened = undefined;
-});
+const start = session("five_bar.yaml");
 
 async function example(name: string): Promise<Page> {
-  opened = await open(browser, served.address);
-  const { page } = opened;
-  await rest(page);
+  const page = await start();
   await page.getByLabel("Open an example").selectOption(name);
   await rest(page);
   return page;
@@ -99,9 +81,7 @@ describe("every shipped example", () => {
   const slow = /three_ruu|three_rrr_orientation|three_upu|three_rpr_orientation|gough_stewart.yaml/;
   const names = readdirSync(join(source, "examples")).filter((name) => name.endsWith(".yaml") && !slow.test(name));
   it("is drawn", async () => {
-    opened = await open(browser, served.address);
-    const { page } = opened;
-    await rest(page);
+    const page = await start();
     for (const name of names) {
       await page.getByLabel("Open an example").selectOption(name);
       await rest(page);

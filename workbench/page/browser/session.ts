@@ -6,6 +6,7 @@ import { fileURLToPath } from "node:url";
 import pixelmatch from "pixelmatch";
 import { chromium, type Browser, type BrowserContext, type Page } from "playwright-core";
 import { PNG } from "pngjs";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
 
 const here = dirname(fileURLToPath(import.meta.url));
 export const source = process.env["CLEARLOCI_SOURCE_DIR"] ?? join(here, "..", "..", "..");
@@ -77,6 +78,37 @@ export async function open(browser: Browser, address: string, options: { width?:
   page.setDefaultTimeout(90_000);
   await page.goto(address, { timeout: 90_000 });
   return { page, context, faults };
+}
+
+/**
+ * The program and a browser, started once for the tests of a file. What comes back opens the page, at rest; what a test
+ * opened is closed after it, or by what it opens next, and held to be without faults.
+ */
+export function session(model: string): (options?: Parameters<typeof open>[2], address?: string) => Promise<Page> {
+  let browser: Browser | undefined;
+  let served: Served | undefined;
+  let opened: Opened | undefined;
+  const close = async (): Promise<void> => {
+    expect(opened?.faults ?? []).toEqual([]);
+    await opened?.context.close();
+    opened = undefined;
+  };
+  beforeAll(async () => {
+    browser = await launch();
+    served = await Served.start(model);
+  });
+  afterAll(async () => {
+    await browser?.close();
+    served?.stop();
+  });
+  afterEach(close);
+  return async (options = {}, address) => {
+    if (!browser || !served) throw new Error("the program and the browser are started before the first test");
+    await close();
+    opened = await open(browser, address ?? served.address, options);
+    await rest(opened.page);
+    return opened.page;
+  };
 }
 
 /** Until nothing has been asked or painted for a while. */
