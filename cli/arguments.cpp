@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/errors.hpp"
+#include "core/text.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/read.hpp"
 
@@ -81,6 +82,12 @@ std::filesystem::path output_folder(const CommonArguments& arguments) {
   // "...yaml" without its ending is "..", and out/.. no folder of its own.
   const std::filesystem::path stem = std::filesystem::path(arguments.model).stem();
   return std::filesystem::path("out") / (stem.empty() || stem == "." || stem == ".." ? "model" : stem);
+}
+
+std::string written_words(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+  return fmt::format("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {

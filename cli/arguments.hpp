@@ -38,6 +38,9 @@ mechanism::Mechanism read_model(const CommonArguments& arguments);
 /// `-o DIR`, or ./out/<file name without its ending>, ./out/model where that is no name.
 std::filesystem::path output_folder(const CommonArguments& arguments);
 
+/// "Written to out/five_bar: loci.json, loci.png", with the end of the line.
+std::string written_words(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
+
 /// The words between the commas, without the blanks around them.
 std::vector<std::string> split(const std::string& text, char separator = ',');
 

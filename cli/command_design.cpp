@@ -14,7 +14,6 @@
 #include "cli/standard_streams.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
-#include "core/text.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/study.hpp"
@@ -97,9 +96,7 @@ int lead(const Arguments& arguments, const StudyRanks* ranks, TimeLimit& limit) 
   } else if (!arguments.common.quiet) {
     fmt::print("{}", report::study_text(result));
     if (proof) fmt::print("  {}\n", words_of(*proof));
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-    fmt::print("\nWritten to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
+    fmt::print("\n{}", written_words(folder, files));
   }
   return result.complete ? exit_done : exit_limit_reached;
 }

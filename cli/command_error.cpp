@@ -15,7 +15,6 @@
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
-#include "core/text.hpp"
 #include "report/coordinate_errors.hpp"
 #include "report/error.hpp"
 #include "report/loci_json.hpp"
@@ -42,10 +41,7 @@ void print(const Arguments& arguments, const Answer& errors, nlohmann::ordered_j
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(object(errors)));
   } else if (!arguments.common.quiet) {
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-    fmt::print("{}Written to {}: {}\n", text(errors), core::printable(output_folder(arguments.common).string()),
-               fmt::join(names, ", "));
+    fmt::print("{}{}", text(errors), written_words(output_folder(arguments.common), files));
   }
 }
 

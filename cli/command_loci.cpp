@@ -63,9 +63,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     fmt::print("{}", report::json_text(report::loci_object(map)));
   } else if (!arguments.common.quiet) {
     fmt::print("{}\n", report::loci_table(map, arguments.exact));
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-    fmt::print("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
+    fmt::print("{}", written_words(folder, files));
   }
   if (map.complete) return exit_done;
   throw core::LimitReached(fmt::format("the time limit was reached; what is known is in {}, marked incomplete",

@@ -16,7 +16,6 @@
 #include "cli/progress.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
-#include "core/text.hpp"
 #include "report/loci_json.hpp"
 #include "report/trajectory.hpp"
 
@@ -92,10 +91,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::trajectory_object(result)));
   } else if (!arguments.common.quiet) {
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-    fmt::print("{}\nWritten to {}: {}\n", report::trajectory_text(result), core::printable(folder.string()),
-               fmt::join(names, ", "));
+    fmt::print("{}\n{}", report::trajectory_text(result), written_words(folder, files));
   }
   return exit_done;
 }

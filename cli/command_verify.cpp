@@ -14,7 +14,6 @@
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
-#include "core/text.hpp"
 #include "mechanism/read_task.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
@@ -90,9 +89,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     fmt::print("{}", report::json_text(report::verification_object(result)));
   } else if (!arguments.common.quiet) {
     fmt::print("{}", report::verification_text(result, goal.has_value()));
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-    fmt::print("\nWritten to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
+    fmt::print("\n{}", written_words(folder, files));
   }
   return status_of(result.verdict);
 }

@@ -14,7 +14,6 @@
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
-#include "core/text.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/zones.hpp"
@@ -57,9 +56,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     fmt::print("{}", report::json_text(report::zones_object(map)));
   } else if (!arguments.common.quiet) {
     fmt::print("{}\n", report::zones_table(map));
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-    fmt::print("Written to {}: {}\n", core::printable(folder.string()), fmt::join(names, ", "));
+    fmt::print("{}", written_words(folder, files));
   }
   return exit_done;
 }
