@@ -91,16 +91,17 @@ class Search {
   void optimise(std::uint64_t until) {
     const std::uint64_t begin = evaluations_;
     until_ = begin + static_cast<std::uint64_t>(global_share * static_cast<double>(until - begin));
-    with(NLOPT_GN_CRS2_LM, start_);
+    with(NLOPT_GN_CRS2_LM, {});
     until_ = until;
     // The subplex method ends where it stands still: from there once more with smaller steps.
     for (double step = 0.1; evaluations_ < until_ && !stopped() && step > 1e-5; step /= 4) {
       const std::uint64_t before = evaluations_;
-      with(NLOPT_LN_SBPLX, best_at_.empty() ? start_ : best_at_, step);
+      with(NLOPT_LN_SBPLX, best_at_, step);
       if (evaluations_ == before) break;
     }
   }
 
+  /// `at`: where it starts; empty: in the middle.
   void with(nlopt_algorithm algorithm, std::vector<double> at, double step = 0) {
     if (at.empty()) at.assign(dimensions(), 0.5);
     const Optimiser optimiser(nlopt_create(algorithm, static_cast<unsigned>(dimensions())));
@@ -210,7 +211,7 @@ class Search {
   std::map<std::uint64_t, StudyDesign> known_;
   std::map<std::vector<Rational>, std::size_t> seen_;
   std::vector<StudyDesign> history_;
-  std::vector<double> weight_, start_, best_at_;
+  std::vector<double> weight_, best_at_;
   std::vector<std::array<double, 2>> scale_;
   double best_value_ = HUGE_VAL;
   nlopt_opt running_ = nullptr;

@@ -54,8 +54,14 @@ StudyProblem::StudyProblem(const Model& model, const core::Study& study) : model
   const auto want = [&](Figure figure) {
     if (std::find(figures_.begin(), figures_.end(), figure) == figures_.end()) figures_.push_back(figure);
   };
-  for (const core::StudyGoal& goal : study_.goals)
-    if (goal.figure) want(*goal.figure);
+  for (const core::StudyGoal& goal : study_.goals) {
+    if (goal.figure)
+      want(*goal.figure);
+    else
+      goal_expressions_.try_emplace(
+          goal.expression,
+          mechanism::in_varied(mechanism::parse_expression(goal.expression, {study_.file}), own, varied_));
+  }
   for (const core::StudyRequirement& require : study_.require)
     if (require.figure != Figure::margin && require.figure != Figure::min_force) want(require.figure);
   for (const Figure figure : figures_) {
@@ -123,8 +129,7 @@ double StudyProblem::goal(const core::StudyGoal& goal, const StudyDesign& design
   }
   Ranges ranges;
   for (std::size_t i = 0; i < varied_.size(); ++i) ranges[varied_[i]] = Interval(design.values[i]);
-  const core::Expression own = mechanism::parse_expression(goal.expression, {study_.file});
-  return enclosure(mechanism::in_varied(own, model_.content().mechanism, varied_), ranges).middle();
+  return enclosure(goal_expressions_.at(goal.expression), ranges).middle();
 }
 
 StudyJudge::StudyJudge(const StudyProblem& problem) : problem_(problem) {

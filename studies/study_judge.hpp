@@ -1,7 +1,9 @@
 // One design of a study: verdict and figures. Private to studies/.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "analysis/design_task.hpp"
@@ -35,6 +37,7 @@ class StudyProblem {
   std::vector<core::Figure> figures_;
   std::vector<mechanism::Keep> keep_;
   std::vector<mechanism::Keep> keep_in_varied_;
+  std::map<std::string, core::Expression> goal_expressions_;  ///< in what varies, by their texts
   std::vector<std::unique_ptr<DesignTask>> tasks_;
 };
 

@@ -129,12 +129,8 @@ std::vector<StudyDesign> results_of(const std::string& lines, std::size_t figure
 void hand_out(Desk& desk, const Work& work, const StudyRanks& ranks, const std::atomic<int>& busy) {
   std::vector<int> waiting;
   int out = 0;
-  bool begun = false;
+  for (int rank = 1; rank < ranks.size; ++rank) waiting.push_back(rank);
   while (true) {
-    if (!begun) {
-      for (int rank = 1; rank < ranks.size; ++rank) waiting.push_back(rank);
-      begun = true;
-    }
     bool more = true;
     while (more && !waiting.empty()) {
       const std::vector<std::uint64_t> items = desk.take();
