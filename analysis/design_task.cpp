@@ -18,12 +18,6 @@ using core::TaskDemand;
 using mechanism::Mechanism;
 using mechanism::ParameterRange;
 
-const mechanism::Parameter* parameter_named(const Mechanism& mechanism, const std::string& name) {
-  for (const mechanism::Parameter& own : mechanism.parameters)
-    if (own.name == name) return &own;
-  return nullptr;
-}
-
 /// What is left open: what varies, then what has a tolerance besides, each with all it may be.
 std::vector<ParameterRange> opened(const Mechanism& mechanism, std::vector<ParameterRange> ranges,
                                    const core::Task& task) {
@@ -31,7 +25,7 @@ std::vector<ParameterRange> opened(const Mechanism& mechanism, std::vector<Param
     const auto known = std::find_if(ranges.begin(), ranges.end(),
                                     [&](const ParameterRange& r) { return r.name == tolerance.parameter; });
     if (known == ranges.end()) {
-      const mechanism::Parameter* own = parameter_named(mechanism, tolerance.parameter);
+      const mechanism::Parameter* own = mechanism::parameter_named(mechanism, tolerance.parameter);
       if (own == nullptr)
         throw core::InputError({task.file}, "there is no parameter '" + tolerance.parameter + "' in " + mechanism.file,
                                "give tolerances to parameters of the mechanism file");
@@ -44,10 +38,10 @@ std::vector<ParameterRange> opened(const Mechanism& mechanism, std::vector<Param
   return ranges;
 }
 
-std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task, std::vector<loci::LoadBall>& balls) {
+std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task, std::vector<core::LoadBall>& balls) {
   std::vector<Mechanism> directions;
   for (const core::LoadWithin& within : task.loads_within) {
-    loci::LoadBall ball;
+    core::LoadBall ball;
     // Radii are rounded up: more loads than asked for.
     ball.force = std::nextafter(core::to_double(within.force), within.force > 0 ? 1e300 : 0.0);
     ball.couple_size = std::nextafter(core::to_double(within.couple), within.couple > 0 ? 1e300 : 0.0);

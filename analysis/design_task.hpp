@@ -34,7 +34,7 @@ class DesignTask {
   const mechanism::OpenDesign& design() const { return open_; }
   const core::TaskConditions& conditions() const { return conditions_; }
   const core::WorkingMode& mode() const { return mode_; }
-  const std::vector<loci::LoadBall>& balls() const { return balls_; }
+  const std::vector<core::LoadBall>& balls() const { return balls_; }
   double margin() const { return margin_; }
   /// The open mechanism under the first and the last load, and under the unit loads of the balls.
   const std::vector<mechanism::Mechanism>& loads() const { return loads_; }
@@ -69,7 +69,7 @@ class DesignTask {
   core::Task task_;
   LociRequest request_;
   mechanism::OpenDesign open_;
-  std::vector<loci::LoadBall> balls_;
+  std::vector<core::LoadBall> balls_;
   std::vector<mechanism::Mechanism> loads_, directions_;
   std::vector<core::TaskDemand> demands_;
   core::TaskConditions conditions_;

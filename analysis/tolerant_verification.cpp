@@ -152,9 +152,11 @@ class Tolerant {
     std::vector<const numeric::NumericModel*> loads, directions;
     for (const numeric::NumericModel& own : loads_) loads.push_back(&own);
     for (const numeric::NumericModel& own : directions_) directions.push_back(&own);
-    std::vector<numeric::WitnessBall> balls;
-    for (const loci::LoadBall& own : task_.balls())
-      balls.push_back({own.fx, own.fy, inwards(own.force), own.couple, inwards(own.couple_size)});
+    std::vector<core::LoadBall> balls = task_.balls();
+    for (core::LoadBall& own : balls) {
+      own.force = inwards(own.force);
+      own.couple_size = inwards(own.couple_size);
+    }
     std::vector<std::vector<double>> usual;
     for (const Point2& pose : task_.region().samples()) {
       std::vector<double>& at = usual.emplace_back();

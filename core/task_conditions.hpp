@@ -35,6 +35,14 @@ struct TaskCondition {
   std::vector<int> unloaded = {};
 };
 
+/// Loads around every load: directions of TaskConditions, -1 for none, and how far they go, N and N m.
+struct LoadBall {
+  int fx = -1, fy = -1;
+  double force = 0;
+  int couple = -1;
+  double couple_size = 0;
+};
+
 struct TaskConditions {
   RootTower tower;
   std::vector<StraightLine> functions;  ///< over the tower's variables

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "loci/task_functions.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -11,21 +12,6 @@ namespace {
 using core::TaskCondition;
 using core::TaskConditions;
 using sheet::Interval;
-
-sheet::SheetProgram program_of(const TaskConditions& conditions) {
-  std::vector<core::Polynomial> none(conditions.functions.size(), core::Polynomial{conditions.tower.variables(), {}});
-  return {conditions.tower, std::move(none), conditions.functions};
-}
-
-/// Where on the way from a to b the origin is nearest, 0 to 1.
-double nearest_part(const std::vector<double>& a, const std::vector<double>& b) {
-  double along = 0, length2 = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    along -= a[i] * (b[i] - a[i]);
-    length2 += (b[i] - a[i]) * (b[i] - a[i]);
-  }
-  return length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
-}
 
 Interval size_of_vector(const std::vector<Interval>& parts) {
   Interval square = 0;
@@ -35,7 +21,8 @@ Interval size_of_vector(const std::vector<Interval>& parts) {
 
 }  // namespace
 
-DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode& mode, std::vector<LoadBall> balls)
+DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode& mode,
+                       std::vector<core::LoadBall> balls)
     : conditions_(conditions),
       balls_(std::move(balls)),
       program_(program_of(conditions)),
@@ -197,7 +184,7 @@ Interval DesignCell::reach_of_balls(const TaskCondition& condition, const std::v
     return combined(sum, with_slopes);
   };
   Interval reach = 0;
-  for (const LoadBall& ball : balls_) {
+  for (const core::LoadBall& ball : balls_) {
     if (ball.force > 0) reach = reach + Interval(ball.force) * size_of_vector({along(ball.fx), along(ball.fy)});
     if (ball.couple_size > 0) reach = reach + Interval(ball.couple_size) * size_of_vector({along(ball.couple)});
   }
@@ -261,7 +248,7 @@ bool DesignCell::brought_down(const TaskCondition& condition, const std::vector<
                               const Interval& asked) const {
   if (parts.size() != 2) return false;
   const Interval &w0 = value(parts[0]), &w1 = value(parts[1]);
-  for (const LoadBall& ball : balls_) {
+  for (const core::LoadBall& ball : balls_) {
     if (!(ball.force > 0)) continue;
     const std::vector<int>&a = condition.directions[static_cast<std::size_t>(ball.fx)],
           &b = condition.directions[static_cast<std::size_t>(ball.fy)];
@@ -306,7 +293,7 @@ int DesignCell::failed() const {
       // A scalar reaction that a load of the ball brings down to nothing.
       if (parts.size() != 1) continue;
       double reach = 0;
-      for (const LoadBall& ball : balls_) {
+      for (const core::LoadBall& ball : balls_) {
         const auto along = [&](int direction) {
           return direction < 0 ? 0.0 : value(condition.directions[static_cast<std::size_t>(direction)][0]).mignitude();
         };

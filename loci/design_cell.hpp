@@ -17,17 +17,9 @@
 
 namespace clearloci::loci {
 
-/// Loads around every load: directions of TaskConditions, -1 for none, and how far they go, N and N m.
-struct LoadBall {
-  int fx = -1, fy = -1;
-  double force = 0;
-  int couple = -1;
-  double couple_size = 0;
-};
-
 class DesignCell {
  public:
-  DesignCell(const core::TaskConditions& conditions, const core::WorkingMode& mode, std::vector<LoadBall> balls);
+  DesignCell(const core::TaskConditions& conditions, const core::WorkingMode& mode, std::vector<core::LoadBall> balls);
   DesignCell(const DesignCell&) = delete;
   DesignCell& operator=(const DesignCell&) = delete;
 
@@ -85,7 +77,7 @@ class DesignCell {
   void doubt(int function);
 
   const core::TaskConditions& conditions_;
-  std::vector<LoadBall> balls_;
+  std::vector<core::LoadBall> balls_;
   sheet::SheetProgram program_;
   core::WorkingMode mode_;
   sheet::SheetProgram::Registers<sheet::Interval> over_, at_middle_;

@@ -47,10 +47,14 @@ std::vector<double> middle_of(const std::vector<Interval>& box) {
   return middle;
 }
 
+Interval half_of(const Interval& range, bool low) {
+  return low ? Interval(range.lower(), range.middle()) : Interval(range.middle(), range.upper());
+}
+
 }  // namespace
 
 DesignJudge::DesignJudge(const core::TaskConditions& conditions, const core::WorkingMode& mode,
-                         const TaskRegion& region, DesignVariables variables, std::vector<LoadBall> balls)
+                         const TaskRegion& region, DesignVariables variables, std::vector<core::LoadBall> balls)
     : cell_(conditions, mode, std::move(balls)),
       region_(region),
       variables_(std::move(variables)),
@@ -216,11 +220,11 @@ DesignProof DesignJudge::judge(const DesignBox& designs, double margin, Refuting
       continue;
     }
     const auto c = static_cast<std::size_t>(along);
-    Box low = box, high = box;
-    low[c] = Interval(box[c].lower(), box[c].middle());
-    high[c] = Interval(box[c].middle(), box[c].upper());
-    open.push_back(std::move(low));
-    open.push_back(std::move(high));
+    for (const bool low : {true, false}) {
+      Box part = box;
+      part[c] = half_of(box[c], low);
+      open.push_back(std::move(part));
+    }
   }
   for (const Box& box : open)
     if (region_.distance(box[0], box[1]) <= reach) left_open(box);
@@ -285,8 +289,7 @@ double DesignJudge::clearance(const DesignBox& designs, double from, double limi
     const auto c = static_cast<std::size_t>(along);
     for (const bool low : {true, false}) {
       Cell part = cell;
-      part.box[c] = low ? Interval(cell.box[c].lower(), cell.box[c].middle())
-                        : Interval(cell.box[c].middle(), cell.box[c].upper());
+      part.box[c] = half_of(cell.box[c], low);
       part.distance = std::max(cell.distance, region_.distance(part.box[0], part.box[1]));
       open.push(std::move(part));
     }
@@ -361,8 +364,7 @@ Interval DesignJudge::extreme_size(const DesignBox& designs, const std::vector<i
     }
     for (const bool low : {true, false}) {
       Cell part = cell;
-      part.box[c] = low ? Interval(cell.box[c].lower(), cell.box[c].middle())
-                        : Interval(cell.box[c].middle(), cell.box[c].upper());
+      part.box[c] = half_of(cell.box[c], low);
       if (region_.distance(part.box[0], part.box[1]) > 0) continue;
       const auto own = over(part.box);
       part.bound = std::max(cell.bound, own ? sign * (least ? own->lower() : own->upper()) : -infinity);

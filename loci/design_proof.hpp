@@ -62,7 +62,7 @@ class DesignJudge {
  public:
   /// The arguments must outlive the judge. One a thread.
   DesignJudge(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
-              DesignVariables variables, std::vector<LoadBall> balls = {});
+              DesignVariables variables, std::vector<core::LoadBall> balls = {});
 
   DesignProof judge(const DesignBox& designs, double margin, Refuting refuting, const DesignEffort& effort = {});
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loci/task_functions.hpp"
+
 namespace clearloci::loci {
 namespace {
 
@@ -10,21 +12,6 @@ using core::Point2;
 using core::TaskCondition;
 using core::TaskConditions;
 using sheet::Interval;
-
-sheet::SheetProgram program_of(const TaskConditions& conditions) {
-  std::vector<core::Polynomial> none(conditions.functions.size(), core::Polynomial{conditions.tower.variables(), {}});
-  return {conditions.tower, std::move(none), conditions.functions};
-}
-
-/// Where on the way from a to b the origin is nearest, 0 to 1.
-double nearest_part(const std::vector<double>& a, const std::vector<double>& b) {
-  double along = 0, length2 = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    along -= a[i] * (b[i] - a[i]);
-    length2 += (b[i] - a[i]) * (b[i] - a[i]);
-  }
-  return length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
-}
 
 }  // namespace
 

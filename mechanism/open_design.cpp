@@ -12,12 +12,6 @@ namespace {
 
 using Kind = Expression::Kind;
 
-const Parameter* parameter_named(const Mechanism& mechanism, const std::string& name) {
-  for (const Parameter& parameter : mechanism.parameters)
-    if (parameter.name == name) return &parameter;
-  return nullptr;
-}
-
 /// Rewrites expressions of the file in the open design's coordinates.
 class Opening {
  public:
@@ -190,6 +184,12 @@ Clearance opened(const Clearance& clearance, const Change& by) {
 }
 
 }  // namespace
+
+const Parameter* parameter_named(const Mechanism& mechanism, const std::string& name) {
+  for (const Parameter& parameter : mechanism.parameters)
+    if (parameter.name == name) return &parameter;
+  return nullptr;
+}
 
 Expression in_varied(const Expression& expression, const Mechanism& mechanism, const std::vector<std::string>& varied) {
   return Opening(mechanism, varied).meaning(expression);

@@ -33,6 +33,9 @@ struct ParameterRange {
   Rational lower, upper;
 };
 
+/// Null: there is none of this name.
+const Parameter* parameter_named(const Mechanism& mechanism, const std::string& name);
+
 /// An expression of parameters with the values of those that are not varied put in.
 Expression in_varied(const Expression& expression, const Mechanism& mechanism, const std::vector<std::string>& varied);
 

@@ -4,18 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "core/errors.hpp"
+#include "numeric/witness_rounding.hpp"
 
 namespace clearloci::numeric {
 namespace {
 
 using Kind = TaskFailure::Kind;
-
-// As in task_witness.cpp.
-constexpr double spacings = 4, known_zero = 1e-10, boundary_spacings = 64;
-
-double spacing(double value) { return 2 * unit_roundoff * std::abs(value); }
-bool is_zero(const Bounded& b) { return !(std::abs(b.value) > b.error); }
 
 using Vector = std::vector<double>;
 
@@ -66,7 +60,7 @@ struct DesignWitness::Parts {
 };
 
 DesignWitness::DesignWitness(std::vector<const NumericModel*> loads, std::vector<const NumericModel*> directions,
-                             std::vector<WitnessBall> balls, std::vector<int> mode,
+                             std::vector<core::LoadBall> balls, std::vector<int> mode,
                              std::vector<core::TaskDemand> demands, const std::vector<std::vector<double>>& usual)
     : loads_(std::move(loads)),
       directions_(std::move(directions)),

@@ -11,14 +11,6 @@
 
 namespace clearloci::numeric {
 
-/// Unit loads by their place among the directions, -1 for none, and how far they go, N and N m.
-struct WitnessBall {
-  int fx = -1, fy = -1;
-  double force = 0;
-  int couple = -1;
-  double couple_size = 0;
-};
-
 /// What comes on top of a load, one a ball.
 struct LoadChange {
   double fx = 0, fy = 0;  ///< N
@@ -35,7 +27,7 @@ class DesignWitness {
   /// `loads`: the open mechanism under the one load, or under the first and the last; `directions`: under unit loads.
   /// All must outlive the witness. `usual`: poses with variables that say how large |A| is, and coordinates.
   DesignWitness(std::vector<const NumericModel*> loads, std::vector<const NumericModel*> directions,
-                std::vector<WitnessBall> balls, std::vector<int> mode, std::vector<core::TaskDemand> demands,
+                std::vector<core::LoadBall> balls, std::vector<int> mode, std::vector<core::TaskDemand> demands,
                 const std::vector<std::vector<double>>& usual);
 
   /// All that fail at x, y and variables; one that has no demand, if any, alone. Nothing where the pose is good, or
@@ -48,7 +40,7 @@ class DesignWitness {
                                             const std::vector<BoundedNumerators>& directions) const;
 
   std::vector<const NumericModel*> loads_, directions_;
-  std::vector<WitnessBall> balls_;
+  std::vector<core::LoadBall> balls_;
   std::vector<int> mode_;
   std::vector<core::TaskDemand> demands_;
   double usual_determinant_ = 0, extent_ = 0;

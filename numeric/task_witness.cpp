@@ -8,21 +8,10 @@
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/take_up.hpp"
+#include "numeric/witness_rounding.hpp"
 
 namespace clearloci::numeric {
 namespace {
-
-/// A pose stands for those within so many spacings of doubles, at the task's largest coordinate: bisections end, and
-/// decimals are rounded, that close.
-constexpr double spacings = 4;
-/// What cannot be told from zero counts as zero only where it is known so well, relative to what is usual.
-constexpr double known_zero = 1e-10;
-/// Around a pose to rounding on the boundary others are out of reach: so many spacings away.
-constexpr double boundary_spacings = 64;
-
-double spacing(double value) { return 2 * unit_roundoff * std::abs(value); }
-
-bool is_zero(const Bounded& b) { return !(std::abs(b.value) > b.error); }
 
 /// (1 - t) a + t b.
 Bounded mixed(const Bounded& a, const Bounded& b, const Bounded& t) { return a + t * (b - a); }
