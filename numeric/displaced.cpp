@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "numeric/end_effector.hpp"
 
 namespace clearloci::numeric {
 
@@ -216,9 +217,7 @@ class Iteration {
     result_.converged = true;
     result_.residual = displaced.closure(clearance_displacements(model_, result_.take_up)).cwiseAbs().maxCoeff();
     result_.displacements = u_;
-    Eigen::Vector3d own = u_.segment<3>(3 * model_.mechanism.end_effector_link);
-    if (const mechanism::LinkIndex base = model_.mechanism.relative_to; base != mechanism::ground)
-      own -= u_.segment<3>(3 * base);
+    const Eigen::Vector3d own = end_effector_displacement<3>(model_.mechanism, u_);
     result_.error = {own(2), own(0), own(1)};
     const PoseError& linear = linear_.error;
     result_.beyond_linear = {result_.error.dalpha - linear.dalpha, result_.error.dx - linear.dx,

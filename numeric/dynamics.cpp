@@ -11,6 +11,7 @@
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "numeric/end_effector.hpp"
 
 namespace clearloci::numeric {
 
@@ -79,11 +80,7 @@ class InstantEquations {
     // A w = b  =>  A w' = b' - A' w
     instant.at_rest_rate = lu.solve(rest_.rate - A_rate_ * instant.at_rest);
     instant.inertial_rate = lu.solve(inertial_.rate - A_rate_ * instant.inertial);
-    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, 3);
-    unit.middleRows<3>(3 * motion_.model.mechanism.end_effector_link).setIdentity();
-    if (const mechanism::LinkIndex base = motion_.model.mechanism.relative_to; base != mechanism::ground)
-      unit.middleRows<3>(3 * base) -= Eigen::Matrix3d::Identity();
-    instant.influence = lu.solve(unit).transpose();
+    instant.influence = lu.solve(unit_wrenches<3>(motion_.model.mechanism, size_)).transpose();
   }
 
  private:

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "numeric/end_effector.hpp"
+
 namespace clearloci::numeric {
 
 namespace {
@@ -197,17 +199,12 @@ Accuracy pose_accuracy(const NumericModel& model, const Posture& posture, const 
   result.take_up = take_up(model, clearances, result.reactions.values, vanishing);
   result.undefined = undefined_take_up(model, clearances, result.take_up);
 
-  Eigen::MatrixXd unit_wrenches = Eigen::MatrixXd::Zero(A.rows(), 3);
-  unit_wrenches.middleRows<3>(3 * model.mechanism.end_effector_link).setIdentity();
-  const mechanism::LinkIndex base = model.mechanism.relative_to;
-  if (base != mechanism::ground) unit_wrenches.middleRows<3>(3 * base) -= Eigen::Matrix3d::Identity();
-  result.influence = lu.solve(unit_wrenches).transpose();
+  result.influence = lu.solve(unit_wrenches<3>(model.mechanism, A.rows())).transpose();
   result.worst = worst_case(result.influence, joint_columns(model), clearances);
   if (result.undefined.empty()) {
     const Eigen::VectorXd displacements = clearance_displacements(model, result.take_up);
     result.link_displacements = lu.transpose().solve(displacements);
-    Eigen::Vector3d own = result.link_displacements.segment<3>(3 * model.mechanism.end_effector_link);
-    if (base != mechanism::ground) own -= result.link_displacements.segment<3>(3 * base);
+    const Eigen::Vector3d own = end_effector_displacement<3>(model.mechanism, result.link_displacements);
     result.error = {own(2), own(0), own(1)};
   } else {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "numeric/end_effector.hpp"
 #include "numeric/tape.hpp"
 
 namespace clearloci::numeric {
@@ -126,11 +127,7 @@ class Solver {
 
   void add_influence(SpatialAccuracy& result) const {
     const auto size = static_cast<Eigen::Index>(columns_.size());
-    Eigen::MatrixXd unit_wrenches = Eigen::MatrixXd::Zero(size, 6);
-    unit_wrenches.middleRows<6>(6 * m_.end_effector_link).setIdentity();
-    if (m_.relative_to != mechanism::ground)
-      unit_wrenches.middleRows<6>(6 * m_.relative_to) -= Eigen::Matrix<double, 6, 6>::Identity();
-    const Eigen::MatrixXd H = lu_.solve(unit_wrenches).transpose();
+    const Eigen::MatrixXd H = lu_.solve(unit_wrenches<6>(m_, size)).transpose();
     result.influence.resize(m_.joints.size());
     for (Eigen::Index k = 0; k < size; ++k) {
       const Column& column = columns_[static_cast<std::size_t>(k)];
@@ -155,8 +152,7 @@ class Solver {
       relative(k) = column.force.dot(own.displacement) + column.couple.dot(own.rotation);
     }
     result.link_displacements = lu_.transpose().solve(relative);
-    Vector6 own = result.link_displacements.segment<6>(6 * m_.end_effector_link);
-    if (m_.relative_to != mechanism::ground) own -= result.link_displacements.segment<6>(6 * m_.relative_to);
+    const Vector6 own = end_effector_displacement<6>(m_, result.link_displacements);
     result.error = {own.tail<3>(), own.head<3>()};
   }
 
