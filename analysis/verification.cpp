@@ -64,9 +64,6 @@ TracedProblem on_sheet_of(const Task& task, TracedProblem traced) {
   return {std::move(own->problem), std::move(own->map)};
 }
 
-/// What the cause of a boundary that a limit makes begins with.
-constexpr std::string_view limit_cause = "limit: ";
-
 class Verifier {
  public:
   Verifier(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request)
@@ -309,7 +306,8 @@ class Verifier {
       nearest.curve = curve.id;
       nearest.kind = curve.kind;
       nearest.vanishing = curve.vanishing;
-      if (curve.cause.rfind(limit_cause, 0) == 0) nearest.limit = curve.cause.substr(limit_cause.size());
+      if (curve.cause.rfind(mechanism::limit_cause, 0) == 0)
+        nearest.limit = curve.cause.substr(mechanism::limit_cause.size());
     } else {
       const core::IsolatedPoint& point = map.isolated_points[static_cast<std::size_t>(found->point)];
       nearest.isolated = true;

@@ -33,7 +33,7 @@ using sheet::TracedArc;
 // A point is on a curve where the curve is this near, relative to the box, to first order.
 constexpr double on_curve = 1e-9;
 // Of a patch: several times what a curve without doubtful places takes.
-constexpr int cells_of_a_sketch = 8000;
+constexpr int patch_cells_of_a_sketch = 8000;
 
 /// What vanishes where all the given factors do.
 EdgeLabel label_of(const LocusProblem& problem, const std::vector<int>& factors) {
@@ -449,7 +449,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   sheet_options.certificate = options.certificate != nullptr;
   if (options.sketch) {
     sheet_options.sketch = true;
-    sheet_options.most_cells = cells_of_a_sketch;
+    sheet_options.most_cells = patch_cells_of_a_sketch;
   }
   if (options.deadline)
     sheet_options.stop = [deadline = *options.deadline] { return std::chrono::steady_clock::now() > deadline; };

@@ -17,9 +17,6 @@ namespace {
 using core::LocusMap;
 using core::LocusProblem;
 
-/// Live cells of a search for points of contact loss, where it is for a picture.
-constexpr int cells_of_a_sketch = 256;
-
 struct EngineEntry {
   Engine engine;
   FindLoci find;
@@ -44,7 +41,7 @@ void add_points(const LocusProblem& problem, const TraceOptions& options, bool w
   for (const core::WorkingMode& mode : problem.modes) {
     if (stop()) throw core::LimitReached("the time limit was reached");
     add_contact_loss_points(problem, mode, map, stop,
-                            options.sketch ? cells_of_a_sketch : sheet::ZeroOptions().most_cells);
+                            options.sketch ? sheet::cells_of_a_sketch : sheet::ZeroOptions().most_cells);
     add_touching_points(problem, mode, map);
   }
   // A point that lies on an arc which is withheld looks isolated.

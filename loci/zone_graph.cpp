@@ -28,8 +28,6 @@ constexpr double rounding = 1e-13;  // of points moved onto a curve
 constexpr int exact_degree = 8;
 // Of a picture, where crossings of other curves may stay open: of circles and of what the coupler of a 5R draws.
 constexpr int sketch_degree = 6;
-// Live cells of a search for crossings, where it is for a picture.
-constexpr int cells_of_a_sketch = 256;
 
 double distance(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
@@ -76,7 +74,7 @@ class Builder {
   Builder(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
           CurveProjections& projections, bool sketch)
       : problem_(problem), map_(map), mode_(mode), sketch_(sketch), projections_(projections) {
-    if (sketch) effort_.most_cells = cells_of_a_sketch;
+    if (sketch) effort_.most_cells = sheet::cells_of_a_sketch;
     for (std::size_t i = 0; i < 2; ++i) {
       low_[i] = core::to_double(map.lower[i]);
       high_[i] = core::to_double(map.upper[i]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mechanism/mechanism.hpp"
@@ -44,6 +45,9 @@ VectorExpression force_of(const Load& load);
 
 /// "angle A1-B1-P", "distance A1-P".
 std::string name_of(const Mechanism& mechanism, const Limit& limit);
+
+/// What the cause of a boundary that a limit makes begins with; then the words of the limit.
+inline constexpr std::string_view limit_cause = "limit: ";
 
 /// "distance A1-P at 0.52 m". `upper`: its upper end.
 std::string words_of(const Mechanism& mechanism, const Limit& limit, bool upper);

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/fold.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/angle_range.hpp"
 #include "symbolic/causes.hpp"
@@ -559,7 +560,7 @@ class Derivation {
       }
       LocusFactor factor;
       factor.expression = text(limit.natural);
-      factor.cause = "limit: " + limit.words;
+      factor.cause = std::string(mechanism::limit_cause) + limit.words;
       add(FactorRole::workspace_boundary, &limit.natural, sheet, true, factor);
       more_roots_.push_back({core::limit_name, "", core::RootRole::length,
                              core::scaled_for_doubles(sheet.plain(geometry_.tower_variables()))});

@@ -27,6 +27,9 @@ struct ZeroOptions {
   std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
 };
 
+/// Live cells of one size of a search that is for a picture alone (TraceOptions::sketch).
+inline constexpr int cells_of_a_sketch = 256;
+
 struct ZeroSet {
   std::vector<SheetZero> zeros;  ///< sorted by x, then y
   std::vector<Cell> undecided;   ///< hulls of clusters of cells that may hold further zeros
