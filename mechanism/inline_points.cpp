@@ -41,7 +41,8 @@ std::string written(const Node& node) {
 class Hoist {
  public:
   explicit Hoist(const Value& document) : document_(document) {
-    for (const auto& [name, form] : part("points").pairs())
+    const Node points = part("points");
+    for (const auto& [name, form] : points.pairs())
       if (name.IsScalar()) names_.insert(name.Scalar());
   }
 
@@ -71,7 +72,8 @@ class Hoist {
   }
 
   Node points() {
-    for (const auto& [key, form] : part("points").pairs()) {
+    const Node named = part("points");
+    for (const auto& [key, form] : named.pairs()) {
       const Node renamed = entry(form, slots_of_a_point(), key.IsScalar() ? key.Scalar() : "");
       found_.emplace_back(key, renamed);
     }

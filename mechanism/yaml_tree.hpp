@@ -29,9 +29,12 @@ class Node {
   bool IsScalar() const;
   bool IsSequence() const;
   bool IsMap() const;
-  const std::string& Scalar() const;       ///< empty unless a scalar
-  const std::vector<Node>& items() const;  ///< of a sequence
-  const std::vector<Pair>& pairs() const;  ///< of a map, in the text's order
+  const std::string& Scalar() const;  ///< empty unless a scalar
+  /// Of a sequence, and of a map in the text's order. Not of a temporary: a loop over them would outlive the node.
+  const std::vector<Node>& items() const&;
+  const std::vector<Node>& items() && = delete;
+  const std::vector<Pair>& pairs() const&;
+  const std::vector<Pair>& pairs() && = delete;
   std::size_t size() const;                ///< of items or pairs
   bool has(const std::string& key) const;  ///< a map with this key
   /// Of a scalar its text, within the quotes if it has any.
@@ -57,8 +60,8 @@ inline bool Node::IsScalar() const { return content_->kind == Kind::scalar; }
 inline bool Node::IsSequence() const { return content_->kind == Kind::sequence; }
 inline bool Node::IsMap() const { return content_->kind == Kind::map; }
 inline const std::string& Node::Scalar() const { return content_->text; }
-inline const std::vector<Node>& Node::items() const { return content_->items; }
-inline const std::vector<Node::Pair>& Node::pairs() const { return content_->pairs; }
+inline const std::vector<Node>& Node::items() const& { return content_->items; }
+inline const std::vector<Node::Pair>& Node::pairs() const& { return content_->pairs; }
 inline std::size_t Node::size() const { return content_->items.size() + content_->pairs.size(); }
 inline const core::SourcePosition& Node::where() const { return content_->where; }
 
