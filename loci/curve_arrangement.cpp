@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 
 #include "core/errors.hpp"
 
@@ -68,6 +69,13 @@ double rounded(const std::pair<Bound, Bound>& interval) {
   Rational result(whole);
   mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), vertex_bits);
   return core::to_double(result);
+}
+
+/// CGAL's algebraic kernel keeps caches and the precision of its intervals for the whole process: two threads in it at
+/// a time refine without end, or read what the other has freed. Whatever calls it takes this turn.
+[[nodiscard]] std::unique_lock<std::mutex> kernel_turn() {
+  static std::mutex one_at_a_time;
+  return std::unique_lock(one_at_a_time);
 }
 
 }  // namespace
@@ -203,14 +211,19 @@ void CurveArrangement::Implementation::build(const std::function<bool()>& interr
 }
 
 CurveArrangement::CurveArrangement(std::vector<core::Polynomial> curves, const std::array<Rational, 2>& lower,
-                                   const std::array<Rational, 2>& upper, const std::function<bool()>& interrupted)
-    : implementation_(std::make_unique<Implementation>(std::move(curves))) {
-  implementation_->lower = lower;
-  implementation_->upper = upper;
-  implementation_->build(interrupted);
+                                   const std::array<Rational, 2>& upper, const std::function<bool()>& interrupted) {
+  const auto turn = kernel_turn();
+  auto implementation = std::make_unique<Implementation>(std::move(curves));
+  implementation->lower = lower;
+  implementation->upper = upper;
+  implementation->build(interrupted);
+  implementation_ = std::move(implementation);
 }
 
-CurveArrangement::~CurveArrangement() = default;
+CurveArrangement::~CurveArrangement() {
+  const auto turn = kernel_turn();
+  implementation_.reset();
+}
 
 const std::vector<core::Polynomial>& CurveArrangement::curves() const { return implementation_->curves; }
 const std::vector<ArrangementVertex>& CurveArrangement::vertices() const { return implementation_->vertices; }
@@ -218,11 +231,13 @@ const std::vector<ArrangementEdge>& CurveArrangement::edges() const { return imp
 const std::vector<ArrangementPoint>& CurveArrangement::isolated_points() const { return implementation_->points; }
 
 PointEnclosure CurveArrangement::sample(int edge, int attempt) const {
+  const auto turn = kernel_turn();
   const auto e = static_cast<std::size_t>(edge);
   return implementation_->sample(implementation_->arcs[e], implementation_->edges[e].vertical, attempt);
 }
 
 double CurveArrangement::y_at(int edge, double x) const {
+  const auto turn = kernel_turn();
   const Implementation& self = *implementation_;
   const Arc& arc = self.arcs[static_cast<std::size_t>(edge)];
   auto line = arc.curve().status_line_at_exact_x(bound(Rational(x)));
@@ -231,6 +246,7 @@ double CurveArrangement::y_at(int edge, double x) const {
 
 bool CurveArrangement::divides(int divisor, const core::Polynomial& p) const {
   if (p.is_zero()) return true;
+  const auto turn = kernel_turn();
   const Bivariate f = implementation_->polynomial(static_cast<std::size_t>(divisor));
   return !CGAL::is_zero(f) && CGAL::total_degree(CGAL::gcd_up_to_constant_factor(f, bivariate(p))) > 0;
 }

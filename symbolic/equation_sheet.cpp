@@ -9,6 +9,7 @@
 
 #include "core/locus_map.hpp"
 #include "mechanism/evaluate.hpp"
+#include "symbolic/algebra_turn.hpp"
 #include "symbolic/causes.hpp"
 #include "symbolic/code_names.hpp"
 #include "symbolic/determinants.hpp"
@@ -384,6 +385,7 @@ class SheetWriter {
 }  // namespace
 
 EquationSheet equation_sheet(const Mechanism& mechanism, const SheetOptions& options) {
+  const auto turn = algebra_turn();
   return SheetWriter(mechanism, options).write();
 }
 

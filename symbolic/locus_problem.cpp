@@ -9,6 +9,7 @@
 #include "core/fold.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "symbolic/algebra_turn.hpp"
 #include "symbolic/angle_range.hpp"
 #include "symbolic/causes.hpp"
 #include "symbolic/determinants.hpp"
@@ -846,15 +847,27 @@ std::vector<DerivedProblem> problems_of(const Mechanism& mechanism, const Select
 }  // namespace
 
 std::vector<DerivedProblem> locus_problems(const Mechanism& mechanism, const Selection& selection) {
+  const auto turn = algebra_turn();
   return problems_of(mechanism, selection, nullptr);
 }
 
-LocusFamily::LocusFamily(const Mechanism& member) : family_(std::make_unique<const Family>(member)) {}
-LocusFamily::~LocusFamily() = default;
+LocusFamily::LocusFamily(const Mechanism& member) {
+  const auto turn = algebra_turn();
+  family_ = std::make_unique<const Family>(member);
+}
+LocusFamily::~LocusFamily() {
+  const auto turn = algebra_turn();
+  family_.reset();
+}
 LocusFamily::LocusFamily(LocusFamily&&) noexcept = default;
-LocusFamily& LocusFamily::operator=(LocusFamily&&) noexcept = default;
+LocusFamily& LocusFamily::operator=(LocusFamily&& other) noexcept {
+  const auto turn = algebra_turn();
+  family_ = std::move(other.family_);
+  return *this;
+}
 
 std::vector<DerivedProblem> LocusFamily::problems(const Mechanism& member, const Selection& selection) const {
+  const auto turn = algebra_turn();
   return problems_of(member, selection, family_.get());
 }
 

@@ -1,12 +1,14 @@
 #include "symbolic/singular_modes.hpp"
 
 #include "core/errors.hpp"
+#include "symbolic/algebra_turn.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/sheets.hpp"
 
 namespace clearloci::symbolic {
 
 std::optional<std::string> why_singular(const mechanism::Mechanism& mechanism, const std::vector<int>& sides) {
+  const auto turn = algebra_turn();
   std::optional<std::string> why;
   for (const Charts& charts : all_charts(mechanism)) {
     for (const SheetGeometry& sheet : sheet_geometries(mechanism, charts, {sides})) {

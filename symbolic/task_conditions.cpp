@@ -8,6 +8,7 @@
 #include "core/fold.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "symbolic/algebra_turn.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/guide_ends.hpp"
@@ -262,6 +263,7 @@ class Conditions {
 core::TaskConditions task_conditions(const std::vector<const mechanism::Mechanism*>& loads,
                                      const std::vector<TaskDemand>& demands,
                                      const std::vector<const mechanism::Mechanism*>& directions) {
+  const auto turn = algebra_turn();
   Conditions conditions(loads, directions);
   for (const TaskDemand& demand : demands) conditions.add(demand);
   return conditions.take();

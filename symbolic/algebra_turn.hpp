@@ -1,0 +1,16 @@
+// GiNaC counts references without locks and shares its small numbers among all expressions, so that of the threads of a
+// process only one at a time may hold an expression, to the last one's end. Every function of symbolic/ that others
+// call takes this turn first; what it returns has no expression in it. Private to symbolic/.
+#pragma once
+
+#include <mutex>
+
+namespace clearloci::symbolic {
+
+/// Waits for the algebra of other threads to end. To be taken once on the way in, before any expression is made.
+[[nodiscard]] inline std::unique_lock<std::mutex> algebra_turn() {
+  static std::mutex one_at_a_time;
+  return std::unique_lock(one_at_a_time);
+}
+
+}  // namespace clearloci::symbolic
