@@ -111,6 +111,7 @@ core::ZoneMap zones_of(TracedProblem traced) {
 
 core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request,
                          core::Certificate* certificate) {
+  require_coordinates(mechanism, 2, 2, "zones are cut");
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
     if (coordinate.angle)
       throw core::InputError(

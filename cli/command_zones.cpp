@@ -13,7 +13,6 @@
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
-#include "core/errors.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/zones.hpp"
@@ -31,11 +30,6 @@ struct Arguments {
 int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names(report::Answer::zones));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  if (mechanism.coordinates.size() != 2)
-    throw core::InputError(
-        {.file = mechanism.file},
-        fmt::format("zones are those of two free coordinates; the mechanism has {}", mechanism.coordinates.size()),
-        "fix the others by numbers or parameters");
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "zones.json", incomplete_body(name, "the zones were"));

@@ -109,6 +109,42 @@ TEST(Nonsense, IsRefusedInOneSentence) {
   EXPECT_EQ(client.Get(server.path(""))->status, 200);
 }
 
+/// Sound mechanisms of every kind, asked what does not go with them: answered, or refused in a sentence.
+TEST(Nonsense, AskedOfSoundMechanismsIsRefusedInASentence) {
+  const RunningServer server(2);
+  Random random(13);
+  httplib::Client client = server.client();
+  const std::vector<std::string> models = {"five_bar.yaml",      "four_bar.yaml", "gripper.yaml",  "three_rpr.yaml",
+                                           "gough_stewart.yaml", "hexapod.yaml",  "squeezer.yaml", "three_upu.yaml"};
+  const std::vector<Json> odd = {Json::array(),
+                                 {0.1},
+                                 {1, -1},
+                                 {1, 1, 1, 1, 1, 1, 1},
+                                 {1e300, -1e300},
+                                 {"A1", "none"},
+                                 {"f", "M"},
+                                 "box: {x: [0, 1]}",
+                                 "format: 1\ncircle: {centre: [0, 0], radius: 0}",
+                                 "best",
+                                 "zones",
+                                 "verification",
+                                 "dxf",
+                                 "html",
+                                 7,
+                                 true};
+  for (int i = 0; i < 250; ++i) {
+    Json body = {{"text", example(models[static_cast<std::size_t>(below(random, 8))])}};
+    for (int k = below(random, 4); k > 0; --k)
+      body[fields[static_cast<std::size_t>(1 + below(random, 17))]] =
+          odd[static_cast<std::size_t>(below(random, static_cast<int>(odd.size())))];
+    const std::string question = questions[static_cast<std::size_t>(below(random, 10))];
+    const auto answer = client.Post(server.path("api/" + question), body.dump(), "application/json");
+    ASSERT_TRUE(answer) << question << " " << body;
+    if (answer->status != 200) expect_one_sentence(answer, question + " " + body.dump());
+    if (HasFatalFailure()) return;
+  }
+}
+
 /// A damaged file is refused, or, where the damage does no harm, answered.
 TEST(Nonsense, InTheMechanismIsRefusedToo) {
   const RunningServer server(5);
