@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/pose_verification.hpp"
 #include "analysis/verification.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
@@ -14,9 +15,12 @@
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
+#include "mechanism/read_pose_task.hpp"
 #include "mechanism/read_task.hpp"
+#include "report/files.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
+#include "report/pose_verification.hpp"
 #include "report/verification.hpp"
 
 namespace clearloci::cli {
@@ -60,19 +64,45 @@ void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, 
                     {.task = nominal ? &result.task : nullptr});
 }
 
+/// Over other than two lengths: a verdict without traced loci, and so without pictures.
+int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
+  if (parse_fit(arguments.fit))
+    throw core::InputError({.file = "--fit"}, "a place is looked for in the plane of two lengths",
+                           "leave out --fit, or make the other coordinates parameters");
+  const core::PoseTask task = mechanism::read_pose_task(arguments.task, mechanism);
+  Progress progress(arguments.common.quiet);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
+  if (request.all_working_modes || request.working_modes.size() > 1)
+    throw core::InputError({.file = "--working-mode"}, "a task is verified in one working mode",
+                           "give one side for each dyad");
+  const core::PoseVerification result = verify_poses(mechanism, task, request);
+  progress.clear();
+  limit.writing();
+  const std::filesystem::path folder = output_folder(arguments.common), file = folder / "verify.json";
+  const std::string json = report::json_text(report::pose_verification_object(result));
+  report::write_atomically(file, json);
+  if (arguments.common.json)
+    fmt::print("{}", json);
+  else if (!arguments.common.quiet)
+    fmt::print("{}\n{}", report::pose_verification_text(result), written_words(folder, {file}));
+  return status_of(result.verdict);
+}
+
 int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats =
       parse_formats(arguments.formats, report::format_names(report::Answer::verification));
   const std::optional<FitGoal> goal = parse_fit(arguments.fit);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  const core::Task task = mechanism::read_task(arguments.task, mechanism);
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
+  const bool over_poses = mechanism::has_pose_tasks(mechanism);
+  const core::Task task = over_poses ? core::Task{} : mechanism::read_task(arguments.task, mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     nlohmann::ordered_json body = incomplete_body(name, "the verdict was");
     body["verdict"] = to_string(core::Verdict::undecided);
     body["verified"] = false;
     write_incomplete(common, "verify.json", body);
   });
+  if (over_poses) return run_over_poses(arguments, mechanism, limit);
   Progress progress(arguments.common.quiet);
   const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   if (request.all_working_modes || request.working_modes.size() > 1)
@@ -100,7 +130,9 @@ Command add_verify_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("verify", "Prove that a task keeps clear of every discontinuity locus");
   const auto arguments = std::make_shared<Arguments>();
   add_common_arguments(*app, arguments->common);
-  app->add_option("TASK", arguments->task, "The task file: a box, circle, polygon or path")->required();
+  app->add_option("TASK", arguments->task,
+                  "The task file: a box, circle, polygon or path; over other than two lengths a box, ball or path")
+      ->required();
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
   app->add_option("--fit", arguments->fit,

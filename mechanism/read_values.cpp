@@ -260,11 +260,11 @@ void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, co
 void read_workspace(Mechanism& mechanism, const Value& value) {
   const std::vector<Entry> coordinates = entries(value);
   if (coordinates.empty())
-    throw InputError(value.where, "the workspace has no coordinate", "write one to three, such as x: [-1, 1]");
-  if (coordinates.size() > 3)
-    throw InputError(coordinates[3].where,
-                     "the workspace has " + std::to_string(coordinates.size()) + " coordinates, more than three",
-                     "keep up to three and write the rest of the pose as parameters");
+    throw InputError(value.where, "the workspace has no coordinate", "write one to six, such as x: [-1, 1]");
+  if (coordinates.size() > 6)
+    throw InputError(coordinates[6].where,
+                     "the workspace has " + std::to_string(coordinates.size()) + " coordinates, more than six",
+                     "keep up to six and write the rest of the pose as parameters");
   std::vector<Coordinate> read;
   for (const Entry& entry : coordinates) {
     check_identifier(entry.key, entry.where, "a coordinate");

@@ -1,0 +1,375 @@
+#include "analysis/pose_verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "analysis/model.hpp"
+#include "analysis/task_demands.hpp"
+#include "core/errors.hpp"
+#include "loci/pose/pose_nearest.hpp"
+#include "loci/pose/pose_proof.hpp"
+#include "mechanism/read_pose_task.hpp"
+#include "numeric/pose_witness.hpp"
+#include "symbolic/pose_statics.hpp"
+
+namespace clearloci {
+namespace {
+
+using core::PoseTask;
+using core::PoseVerification;
+using core::Quantity;
+using core::TaskDemand;
+using loci::pose::Doubt;
+using loci::pose::NearPose;
+using loci::pose::Pose;
+using loci::pose::PoseCell;
+using loci::pose::PoseMetric;
+using loci::pose::PoseRegion;
+using loci::pose::PoseSuspect;
+using mechanism::Mechanism;
+
+/// Of the margin and of least reactions, to how much of themselves they are proven, and the cells that this may take.
+constexpr double margin_accuracy = 0.05, least_accuracy = 0.1;
+constexpr long cells_of_a_margin = 150'000, cells_of_least = 60'000;
+
+std::vector<Mechanism> under_loads_of(const PoseTask& task, const Mechanism& mechanism) {
+  if (!task.loads) return {mechanism};
+  const auto under = [&](const core::RationalPose& load) {
+    Mechanism own = mechanism;
+    for (std::size_t c = 0; c < load.size(); ++c) own.loads.front().force[c] = core::Expression::number(load[c]);
+    return own;
+  };
+  std::vector<Mechanism> all = {under(task.loads->first)};
+  if (task.loads->second != task.loads->first) all.push_back(under(task.loads->second));
+  return all;
+}
+
+LociRequest request_for(const PoseTask& task, const LociRequest& request) {
+  core::Task conditions;
+  conditions.min_force = task.min_force;
+  conditions.min_couple = task.min_couple;
+  return request_of(conditions, request);
+}
+
+core::LocusKind kind_of(const TaskDemand& demand) {
+  if (demand.least > 0) return core::LocusKind::margin;
+  const bool effort = demand.quantity == Quantity::M || demand.quantity == Quantity::F;
+  return effort ? core::LocusKind::backlash : core::LocusKind::contact_loss;
+}
+
+/// Metrics that margins are told in: what grows together.
+struct Metrics {
+  PoseMetric asked;                  ///< that of the task's margin
+  std::optional<PoseMetric> angles;  ///< where angles are apart from lengths
+  bool is_angle = false;             ///< of `asked`: rad
+};
+
+Metrics metrics_of(const Mechanism& mechanism, const PoseTask& task) {
+  Metrics own;
+  bool any_angle = false, any_length = false;
+  for (const mechanism::Coordinate& c : mechanism.coordinates) (c.angle ? any_angle : any_length) = true;
+  const bool apart = any_angle && any_length && !task.angle_length;
+  own.is_angle = !any_length && !task.angle_length;
+  PoseMetric angles;
+  for (const mechanism::Coordinate& c : mechanism.coordinates) {
+    const double weight = c.angle && task.angle_length ? core::to_double(*task.angle_length) : 1.0;
+    own.asked.weights.push_back(weight);
+    own.asked.grows.push_back(!apart || !c.angle);
+    angles.weights.push_back(1.0);
+    angles.grows.push_back(c.angle);
+  }
+  if (apart) own.angles = std::move(angles);
+  return own;
+}
+
+class Verifier {
+ public:
+  Verifier(const Mechanism& mechanism, const PoseTask& task, const LociRequest& request)
+      : mechanism_(mechanism),
+        task_(task),
+        request_(request_for(task, request)),
+        loads_(under_loads_of(task, mechanism)),
+        metrics_(metrics_of(mechanism, task)),
+        region_(task.shape, metrics_.asked),
+        margin_(core::to_double(task.margin)),
+        sides_(requested_modes(mechanism, request_).front()) {
+    if (sides_.size() != mechanism::dyad_points(mechanism).size())
+      throw core::InputError(
+          {.file = "--working-mode"},
+          "the working mode has " + std::to_string(sides_.size()) + " sides, and the mechanism another number of dyads",
+          "give one side for each dyad");
+    for (const Mechanism& own : loads_) models_.push_back(numeric::compile(own));
+    std::vector<TaskDemand> demands = demands_of(mechanism, request_);
+    drop_never_loaded(demands);
+    witness_.emplace(witness_for(demands));
+    std::vector<const Mechanism*> list;
+    for (const Mechanism& own : loads_) list.push_back(&own);
+    statics_ = symbolic::pose_statics(list, sides_, demands);
+    cell_.emplace(statics_);
+  }
+
+  PoseVerification verify(bool measured) {
+    PoseVerification result;
+    result.task = task_;
+    result.mechanism = mechanism_.name;
+    result.units = mechanism_.units;
+    for (const mechanism::Coordinate& c : mechanism_.coordinates) {
+      result.coordinates.push_back(c.name);
+      result.angles.push_back(c.angle);
+    }
+    const std::vector<mechanism::PointIndex> dyads = mechanism::dyad_points(mechanism_);
+    for (std::size_t i = 0; i < dyads.size(); ++i)
+      result.working_mode.emplace_back(mechanism_.points[static_cast<std::size_t>(dyads[i])].name,
+                                       mechanism::side_name(mechanism_, dyads[i], sides_[i]));
+    result.notes = notes_;
+    progress("search");
+    const std::vector<NearPose> near = loci::pose::near_loci(statics_, region_);
+    progress("proof");
+    const auto refuted = [&](const PoseSuspect& suspect) {
+      result.witness = confirmed(suspect);
+      return result.witness.has_value();
+    };
+    for (const NearPose& own : near)
+      if (own.distance <= margin_ && refuted({own.kind, own.demand, own.at})) {
+        result.verdict = core::Verdict::refuted;
+        return result;
+      }
+    loci::pose::PoseEffort effort;
+    effort.deadline = request_.deadline;
+    const loci::pose::PoseProof proof = loci::pose::prove_poses(statics_, region_, margin_, refuted, effort);
+    result.verdict = proof.verdict;
+    result.cells = proof.cells;
+    if (result.verdict == core::Verdict::undecided) {
+      using Reason = core::OpenTask::Reason;
+      result.open = core::OpenPoses{proof.open, proof.lower, proof.upper,
+                                    proof.out_of_time    ? Reason::time
+                                    : proof.out_of_cells ? Reason::cells
+                                                         : Reason::doubles};
+    }
+    tell_nearest(near, result);
+    if (result.verified() && measured) measure(near, result);
+    return result;
+  }
+
+ private:
+  void progress(const char* stage) const {
+    if (request_.progress) request_.progress(0, stage);
+  }
+
+  numeric::PoseWitness witness_for(const std::vector<TaskDemand>& demands) const {
+    std::vector<const numeric::NumericModel*> models;
+    for (const numeric::NumericModel& own : models_) models.push_back(&own);
+    return {std::move(models), sides_, demands, region_.samples()};
+  }
+
+  /// A reaction that is zero at every pose looked at, to rounding, is taken for one that nothing loads.
+  void drop_never_loaded(std::vector<TaskDemand>& demands) {
+    constexpr std::size_t poses = 24;
+    std::vector<Pose> samples = region_.samples();
+    if (samples.size() > poses) samples.erase(samples.begin() + 1, samples.end() - (poses - 1));
+    const numeric::PoseWitness all = witness_for(demands);
+    std::vector<TaskDemand> loaded;
+    std::string names;
+    for (std::size_t d = 0; d < demands.size(); ++d) {
+      const bool never = demands[d].least == 0 && all.is_never_loaded(static_cast<int>(d), samples);
+      if (!never)
+        loaded.push_back(demands[d]);
+      else
+        names += (names.empty() ? "" : ", ") + core::to_string(demands[d].quantity) + "_" + demands[d].joint;
+    }
+    if (!names.empty())
+      notes_.push_back(names +
+                       ": zero, to rounding, at every pose looked at; taken as never loaded, and not asked for");
+    demands = std::move(loaded);
+  }
+
+  core::PoseTaskWitness told(const Pose& at, const numeric::TaskFailure& failure) const {
+    using Kind = numeric::TaskFailure::Kind;
+    using Told = core::TaskWitness::Kind;
+    core::PoseTaskWitness own;
+    own.at = at;
+    own.distance = region_.distance(at);
+    own.kind = failure.kind == Kind::unreachable ? Told::unreachable
+               : failure.kind == Kind::boundary  ? Told::boundary
+               : failure.kind == Kind::singular  ? Told::singular
+               : failure.kind == Kind::vanishing ? Told::vanishing
+                                                 : Told::too_small;
+    if (failure.kind != Kind::vanishing && failure.kind != Kind::too_small) return own;
+    own.reactions = {{failure.demand.joint, failure.demand.quantity, 1}};
+    if (failure.kind == Kind::too_small) {
+      own.size = failure.size;
+      own.least = failure.demand.least;
+    }
+    if (loads_.size() > 1)
+      for (std::size_t c = 0; c < task_.loads->first.size(); ++c)
+        own.load.push_back((1 - failure.load) * core::to_double(task_.loads->first[c]) +
+                           failure.load * core::to_double(task_.loads->second[c]));
+    return own;
+  }
+
+  std::optional<core::PoseTaskWitness> fails_at(const Pose& at, int demand) const {
+    if (!(region_.distance(at) <= margin_ + region_.hair())) return std::nullopt;
+    const auto failure = witness_->failure(at, demand);
+    return failure ? std::optional(told(at, *failure)) : std::nullopt;
+  }
+
+  /// Whether a suspect fails for certain; with another pose, between the two.
+  std::optional<core::PoseTaskWitness> confirmed(const PoseSuspect& suspect) {
+    if (auto found = fails_at(suspect.at, suspect.demand)) return found;
+    if (!suspect.other) return std::nullopt;
+    const std::vector<Pose> way = region_.way(*suspect.other, suspect.at);
+    const auto reference = cell_->at(*suspect.other);
+    if (!reference) return std::nullopt;
+    for (std::size_t i = 1; i < way.size(); ++i)
+      if (!is_alike(*reference, way[i], suspect)) return between(*reference, way[i - 1], way[i], suspect);
+    return std::nullopt;
+  }
+
+  /// Whether what is suspected has the sign at a pose that it has at the reference.
+  bool is_alike(const PoseCell::At& reference, const Pose& pose, const PoseSuspect& suspect) {
+    const auto now = cell_->at(pose);
+    if (!now) return false;
+    if (suspect.kind == Doubt::singularity) return now->determinant == reference.determinant;
+    const auto d = static_cast<std::size_t>(suspect.demand);
+    for (std::size_t load = 0; load < now->components[d].size(); ++load) {
+      double together = 0;
+      for (std::size_t k = 0; k < now->components[d][load].size(); ++k)
+        together += now->components[d][load][k] * reference.components[d][load][k];
+      if (together <= 0) return false;
+    }
+    return true;
+  }
+
+  std::optional<core::PoseTaskWitness> between(const PoseCell::At& reference, const Pose& from, const Pose& to,
+                                               const PoseSuspect& suspect) {
+    const auto at = [&](double t) {
+      Pose pose = from;
+      for (std::size_t c = 0; c < pose.size(); ++c) pose[c] = t == 1 ? to[c] : from[c] + t * (to[c] - from[c]);
+      return pose;
+    };
+    double low = 0, high = 1;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      if (middle == low || middle == high) break;
+      (is_alike(reference, at(middle), suspect) ? low : high) = middle;
+    }
+    for (const double t : {high, low})
+      for (const int demand : {suspect.demand, -1})
+        if (auto found = fails_at(at(t), demand)) return found;
+    // Where doubles do not tell that it is zero: its sign is certain a little to both sides.
+    for (double apart = 0x1p-50; apart < 1; apart *= 4) {
+      const double before = std::max(0.0, low - apart), behind = std::min(1.0, high + apart);
+      for (const int demand : {suspect.demand, -1})
+        if (witness_->differs(at(before), at(behind), demand)) {
+          using Kind = numeric::TaskFailure::Kind;
+          numeric::TaskFailure failure{demand < 0 ? Kind::singular : Kind::vanishing, {}, 0, 0};
+          if (demand >= 0) failure.demand = witness_->demands()[static_cast<std::size_t>(demand)];
+          return told(at(high), failure);
+        }
+    }
+    return std::nullopt;
+  }
+
+  void tell_nearest(const std::vector<NearPose>& near, PoseVerification& result) const {
+    if (near.empty()) return;
+    const NearPose& first = near.front();
+    core::NearestToPoses own;
+    own.at = first.at;
+    own.distance = first.distance;
+    own.kind = first.kind == Doubt::workspace     ? core::LocusKind::workspace_boundary
+               : first.kind == Doubt::singularity ? core::LocusKind::direct_singularity
+                                                  : core::LocusKind::contact_loss;
+    // All that vanish there together.
+    constexpr double together = 1e-6;
+    bool gravest = false;
+    for (const NearPose& other : near) {
+      if (first.kind != Doubt::demand || other.kind != Doubt::demand) continue;
+      if (other.distance > first.distance + together * (1 + first.distance)) continue;
+      const TaskDemand& demand = statics_.demands[static_cast<std::size_t>(other.demand)].demand;
+      own.reactions.push_back({demand.joint, demand.quantity, 1});
+      const core::LocusKind kind = kind_of(demand);
+      own.kind = gravest ? std::min(own.kind, kind) : kind;
+      gravest = true;
+    }
+    result.nearest = own;
+  }
+
+  double limit_of(const PoseMetric& metric, const std::vector<NearPose>& near) const {
+    double limit = margin_;
+    for (std::size_t c = 0; c < mechanism_.coordinates.size(); ++c)
+      if (metric.grows[c])
+        limit += metric.weights[c] * core::to_double(mechanism_.coordinates[c].upper - mechanism_.coordinates[c].lower);
+    return near.empty() ? limit : std::min(limit, near.front().distance);
+  }
+
+  /// The margins, and what reactions have at least.
+  void measure(const std::vector<NearPose>& near, PoseVerification& result) {
+    loci::pose::PoseEffort effort{.most_cells = cells_of_a_margin, .deadline = request_.deadline};
+    progress("margin");
+    const double own =
+        loci::pose::pose_clearance(statics_, region_, margin_, limit_of(metrics_.asked, near), margin_accuracy, effort);
+    (metrics_.is_angle ? result.angle_margin : result.margin) = own;
+    if (metrics_.angles) {
+      const PoseRegion turned(task_.shape, *metrics_.angles);
+      const std::vector<NearPose> nearer = loci::pose::near_loci(statics_, turned);
+      result.angle_margin =
+          loci::pose::pose_clearance(statics_, turned, 0, limit_of(*metrics_.angles, nearer), margin_accuracy, effort);
+    }
+    progress("least reactions");
+    std::vector<double> met(statics_.demands.size(), std::numeric_limits<double>::infinity());
+    for (const Pose& pose : region_.samples())
+      if (const auto at = cell_->at(pose))
+        for (std::size_t d = 0; d < met.size(); ++d) met[d] = std::min(met[d], PoseCell::size_of(at->components[d]));
+    effort.most_cells = cells_of_least;
+    const std::vector<double> proven = loci::pose::least_sizes(statics_, region_, met, least_accuracy, effort);
+    for (std::size_t d = 0; d < met.size(); ++d) {
+      const TaskDemand& demand = statics_.demands[d].demand;
+      const double least = std::max(proven[d], core::to_double(demand.least));
+      result.least.push_back({{demand.joint, demand.quantity, 1}, std::min(least, met[d]), met[d]});
+    }
+  }
+
+  const Mechanism& mechanism_;
+  const PoseTask& task_;
+  LociRequest request_;
+  std::vector<Mechanism> loads_;
+  Metrics metrics_;
+  PoseRegion region_;
+  double margin_;
+  DyadSides sides_;
+  std::vector<numeric::NumericModel> models_;
+  std::optional<numeric::PoseWitness> witness_;
+  core::PoseStatics statics_;
+  std::optional<PoseCell> cell_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+PoseVerification verify_poses(const Mechanism& mechanism, const PoseTask& task, const LociRequest& request) {
+  return Verifier(mechanism, task, request).verify(true);
+}
+
+PoseVerification decide_poses(const Mechanism& mechanism, const PoseTask& task, const LociRequest& request) {
+  return Verifier(mechanism, task, request).verify(false);
+}
+
+PoseTask read_pose_task(const std::string& path, const Model& model) {
+  return mechanism::read_pose_task(path, model.content().mechanism);
+}
+
+PoseTask parse_pose_task(const std::string& text, const Model& model, const std::string& file) {
+  return mechanism::parse_pose_task(text, file, model.content().mechanism);
+}
+
+PoseVerification verify_poses(const Model& model, const PoseTask& task, const LociRequest& request) {
+  return verify_poses(model.content().mechanism, task, request);
+}
+
+PoseVerification decide_poses(const Model& model, const PoseTask& task, const LociRequest& request) {
+  return decide_poses(model.content().mechanism, task, request);
+}
+
+}  // namespace clearloci

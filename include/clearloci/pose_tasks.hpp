@@ -1,0 +1,121 @@
+// Does the mechanism keep clear of its loci over a task of poses: of one to six free coordinates, angles among them?
+// What clearloci/verify.hpp asks over two lengths, asked of intervals, volumes and volumes with orientations, by proofs
+// over cells and without traced loci.
+//
+//     const clearloci::Model model = clearloci::Model::read("hexapod.yaml");
+//     const clearloci::PoseTask task = clearloci::read_pose_task("poses.yaml", model);
+//     const clearloci::PoseVerification answer = clearloci::verify_poses(model, task);
+//
+// Lengths in m, angles in rad, forces in N, couples in N m. Poses are lists of one value a free coordinate.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "clearloci/verify.hpp"
+
+namespace clearloci::inline core {
+
+using RationalPose = std::vector<Rational>;
+
+struct PoseBoxShape {
+  RationalPose lower, upper;
+};
+/// Distances are those of the task's metric: an angle counts `angle_length` m a radian.
+struct PoseBallShape {
+  RationalPose centre;
+  Rational radius;
+};
+/// Straight from pose to pose, coordinate by coordinate.
+struct PosePathShape {
+  std::vector<RationalPose> points;
+};
+using PoseShape = std::variant<PoseBoxShape, PoseBallShape, PosePathShape>;
+
+/// "box", "ball", "path".
+std::string kind_of(const PoseShape& shape);
+
+struct PoseTask {
+  std::string file;
+  PoseShape shape;
+  Rational margin = 0;  ///< m around the task; rad where every coordinate is an angle and there is no `angle_length`
+  std::optional<Rational> angle_length;  ///< m a radian; without it margins are of lengths alone
+  std::optional<Rational> min_force;     ///< N, that every wanted joint keeps
+  std::optional<Rational> min_couple;    ///< N m
+  /// Instead of the force of the mechanism's one load: every (1 - t) first + t second, N.
+  std::optional<std::pair<RationalPose, RationalPose>> loads;
+};
+
+/// A pose of the task or its margin at which it fails, confirmed by numeric/ (TaskWitness has the kinds).
+struct PoseTaskWitness {
+  TaskWitness::Kind kind = TaskWitness::Kind::unreachable;
+  std::vector<double> at;
+  std::vector<Vanishing> reactions;  ///< that vanish or are too small
+  std::optional<double> size;        ///< of the first of them, N or N m
+  std::optional<Rational> least;     ///< that is asked of it
+  std::vector<double> load;          ///< N; of a range of loads, where it takes one
+  double distance = 0;               ///< from the task
+};
+
+/// A locus that was found near the task: the margin is at most `distance`.
+struct NearestToPoses {
+  LocusKind kind = LocusKind::contact_loss;
+  std::vector<Vanishing> reactions;
+  std::vector<double> at;
+  double distance = 0;
+};
+
+/// What a reaction has at least over the task: proven, and the least that was met.
+struct LeastReaction {
+  Vanishing reaction;
+  double proven = 0, met = 0;  ///< N or N m
+};
+
+/// What a verdict of `undecided` leaves open.
+struct OpenPoses {
+  std::size_t cells = 0;
+  std::vector<double> lower, upper;  ///< of the box around them
+  OpenTask::Reason reason = OpenTask::Reason::doubles;
+};
+
+struct PoseVerification {
+  PoseTask task;
+  std::string mechanism;
+  std::vector<std::string> coordinates;
+  std::vector<bool> angles;
+  std::vector<std::pair<std::string, std::string>> working_mode;  ///< as describe_mode
+  Verdict verdict = Verdict::undecided;
+  /// Proven to be free around the task: m in the task's metric; without `angle_length` in m with the angles of the
+  /// task, and in rad with its lengths. None where not verified, or where there is no such coordinate.
+  std::optional<double> margin, angle_margin;
+  std::optional<NearestToPoses> nearest;
+  std::optional<PoseTaskWitness> witness;  ///< where refuted
+  std::optional<OpenPoses> open;           ///< where undecided
+  std::vector<LeastReaction> least;        ///< where verified
+  long cells = 0;                          ///< that were looked at for the verdict
+  std::vector<std::string> notes;
+  Units units = {};  ///< of the mechanism file
+
+  bool verified() const { return verdict == Verdict::verified; }
+};
+
+}  // namespace clearloci::inline core
+
+namespace clearloci {
+
+/// Throws InputError for whatever is wrong with the file, and for mechanisms of two lengths in the plane, whose tasks
+/// are those of clearloci/verify.hpp.
+PoseTask read_pose_task(const std::string& path, const Model& model);
+PoseTask parse_pose_task(const std::string& text, const Model& model, const std::string& file = "task");
+
+/// In the first of the request's working modes. The task's `min_force` and `min_couple` take the place of the
+/// request's. Where the request's deadline comes first, what is not proven is undecided.
+PoseVerification verify_poses(const Model& model, const PoseTask& task, const LociRequest& request = {});
+
+/// The verdict alone, with its witness or what is open: no margin and no least reactions.
+PoseVerification decide_poses(const Model& model, const PoseTask& task, const LociRequest& request = {});
+
+}  // namespace clearloci

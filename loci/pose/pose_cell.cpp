@@ -1,0 +1,360 @@
+#include "loci/pose/pose_cell.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::pose {
+namespace {
+
+using Operation = core::PoseProgram::Operation;
+
+/// pi to half a unit in the last place.
+Affine enclosed_pi() {
+  Affine own(3.14159265358979312);
+  own.r = 0x1p-52;
+  return own;
+}
+
+/// A row's entries and what it adds up to are sums of so many roundings at most.
+double rounded_up(double sum, std::size_t terms) { return sum * (1 + static_cast<double>(terms + 8) * 0x1p-51); }
+
+/// The point of the way from a to b that is nearest to the origin.
+std::vector<double> nearest_to_origin(const std::vector<double>& a, const std::vector<double>& b) {
+  double along = 0, length2 = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    along -= a[k] * (b[k] - a[k]);
+    length2 += (b[k] - a[k]) * (b[k] - a[k]);
+  }
+  const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  std::vector<double> point(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) point[k] = a[k] + t * (b[k] - a[k]);
+  return point;
+}
+
+double length_of(const std::vector<double>& v) {
+  double square = 0;
+  for (const double own : v) square += own * own;
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+PoseCell::PoseCell(const core::PoseStatics& statics)
+    : statics_(&statics), n_(static_cast<std::size_t>(statics.unknowns)), columns_(n_) {
+  for (std::size_t row = 0; row < n_; ++row)
+    for (const core::LinearRow::Term& term : statics.equations[row].terms)
+      columns_[static_cast<std::size_t>(term.unknown)].push_back({static_cast<int>(row), term.step});
+  for (const core::PoseDemand& demand : statics.demands)
+    leasts_.push_back(std::nextafter(core::to_double(demand.demand.least), demand.demand.least > 0 ? 1e300 : 0.0));
+  registers_.resize(statics.program.steps.size());
+  for (std::size_t i = 0; i < registers_.size(); ++i) {
+    const core::PoseProgram::Step& own = statics.program.steps[i];
+    if (own.operation == Operation::constant) registers_[i] = nearest(own.value);
+    if (own.operation == Operation::pi) registers_[i] = enclosed_pi();
+    if (own.operation == Operation::square_root && own.varies) closures_.push_back(own.first);
+  }
+  closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
+  inverse_.resize(n_ * n_);
+  error_.resize(n_ * n_);
+  solution_.assign(statics.loads, std::vector<double>(n_));
+  distance_.assign(statics.loads, std::vector<double>(n_));
+  least_.resize(statics.demands.size());
+}
+
+PoseCell::State PoseCell::in_doubt(Doubt doubt, const Affine& form, int demand) {
+  doubt_ = doubt;
+  demand_ = demand;
+  for (std::size_t p = 0; p < Affine::noises; ++p) spreads_[p] = std::abs(form.a[p]);
+  return State::in_doubt;
+}
+
+PoseCell::State PoseCell::run(const PoseChart& chart, const PoseBox& box) {
+  for (std::size_t i = 0; i < registers_.size(); ++i) {
+    const core::PoseProgram::Step& own = statics_->program.steps[i];
+    const Affine& x = registers_[static_cast<std::size_t>(own.first)];
+    const Affine& y = registers_[static_cast<std::size_t>(own.second)];
+    switch (own.operation) {
+      case Operation::constant:
+      case Operation::pi:
+        break;
+      case Operation::coordinate: {
+        const auto q = static_cast<std::size_t>(own.first);
+        AffineSum sum;
+        sum.add(1, Affine(chart.base[q]));
+        for (std::size_t p = 0; p < box.size(); ++p) {
+          if (chart.ways[p][q] == 0) continue;
+          const auto& [low, high] = box[p];
+          Affine parameter(low + 0.5 * (high - low));
+          parameter.a[p] = std::max(high - parameter.c, parameter.c - low);
+          if (parameter.a[p] > 0) parameter.r = Affine::slack(std::abs(high) + std::abs(low));
+          sum.add(chart.ways[p][q], parameter);
+        }
+        registers_[i] = sum.result();
+        break;
+      }
+      case Operation::add:
+        registers_[i] = x + y;
+        break;
+      case Operation::subtract:
+        registers_[i] = x - y;
+        break;
+      case Operation::multiply:
+        registers_[i] = x * y;
+        break;
+      case Operation::square:
+        registers_[i] = squared(x);
+        break;
+      case Operation::inverse:
+        if (x.contains_zero()) return in_doubt(Doubt::workspace, x);
+        registers_[i] = inverse(x);
+        break;
+      case Operation::square_root:
+        if (x.upper() < 0) return State::outside;
+        if (!(x.lower() > 0)) return in_doubt(Doubt::workspace, x);
+        registers_[i] = square_root(x);
+        break;
+      case Operation::cosine:
+        registers_[i] = cosine(x);
+        break;
+      case Operation::sine:
+        registers_[i] = sine(x);
+        break;
+    }
+  }
+  for (const int own : statics_->positive) {
+    if (step(own).upper() < 0) return State::outside;
+    if (!(step(own).lower() > 0)) return in_doubt(Doubt::workspace, step(own));
+  }
+  return State::proven;
+}
+
+/// Gauss and Jordan with partial pivoting of A at the cell's middle.
+bool PoseCell::invert() {
+  std::vector<double> a(n_ * n_, 0.0);
+  for (std::size_t column = 0; column < n_; ++column)
+    for (const Entry& entry : columns_[column])
+      a[static_cast<std::size_t>(entry.row) * n_ + column] = step(entry.step).c;
+  std::fill(inverse_.begin(), inverse_.end(), 0.0);
+  for (std::size_t i = 0; i < n_; ++i) inverse_at(i, i) = 1;
+  determinant_ = 1;
+  logarithm_ = 0;
+  for (std::size_t k = 0; k < n_; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n_; ++i)
+      if (std::abs(a[i * n_ + k]) > std::abs(a[pivot * n_ + k])) pivot = i;
+    const double value = a[pivot * n_ + k];
+    if (value == 0 || !std::isfinite(value)) return false;
+    if (value < 0) determinant_ = -determinant_;
+    logarithm_ += std::log(std::abs(value));
+    if (pivot != k) {
+      determinant_ = -determinant_;
+      for (std::size_t j = 0; j < n_; ++j) {
+        std::swap(a[pivot * n_ + j], a[k * n_ + j]);
+        std::swap(inverse_at(pivot, j), inverse_at(k, j));
+      }
+    }
+    for (std::size_t j = 0; j < n_; ++j) {
+      a[k * n_ + j] /= value;
+      inverse_at(k, j) /= value;
+    }
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double factor = a[i * n_ + k];
+      if (i == k || factor == 0) continue;
+      for (std::size_t j = 0; j < n_; ++j) {
+        a[i * n_ + j] -= factor * a[k * n_ + j];
+        inverse_at(i, j) -= factor * inverse_at(k, j);
+      }
+    }
+  }
+  return std::all_of(inverse_.begin(), inverse_.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool PoseCell::is_regular() {
+  std::array<double, Affine::noises> moves{};
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j < n_; ++j) {
+      AffineSum sum;
+      if (i == j) sum.add(1, Affine(1.0));
+      for (const Entry& entry : columns_[j])
+        if (const double own = inverse_at(i, static_cast<std::size_t>(entry.row)); own != 0)
+          sum.add(-own, step(entry.step));
+      const Affine e = sum.result();
+      error_[i * n_ + j] = e.magnitude();
+      for (std::size_t p = 0; p < Affine::noises; ++p) moves[p] += std::abs(e.a[p]);
+    }
+  // Towards the vector that |E| stretches most, kept off zero.
+  std::vector<double> weights(n_, 1.0), stretched(n_);
+  const auto stretch = [&] {
+    for (std::size_t i = 0; i < n_; ++i) {
+      double sum = 0;
+      for (std::size_t j = 0; j < n_; ++j) sum += error_[i * n_ + j] * weights[j];
+      stretched[i] = rounded_up(sum, n_);
+    }
+  };
+  constexpr int steps = 4;
+  constexpr double least_weight = 1e-4;
+  for (int k = 0; k < steps; ++k) {
+    stretch();
+    const double most = *std::max_element(stretched.begin(), stretched.end());
+    if (!(most > 0)) break;
+    for (std::size_t i = 0; i < n_; ++i) weights[i] = std::max(stretched[i] / most, least_weight);
+  }
+  stretch();
+  contraction_ = 0;
+  for (std::size_t i = 0; i < n_; ++i) contraction_ = std::max(contraction_, stretched[i] / weights[i] * (1 + 0x1p-50));
+  weights_ = std::move(weights);
+  if (contraction_ < 1) return true;
+  doubt_ = Doubt::singularity;
+  demand_ = -1;
+  spreads_ = moves;
+  return false;
+}
+
+/// w_m under a load, and how far w is from it in any pose of the cell.
+void PoseCell::solve(std::size_t load) {
+  std::vector<double>& w = solution_[load];
+  for (std::size_t i = 0; i < n_; ++i) {
+    w[i] = 0;
+    for (std::size_t j = 0; j < n_; ++j) w[i] += inverse_at(i, j) * step(statics_->equations[j].free[load]).c;
+  }
+  std::vector<Affine> residual;
+  for (const core::LinearRow& row : statics_->equations) {
+    AffineSum sum;
+    sum.add(1, step(row.free[load]));
+    for (const core::LinearRow::Term& term : row.terms)
+      sum.add(-w[static_cast<std::size_t>(term.unknown)], step(term.step));
+    residual.push_back(sum.result());
+  }
+  std::vector<double>& distance = distance_[load];
+  double largest = 0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    AffineSum sum;
+    for (std::size_t j = 0; j < n_; ++j) sum.add(inverse_at(i, j), residual[j]);
+    distance[i] = sum.result().magnitude();
+    largest = std::max(largest, distance[i] / weights_[i]);
+  }
+  largest = rounded_up(largest / (1 - contraction_), 8);
+  for (std::size_t i = 0; i < n_; ++i) {
+    double farther = distance[i];
+    for (std::size_t j = 0; j < n_; ++j) farther += error_[i * n_ + j] * weights_[j] * largest;
+    distance[i] = rounded_up(farther, n_);
+  }
+}
+
+std::vector<double> PoseCell::component_values(const core::PoseDemand& demand, std::size_t load) const {
+  std::vector<double> values;
+  for (const core::LinearRow& row : demand.components) {
+    double value = registers_[static_cast<std::size_t>(row.free[load])].c;
+    for (const core::LinearRow::Term& term : row.terms)
+      value +=
+          registers_[static_cast<std::size_t>(term.step)].c * solution_[load][static_cast<std::size_t>(term.unknown)];
+    values.push_back(value);
+  }
+  return values;
+}
+
+bool PoseCell::keeps(int index) {
+  const core::PoseDemand& demand = statics_->demands[static_cast<std::size_t>(index)];
+  const std::vector<double> first = component_values(demand, 0), last = component_values(demand, statics_->loads - 1);
+  std::vector<double> n = nearest_to_origin(first, last);
+  const double size = length_of(n);
+  // Without a direction of its own any one does.
+  for (std::size_t k = 0; k < n.size(); ++k) n[k] = size > 0 ? n[k] / size : (k == 0 ? 1.0 : 0.0);
+  std::vector<AffineSum> sums(n_);
+  std::vector<double> at_middle(n_, 0.0), multipliers(n_, 0.0);
+  for (std::size_t k = 0; k < n.size(); ++k)
+    for (const core::LinearRow::Term& term : demand.components[k].terms) {
+      const auto j = static_cast<std::size_t>(term.unknown);
+      sums[j].add(n[k], step(term.step));
+      at_middle[j] += n[k] * step(term.step).c;
+    }
+  for (std::size_t j = 0; j < n_; ++j)
+    if (at_middle[j] != 0)
+      for (std::size_t i = 0; i < n_; ++i) multipliers[i] += inverse_at(j, i) * at_middle[j];
+  std::vector<Affine> left;
+  for (std::size_t j = 0; j < n_; ++j) {
+    for (const Entry& entry : columns_[j])
+      sums[j].add(-multipliers[static_cast<std::size_t>(entry.row)], step(entry.step));
+    left.push_back(sums[j].result());
+  }
+  double& kept = least_[static_cast<std::size_t>(index)];
+  kept = std::numeric_limits<double>::infinity();
+  const double least = leasts_[static_cast<std::size_t>(index)];
+  bool enough = true;
+  for (std::size_t load = 0; load < statics_->loads; ++load) {
+    AffineSum sum;
+    for (std::size_t k = 0; k < n.size(); ++k) sum.add(n[k], step(demand.components[k].free[load]));
+    for (std::size_t i = 0; i < n_; ++i)
+      if (multipliers[i] != 0) sum.add(multipliers[i], step(statics_->equations[i].free[load]));
+    double beyond = 0;
+    for (std::size_t j = 0; j < n_; ++j) {
+      sum.add(solution_[load][j], left[j]);
+      beyond += left[j].magnitude() * distance_[load][j];
+    }
+    const Affine value = sum.result();
+    // n is a unit vector to some roundings.
+    const double low = Affine::down(value.lower() - rounded_up(beyond, n_)) * (1 - 0x1p-48);
+    kept = std::min(kept, low);
+    if (low > least) {
+      const double usual = std::abs(value.c) + 0x1p-1000;
+      for (std::size_t p = 0; enough && p < Affine::noises; ++p) spreads_[p] += std::abs(value.a[p]) / usual;
+      continue;
+    }
+    if (enough) in_doubt(Doubt::demand, value, index);
+    enough = false;
+    for (std::size_t j = 0; j < n_; ++j)
+      for (std::size_t p = 0; p < Affine::noises; ++p) spreads_[p] += 2 * std::abs(left[j].a[p]) * distance_[load][j];
+  }
+  return enough;
+}
+
+PoseCell::State PoseCell::enter(const PoseChart& chart, const PoseBox& box) {
+  core::ensure(box.size() < Affine::noises, "a cell has seven parameters at most");
+  doubt_ = Doubt::none;
+  spreads_.fill(0);
+  if (const State state = run(chart, box); state != State::proven) return state;
+  if (!invert()) {
+    doubt_ = Doubt::singularity;
+    for (std::size_t p = 0; p < box.size(); ++p) spreads_[p] = 1;
+    return State::in_doubt;
+  }
+  if (!is_regular()) return State::in_doubt;
+  for (std::size_t load = 0; load < statics_->loads; ++load) solve(load);
+  // The demand that failed last fails again, mostly.
+  const auto count = static_cast<int>(statics_->demands.size());
+  for (int k = 0; k < count; ++k)
+    if (const int own = (first_ + k) % count; !keeps(own)) {
+      first_ = own;
+      return State::in_doubt;
+    }
+  return State::proven;
+}
+
+std::optional<PoseCell::At> PoseCell::at(const std::vector<double>& pose) {
+  if (run({pose, {}}, {}) != State::proven || !invert()) return std::nullopt;
+  At result;
+  result.determinant = determinant_;
+  result.logarithm = logarithm_;
+  for (const int own : closures_) result.closures.push_back(step(own).c);
+  for (std::size_t load = 0; load < statics_->loads; ++load) {
+    std::vector<double>& w = solution_[load];
+    for (std::size_t i = 0; i < n_; ++i) {
+      w[i] = 0;
+      for (std::size_t j = 0; j < n_; ++j) w[i] += inverse_at(i, j) * step(statics_->equations[j].free[load]).c;
+    }
+  }
+  for (const core::PoseDemand& demand : statics_->demands) {
+    auto& own = result.components.emplace_back();
+    for (std::size_t load = 0; load < statics_->loads; ++load) own.push_back(component_values(demand, load));
+  }
+  return result;
+}
+
+double PoseCell::size_of(const std::vector<std::vector<double>>& by_load) {
+  return length_of(nearest_to_origin(by_load.front(), by_load.back()));
+}
+
+}  // namespace clearloci::loci::pose

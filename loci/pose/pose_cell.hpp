@@ -1,0 +1,88 @@
+// Whether every pose of a cell is good for a task: it can be assembled, |A| does not vanish, and no reaction does or is
+// too small. With A_m the matrix at the cell's middle, C = A_m^-1 to rounding and w_m = C b_m:
+//     E = I - C A,                |E| s <= beta s < s for some s > 0:  A is regular in every pose of the cell
+//     r = b - A w_m,              |w - w_m| <= |C r| + |E| |w - w_m|
+//     g = c w + d, lambda = C^T c_m:   g = d + lambda b + (c - A^T lambda) w_m + (c - A^T lambda) (w - w_m)
+// The last product is one of two small things, so that what is known of g shrinks with the square of the cell. A vector
+// f is kept from zero by n . f for one direction n, under all loads between two that it is kept under.
+// Entries are enclosed by affine forms (affine.hpp).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/pose_statics.hpp"
+#include "loci/pose/affine.hpp"
+#include "loci/pose/pose_chart.hpp"
+
+namespace clearloci::loci::pose {
+
+/// What keeps a pose from being good: `demand` is that of core::PoseStatics, with `Doubt::demand`.
+enum class Doubt { none, workspace, singularity, demand };
+
+class PoseCell {
+ public:
+  enum class State { proven, in_doubt, outside };
+
+  /// `statics` must outlive the cell. One a thread.
+  explicit PoseCell(const core::PoseStatics& statics);
+
+  /// `outside`: no pose of the cell can be assembled.
+  State enter(const PoseChart& chart, const PoseBox& box);
+
+  /// Of a cell in doubt.
+  Doubt doubt() const { return doubt_; }
+  int demand() const { return demand_; }
+  /// How far each parameter of the box moves what is in doubt: a cut helps most along the largest.
+  const std::array<double, Affine::noises>& spreads() const { return spreads_; }
+  /// Of a proven cell: what every reaction has at least, N or N m, one a demand.
+  const std::vector<double>& least_sizes() const { return least_; }
+
+  /// A single pose in floating point; nothing where it cannot be assembled or A cannot be inverted.
+  struct At {
+    int determinant = 0;                                       ///< its sign
+    double logarithm = 0;                                      ///< of its size
+    std::vector<double> closures;                              ///< positive within the workspace, zero on its boundary
+    std::vector<std::vector<std::vector<double>>> components;  ///< demand, load, component: N, N m
+  };
+  std::optional<At> at(const std::vector<double>& pose);
+  /// The smallest size under loads between the first and the last.
+  static double size_of(const std::vector<std::vector<double>>& by_load);
+
+  const core::PoseStatics& statics() const { return *statics_; }
+
+ private:
+  struct Entry {
+    int row = 0, step = 0;
+  };
+  State run(const PoseChart& chart, const PoseBox& box);
+  State in_doubt(Doubt doubt, const Affine& form, int demand = -1);
+  bool invert();
+  bool is_regular();
+  void solve(std::size_t load);
+  bool keeps(int demand);
+  Affine& step(int index) { return registers_[static_cast<std::size_t>(index)]; }
+  std::vector<double> component_values(const core::PoseDemand& demand, std::size_t load) const;
+  double& inverse_at(std::size_t i, std::size_t j) { return inverse_[i * n_ + j]; }
+
+  const core::PoseStatics* statics_;
+  std::size_t n_;
+  std::vector<std::vector<Entry>> columns_;  ///< of A
+  std::vector<double> leasts_;               ///< asked of every demand, rounded up
+  std::vector<Affine> registers_;
+  std::vector<double> inverse_;  ///< C
+  std::vector<double> error_;    ///< |E|
+  std::vector<double> weights_;  ///< s
+  double contraction_ = 0;       ///< beta
+  int determinant_ = 0;
+  double logarithm_ = 0;
+  std::vector<int> closures_;                             ///< steps whose roots vary with the pose, and limits
+  std::vector<std::vector<double>> solution_, distance_;  ///< load by load: w_m, and how far w is from it
+  std::vector<double> least_;
+  Doubt doubt_ = Doubt::none;
+  int demand_ = -1, first_ = 0;
+  std::array<double, Affine::noises> spreads_{};
+};
+
+}  // namespace clearloci::loci::pose

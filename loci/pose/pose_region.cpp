@@ -1,0 +1,222 @@
+#include "loci/pose/pose_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace clearloci::loci::pose {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Doubles place the task to rounding; a hair more covers it. As a part of its size.
+constexpr double hair_of_size = 1e-12;
+/// Sums and roots of distances are known to this part.
+constexpr double below = 1 - 1e-12;
+constexpr std::size_t most_corners = 64, more_samples = 96;
+
+Pose rounded(const core::RationalPose& pose) {
+  Pose own;
+  for (const core::Rational& value : pose) own.push_back(core::to_double(value));
+  return own;
+}
+
+/// From an interval to another, 0 where they meet.
+double gap(double low, double high, double from, double to) { return std::max({0.0, from - high, low - to}); }
+
+/// The i-th number of the sequence of van der Corput in a base.
+double spread(std::size_t i, std::size_t base) {
+  double value = 0, part = 1;
+  for (; i > 0; i /= base) {
+    part /= static_cast<double>(base);
+    value += part * static_cast<double>(i % base);
+  }
+  return value;
+}
+
+}  // namespace
+
+PoseRegion::PoseRegion(const core::PoseShape& shape, PoseMetric metric) : metric_(std::move(metric)) {
+  if (const auto* box = std::get_if<core::PoseBoxShape>(&shape)) {
+    lower_ = rounded(box->lower);
+    upper_ = rounded(box->upper);
+  } else if (const auto* ball = std::get_if<core::PoseBallShape>(&shape)) {
+    kind_ = Kind::ball;
+    centre_ = rounded(ball->centre);
+    radius_ = core::to_double(ball->radius);
+    for (std::size_t c = 0; c < centre_.size(); ++c) {
+      lower_.push_back(centre_[c] - radius_ / metric_.weights[c]);
+      upper_.push_back(centre_[c] + radius_ / metric_.weights[c]);
+    }
+  } else {
+    kind_ = Kind::path;
+    for (const core::RationalPose& point : std::get<core::PosePathShape>(shape).points)
+      points_.push_back(rounded(point));
+    lower_ = upper_ = points_.front();
+    for (const Pose& point : points_)
+      for (std::size_t c = 0; c < point.size(); ++c) {
+        lower_[c] = std::min(lower_[c], point[c]);
+        upper_[c] = std::max(upper_[c], point[c]);
+      }
+  }
+  for (std::size_t c = 0; c < lower_.size(); ++c)
+    hair_ = std::max(hair_, hair_of_size * (std::abs(lower_[c]) + std::abs(upper_[c])));
+}
+
+std::vector<PosePiece> PoseRegion::pieces(double margin) const {
+  const std::size_t n = coordinates();
+  const auto reach = [&](std::size_t c) { return hair_ + (metric_.grows[c] ? margin / metric_.weights[c] : 0.0); };
+  std::vector<PosePiece> all;
+  if (kind_ != Kind::path) {
+    PosePiece& piece = all.emplace_back();
+    piece.chart.base.assign(n, 0.0);
+    for (std::size_t c = 0; c < n; ++c) {
+      Pose way(n, 0.0);
+      way[c] = 1;
+      piece.chart.ways.push_back(std::move(way));
+      piece.box.push_back({lower_[c] - reach(c), upper_[c] + reach(c)});
+    }
+    return all;
+  }
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    PosePiece& piece = all.emplace_back();
+    piece.segment = static_cast<int>(i);
+    piece.chart.base = points_[i];
+    Pose along(n);
+    for (std::size_t c = 0; c < n; ++c) along[c] = points_[i + 1][c] - points_[i][c];
+    piece.chart.ways.push_back(std::move(along));
+    piece.box.push_back({0, 1});
+    // The hair is of the path's own rounding: it has no thickness where nothing is asked around it.
+    for (std::size_t c = 0; c < n && margin > 0; ++c) {
+      if (!metric_.grows[c]) continue;
+      Pose way(n, 0.0);
+      way[c] = 1;
+      piece.chart.ways.push_back(std::move(way));
+      piece.box.push_back({-reach(c), reach(c)});
+    }
+  }
+  return all;
+}
+
+double PoseRegion::distance(const PosePiece& piece, const PoseBox& box) const {
+  double square = 0;
+  if (kind_ == Kind::path) {
+    for (std::size_t j = 1; j < box.size(); ++j) {
+      const Pose& way = piece.chart.ways[j];
+      const auto c = static_cast<std::size_t>(std::find(way.begin(), way.end(), 1.0) - way.begin());
+      const double off = metric_.weights[c] * gap(box[j][0], box[j][1], 0, 0);
+      square += off * off;
+    }
+    return below * std::sqrt(square);
+  }
+  for (std::size_t c = 0; c < box.size(); ++c) {
+    const double off = metric_.weights[c] * (kind_ == Kind::box ? gap(box[c][0], box[c][1], lower_[c], upper_[c])
+                                                                : gap(box[c][0], box[c][1], centre_[c], centre_[c]));
+    if (kind_ == Kind::box && !metric_.grows[c]) continue;
+    square += off * off;
+  }
+  return std::max(0.0, below * std::sqrt(square) - radius_);
+}
+
+double PoseRegion::apart(const Pose& a, const Pose& b) const {
+  double square = 0;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    const double off = metric_.weights[c] * (a[c] - b[c]);
+    // Off a held coordinate there is nothing but the hair.
+    if (!metric_.grows[c] && kind_ != Kind::ball && std::abs(a[c] - b[c]) > 2 * hair_) return infinite;
+    if (metric_.grows[c] || kind_ == Kind::ball) square += off * off;
+  }
+  return std::sqrt(square);
+}
+
+Pose PoseRegion::on_segment(std::size_t segment, double t) const {
+  Pose pose = points_[segment];
+  for (std::size_t c = 0; c < pose.size(); ++c) pose[c] += t * (points_[segment + 1][c] - points_[segment][c]);
+  return pose;
+}
+
+std::pair<std::size_t, double> PoseRegion::foot(const Pose& pose) const {
+  std::pair<std::size_t, double> best{0, 0.0};
+  double least = infinite;
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    double along = 0, length2 = 0;
+    for (std::size_t c = 0; c < pose.size(); ++c) {
+      const double w2 = metric_.weights[c] * metric_.weights[c], way = points_[i + 1][c] - points_[i][c];
+      along += w2 * way * (pose[c] - points_[i][c]);
+      length2 += w2 * way * way;
+    }
+    const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+    const Pose at = on_segment(i, t);
+    double square = 0;
+    for (std::size_t c = 0; c < pose.size(); ++c) square += std::pow(metric_.weights[c] * (pose[c] - at[c]), 2);
+    if (square < least) {
+      least = square;
+      best = {i, t};
+    }
+  }
+  return best;
+}
+
+Pose PoseRegion::closest(const Pose& pose) const {
+  if (kind_ == Kind::path) {
+    const auto [segment, t] = foot(pose);
+    return on_segment(segment, t);
+  }
+  Pose own = pose;
+  if (kind_ == Kind::box) {
+    for (std::size_t c = 0; c < own.size(); ++c) own[c] = std::clamp(own[c], lower_[c], upper_[c]);
+    return own;
+  }
+  double square = 0;
+  for (std::size_t c = 0; c < own.size(); ++c) square += std::pow(metric_.weights[c] * (own[c] - centre_[c]), 2);
+  const double far = std::sqrt(square);
+  if (far > radius_)
+    for (std::size_t c = 0; c < own.size(); ++c) own[c] = centre_[c] + (own[c] - centre_[c]) * (radius_ / far);
+  return own;
+}
+
+double PoseRegion::distance(const Pose& pose) const { return apart(pose, closest(pose)); }
+
+std::vector<Pose> PoseRegion::way(const Pose& from, const Pose& to) const {
+  if (kind_ != Kind::path) return {from, to};
+  const auto [first, s] = foot(from);
+  const auto [last, t] = foot(to);
+  std::vector<Pose> way = {from, on_segment(first, s)};
+  for (std::size_t i = first; i < last; ++i) way.push_back(points_[i + 1]);
+  for (std::size_t i = first; i > last; --i) way.push_back(points_[i]);
+  way.push_back(on_segment(last, t));
+  way.push_back(to);
+  return way;
+}
+
+std::vector<Pose> PoseRegion::samples() const {
+  std::vector<Pose> all;
+  const std::size_t n = coordinates();
+  if (kind_ == Kind::path) {
+    constexpr std::size_t looks = 16;
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i)
+      for (std::size_t k = 0; k < looks; ++k) all.push_back(on_segment(i, static_cast<double>(k) / looks));
+    all.push_back(points_.back());
+    return all;
+  }
+  const auto inside = [&](const std::vector<double>& part) {
+    Pose pose(n);
+    for (std::size_t c = 0; c < n; ++c) pose[c] = lower_[c] + part[c] * (upper_[c] - lower_[c]);
+    return kind_ == Kind::ball ? closest(pose) : pose;
+  };
+  all.push_back(inside(std::vector<double>(n, 0.5)));
+  for (std::size_t corner = 0; corner < std::min(std::size_t{1} << n, most_corners); ++corner) {
+    std::vector<double> part(n);
+    for (std::size_t c = 0; c < n; ++c) part[c] = static_cast<double>(corner >> c & 1);
+    all.push_back(inside(part));
+  }
+  constexpr std::array<std::size_t, 6> bases = {2, 3, 5, 7, 11, 13};
+  for (std::size_t i = 1; i <= more_samples; ++i) {
+    std::vector<double> part(n);
+    for (std::size_t c = 0; c < n; ++c) part[c] = spread(i, bases[c]);
+    all.push_back(inside(part));
+  }
+  return all;
+}
+
+}  // namespace clearloci::loci::pose

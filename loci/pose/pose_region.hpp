@@ -1,0 +1,62 @@
+// The poses of a task and of its margin, as pieces that are cut into cells. Distances are
+//     |d|^2 = sum (weight_c d_c)^2
+// over the coordinates that the margin grows in; the others stay those of the task.
+#pragma once
+
+#include <vector>
+
+#include "clearloci/pose_tasks.hpp"
+#include "loci/pose/pose_chart.hpp"
+
+namespace clearloci::loci::pose {
+
+/// What a difference of each coordinate counts, m a unit, and whether the margin grows along it.
+struct PoseMetric {
+  std::vector<double> weights;
+  std::vector<bool> grows;
+};
+
+/// A part of the task and its margin: parameters, poses over them, and how far from the task they are at least.
+struct PosePiece {
+  PoseChart chart;
+  PoseBox box;
+  int segment = -1;  ///< of a path: parameters are the way along it, then the way off it
+};
+
+class PoseRegion {
+ public:
+  PoseRegion(const core::PoseShape& shape, PoseMetric metric);
+
+  /// Pieces that together hold every pose within `margin` of the task, and a hair more.
+  std::vector<PosePiece> pieces(double margin) const;
+  /// Not above the distance of any pose of a part of a piece from the task.
+  double distance(const PosePiece& piece, const PoseBox& box) const;
+
+  double distance(const Pose& pose) const;
+  Pose closest(const Pose& pose) const;
+  /// A way between two poses of the task or its margin that stays there.
+  std::vector<Pose> way(const Pose& from, const Pose& to) const;
+  /// Its middle or start, corners, ends, and some more.
+  std::vector<Pose> samples() const;
+
+  std::size_t coordinates() const { return metric_.weights.size(); }
+  const PoseMetric& metric() const { return metric_; }
+  /// Rounding of the task's own numbers.
+  double hair() const { return hair_; }
+
+ private:
+  double apart(const Pose& a, const Pose& b) const;
+  /// The nearest point of a path: on which segment, and how far along it.
+  std::pair<std::size_t, double> foot(const Pose& pose) const;
+  Pose on_segment(std::size_t segment, double t) const;
+
+  PoseMetric metric_;
+  enum class Kind { box, ball, path } kind_ = Kind::box;
+  Pose lower_, upper_;  ///< of a box; the box around anything
+  Pose centre_;
+  double radius_ = 0;
+  std::vector<Pose> points_;
+  double hair_ = 0;
+};
+
+}  // namespace clearloci::loci::pose

@@ -1,0 +1,220 @@
+// Tasks of one to six coordinates, held against statics of the tests' own: forces along the legs of a platform, by
+// lines through their joints.
+#include "clearloci/pose_tasks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "clearloci/errors.hpp"
+#include "clearloci/mechanism.hpp"
+
+namespace clearloci {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+using Pose = std::vector<double>;
+
+Model hexapod() { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_poses.yaml"); }
+
+PoseTask hexapod_box(double length, double angle, const std::string& more = "", double z = 0.5) {
+  std::string text = "format: 1\nbox:\n";
+  for (const char* name : {"x", "y", "z"}) {
+    const double middle = *name == 'z' ? z : 0.0;
+    text += std::string("  ") + name + ": [" + std::to_string(middle - length) + ", " +
+            std::to_string(middle + length) + "]\n";
+  }
+  for (const char* name : {"alpha", "beta", "gamma"})
+    text += std::string("  ") + name + ": [" + std::to_string(-angle) + " deg, " + std::to_string(angle) + " deg]\n";
+  return parse_pose_task(text + more, hexapod());
+}
+
+/// Forces on the platform along the legs, from base to platform, N: sum F u + load = 0, sum (B - P) x F u = 0.
+Eigen::VectorXd leg_forces(const Pose& q, const Eigen::Vector3d& load = {0, 0, -1000}) {
+  const Eigen::Vector3d p(q[0], q[1], q[2]);
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(q[5], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(q[4], Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(q[3], Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  constexpr std::array<double, 6> base = {-10, 10, 110, 130, 230, 250}, plate = {-50, 50, 70, 170, 190, 290};
+  Eigen::Matrix<double, 6, 6> A;
+  for (int i = 0; i < 6; ++i) {
+    const double a = base[static_cast<std::size_t>(i)] * degree, b = plate[static_cast<std::size_t>(i)] * degree;
+    const Eigen::Vector3d foot(0.5 * std::cos(a), 0.5 * std::sin(a), 0);
+    const Eigen::Vector3d arm = R * Eigen::Vector3d(0.3 * std::cos(b), 0.3 * std::sin(b), 0);
+    const Eigen::Vector3d u = (p + arm - foot).normalized();
+    A.col(i) << u, arm.cross(u);
+  }
+  Eigen::Matrix<double, 6, 1> right;
+  right << -load, 0, 0, 0;
+  return A.partialPivLu().solve(right);
+}
+
+Pose pose_in(const PoseTask& task, std::mt19937& random, double beyond = 0) {
+  const auto& box = std::get<PoseBoxShape>(task.shape);
+  std::uniform_real_distribution<double> part(0, 1);
+  Pose q;
+  for (std::size_t c = 0; c < box.lower.size(); ++c) {
+    // Half of the coordinates are at an end of their range: what is extreme is so there.
+    const double t = part(random) < 0.5 ? std::round(part(random)) : part(random);
+    const double low = to_double(box.lower[c]), high = to_double(box.upper[c]);
+    q.push_back(low + t * (high - low) + beyond * (2 * part(random) - 1));
+  }
+  return q;
+}
+
+double least_over(const std::vector<LeastReaction>& all, const std::string& joint, bool proven) {
+  for (const LeastReaction& own : all)
+    if (own.reaction.joint == joint && own.reaction.quantity == Quantity::F) return proven ? own.proven : own.met;
+  ADD_FAILURE() << "no least reaction of " << joint;
+  return 0;
+}
+
+TEST(PoseTasks, SixCoordinatesOfAHexapodAreVerified) {
+  const PoseTask task = hexapod_box(0.05, 5, "angle_length: 0.2\n");
+  const PoseVerification answer = verify_poses(hexapod(), task);
+  ASSERT_TRUE(answer.verified());
+  ASSERT_TRUE(answer.margin);
+  EXPECT_GT(*answer.margin, 0.015);
+  ASSERT_TRUE(answer.nearest);
+  EXPECT_LE(*answer.margin, answer.nearest->distance);
+  EXPECT_LT(leg_forces(answer.nearest->at).cwiseAbs().minCoeff(), 1e-3) << "what is nearest is a locus";
+  std::mt19937 random(11);
+  Eigen::VectorXd least = Eigen::VectorXd::Constant(6, 1e9);
+  for (int i = 0; i < 20000; ++i) least = least.cwiseMin(leg_forces(pose_in(task, random)));
+  for (int leg = 0; leg < 6; ++leg) {
+    const std::string joint = "S" + std::to_string(leg + 1);
+    EXPECT_GT(least_over(answer.least, joint, true), 0);
+    EXPECT_LE(least_over(answer.least, joint, true), least[leg] * (1 + 1e-12)) << joint;
+    EXPECT_GT(least_over(answer.least, joint, true), 0.8 * least[leg]) << joint;
+  }
+  // And around it: so far in lengths and angles together.
+  const double part = *answer.margin / std::sqrt(6.0);
+  for (int i = 0; i < 20000; ++i) {
+    Pose q = pose_in(task, random);
+    std::uniform_real_distribution<double> way(-1, 1);
+    for (std::size_t c = 0; c < 6; ++c) q[c] += part * way(random) / (c < 3 ? 1 : 0.2);
+    ASSERT_GT(leg_forces(q).minCoeff(), 0);
+  }
+}
+
+TEST(PoseTasks, AWitnessIsReal) {
+  const PoseTask task = hexapod_box(0.15, 20);
+  const PoseVerification answer = verify_poses(hexapod(), task);
+  ASSERT_EQ(answer.verdict, Verdict::refuted);
+  ASSERT_TRUE(answer.witness);
+  const auto& box = std::get<PoseBoxShape>(task.shape);
+  for (std::size_t c = 0; c < 6; ++c) {
+    EXPECT_GE(answer.witness->at[c], to_double(box.lower[c]) - 1e-12);
+    EXPECT_LE(answer.witness->at[c], to_double(box.upper[c]) + 1e-12);
+  }
+  EXPECT_LT(leg_forces(answer.witness->at).cwiseAbs().minCoeff(), 1e-6);
+}
+
+TEST(PoseTasks, RandomBoxesOfAHexapodAreJudgedRight) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> length(0.01, 0.12), angle(1, 12), height(0.4, 0.6);
+  int verified = 0, refuted = 0;
+  for (int i = 0; i < 24; ++i) {
+    const PoseTask task = hexapod_box(length(random), angle(random), "min_force: 20\n", height(random));
+    const PoseVerification answer = decide_poses(hexapod(), task);
+    if (answer.verified()) {
+      ++verified;
+      for (int k = 0; k < 2000; ++k) ASSERT_GE(leg_forces(pose_in(task, random)).minCoeff(), 0) << "task " << i;
+    }
+    if (answer.verdict != Verdict::refuted) continue;
+    ++refuted;
+    const double least = leg_forces(answer.witness->at).cwiseAbs().minCoeff();
+    if (answer.witness->kind == TaskWitness::Kind::too_small)
+      EXPECT_LT(least, 20) << "task " << i;
+    else
+      EXPECT_LT(least, 1e-6) << "task " << i;
+  }
+  EXPECT_GT(verified, 4);
+  EXPECT_GT(refuted, 4);
+  EXPECT_GE(verified + refuted, 23) << "hardly any stays open";
+}
+
+TEST(PoseTasks, ALoadMayTurnInSpace) {
+  const std::string turning = "loads_from: [[100, 0, -1000], [0, 100, -1000]]\n";
+  const PoseTask task = hexapod_box(0.03, 3, turning);
+  const PoseVerification answer = decide_poses(hexapod(), task);
+  ASSERT_TRUE(answer.verified());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 5000; ++i) {
+    const double t = part(random);
+    ASSERT_GT(leg_forces(pose_in(task, random), {100 * (1 - t), 100 * t, -1000}).minCoeff(), 0);
+  }
+  // From straight down to straight aside a leg loses its load on the way.
+  const PoseVerification other =
+      verify_poses(hexapod(), hexapod_box(0.001, 0.1, "loads_from: [[0, 0, -1000], [1000, 0, 0]]\n"));
+  ASSERT_EQ(other.verdict, Verdict::refuted);
+  ASSERT_EQ(other.witness->load.size(), 3U);
+  const Eigen::Vector3d load(other.witness->load[0], other.witness->load[1], other.witness->load[2]);
+  EXPECT_LT(leg_forces(other.witness->at, load).cwiseAbs().minCoeff(), 1e-6);
+}
+
+TEST(PoseTasks, MarginsOfLengthsAndAnglesAreApartWithoutAMetric) {
+  const PoseVerification answer = verify_poses(hexapod(), hexapod_box(0.02, 2));
+  ASSERT_TRUE(answer.verified());
+  ASSERT_TRUE(answer.margin && answer.angle_margin);
+  EXPECT_GT(*answer.margin, 0.05);
+  EXPECT_GT(*answer.angle_margin, 5 * degree);
+}
+
+TEST(PoseTasks, AnIntervalEndsAtTheLociOfAFourBar) {
+  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml");
+  const LocusMap loci = trace_loci(model);
+  double below = 0, above = 10;
+  for (const IsolatedPoint& point : loci.isolated_points) {
+    const double at = point.at.front();
+    if (at < 70 * degree) below = std::max(below, at);
+    if (at > 70 * degree) above = std::min(above, at);
+  }
+  const PoseTask task = parse_pose_task("format: 1\nbox: {theta: [70 deg, 80 deg]}\n", model);
+  const PoseVerification answer = verify_poses(model, task);
+  ASSERT_TRUE(answer.verified());
+  ASSERT_TRUE(answer.angle_margin);
+  const double room = std::min(70 * degree - below, above - 80 * degree);
+  EXPECT_LE(*answer.angle_margin, room + 1e-12);
+  EXPECT_GT(*answer.angle_margin, 0.9 * room);
+  const PoseVerification across = verify_poses(model, parse_pose_task("format: 1\npath: [50 deg, 80 deg]\n", model));
+  ASSERT_EQ(across.verdict, Verdict::refuted);
+  EXPECT_NEAR(across.witness->at.front(), below, 1e-9);
+}
+
+TEST(PoseTasks, RefuseWhatHasNoMeaningInOneLine) {
+  const Model model = hexapod();
+  const auto complaint = [&](const std::string& text) {
+    try {
+      parse_pose_task("format: 1\n" + text, model);
+    } catch (const InputError& error) {
+      const std::string words = error.what();
+      EXPECT_EQ(words.find('\n'), std::string::npos);
+      return words;
+    }
+    return std::string("none");
+  };
+  const auto says = [&](const std::string& text, const std::string& words) {
+    EXPECT_NE(complaint(text).find(words), std::string::npos) << complaint(text);
+  };
+  says("circle: {centre: [0, 0], radius: 0.1}\n", "circle lies in the plane");
+  says("ball: {centre: [0, 0, 0.5, 0, 0, 0], radius: 0.1}\n", "nothing says what an angle counts");
+  says("path: [[0, 0, 0.5], [0.1, 0, 0.5]]\n", "has 3 values, and 6 coordinates are free");
+  says("box: {x: [0, 0.1]}\n", "y");
+  says("box: {x: [0.1, 0], y: 0, z: 0.5, alpha: 0, beta: 0, gamma: 0}\n", "is empty");
+  says("box: {x: [0, 3], y: 0, z: 0.5, alpha: 0, beta: 0, gamma: 0}\n", "leaves the mechanism's box");
+  says("path: [[0, 0, 0.5, 0, 0, 0], [0.1, 0, 0.5, 0, 0, 0]]\ntolerances: {base: 0.001}\n", "tolerances are asked of");
+  EXPECT_THROW(parse_pose_task("format: 1\nbox: {x: [0, 0.1], y: [0, 0.1]}\n",
+                               Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml")),
+               InputError);
+}
+
+}  // namespace
+}  // namespace clearloci
