@@ -5,6 +5,7 @@
 #include <set>
 
 #include "analysis/enclosure.hpp"
+#include "analysis/take_ups.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "symbolic/task_conditions.hpp"
@@ -46,7 +47,7 @@ std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task,
     ball.force = std::nextafter(core::to_double(within.force), within.force > 0 ? 1e300 : 0.0);
     ball.couple_size = std::nextafter(core::to_double(within.couple), within.couple > 0 ? 1e300 : 0.0);
     const auto add = [&](int fx, int fy, int couple) {
-      Mechanism own = open;
+      Mechanism own = unloaded(open);
       mechanism::Load load = open.loads[within.load];
       load.force.clear();
       load.force_vector.reset();
@@ -54,9 +55,6 @@ std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task,
       if (fx != 0 || fy != 0) load.force = {core::Expression::number(fx), core::Expression::number(fy)};
       load.couple = core::Expression::number(couple);
       own.loads = {load};
-      own.gravity.clear();
-      own.springs.clear();
-      for (mechanism::Joint& joint : own.joints) joint.effort.reset();
       directions.push_back(std::move(own));
       return static_cast<int>(directions.size()) - 1;
     };
@@ -90,17 +88,20 @@ DesignTask::DesignTask(const Mechanism& mechanism, const std::vector<ParameterRa
       loads_(under_loads_of(task, open_.mechanism)),
       directions_(unit_loads(open_.mechanism, task, balls_)),
       demands_(demands_of(open_.mechanism, request_)),
-      conditions_(conditions_for(demands_)),
+      conditions_(conditions_for(demands_, task.pose_error.has_value())),
       sides_(requested_modes(mechanism, request_).front()),
       mode_(mode_of(sides_, names_of(conditions_.tower))),
       region_(task.shape),
       margin_(core::to_double(task.margin)) {}
 
-core::TaskConditions DesignTask::conditions_for(const std::vector<TaskDemand>& demands) const {
+core::TaskConditions DesignTask::conditions_for(const std::vector<TaskDemand>& demands, bool take_ups) const {
   std::vector<const Mechanism*> loads, directions;
   for (const Mechanism& own : loads_) loads.push_back(&own);
   for (const Mechanism& own : directions_) directions.push_back(&own);
-  return symbolic::task_conditions(loads, demands, directions);
+  if (!take_ups) return symbolic::task_conditions(loads, demands, directions);
+  const auto [along_x, along_y] = under_unit_forces(open_.mechanism);
+  return symbolic::task_conditions(loads, demands, directions,
+                                   {take_up_demands(open_.mechanism), {&along_x, &along_y}});
 }
 
 std::vector<TaskDemand> DesignTask::demands() const {
@@ -160,7 +161,9 @@ loci::DesignVariables DesignTask::variables() const {
 }
 
 std::unique_ptr<loci::DesignJudge> DesignTask::judge() const {
-  return std::make_unique<loci::DesignJudge>(conditions_, mode_, region_, variables(), balls_);
+  loci::DesignClearances clearances = design_clearances(open_, conditions_);
+  if (task_.pose_error) clearances.most_displaced = std::nextafter(core::to_double(*task_.pose_error), 0.0);
+  return std::make_unique<loci::DesignJudge>(conditions_, mode_, region_, variables(), balls_, std::move(clearances));
 }
 
 const DesignTask::Measured& DesignTask::measured() const {
@@ -170,7 +173,7 @@ const DesignTask::Measured& DesignTask::measured() const {
   std::vector<TaskDemand> demands = demands_;
   // A least size that anything has: conditions then say what sizes are.
   for (TaskDemand& demand : demands) demand.least = 1;
-  own.conditions = conditions_for(demands);
+  own.conditions = conditions_for(demands, mechanism_.space == mechanism::Space::planar);
   own.mode = mode_of(sides_, names_of(own.conditions.tower));
   for (std::size_t i = 0; i < own.conditions.conditions.size(); ++i) {
     const core::TaskCondition& condition = own.conditions.conditions[i];
@@ -182,9 +185,9 @@ const DesignTask::Measured& DesignTask::measured() const {
 }
 
 std::unique_ptr<loci::DesignJudge> DesignTask::measure() const {
-  if (!balls_.empty()) return nullptr;
   const Measured& own = measured();
-  return std::make_unique<loci::DesignJudge>(own.conditions, own.mode, region_, variables());
+  return std::make_unique<loci::DesignJudge>(own.conditions, own.mode, region_, variables(), balls_,
+                                             design_clearances(open_, own.conditions));
 }
 
 std::vector<int> DesignTask::forces() const { return measured().forces; }
@@ -194,6 +197,7 @@ std::string DesignTask::reason(const loci::DesignFailure& failure) const {
   using Kind = loci::DesignFailure::Kind;
   const std::string where = region_.signed_distance(failure.at) > 1e-12 ? "margin: " : "";
   if (failure.kind == Kind::unreachable) return where + "workspace";
+  if (failure.kind == Kind::displaced) return where + "pose_error";
   if (failure.kind == Kind::singular || failure.condition < 0) return where + "singularity";
   const core::TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(failure.condition)];
   const bool effort = is_effort(condition.reactions.front().quantity);

@@ -50,8 +50,8 @@ class DesignTask {
   /// A judge of one's own: one a thread. This must outlive it.
   std::unique_ptr<loci::DesignJudge> judge() const;
 
-  /// For figures: a judge whose conditions say what forces and efforts are. Derived when first asked for. Null under a
-  /// ball of loads, and where there is nothing to measure.
+  /// For figures: a judge whose conditions say what forces, efforts and displacements are. Derived when first asked
+  /// for.
   std::unique_ptr<loci::DesignJudge> measure() const;
   std::vector<int> forces() const;   ///< conditions of measure()
   std::vector<int> efforts() const;  ///< likewise, of actuators
@@ -62,7 +62,7 @@ class DesignTask {
 
  private:
   loci::DesignVariables variables() const;
-  core::TaskConditions conditions_for(const std::vector<core::TaskDemand>& demands) const;
+  core::TaskConditions conditions_for(const std::vector<core::TaskDemand>& demands, bool take_ups) const;
 
   const mechanism::Mechanism& mechanism_;
   std::vector<mechanism::ParameterRange> vary_;

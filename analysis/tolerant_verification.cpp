@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "analysis/design_task.hpp"
+#include "analysis/enclosure.hpp"
 #include "core/errors.hpp"
 #include "numeric/design_witness.hpp"
+#include "numeric/pose_error.hpp"
 
 namespace clearloci {
 namespace {
@@ -18,6 +20,11 @@ constexpr loci::DesignEffort effort_of_the_task = {.most_cells = 400'000, .most_
 constexpr int cells_of_a_margin = 40'000;
 /// What ends the margin is told apart to this part of the task.
 constexpr double margin_accuracy = 1e-4;
+/// The largest pose error is bounded this close, relatively.
+constexpr double error_accuracy = 1e-3;
+
+/// What doubles leave open of a pose error, relatively, away from singularities.
+constexpr double rounding_of_pose_errors = 1e-9;
 
 double apart(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
@@ -80,6 +87,9 @@ class Tolerant {
       if (request_.progress) request_.progress(0, "margin");
       effort.most_cells = cells_of_a_margin;
       result.margin = judge_->clearance(*designs, task_.margin(), limit(), margin_accuracy, effort);
+      if (task_.task().pose_error)  // proven where the verdict is, whether this bound comes closer or not
+        result.pose_error = std::min(core::to_double(*task_.task().pose_error),
+                                     judge_->greatest_displacement(*designs, error_accuracy, effort).upper());
       return;
     }
     using Reason = core::OpenTask::Reason;
@@ -107,6 +117,7 @@ class Tolerant {
   }
 
   std::optional<core::TaskWitness> witness_of(const DesignFailure& failure) {
+    if (failure.kind == DesignFailure::Kind::displaced) return displaced_at(failure.at, failure.parameters);
     if (!failure.watched) return confirmed(failure.at, failure.parameters);
     // The sign changes between two poses and two designs: first the design changes, then the pose.
     const std::size_t w = *failure.watched;
@@ -184,6 +195,52 @@ class Tolerant {
     return found.empty() ? std::nullopt : std::optional(described(pose, parameters, found));
   }
 
+  /// A design whose end effector is displaced too far at a pose: under the first load, or the last.
+  std::optional<core::TaskWitness> displaced_at(const Point2& pose, const std::vector<double>& parameters) const {
+    const double most = core::to_double(*task_.task().pose_error);
+    for (std::size_t load = 0; load < task_.loads().size(); ++load) {
+      const numeric::NumericModel model = numeric::compile(with_clearances(task_.loads()[load], parameters));
+      const numeric::Posture posture = numeric::posture(model, values(pose, parameters), task_.sides());
+      if (!posture.reachable()) continue;
+      const double size = numeric::pose_accuracy(model, posture).error.dp();
+      if (!(size > most * (1 + rounding_of_pose_errors))) continue;
+      core::TaskWitness told;
+      told.kind = core::TaskWitness::Kind::displaced;
+      told.at = pose;
+      told.distance = std::max(0.0, task_.region().signed_distance(pose));
+      told.size = size;
+      told.most = task_.task().pose_error;
+      for (std::size_t p = 0; p < parameters.size(); ++p)
+        told.design.emplace_back(task_.design().varied[p], parameters[p]);
+      if (const auto& range = task_.task().loads) {
+        const core::RationalPoint& own = load == 0 ? range->first : range->second;
+        told.load = Point2{core::to_double(own[0]), core::to_double(own[1])};
+      }
+      return told;
+    }
+    return std::nullopt;
+  }
+
+  /// The open mechanism with the clearances of one design.
+  mechanism::Mechanism with_clearances(mechanism::Mechanism open, const std::vector<double>& parameters) const {
+    Ranges ranges;
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+      ranges[task_.design().varied[p]] = loci::sheet::Interval(parameters[p]);
+    const auto number = [&](const core::Expression& e) {
+      return core::Expression::number(core::Rational(enclosure(e, ranges).middle()));
+    };
+    std::size_t k = 0;
+    for (mechanism::Joint& joint : open.joints) {
+      if (!joint.clearance) continue;
+      const mechanism::Clearance& own = task_.design().clearances[k++];
+      joint.clearance->radial = number(own.radial);
+      joint.clearance->angular = number(own.angular);
+      joint.clearance->gap = number(own.gap);
+      joint.clearance->axial = number(own.axial);
+    }
+    return open;
+  }
+
   core::TaskWitness described(const Point2& pose, const std::vector<double>& parameters,
                               const std::vector<numeric::DesignFailureAt>& found) const {
     using Kind = numeric::TaskFailure::Kind;
@@ -256,11 +313,14 @@ class Tolerant {
 
 }  // namespace
 
-bool is_tolerant(const core::Task& task) { return !task.tolerances.empty() || !task.loads_within.empty(); }
+bool is_tolerant(const core::Task& task) {
+  return !task.tolerances.empty() || !task.loads_within.empty() || task.pose_error;
+}
 
 core::Task nominal(core::Task task) {
   task.tolerances.clear();
   task.loads_within.clear();
+  task.pose_error.reset();
   return task;
 }
 

@@ -1,5 +1,5 @@
-// Whether every design within tolerances keeps clear over a task, under every load of some balls (method.md section
-// 12):
+// Whether every design within tolerances keeps clear over a task, under every load of some balls, and whether its
+// clearances displace the end effector no farther than they may (method.md section 12):
 //     DesignTask -> loci::DesignJudge <-> numeric::DesignWitness
 // Private to analysis/.
 #pragma once
@@ -8,10 +8,10 @@
 
 namespace clearloci {
 
-/// Whether a task speaks of more designs or loads than the file's.
+/// Whether a task speaks of more designs or loads than the file's, or of pose errors.
 bool is_tolerant(const core::Task& task);
 
-/// The task without its tolerances and balls of loads.
+/// The task without its tolerances, balls of loads and pose error.
 core::Task nominal(core::Task task);
 
 /// Verdict, margin, witness and open part, for all designs and loads at once. A verdict of `refuted` has a witness.

@@ -419,8 +419,8 @@ Verification decide_task(const mechanism::Mechanism& mechanism, const Task& task
 Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request,
                       FitGoal goal) {
   if (is_tolerant(task))
-    throw core::InputError({task.file}, "a task with tolerances or loads_within is verified where it lies",
-                           "leave out --fit, or the tolerances and loads_within");
+    throw core::InputError({task.file}, "a task with tolerances, loads_within or pose_error is verified where it lies",
+                           "leave out --fit, or these keys");
   if (const std::optional<Framed> own = framed(mechanism))
     return from_frame(fit_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame), goal), task,
                       mechanism, own->frame);

@@ -58,8 +58,8 @@ void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, 
              const LociRequest& request) {
   core::Certificate certificate;
   const core::LocusMap map = trace_loci(mechanism, request, &certificate);
-  const bool nominal =
-      result.verified() && !result.task.loads && result.task.tolerances.empty() && result.task.loads_within.empty();
+  const bool nominal = result.verified() && !result.task.loads && result.task.tolerances.empty() &&
+                       result.task.loads_within.empty() && !result.task.pose_error;
   write_certificate(arguments.certificate, "verify", arguments.common, certificate, map,
                     {.task = nominal ? &result.task : nullptr});
 }

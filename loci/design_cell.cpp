@@ -22,7 +22,7 @@ Interval size_of_vector(const std::vector<Interval>& parts) {
 }  // namespace
 
 DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode& mode,
-                       std::vector<core::LoadBall> balls)
+                       std::vector<core::LoadBall> balls, double most_displaced)
     : conditions_(conditions),
       balls_(std::move(balls)),
       program_(program_of(conditions)),
@@ -32,7 +32,8 @@ DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode
       half_inverse_(static_cast<std::size_t>(program_.roots())),
       gradient_(static_cast<std::size_t>(program_.variables())),
       slopes_(static_cast<std::size_t>(program_.functions())),
-      has_slopes_(static_cast<std::size_t>(program_.functions())) {
+      has_slopes_(static_cast<std::size_t>(program_.functions())),
+      most_displaced_(most_displaced) {
   core::ensure(static_cast<int>(mode_.size()) == program_.roots(), "a working mode has a sign for every root");
   const auto watch = [&](int function, int condition) { watched_.push_back({function, condition, groups_}); };
   for (const int f : conditions.determinant) {
@@ -52,8 +53,10 @@ DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode
   }
 }
 
-DesignCell::State DesignCell::enter(std::span<const Interval> box) {
+DesignCell::State DesignCell::enter(std::span<const Interval> box, std::vector<Interval> clearances) {
   differentiated_ = false;
+  displacement_in_doubt_ = false;
+  clearances_ = std::move(clearances);
   unmet_ = -1;
   in_doubt_.clear();
   falls_.clear();
@@ -79,13 +82,23 @@ DesignCell::State DesignCell::enter(std::span<const Interval> box) {
     unmet_ = static_cast<int>(i);
     return State::unmet;
   }
-  return State::proven;
+  if (clearances_.empty() || most_displaced_ == std::numeric_limits<double>::infinity()) return State::proven;
+  if (displacement().upper() <= most_displaced_) return State::proven;
+  displacement_in_doubt_ = true;
+  return State::unmet;
 }
 
 void DesignCell::doubt(int function) { in_doubt_.push_back(function); }
 
 const std::vector<int>& DesignCell::downhill() {
   downhill_.assign(box_.size(), 0);
+  clearances_downhill_.assign(clearances_.size(), 0);
+  if (displacement_in_doubt_) {
+    const auto way = [](const Interval& slope) { return slope.middle() > 0 ? 1 : slope.middle() < 0 ? -1 : 0; };
+    if (squared_.smooth) std::transform(squared_.slopes.begin(), squared_.slopes.end(), downhill_.begin(), way);
+    std::transform(per_clearance_.begin(), per_clearance_.end(), clearances_downhill_.begin(), way);
+    return downhill_;
+  }
   if (in_doubt_.empty()) return downhill_;
   std::vector<double> slope(box_.size(), 0.0);
   if (in_doubt_.front() < 0) {
@@ -115,6 +128,9 @@ void DesignCell::differentiate() {
     middle_.push_back(std::clamp(box_[c].middle(), box_[c].lower(), box_[c].upper()));
     at_middle_.set(static_cast<int>(c), Interval(middle_.back()));
   }
+  offsets_.clear();
+  for (std::size_t c = 0; c < box_.size(); ++c)
+    offsets_.push_back(box_[c].lower() == box_[c].upper() ? Interval(0.0) : box_[c] - Interval(middle_[c]));
   for (int j = 0; j < program_.roots(); ++j) {
     at_middle_.run_square(j);
     const Interval root = square_root(meet(at_middle_.square(j), over_.square(j)));
@@ -306,28 +322,22 @@ int DesignCell::failed() const {
   return -1;
 }
 
-Interval DesignCell::size_of(int index) {
-  const TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(index)];
-  core::ensure(condition.denominator >= 0 && balls_.empty(), "a condition with a least size, under given loads");
-  differentiate();
-  Interval below = combined({{Interval(1), condition.denominator}}, true);
-  if (condition.squared_axis >= 0) below = below * square_root(value(condition.squared_axis));
-  const Interval share = inverse(square_root(squared(below)));
-  std::vector<std::vector<Interval>> ends;
-  for (const std::vector<int>& parts : condition.parts) {
-    std::vector<Interval>& own = ends.emplace_back();
-    for (const int f : parts) own.push_back(combined({{Interval(1), f}}, true));
-  }
-  if (ends.empty()) return 0.0;
-  // Between two ends every component runs between theirs.
-  std::vector<Interval> all = ends.front();
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = hull(all[i], ends.back()[i]);
-  return size_of_vector(all) * share;
-}
-
 const std::vector<double>& DesignCell::spreads() {
   const std::size_t n = box_.size();
   spreads_.assign(n, 0.0);
+  clearance_spreads_.clear();
+  if (displacement_in_doubt_) {
+    for (std::size_t k = 0; k < clearances_.size(); ++k)
+      clearance_spreads_.push_back(per_clearance_[k].magnitude() * clearances_[k].width());
+    if (squared_.smooth) {
+      for (std::size_t c = 0; c < n; ++c) spreads_[c] = squared_.slopes[c].magnitude() * box_[c].width();
+      return spreads_;
+    }
+    // A direction in which a clearance is taken up is not known: what it is the direction of.
+    for (const TaskCondition& own : conditions_.take_ups)
+      for (const std::vector<int>& parts : own.parts)
+        for (const int f : parts) doubt(f);
+  }
   const bool boundary = !in_doubt_.empty() && in_doubt_.front() < 0;
   if (!boundary) differentiate();
   for (const int f : in_doubt_) {

@@ -7,19 +7,29 @@
 // It keeps |w| > least for all u, v if some n has  n.N - r |(n.N_x, n.N_y)| - m |n.N_c| > least |n| |D|.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/locus_map.hpp"
 #include "core/task_conditions.hpp"
+#include "loci/centred.hpp"
 #include "loci/sheet/sheet_program.hpp"
 
 namespace clearloci::loci {
 
+//
+// The displacement of the end effector by the clearances that its joints take up (method.md section 6): by virtual work
+// the reactions w^u = N^u / D to a unit force on it along u turn a take-up into a displacement along u,
+//     e_u = - sum_J rho_J (f_J^u . f_J) / |f_J| - sum_J delta_J M_J^u sign(M_J)
+
 class DesignCell {
  public:
-  DesignCell(const core::TaskConditions& conditions, const core::WorkingMode& mode, std::vector<core::LoadBall> balls);
+  /// `most_displaced`: m, that the end effector may be displaced over a proven box; not asked for where the conditions
+  /// have no take-ups.
+  DesignCell(const core::TaskConditions& conditions, const core::WorkingMode& mode, std::vector<core::LoadBall> balls,
+             double most_displaced = std::numeric_limits<double>::infinity());
   DesignCell(const DesignCell&) = delete;
   DesignCell& operator=(const DesignCell&) = delete;
 
@@ -27,21 +37,28 @@ class DesignCell {
 
   /// As TaskCell::State: `outside` for certain in no pose and no design of the box; the others are not proven.
   enum class State { proven, outside, boundary, singular, unmet };
-  State enter(std::span<const sheet::Interval> box);
-  /// Where the state is `unmet`: the first condition that was not proven.
+  /// `clearances`: of each of the conditions' take-ups the clearances of its joints together, m or rad.
+  State enter(std::span<const sheet::Interval> box, std::vector<sheet::Interval> clearances = {});
+  /// Where the state is `unmet`: the first condition that was not proven; -1: the end effector is displaced too far.
   int unmet() const { return unmet_; }
 
   /// Where nothing was proven: how much of the variation of the functions in doubt each coordinate makes. After
   /// enter().
   const std::vector<double>& spreads();
+  /// Likewise of each clearance; empty where they are not in doubt. After spreads().
+  const std::vector<double>& clearance_spreads() const { return clearance_spreads_; }
 
   /// Where nothing was proven: the way along each coordinate, -1, 0 or +1, on which what is in doubt first comes nearer
   /// to failing. A guess, for where to look.
   const std::vector<int>& downhill();
+  /// Likewise of each clearance. After downhill().
+  const std::vector<int>& clearances_downhill() const { return clearances_downhill_; }
 
   /// A condition that every pose and design of the box fails, for certain: it is too small, or vanishes under some
   /// load; -1: none is known. Where the state is neither `outside` nor `boundary`.
   int failed() const;
+  /// Whether under some load all designs of the box are displaced farther than they may, in all its poses.
+  bool displaced_too_far();
 
   /// What changes its sign nowhere in a task that verifies: the factors of |A|, what reactions have in common, scalar
   /// reactions. +1 and -1 are certain.
@@ -53,9 +70,16 @@ class DesignCell {
   int group_of(std::size_t watched) const { return watched_[watched].group; }
   int groups() const { return groups_; }
 
-  /// Enclosures of what a condition's reactions bear over the box, N or N m, under every load: not less than, not more
-  /// than. Required: |A| has a sign.
-  sheet::Interval size_of(int condition);
+  /// The least, or the greatest, that a condition's reactions bear under any load, N or N m: an enclosure of it over
+  /// the box. Required: |A| has a sign.
+  sheet::Interval size_of(int condition, bool least);
+
+  /// How far the end effector is displaced, m: not less than, not more than over the box, under every load, or under
+  /// the first or last one alone. Required: take-ups with their clearances, and |A| has a sign.
+  sheet::Interval displacement(std::optional<std::size_t> load = {});
+  /// spreads() are of the displacement from now on, whatever else is in doubt.
+  void doubt_displacement() { displacement_in_doubt_ = true; }
+  bool doubts_displacement() const { return displacement_in_doubt_; }
 
  private:
   struct Watched {
@@ -71,6 +95,19 @@ class DesignCell {
   sheet::Interval combined(const std::vector<std::pair<sheet::Interval, int>>& sum, bool with_slopes);
   /// What the balls take away from n.N at most, at least.
   sheet::Interval reach_of_balls(const core::TaskCondition& condition, const std::vector<double>& n, bool with_slopes);
+  Centred centred(int function);
+  Centred loaded(const core::TaskCondition& take_up, std::size_t part, std::optional<std::size_t> load);
+  std::vector<Centred> directions_taken(const core::TaskCondition& take_up, std::optional<std::size_t> load);
+  Centred squared_displacement(std::optional<std::size_t> load);
+  /// A load that makes a reaction's size least: the part t of the range, what it comes to at the box's middle, and the
+  /// factor of every direction.
+  struct WorstLoad {
+    double t = 0;
+    std::vector<double> reaction, factors;
+  };
+  WorstLoad worst_load(const core::TaskCondition& condition) const;
+  sheet::Interval least_size_of(const core::TaskCondition& condition, const sheet::Interval& share);
+  sheet::Interval greatest_size_of(const core::TaskCondition& condition, const sheet::Interval& share);
   void differentiate();
   const std::vector<sheet::Interval>& slopes(int function);
   double middle_value(int function) const;
@@ -95,6 +132,13 @@ class DesignCell {
   std::vector<std::pair<double, int>> falls_;  ///< a sum of functions that is to stay positive
   std::vector<int> downhill_;
   int unmet_ = -1;
+  double most_displaced_;
+  bool displacement_in_doubt_ = false;
+  std::vector<sheet::Interval> clearances_, offsets_;
+  Centred squared_;                             ///< of the displacement in doubt
+  std::vector<sheet::Interval> per_clearance_;  ///< its derivatives
+  std::vector<double> clearance_spreads_;
+  std::vector<int> clearances_downhill_;
 };
 
 }  // namespace clearloci::loci

@@ -13,8 +13,11 @@ namespace {
 using core::Point2;
 using sheet::Interval;
 
-/// The finest cells, as a part of the task and of the designs: some thousand spacings of doubles.
-constexpr double finest = 1e-11;
+/// The finest cells, as a part of the task and of the designs: some hundred spacings of doubles.
+constexpr double finest = 0x1p-44;
+/// What rounding makes of places and distances, as a part of coordinates: a few operations of 2^-53 each, many times
+/// over.
+constexpr double rounding_of_places = 0x1p-46;
 
 double size_of(const TaskRegion& region, double margin) {
   return std::max({region.upper()[0] - region.lower()[0], region.upper()[1] - region.lower()[1], margin});
@@ -22,7 +25,8 @@ double size_of(const TaskRegion& region, double margin) {
 
 /// Doubles place the task and its margin to rounding; a hair more covers it.
 double hair_of(const TaskRegion& region, double margin) {
-  return 1e-12 * (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
+  return rounding_of_places *
+         (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
 }
 
 bool out_of_time(const DesignEffort& effort, int cells) {
@@ -54,10 +58,12 @@ Interval half_of(const Interval& range, bool low) {
 }  // namespace
 
 DesignJudge::DesignJudge(const core::TaskConditions& conditions, const core::WorkingMode& mode,
-                         const TaskRegion& region, DesignVariables variables, std::vector<core::LoadBall> balls)
-    : cell_(conditions, mode, std::move(balls)),
+                         const TaskRegion& region, DesignVariables variables, std::vector<core::LoadBall> balls,
+                         DesignClearances clearances)
+    : cell_(conditions, mode, std::move(balls), clearances.most_displaced),
       region_(region),
       variables_(std::move(variables)),
+      clearances_(std::move(clearances)),
       samples_(region.samples()) {
   // Corners and middles are where engineers put zeros, and far apart: most designs that fail do so at one of a few.
   constexpr std::size_t most_samples = 24;
@@ -73,7 +79,13 @@ DesignCell::State DesignJudge::enter(const Box& box) {
   const DesignBox parameters(box.begin() + 2, box.end());
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
     in_tower_.push_back(variables_.enclosure(v, parameters));
-  return cell_.enter(in_tower_);
+  return cell_.enter(in_tower_, clearances_of(parameters));
+}
+
+std::vector<Interval> DesignJudge::clearances_of(const DesignBox& parameters) const {
+  std::vector<Interval> own;
+  for (std::size_t k = 0; k < clearances_.parameters.size(); ++k) own.push_back(clearances_.enclosure(k, parameters));
+  return own;
 }
 
 int DesignJudge::cut(const Box& box) {
@@ -83,6 +95,9 @@ int DesignJudge::cut(const Box& box) {
   own[1] = spreads[1];
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
     for (const std::size_t p : variables_.parameters[v]) own[2 + p] += spreads[2 + v];
+  const std::vector<double>& of_clearances = cell_.clearance_spreads();
+  for (std::size_t k = 0; k < of_clearances.size(); ++k)
+    for (const std::size_t p : clearances_.parameters[k]) own[2 + p] += of_clearances[k];
   int best = -1;
   for (std::size_t c = 0; c < box.size(); ++c)
     if (box[c].width() > 0 && (best < 0 || own[c] > own[static_cast<std::size_t>(best)])) best = static_cast<int>(c);
@@ -121,6 +136,10 @@ DesignBox DesignJudge::corner_of(const Point2& pose, const DesignBox& designs) {
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
     for (const std::size_t p : variables_.parameters[v])
       if (own[p] == 0) own[p] = ways[2 + v];
+  const std::vector<int> of_clearances = cell_.clearances_downhill();
+  for (std::size_t k = 0; k < of_clearances.size(); ++k)
+    for (const std::size_t p : clearances_.parameters[k])
+      if (own[p] == 0) own[p] = of_clearances[k];
   DesignBox corner = one_of(designs);
   for (std::size_t p = 0; p < own.size(); ++p)
     if (corner[p].width() == 0 && own[p] != 0)
@@ -140,6 +159,8 @@ std::optional<DesignFailure> DesignJudge::looked_at(const Point2& pose, const De
   if (state != State::proven)
     if (const int condition = cell_.failed(); condition >= 0)
       return DesignFailure{Kind::too_small, condition, pose, middle};
+  if (state == State::unmet && cell_.unmet() < 0 && cell_.displaced_too_far())
+    return DesignFailure{Kind::displaced, -1, pose, middle};
   for (std::size_t w = 0; w < cell_.watched(); ++w) {
     const int sign = cell_.sign(w);
     if (sign == 0) continue;
@@ -299,21 +320,47 @@ double DesignJudge::clearance(const DesignBox& designs, double from, double limi
 
 Interval DesignJudge::least_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
                                  const DesignEffort& effort) {
-  return extreme_size(designs, conditions, accuracy, effort, true);
+  const auto size = [&] {
+    Interval all = cell_.size_of(conditions.front(), true);
+    for (const int condition : conditions) {
+      const Interval own = cell_.size_of(condition, true);
+      all = Interval(std::min(all.lower(), own.lower()), std::min(all.upper(), own.upper()));
+    }
+    return all;
+  };
+  return extreme(designs, size, accuracy, effort, true);
 }
 
 Interval DesignJudge::greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
                                     const DesignEffort& effort) {
-  return extreme_size(designs, conditions, accuracy, effort, false);
+  const auto size = [&] {
+    Interval all = 0.0;
+    for (const int condition : conditions) {
+      const Interval own = cell_.size_of(condition, false);
+      all = Interval(std::max(all.lower(), own.lower()), std::max(all.upper(), own.upper()));
+    }
+    return all;
+  };
+  return extreme(designs, size, accuracy, effort, false);
+}
+
+Interval DesignJudge::greatest_displacement(const DesignBox& designs, double accuracy, const DesignEffort& effort) {
+  const auto size = [&] {
+    const Interval own = cell_.displacement();
+    cell_.doubt_displacement();
+    return own;
+  };
+  return extreme(designs, size, accuracy, effort, false);
 }
 
 /// Best first: the bound of the best cell against the best value at a pose.
-Interval DesignJudge::extreme_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                                   const DesignEffort& effort, bool least) {
+Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Interval()>& size, double accuracy,
+                              const DesignEffort& effort, bool least) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   struct Cell {
     Box box;
     double bound = 0;  ///< of what is to be made least: the size, or what it is short of nothing
+    int along = -1;    ///< the coordinate to cut, where that is known
   };
   const double sign = least ? 1.0 : -1.0;
   double known = infinity;  // some pose's
@@ -321,24 +368,15 @@ Interval DesignJudge::extreme_size(const DesignBox& designs, const std::vector<i
     const DesignCell::State state = enter(box);
     if (state == DesignCell::State::boundary || state == DesignCell::State::singular) return std::nullopt;
     if (state == DesignCell::State::outside) return std::nullopt;
-    std::optional<Interval> all;
-    for (const int condition : conditions) {
-      const Interval own = cell_.size_of(condition);
-      if (!all)
-        all = own;
-      else
-        all = least ? Interval(std::min(all->lower(), own.lower()), std::min(all->upper(), own.upper()))
-                    : Interval(std::max(all->lower(), own.lower()), std::max(all->upper(), own.upper()));
-    }
-    return all;
+    return size();
   };
-  const auto look = [&](const Point2& pose) {
+  const auto look = [&](const Point2& pose, const DesignBox& some) {
     Box box = {Interval(pose[0]), Interval(pose[1])};
-    const DesignBox one = one_of(designs);
+    const DesignBox one = one_of(some);
     box.insert(box.end(), one.begin(), one.end());
     if (const auto here = over(box)) known = std::min(known, sign * (least ? here->upper() : here->lower()));
   };
-  for (const Point2& pose : samples_) look(pose);
+  for (const Point2& pose : samples_) look(pose, designs);
   const auto worse = [](const Cell& a, const Cell& b) { return a.bound > b.bound; };
   std::priority_queue<Cell, std::vector<Cell>, decltype(worse)> open(worse);
   Cell whole{{Interval(region_.lower()[0], region_.upper()[0]), Interval(region_.lower()[1], region_.upper()[1])},
@@ -353,6 +391,7 @@ Interval DesignJudge::extreme_size(const DesignBox& designs, const std::vector<i
       break;
     open.pop();
     bound = known;
+    // Where nothing says better, what is widest as a part of the whole.
     const bool along_x = cell.box[0].width() >= cell.box[1].width();
     std::size_t c = along_x ? 0 : 1;
     double widest = cell.box[c].width() / std::max(region_.upper()[c] - region_.lower()[c], 1e-300);
@@ -362,13 +401,15 @@ Interval DesignJudge::extreme_size(const DesignBox& designs, const std::vector<i
                               : 0.0;
       if (part > widest) widest = part, c = k;
     }
+    if (cell.along >= 0) c = static_cast<std::size_t>(cell.along);
     for (const bool low : {true, false}) {
       Cell part = cell;
       part.box[c] = half_of(cell.box[c], low);
       if (region_.distance(part.box[0], part.box[1]) > 0) continue;
       const auto own = over(part.box);
+      part.along = own && cell_.doubts_displacement() ? cut(part.box) : -1;
       part.bound = std::max(cell.bound, own ? sign * (least ? own->lower() : own->upper()) : -infinity);
-      if (const auto pose = pose_of(part.box, 0)) look(*pose);
+      if (const auto pose = pose_of(part.box, 0)) look(*pose, DesignBox(part.box.begin() + 2, part.box.end()));
       if (part.bound < known) open.push(std::move(part));
     }
   }

@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -20,9 +21,9 @@ namespace clearloci::loci {
 
 /// A pose at which designs fail, and why: of every design asked for, or of one.
 struct DesignFailure {
-  enum class Kind { unreachable, singular, vanishing, too_small };
+  enum class Kind { unreachable, singular, vanishing, too_small, displaced };
   Kind kind = Kind::unreachable;
-  int condition = -1;  ///< of the last two kinds
+  int condition = -1;  ///< where reactions vanish or are too small
   core::Point2 at{};
   std::vector<double> parameters = {};  ///< of a design at which it does, where not all do
   /// Where a sign changes: which (DesignCell::watched), the pose and the design at the other end.
@@ -58,11 +59,18 @@ struct DesignVariables {
   std::function<sheet::Interval(std::size_t variable, const DesignBox& parameters)> enclosure;
 };
 
+/// The clearances that the conditions' take-ups take up, and what they may come to.
+struct DesignClearances {
+  std::vector<std::vector<std::size_t>> parameters = {};  ///< of each take-up: those that its clearances depend on
+  std::function<sheet::Interval(std::size_t take_up, const DesignBox& parameters)> enclosure = {};
+  double most_displaced = std::numeric_limits<double>::infinity();  ///< m, of the end effector
+};
+
 class DesignJudge {
  public:
   /// The arguments must outlive the judge. One a thread.
   DesignJudge(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
-              DesignVariables variables, std::vector<core::LoadBall> balls = {});
+              DesignVariables variables, std::vector<core::LoadBall> balls = {}, DesignClearances clearances = {});
 
   DesignProof judge(const DesignBox& designs, double margin, Refuting refuting, const DesignEffort& effort = {});
 
@@ -77,6 +85,9 @@ class DesignJudge {
   /// Likewise the greatest.
   sheet::Interval greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
                                 const DesignEffort& effort);
+
+  /// Likewise how far the end effector is displaced at most, m. Requires clearances.
+  sheet::Interval greatest_displacement(const DesignBox& designs, double accuracy, const DesignEffort& effort);
 
   /// The share of some poses of the task at which one of the designs fails, or has another sign than at most others.
   double violation(const DesignBox& designs);
@@ -94,6 +105,7 @@ class DesignJudge {
     int sign = 0;
   };
   DesignCell::State enter(const Box& box);
+  std::vector<sheet::Interval> clearances_of(const DesignBox& parameters) const;
   /// The coordinate of the box along which a cut helps most; -1: none is worth it.
   int cut(const Box& box);
   /// Looks at one pose of all the designs, or of one in their middle, then of one that is nearer to failing.
@@ -102,12 +114,14 @@ class DesignJudge {
                                          std::vector<double> parameters);
   DesignBox corner_of(const core::Point2& pose, const DesignBox& designs);
   std::optional<core::Point2> pose_of(const Box& box, double margin) const;
-  sheet::Interval extreme_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                               const DesignEffort& effort, bool least);
+  /// `size`: of what was entered last. To `accuracy` of itself.
+  sheet::Interval extreme(const DesignBox& designs, const std::function<sheet::Interval()>& size, double accuracy,
+                          const DesignEffort& effort, bool least);
 
   DesignCell cell_;
   const TaskRegion& region_;
   DesignVariables variables_;
+  DesignClearances clearances_;
   core::Polyline samples_;
   std::vector<Seen> seen_;  ///< a group each
   Box box_, in_tower_;

@@ -13,9 +13,9 @@ using core::InputError;
 using core::RationalPoint;
 
 const std::vector<std::string> shape_keys = {"box", "circle", "polygon", "path"};
-const std::vector<std::string> task_keys = {"format",     "name",       "box",        "circle",
-                                            "polygon",    "path",       "margin",     "min_force",
-                                            "min_couple", "loads_from", "tolerances", "loads_within"};
+const std::vector<std::string> task_keys = {"format",     "name",         "box",       "circle",     "polygon",
+                                            "path",       "margin",       "min_force", "min_couple", "loads_from",
+                                            "tolerances", "loads_within", "pose_error"};
 
 RationalPoint read_pair(const Mechanism& mechanism, const Value& value) {
   const std::vector<Value> parts = elements(value, 2);
@@ -263,6 +263,12 @@ core::Task task_of(const Value& document, const Mechanism& mechanism) {
   if (const auto couple = root.find("min_couple"))
     task.min_couple = read_number(mechanism, *couple, Sign::positive).value;
   if (const auto loads = root.find("loads_from")) task.loads = read_loads_from(mechanism, *loads);
+  if (const auto error = root.find("pose_error")) {
+    if (mechanism.space == Space::spatial)
+      throw InputError(error->where, error->what + " is proven in the plane, and " + mechanism.file + " is spatial",
+                       "leave it out");
+    task.pose_error = read_number(mechanism, *error, Sign::positive).value;
+  }
   if (const auto own = root.find("tolerances")) task.tolerances = read_tolerances(mechanism, *own);
   if (const auto own = root.find("loads_within")) task.loads_within = read_loads_within(mechanism, *own);
   return task;

@@ -62,6 +62,7 @@ const std::map<std::string, std::optional<Dimension>>& fields() {
       {"speed", none},
       {"period", duration},
       {"margin", length},
+      {"pose_error", length},
       {"min_force", force},
       {"min_couple", couple},
       {"loads_from", force},

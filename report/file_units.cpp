@@ -156,6 +156,7 @@ core::Verification in_file_units(core::Verification result) {
   scale(result.task.shape, scaling.exact());
   result.task.margin *= scaling.exact();
   result.margin *= scaling.k();
+  if (result.pose_error) *result.pose_error *= scaling.k();
   if (result.nearest) {
     scaling.place(result.nearest->at);
     result.nearest->distance *= scaling.k();
@@ -165,6 +166,10 @@ core::Verification in_file_units(core::Verification result) {
     result.witness->distance *= scaling.k();
     if (result.witness->load)
       for (double& part : *result.witness->load) part *= forces;
+    if (result.witness->most) {
+      *result.witness->size *= scaling.k();
+      *result.witness->most *= scaling.exact();
+    }
     const bool force = !result.witness->too_small.empty() && is_force(result.witness->too_small.front().quantity);
     if (force && result.witness->size) *result.witness->size *= forces;
     if (force && result.witness->least)

@@ -87,6 +87,10 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
       words = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(witness.too_small.front()), *witness.size,
                           unit_of(witness.too_small.front(), units), core::to_string(*witness.least));
       break;
+    case core::TaskWitness::Kind::displaced:
+      words = fmt::format("the clearances displace the end effector by {:.6g} {}, more than {:.6g}", *witness.size,
+                          units.length.name, core::to_double(*witness.most));
+      break;
   }
   if (witness.load)
     words +=
@@ -117,6 +121,7 @@ Json verification_object(const core::Verification& result) {
                {"witness", nullptr},
                {"open", nullptr}};
   if (result.units.declared) root["units"] = "SI";
+  if (result.task.pose_error) root["pose_error"] = result.pose_error ? Json(*result.pose_error) : Json(nullptr);
   if (result.by) root["moved_by"] = point_json(*result.by);
   if (result.nearest) {
     const core::NearestOfTask& nearest = *result.nearest;
@@ -185,6 +190,7 @@ std::string verification_text(const core::Verification& in_si, bool fit) {
         result.task.loads_within.size() == 1 ? "" : "s");
   if (!result.zone.empty()) put("zone          {}\n", result.zone);
   if (result.verified()) put("margin        at least {:.6g} {}, proven\n", result.margin, unit);
+  if (result.pose_error) put("pose error    at most {:.6g} {}, proven\n", *result.pose_error, unit);
   if (result.nearest) {
     const core::NearestOfTask& nearest = *result.nearest;
     put("nearest       {}{}{}{} at ({:.6f}, {:.6f}), {}\n", kind_words(nearest.kind),

@@ -28,7 +28,8 @@ using core::TaskDemand;
 class Conditions {
  public:
   Conditions(const std::vector<const mechanism::Mechanism*>& loads,
-             const std::vector<const mechanism::Mechanism*>& directions)
+             const std::vector<const mechanism::Mechanism*>& directions,
+             const std::vector<const mechanism::Mechanism*>& forces)
       : mechanism_(*loads.front()),
         geometry_(mechanism_, false, {}, {.all_sheets = true}),
         elimination_(geometry_),
@@ -51,6 +52,7 @@ class Conditions {
     }
     std::vector<const mechanism::Mechanism*> all = loads;
     all.insert(all.end(), directions.begin(), directions.end());
+    all.insert(all.end(), forces.begin(), forces.end());
     for (const mechanism::Mechanism* load : all) {
       const FactoredDeterminants determinants = load == &mechanism_ ? factored_determinants(geometry_) : under(*load);
       reactions_.push_back(reactions(geometry_, determinants));
@@ -68,29 +70,7 @@ class Conditions {
   }
 
   void add(const TaskDemand& demand) {
-    const mechanism::Joint& joint = joint_named(demand.joint);
-    std::vector<Quantity> quantities = {demand.quantity};
-    const bool guide = mechanism::is_guide(mechanism_, joint);
-    if (demand.quantity == Quantity::f)
-      quantities =
-          guide ? mechanism::reaction_components(mechanism_, joint) : mechanism::force_components(mechanism_, joint);
-    if (core::is_guide_end(demand.quantity)) know_length(demand.joint);
-    if (demand.least > 0 && std::find(quantities.begin(), quantities.end(), Quantity::f1) != quantities.end())
-      throw core::InputError(joint.where,
-                             "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
-                                 " cannot be traced: its components lie across a moving axis",
-                             "leave the least force out, or name the other joints with --joint");
-    // Components that are zero whatever the pose and the load say nothing.
-    std::vector<std::vector<FactoredPoly>> parts(result_.loads + result_.directions);
-    for (const Quantity quantity : quantities) {
-      std::vector<FactoredPoly> own;
-      for (const auto& all : reactions_) {
-        const FactoredPoly* const found = numerator(all, demand.joint, quantity);
-        own.push_back(found == nullptr || vanishes(*found) ? FactoredPoly{} : *found);
-      }
-      if (std::all_of(own.begin(), own.end(), [](const FactoredPoly& p) { return p.is_zero(); })) continue;
-      for (std::size_t i = 0; i < own.size(); ++i) parts[i].push_back(std::move(own[i]));
-    }
+    const auto [joint, parts] = parts_of(demand, result_.loads + result_.directions);
     TaskCondition condition;
     condition.reactions = {{demand.joint, demand.quantity, 1}};
     condition.least = demand.least;
@@ -104,21 +84,68 @@ class Conditions {
     for (std::size_t i = 0; i < result_.loads && !parts.front().empty(); ++i)
       if (std::all_of(parts[i].begin(), parts[i].end(), [](const FactoredPoly& p) { return p.is_zero(); }))
         condition.unloaded.push_back(static_cast<int>(i));
-    if (condition.unloaded.empty()) fill(condition, joint, parts);
-    const auto known = std::find_if(result_.conditions.begin(), result_.conditions.end(), [&](const TaskCondition& c) {
-      return condition.unloaded.empty() && c.unloaded.empty() && c.least == condition.least &&
-             c.factors == condition.factors && c.parts == condition.parts && c.directions == condition.directions &&
-             c.denominator == condition.denominator && c.squared_axis == condition.squared_axis;
-    });
-    if (known == result_.conditions.end())
-      result_.conditions.push_back(std::move(condition));
-    else
-      known->reactions.push_back(condition.reactions.front());
+    if (condition.unloaded.empty()) fill(condition, *joint, parts);
+    put(std::move(condition), result_.conditions);
+  }
+
+  /// A reaction that takes up a clearance; of one that nothing loads nothing is asked.
+  void add_take_up(TaskDemand demand) {
+    demand.least = 1;  // so that D is known
+    const auto [joint, parts] = parts_of(demand, reactions_.size());
+    if (parts.front().empty()) return;
+    TaskCondition condition;
+    condition.reactions = {{demand.joint, demand.quantity, 1}};
+    condition.least = demand.least;
+    fill(condition, *joint, parts);
+    put(std::move(condition), result_.take_ups);
   }
 
   core::TaskConditions take() { return std::move(result_); }
 
  private:
+  using Parts = std::vector<std::vector<FactoredPoly>>;
+
+  /// Of every load, then of every direction: the first `many` of these.
+  std::pair<const mechanism::Joint*, Parts> parts_of(const TaskDemand& demand, std::size_t many) {
+    const mechanism::Joint& joint = joint_named(demand.joint);
+    std::vector<Quantity> quantities = {demand.quantity};
+    const bool guide = mechanism::is_guide(mechanism_, joint);
+    if (demand.quantity == Quantity::f)
+      quantities =
+          guide ? mechanism::reaction_components(mechanism_, joint) : mechanism::force_components(mechanism_, joint);
+    if (core::is_guide_end(demand.quantity)) know_length(demand.joint);
+    if (demand.least > 0 && std::find(quantities.begin(), quantities.end(), Quantity::f1) != quantities.end())
+      throw core::InputError(joint.where,
+                             "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
+                                 " cannot be traced: its components lie across a moving axis",
+                             "leave the least force out, or name the other joints with --joint");
+    // Components that are zero whatever the pose and the load say nothing.
+    Parts parts(many);
+    for (const Quantity quantity : quantities) {
+      std::vector<FactoredPoly> own;
+      for (std::size_t i = 0; i < many; ++i) {
+        const FactoredPoly* const found = numerator(reactions_[i], demand.joint, quantity);
+        own.push_back(found == nullptr || vanishes(*found) ? FactoredPoly{} : *found);
+      }
+      if (std::all_of(own.begin(), own.end(), [](const FactoredPoly& p) { return p.is_zero(); })) continue;
+      for (std::size_t i = 0; i < own.size(); ++i) parts[i].push_back(std::move(own[i]));
+    }
+    return {&joint, std::move(parts)};
+  }
+
+  /// What several joints bear alike is one condition.
+  static void put(TaskCondition condition, std::vector<TaskCondition>& list) {
+    const auto known = std::find_if(list.begin(), list.end(), [&](const TaskCondition& c) {
+      return condition.unloaded.empty() && c.unloaded.empty() && c.least == condition.least &&
+             c.factors == condition.factors && c.parts == condition.parts && c.directions == condition.directions &&
+             c.denominator == condition.denominator && c.squared_axis == condition.squared_axis;
+    });
+    if (known == list.end())
+      list.push_back(std::move(condition));
+    else
+      known->reactions.push_back(condition.reactions.front());
+  }
+
   /// What the ends of a guide bear, of the last load's reactions. Where the axis has no constant length |u| the ring's
   /// auxiliary variable stands for it.
   void add_ends(const Guide& guide, const FactoredDeterminants& determinants) {
@@ -207,8 +234,7 @@ class Conditions {
     return index;
   }
 
-  void fill(TaskCondition& condition, const mechanism::Joint& joint,
-            const std::vector<std::vector<FactoredPoly>>& parts) {
+  void fill(TaskCondition& condition, const mechanism::Joint& joint, const Parts& parts) {
     std::vector<FactoredPoly> all;
     for (const auto& load : parts)
       for (const FactoredPoly& part : load)
@@ -252,7 +278,7 @@ class Conditions {
   Elimination elimination_;
   StraightLines lines_;
   FactoredPoly determinant_;
-  std::vector<std::vector<Reaction>> reactions_;  ///< load by load
+  std::vector<std::vector<Reaction>> reactions_;  ///< load by load, then direction by direction
   std::list<Known> known_;
   std::map<std::string, Poly> lengths_;  ///< squared, of guides whose ends have not been asked for
   core::TaskConditions result_;
@@ -262,10 +288,12 @@ class Conditions {
 
 core::TaskConditions task_conditions(const std::vector<const mechanism::Mechanism*>& loads,
                                      const std::vector<TaskDemand>& demands,
-                                     const std::vector<const mechanism::Mechanism*>& directions) {
+                                     const std::vector<const mechanism::Mechanism*>& directions,
+                                     const TakeUps& take_ups) {
   const auto turn = algebra_turn();
-  Conditions conditions(loads, directions);
+  Conditions conditions(loads, directions, take_ups.forces);
   for (const TaskDemand& demand : demands) conditions.add(demand);
+  for (const TaskDemand& take_up : take_ups.reactions) conditions.add_take_up(take_up);
   return conditions.take();
 }
 

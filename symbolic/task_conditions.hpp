@@ -8,6 +8,12 @@
 
 namespace clearloci::symbolic {
 
+/// What TaskConditions::take_ups are asked for.
+struct TakeUps {
+  std::vector<core::TaskDemand> reactions;
+  std::vector<const mechanism::Mechanism*> forces;  ///< the same mechanism under a unit force along x, along y alone
+};
+
 /// `loads`: the mechanism under the one load, or under the first and the last of a range; they differ in nothing else.
 /// `directions`: the same mechanism under unit loads instead, of which any may come on top.
 /// Two free coordinates, both lengths; further ones are variables of a design (mechanism/open_design.hpp). Throws
@@ -15,6 +21,7 @@ namespace clearloci::symbolic {
 /// joint whose components lie across a moving axis.
 core::TaskConditions task_conditions(const std::vector<const mechanism::Mechanism*>& loads,
                                      const std::vector<core::TaskDemand>& demands,
-                                     const std::vector<const mechanism::Mechanism*>& directions = {});
+                                     const std::vector<const mechanism::Mechanism*>& directions = {},
+                                     const TakeUps& take_ups = {});
 
 }  // namespace clearloci::symbolic

@@ -66,6 +66,7 @@ struct Task {
   std::optional<LoadRange> loads;      ///< instead of the force of the mechanism's one load
   std::vector<Tolerance> tolerances = {};
   std::vector<LoadWithin> loads_within = {};
+  std::optional<Rational> pose_error = {};  ///< m, that the clearances may displace the end effector at most
 };
 
 /// What is not proven is never called refuted.
@@ -93,14 +94,16 @@ struct TaskWitness {
     singular,     ///< |A| vanishes
     vanishing,    ///< the reactions `vanishing` do
     too_small,    ///< the reactions `too_small` bear less than they have to
+    displaced,    ///< the clearances displace the end effector farther than they may
   };
   Kind kind = Kind::unreachable;
   Point2 at{};
   std::vector<Vanishing> vanishing = {};
   std::optional<Point2> load = {};  ///< N; of a range of loads, where it takes one
   std::vector<Vanishing> too_small = {};
-  std::optional<double> size = {};     ///< of the first of them, N or N m
+  std::optional<double> size = {};     ///< of the first of them, N or N m; of the displacement, m
   std::optional<Rational> least = {};  ///< that is asked of it, N or N m
+  std::optional<Rational> most = {};   ///< that the displacement may be, m
   double distance = 0;                 ///< m from the task
   std::string limit = {};              ///< of the first two kinds, the one that is broken: "distance A1-P at 0.52 m"
   std::vector<std::pair<std::string, double>> design = {};  ///< parameters that have a tolerance
@@ -130,8 +133,9 @@ struct Verification {
   Task task;  ///< as verified: moved by `by` where a place was looked for
   WorkingMode mode;
   Verdict verdict = Verdict::undecided;
-  double margin = 0;  ///< m, proven to be free; 0 where not even the task is
-  std::string zone;   ///< Zone::id; empty where not verified
+  double margin = 0;                      ///< m, proven to be free; 0 where not even the task is
+  std::optional<double> pose_error = {};  ///< m, a proven upper bound over the task, where it asks for one
+  std::string zone;                       ///< Zone::id; empty where not verified
   std::optional<NearestOfTask> nearest;
   std::optional<TaskWitness> witness;  ///< where refuted
   std::optional<OpenTask> open;        ///< where undecided

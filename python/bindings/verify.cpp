@@ -18,6 +18,7 @@ py::object witness_of(const Verification& answer) {
                 : witness.kind == TaskWitness::Kind::boundary  ? "boundary"
                 : witness.kind == TaskWitness::Kind::singular  ? "singular"
                 : witness.kind == TaskWitness::Kind::vanishing ? "vanishing"
+                : witness.kind == TaskWitness::Kind::displaced ? "displaced"
                                                                : "too small";
   one["vanishing"] = names_of(witness.vanishing);
   one["too_small"] = names_of(witness.too_small);
@@ -61,6 +62,7 @@ void bind_verify(py::module_& module) {
              py::dict one;
              one["verdict"] = to_string(answer.verdict);
              one["margin"] = answer.verified() ? py::cast(answer.margin) : py::object(py::none());
+             one["pose_error"] = answer.pose_error ? py::cast(*answer.pose_error) : py::object(py::none());
              one["zone"] = answer.zone.empty() ? py::object(py::none()) : py::cast(answer.zone);
              one["witness"] = witness_of(answer);
              one["nearest"] = nearest_of(answer);

@@ -234,6 +234,7 @@ class Verification(_Answer):
         data = self._held.data()
         self.verdict: str = data["verdict"]  #: "verified", "refuted", "undecided"
         self.margin: float | None = data["margin"]  #: m, proven to be free; None where not verified
+        self.pose_error: float | None = data["pose_error"]  #: m, a proven upper bound, where the task asks for one
         self.zone: str | None = data["zone"]
         self.witness: dict[str, Any] | None = data["witness"]  #: where refuted: a pose at which the task fails
         self.nearest: dict[str, Any] | None = data["nearest"]  #: the nearest locus

@@ -1,0 +1,27 @@
+// What the clearances of an open design have to do with the pose error of its end effector (method.md section 6).
+// Private to analysis/.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/task_conditions.hpp"
+#include "loci/design_proof.hpp"
+#include "mechanism/open_design.hpp"
+
+namespace clearloci {
+
+/// Reactions that take up clearances: f, M or F, the ends of guides. Of joints with a clearance.
+std::vector<core::TaskDemand> take_up_demands(const mechanism::Mechanism& open);
+
+/// The open mechanism under a unit force along x and along y on its end effector, and the opposite on the link that it
+/// is relative to, instead of all its loads.
+std::array<mechanism::Mechanism, 2> under_unit_forces(const mechanism::Mechanism& open);
+
+/// Without loads, weights, springs and given efforts.
+mechanism::Mechanism unloaded(mechanism::Mechanism mechanism);
+
+/// The clearances that these conditions' take-ups take up. Both must outlive the answer.
+loci::DesignClearances design_clearances(const mechanism::OpenDesign& open, const core::TaskConditions& conditions);
+
+}  // namespace clearloci

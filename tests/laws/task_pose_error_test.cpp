@@ -1,0 +1,196 @@
+// Tasks that bound the pose error, and sizes of reactions under balls of loads, against poses, designs and loads that
+// are solved one by one in floating point.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "analysis/verification.hpp"
+#include "clearloci/study.hpp"
+#include "clearloci/verify.hpp"
+#include "core/errors.hpp"
+#include "mechanism/read.hpp"
+#include "mechanism/read_task.hpp"
+#include "numeric/pose_error.hpp"
+#include "tests/report/scratch_folder.hpp"
+
+namespace clearloci {
+namespace {
+
+using core::Point2;
+using Values = std::vector<mechanism::Override>;
+
+std::string clearances() {
+  return report::fixture::read_file(CLEARLOCI_SOURCE_DIR "/examples/studies/clearances.yaml");
+}
+
+/// With the one load's force replaced.
+std::string under(std::string text, const std::string& force) {
+  const std::string own = "force: [0, -100]";
+  return text.replace(text.find(own), own.size(), "force: " + force);
+}
+
+double error_at(const numeric::NumericModel& model, const Point2& at) {
+  const numeric::Posture posture = numeric::posture(model, at, mechanism::working_mode(model.mechanism));
+  return numeric::pose_accuracy(model, posture).error.dp();
+}
+
+double error_at(const mechanism::Mechanism& m, const Point2& at) { return error_at(numeric::compile(m), at); }
+
+struct Box {
+  double x, y, wide, high;
+  std::string text() const {
+    return fmt::format("format: 1\nbox: {{x: [{}, {}], y: [{}, {}]}}\n", x, x + wide, y, y + high);
+  }
+  Point2 at(double u, double v) const { return {x + u * wide, y + v * high}; }
+};
+
+constexpr Box box{0.1, -0.75, 0.3, 0.15};
+
+double greatest_on_grid(const mechanism::Mechanism& m, const Box& task, int side) {
+  const numeric::NumericModel model = numeric::compile(m);
+  double most = 0;
+  for (int i = 0; i <= side; ++i)
+    for (int j = 0; j <= side; ++j)
+      most = std::max(most, error_at(model, task.at(i / static_cast<double>(side), j / static_cast<double>(side))));
+  return most;
+}
+
+Verification decided(const std::string& text, const std::string& task) {
+  const mechanism::Mechanism m = mechanism::parse_mechanism(text, "five_bar.yaml");
+  return decide_task(m, mechanism::parse_task(task, "task.yaml", m));
+}
+
+TEST(TaskPoseError, IsTheGreatestOverTheTask) {
+  const mechanism::Mechanism m = mechanism::parse_mechanism(clearances(), "five_bar.yaml");
+  const double most = greatest_on_grid(m, box, 60);
+  const Verification answer = decided(clearances(), box.text() + "pose_error: 1e-3\n");
+  ASSERT_TRUE(answer.verified());
+  ASSERT_TRUE(answer.pose_error);
+  EXPECT_GE(*answer.pose_error, most * (1 - 1e-9));
+  EXPECT_LE(*answer.pose_error, most * (1 + 3e-3));
+  // The verdict turns there.
+  EXPECT_TRUE(decided(clearances(), box.text() + fmt::format("pose_error: {}\n", most * 1.003)).verified());
+  const Verification refuted = decided(clearances(), box.text() + fmt::format("pose_error: {}\n", most * 0.98));
+  ASSERT_EQ(refuted.verdict, core::Verdict::refuted);
+  ASSERT_EQ(refuted.witness->kind, core::TaskWitness::Kind::displaced);
+  EXPECT_GT(error_at(m, refuted.witness->at), most * 0.98);
+  EXPECT_NEAR(*refuted.witness->size, error_at(m, refuted.witness->at), 1e-12);
+}
+
+TEST(TaskPoseError, HoldsForEveryDesignWithinTolerances) {
+  const std::string tolerances = "tolerances: {L: 2e-3, rho: 1e-6, delta: 4e-6}\n";
+  const Verification answer = decided(clearances(), box.text() + tolerances + "pose_error: 1e-3\n");
+  ASSERT_TRUE(answer.verified());
+  double most = 0;
+  for (const double length : {0.498, 0.5, 0.502})
+    for (const double rho : {2e-6, 4e-6})
+      for (const double delta : {6e-6, 14e-6}) {
+        const Values values = {
+            {"L", fmt::format("{}", length)}, {"rho", fmt::format("{}", rho)}, {"delta", fmt::format("{}", delta)}};
+        most = std::max(most, greatest_on_grid(mechanism::parse_mechanism(clearances(), "a.yaml", values), box, 20));
+      }
+  EXPECT_GE(*answer.pose_error, most * (1 - 1e-9));
+  EXPECT_LE(*answer.pose_error, most * 1.02) << "the greatest is at a corner of the tolerances";
+  const Verification refuted =
+      decided(clearances(), box.text() + tolerances + fmt::format("pose_error: {}\n", most * 0.97));
+  ASSERT_EQ(refuted.verdict, core::Verdict::refuted);
+  Values values;
+  for (const auto& [name, value] : refuted.witness->design)
+    values.emplace_back(name, core::to_string(core::Rational(value)));
+  EXPECT_GT(error_at(mechanism::parse_mechanism(clearances(), "a.yaml", values), refuted.witness->at), most * 0.97);
+}
+
+TEST(TaskPoseError, HoldsUnderEveryLoad) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> part(0, 1);
+  const Verification answer =
+      decided(clearances(), box.text() + "loads_within: [{load: 1, radius: 10, couple: 0.5}]\npose_error: 1e-3\n");
+  ASSERT_TRUE(answer.verified());
+  const Verification alone = decided(clearances(), box.text() + "pose_error: 1e-3\n");
+  EXPECT_GT(*answer.pose_error, *alone.pose_error);
+  for (int i = 0; i < 60; ++i) {
+    const double angle = 6.283 * part(random);
+    std::string text = under(clearances(), fmt::format("[{}, {}]", 10 * std::cos(angle), -100 + 10 * std::sin(angle)));
+    text.replace(text.find("force: "), 0, fmt::format("couple: {}, ", part(random) - 0.5));
+    EXPECT_LE(greatest_on_grid(mechanism::parse_mechanism(text, "a.yaml"), box, 6), *answer.pose_error);
+  }
+}
+
+TEST(TaskPoseError, OfRandomMechanismsIsNotContradictedByPoses) {
+  std::mt19937 random(16);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int verified = 0;
+  for (int n = 0; n < 20; ++n) {
+    const Box task{uniform(-0.2, 0.5), uniform(-0.9, 0.9), uniform(0.01, 0.1), uniform(0.01, 0.1)};
+    const std::string text =
+        under(clearances(), fmt::format("[{:.3f}, {:.3f}]", uniform(-100, 100), uniform(-100, 100)));
+    const double most = uniform(20e-6, 90e-6);
+    const Verification answer = decided(text, task.text() + fmt::format("pose_error: {}\n", most));
+    if (answer.verdict != core::Verdict::verified) continue;
+    ++verified;
+    const double found = greatest_on_grid(mechanism::parse_mechanism(text, "a.yaml"), task, 12);
+    EXPECT_LE(found, most) << n;
+    EXPECT_LE(found, *answer.pose_error) << n;
+    EXPECT_GE(found, *answer.pose_error * 0.98) << n;
+  }
+  EXPECT_GT(verified, 3);
+}
+
+TEST(TaskPoseError, OfAPistonCountsItsGuide) {
+  const std::string text = report::fixture::read_file(CLEARLOCI_SOURCE_DIR "/examples/prrrp.yaml");
+  const mechanism::Mechanism m = mechanism::parse_mechanism(text, "prrrp.yaml");
+  constexpr Box task{0.2, 0, 0.15, 0.1};
+  const Verification answer = decide_task(m, mechanism::parse_task(task.text() + "pose_error: 1e-3\n", "t.yaml", m));
+  ASSERT_TRUE(answer.verified());
+  const double found = greatest_on_grid(m, task, 30);
+  EXPECT_GE(*answer.pose_error, found * (1 - 1e-9));
+  EXPECT_LE(*answer.pose_error, found * 1.01);
+}
+
+TEST(StudyFigures, OfReactionsHoldUnderBallsOfLoads) {
+  const Model study_model = Model::parse(clearances());
+  const std::string text =
+      "format: 1\nvary: {L: [0.5, 0.55]}\ntask: {" +
+      fmt::format("box: {{x: [{}, {}], y: [{}, {}]}}", box.x, box.x + box.wide, box.y, box.y + box.high) +
+      ", loads_within: [{load: 1, radius: 15, couple: 1}]}\n"
+      "goal: [{maximise: min_force}, {minimise: effort}, {minimise: pose_error}]\nmethod: {grid: [2]}\n";
+  const StudyResult result = run_study(study_model, parse_study(text, study_model));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (const StudyDesign& design : result.designs) {
+    ASSERT_EQ(design.status, StudyDesign::Status::feasible);
+    double least = 1e9, most = 0, error = 0;
+    for (int i = 0; i < 160; ++i) {
+      const double angle = 6.283185307179586 * part(random), radius = i % 8 == 0 ? 15 * part(random) : 15;
+      std::string own =
+          under(clearances(), fmt::format("[{}, {}]", radius * std::cos(angle), -100 + radius * std::sin(angle)));
+      own.replace(own.find("force: "), 0, fmt::format("couple: {}, ", i % 2 == 0 ? 1 : -1));
+      const mechanism::Mechanism m =
+          mechanism::parse_mechanism(own, "a.yaml", {{"L", fmt::format("{}", design.values[0])}});
+      const numeric::NumericModel model = numeric::compile(m);
+      const std::vector<numeric::JointColumns> columns = numeric::joint_columns(model);
+      for (int pose = 0; pose < 81; ++pose) {
+        const numeric::Posture posture =
+            numeric::posture(model, box.at(pose % 9 / 8.0, pose / 9 / 8.0), mechanism::working_mode(m));
+        const numeric::Accuracy all = numeric::pose_accuracy(model, posture);
+        for (const numeric::JointColumns& joint : columns) {
+          least = std::min(least, std::hypot(all.reactions.values(joint.fx), all.reactions.values(joint.fy)));
+          if (joint.couple >= 0) most = std::max(most, std::abs(all.reactions.values(joint.couple)));
+        }
+        error = std::max(error, all.error.dp());
+      }
+    }
+    EXPECT_LE(design.figures[0], least);
+    EXPECT_GE(design.figures[0], 0.97 * least) << "as tight as samples can tell";
+    EXPECT_GE(design.figures[1], most);
+    EXPECT_LE(design.figures[1], 1.03 * most);
+    EXPECT_GE(design.figures[2], error);
+  }
+}
+
+}  // namespace
+}  // namespace clearloci
