@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -25,7 +26,7 @@ namespace {
 struct Arguments {
   CommonArguments common;
   std::string study;
-  std::string formats = "csv,svg,png";
+  std::string formats = "csv,svg,png,html";
   std::string threads;
   bool resume = false;
 };
@@ -44,17 +45,20 @@ std::string words_of(const StudyProgress& progress) {
   return words + fmt::format(", {:.0f} s left", progress.seconds_left);
 }
 
-/// What verify says of the best design: of the first task that it does not verify, if any.
-Verification proof_of(const Model& best, const Study& study, const TimeLimit& limit) {
-  Verification answer;
-  for (const Task& task : study.tasks) {
-    answer = decide_task(best, task, {.deadline = limit.deadline()});
-    if (!answer.verified()) break;
-  }
-  return answer;
+/// What verify says of the best design, a task each.
+std::vector<Verification> proofs_of(const Model& best, const Study& study, const TimeLimit& limit) {
+  std::vector<Verification> proofs;
+  for (const Task& task : required_tasks(study))
+    proofs.push_back(verify_task(best, task, {.deadline = limit.deadline()}));
+  return proofs;
 }
 
-std::string words_of(const Verification& proof) {
+/// Of several tasks the worst: the first that is not verified, else that of the least margin.
+std::string words_of(const std::vector<Verification>& proofs) {
+  const auto worse = [](const Verification& a, const Verification& b) {
+    return a.verified() != b.verified() ? !a.verified() : a.margin < b.margin;
+  };
+  const Verification& proof = *std::min_element(proofs.begin(), proofs.end(), worse);
   return proof.verified() ? fmt::format("verify: VERIFIED, margin at least {:.6g} m", proof.margin)
                           : fmt::format("verify: {}", to_string(proof.verdict));
 }
@@ -84,18 +88,22 @@ int lead(const Arguments& arguments, const StudyRanks* ranks, TimeLimit& limit) 
   progress.clear();
   limit.writing();
   std::vector<std::filesystem::path> files = report::write_study(result, folder, formats);
-  std::optional<Verification> proof;
+  std::vector<Verification> proofs;
   if (result.best) {
     const StudyDesign& best = result.designs[*result.best];
     files.push_back(folder / "best.yaml");
     report::write_atomically(files.back(), design_text(model, result, best));
-    proof = proof_of(design_model(model, result, best), study, limit);
+    proofs = proofs_of(design_model(model, result, best), study, limit);
+  }
+  if (formats.contains("html")) {
+    files.push_back(folder / "report.html");
+    report::write_atomically(files.back(), report::study_page(result, proofs));
   }
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::study_object(result)));
   } else if (!arguments.common.quiet) {
     fmt::print("{}", report::study_text(result));
-    if (proof) fmt::print("  {}\n", words_of(*proof));
+    if (!proofs.empty()) fmt::print("  {}\n", words_of(proofs));
     fmt::print("\n{}", written_words(folder, files));
   }
   return result.complete ? exit_done : exit_limit_reached;
@@ -133,7 +141,7 @@ Command add_design_command(CLI::App& program) {
       ->type_name("LIST")
       ->capture_default_str();
   app->footer(
-      "Example: clearloci design examples/five_bar.yaml examples/studies/pick_and_place.yaml\n"
+      "Example: clearloci design examples/five_bar.yaml examples/studies/link_lengths.yaml\n"
       "Ends with 3 where the time limit came first; --resume then goes on. The same study gives the same files\n"
       "whatever the number of threads. They go to ./out/<name of MODEL>, or to the folder of -o.");
   return {app, [arguments] {

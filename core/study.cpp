@@ -1,5 +1,7 @@
 #include "clearloci/study.hpp"
 
+#include <algorithm>
+
 namespace clearloci::inline core {
 namespace {
 
@@ -23,6 +25,18 @@ std::optional<Figure> figure_named(std::string_view name) {
   for (const Named& own : names)
     if (own.name == name) return own.figure;
   return std::nullopt;
+}
+
+std::vector<Task> required_tasks(const Study& study) {
+  std::vector<Task> tasks = study.tasks;
+  for (Task& task : tasks)
+    for (const StudyRequirement& own : study.require) {
+      if (own.figure == Figure::margin) task.margin = std::max(task.margin, own.bound);
+      if (own.figure == Figure::pose_error) task.pose_error = std::min(task.pose_error.value_or(own.bound), own.bound);
+      if (own.figure == Figure::min_force && own.bound > 0)
+        task.min_force = std::max(task.min_force.value_or(0), own.bound);
+    }
+  return tasks;
 }
 
 std::string to_string(StudyDesign::Status status) {

@@ -170,9 +170,9 @@ StudyMethod read_method(const Mechanism& mechanism, const Value& value, std::siz
   } else if (given.front() == "prove") {
     method.kind = Kind::prove;
     method.finest = read_number(mechanism, without_words(own, "of each range"), Sign::positive).value;
-    if (method.finest > 1 || method.finest < Rational(1, 1L << 40))
+    if (method.finest > 1 || method.finest < Rational(1, 1L << 52))
       throw InputError(own.where, own.what + " is " + core::to_string(method.finest) + " of each range",
-                       "write a part between 2^-40 and 1");
+                       "write a part between 2^-52 and 1");
   } else {
     method.kind = given.front() == "sample" ? Kind::sample : Kind::search;
     method.count = static_cast<std::uint64_t>(read_count(mechanism, without_words(own, "evaluations"), 1));

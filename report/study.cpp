@@ -10,6 +10,7 @@
 #include "core/task.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/study_words.hpp"
 #include "report/table_json.hpp"
 #include "report/wording.hpp"
 
@@ -26,50 +27,6 @@ std::string quoted(const std::string& text) {
 
 std::string number(double value) { return std::isnan(value) ? std::string() : exact_number(value); }
 
-std::size_t count(const StudyResult& result, StudyDesign::Status status) {
-  return static_cast<std::size_t>(std::count_if(result.designs.begin(), result.designs.end(),
-                                                [&](const StudyDesign& d) { return d.status == status; }));
-}
-
-std::string unit_of(core::Figure figure) {
-  switch (figure) {
-    case core::Figure::margin:
-    case core::Figure::pose_error:
-    case core::Figure::largest_circle:
-      return "m";
-    case core::Figure::min_force:
-      return "N";
-    case core::Figure::effort:
-      return "N m or N";
-    case core::Figure::zone_area:
-      return "m^2";
-  }
-  return {};
-}
-
-std::string method_words(const core::StudyMethod& method) {
-  using Kind = core::StudyMethod::Kind;
-  switch (method.kind) {
-    case Kind::grid: {
-      std::string words;
-      for (const int own : method.counts) words += (words.empty() ? "grid of " : " x ") + std::to_string(own);
-      return words;
-    }
-    case Kind::sample:
-      return fmt::format("Sobol sample of {}", method.count);
-    case Kind::search:
-      return fmt::format("search with {} evaluations", method.count);
-    case Kind::prove:
-      return "proof down to " + core::to_string(method.finest) + " of each range";
-  }
-  return {};
-}
-
-std::string goal_words(const core::StudyGoal& goal) {
-  return std::string(goal.maximise ? "maximise " : "minimise ") +
-         (goal.figure ? core::to_string(*goal.figure) : printable(goal.expression));
-}
-
 Json design_object(const StudyResult& result, const StudyDesign& design) {
   Json object = {{"index", design.index}};
   Json parameters = Json::object(), figures = Json::object();
@@ -84,27 +41,18 @@ Json design_object(const StudyResult& result, const StudyDesign& design) {
   return object;
 }
 
-double volume(const core::StudyCell& cell) {
-  double product = 1;
-  for (std::size_t i = 0; i < cell.lower.size(); ++i) product *= cell.upper[i] - cell.lower[i];
-  return product;
-}
-
-/// The part of the box that cells of one status make up.
-double share(const StudyResult& result, StudyDesign::Status status) {
-  double own = 0, all = 0;
-  for (const core::StudyCell& cell : result.cells) {
-    all += volume(cell);
-    if (cell.status == status) own += volume(cell);
-  }
-  return all > 0 ? own / all : 0;
-}
-
 Json cell_object(const StudyResult& result, const core::StudyCell& cell) {
   Json object = Json::object();
   for (std::size_t i = 0; i < result.parameters.size(); ++i)
     object[result.parameters[i]] = {number_json(cell.lower[i]), number_json(cell.upper[i])};
   return object;
+}
+
+Json ranges_array(const StudyResult& result) {
+  Json list = Json::array();
+  for (const core::StudyRange& own : result.ranges)
+    list.push_back({{"from", own.from}, {"to", own.to}, {"below", own.below}, {"above", own.above}});
+  return list;
 }
 
 Json cells_object(const StudyResult& result) {
@@ -171,15 +119,6 @@ Json designs_object(const StudyResult& result) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::size_t>> study_reasons(const StudyResult& result) {
-  std::map<std::string, std::size_t> counts;
-  for (const StudyDesign& own : result.designs)
-    if (own.status != StudyDesign::Status::feasible) ++counts[own.reason];
-  std::vector<std::pair<std::string, std::size_t>> list(counts.begin(), counts.end());
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  return list;
-}
-
 std::string study_csv(const StudyResult& result) {
   if (result.study.method.kind == core::StudyMethod::Kind::prove) return cells_csv(result);
   std::string out = "index";
@@ -220,6 +159,8 @@ Json study_object(const StudyResult& result) {
     for (const Status status : {Status::feasible, Status::infeasible, Status::undecided, Status::left_out})
       shares[to_string(status)] = share(result, status);
     object["shares"] = shares;
+    if (result.parameters.size() == 1) object["ranges"] = ranges_array(result);
+    if (result.best) object["best"] = design_object(result, result.designs[*result.best]);
     object["tolerances"] = result.tolerances ? cell_object(result, *result.tolerances) : Json(nullptr);
     object["cells"] = cells_object(result);
     return object;
@@ -243,6 +184,12 @@ Json study_object(const StudyResult& result) {
 
 namespace {
 
+std::string end_words(const std::array<double, 2>& end, const std::string& reason) {
+  std::string words = exact_number(end[0]);
+  if (end[0] != end[1]) words = fmt::format("[{}, {}]", words, exact_number(end[1]));
+  return words + (reason.empty() ? "" : " (beyond: " + printable(reason) + ")");
+}
+
 std::string proof_text(const StudyResult& result) {
   using Status = StudyDesign::Status;
   std::string out = fmt::format("{}: {} cells, {}\n\n", printable(result.mechanism), result.cells.size(),
@@ -257,6 +204,12 @@ std::string proof_text(const StudyResult& result) {
       out += fmt::format("{:<12}{:>9.4f} %  {}\n", to_string(status), 100 * part, words);
   }
   if (!result.complete) out += "\nincomplete: --resume goes on\n";
+  for (const core::StudyRange& own : result.ranges)
+    out += fmt::format("\n{} verifies from {} to {}\n", result.parameters.front(), end_words(own.from, own.below),
+                       end_words(own.to, own.above));
+  if (result.best)
+    out += fmt::format("\nbest         {}\n  {} = {}, rounded inwards\n", goal_words(result.study.goals.front()),
+                       result.parameters.front(), exact_number(result.designs[*result.best].values.front()));
   if (!result.tolerances) return out;
   out += "\naround the file's design every design verifies with\n";
   for (std::size_t i = 0; i < result.parameters.size(); ++i)
@@ -298,7 +251,7 @@ std::string study_text(const StudyResult& result) {
   return out;
 }
 
-std::vector<std::string> study_format_names() { return {"csv", "svg", "png", "pdf"}; }
+std::vector<std::string> study_format_names() { return {"csv", "svg", "png", "pdf", "html"}; }
 
 std::vector<std::filesystem::path> write_study(const StudyResult& result, const std::filesystem::path& directory,
                                                const std::set<std::string>& formats) {

@@ -21,12 +21,13 @@ nlohmann::ordered_json study_object(const core::StudyResult& result);
 /// How many designs are what and why, and the best.
 std::string study_text(const core::StudyResult& result);
 
-/// Why designs fail: reasons with how many designs have them, most first.
-std::vector<std::pair<std::string, std::size_t>> study_reasons(const core::StudyResult& result);
-
 /// Two parameters: a map of the designs, in the colours of the first figure where they are feasible and in those of
 /// their reasons where they are not. More: a matrix of such plots, one a pair; one: a strip.
 std::string study_picture(const core::StudyResult& result, PictureFormat format);
+
+/// What was varied and required, what is feasible, why the rest fails, and the recommended design with its proof, for a
+/// reader who has none of the files: one HTML page. `proofs`: what verify says of the best design, a task each.
+std::string study_page(const core::StudyResult& result, const std::vector<core::Verification>& proofs);
 
 /// The names of the formats besides designs.json.
 std::vector<std::string> study_format_names();

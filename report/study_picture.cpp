@@ -4,6 +4,7 @@
 #include "report/axis.hpp"
 #include "report/mechanism_drawing.hpp"
 #include "report/study.hpp"
+#include "report/study_words.hpp"
 #include "report/surface.hpp"
 #include "report/typesetting.hpp"
 #include "report/wording.hpp"
@@ -19,6 +20,8 @@ using Status = StudyDesign::Status;
 constexpr Colour ink{0.13, 0.13, 0.13}, frame_colour{0.45, 0.45, 0.45}, plain{0.0, 0.5, 0.35};
 constexpr Font title_font{13, true, false}, subtitle_font{9.5, false, false}, legend_font{8.5, false, false};
 constexpr double margin = 12, head = 40, legend_width = 170, gap = 16;
+/// Neighbours share their edges: softened, they would let the paper through.
+constexpr double overlap = 0.35;
 /// Feasible designs have the strong colours; reasons take pale ones in turn.
 constexpr std::size_t most_reasons = 8;
 
@@ -28,6 +31,15 @@ Colour reason_colour(std::size_t number) {
   const auto mix = [](double c) { return pale + (1 - pale) * c; };
   return {mix(full.red), mix(full.green), mix(full.blue)};
 }
+
+/// The power of a thousand that numbers of an axis are shown in: 1 where they are of a usual size.
+double unit_of_axis(const std::array<double, 2>& range) {
+  const double most = std::max(std::abs(range[0]), std::abs(range[1]));
+  if (!(most > 0) || (most >= 0.01 && most < 1e5)) return 1;
+  return std::pow(10.0, 3 * std::floor(std::log10(most) / 3));
+}
+
+std::string words_of_unit(double unit) { return unit == 1 ? "" : ", " + short_number(unit, 2); }
 
 class StudyDrawing {
  public:
@@ -48,13 +60,22 @@ class StudyDrawing {
     const std::size_t n = result.parameters.size();
     panels_ = n < 2 ? 1 : n - 1;
     side_ = panels_ == 1 ? 380 : std::max(110.0, 520.0 / static_cast<double>(panels_));
+    if (n == 1 && result.figures.empty()) height_ = 90;
+    if (n == 1 && !result.figures.empty()) {
+      top_ = 0;
+      for (const StudyDesign& own : result.designs)
+        if (own.status == Status::feasible && own.figures.front() > top_) top_ = own.figures.front();
+      top_ *= 1.06;  // room for the mark of the best
+    }
   }
 
   Page page() const {
     const double plots = static_cast<double>(panels_) * (side_ + (panels_ > 1 ? 8 : 0));
+    const double down = panels_ == 1 ? height() : plots;
     std::string description = "Designs of a study";
     for (const std::string& reason : reasons_) description += "\n" + printable(reason);
-    return {margin + 60 + plots + gap + legend_width + margin, margin + head + plots + 46, title(), description};
+    return {margin + 60 + plots + gap + legend_width + margin, margin + head + std::max(down, 150.0) + 46, title(),
+            description};
   }
 
   void draw(const Context& context) const {
@@ -120,32 +141,25 @@ class StudyDrawing {
                   std::size_t column) const {
     const double step = side_ + (panels_ > 1 ? 8 : 0);
     const Box box{margin + 60 + static_cast<double>(column) * step, margin + head + static_cast<double>(row) * step,
-                  side_, side_};
+                  side_, height()};
     const auto range = [&](std::size_t p) {
       const core::StudyParameter& own = result_.study.vary[p];
       return std::array{core::to_double(own.lower), core::to_double(own.upper)};
     };
-    const std::array<double, 2> across = range(x), up = y ? range(*y) : std::array{0.0, 1.0};
-    const double mark = mark_size(x, y, box.width);
+    const std::array<double, 2> across = range(x), up = y ? range(*y) : std::array{0.0, top_};
+    const auto [wide, high] = mark_size(x, y, box);
+    const Marks marks{box, across, up, wide, high};
     context->save();
     context->rectangle(box.x, box.y, box.width, box.height);
     context->clip();
-    const auto inset = [&](double part) { return mark / 2 + part * (box.width - mark); };
     for (const core::StudyCell& own : result_.cells) draw_cell(context, own, box, across, up, x, y);
-    for (const std::size_t i : order_) {
-      const StudyDesign& own = result_.designs[i];
-      const double px = box.x + inset((own.values[x] - across[0]) / (across[1] - across[0]));
-      const double py = y ? box.bottom() - inset((own.values[*y] - up[0]) / (up[1] - up[0])) : box.y + box.height / 2;
-      set_colour(context, colour(own));
-      context->rectangle(px - mark / 2, y ? py - mark / 2 : box.y, mark + 0.05, y ? mark + 0.05 : box.height);
-      context->fill();
-    }
+    for (const std::size_t i : order_) draw_design(context, marks, result_.designs[i], x, y);
+    if (result_.tolerances) draw_tolerances(context, *result_.tolerances, box, across, up, x, y);
     if (result_.best) {
       const StudyDesign& own = result_.designs[*result_.best];
       set_colour(context, {0.85, 0.1, 0.1});
       context->set_line_width(1.4);
-      context->arc(box.x + inset((own.values[x] - across[0]) / (across[1] - across[0])),
-                   y ? box.bottom() - inset((own.values[*y] - up[0]) / (up[1] - up[0])) : box.y + box.height / 2, 5, 0,
+      context->arc(marks.x(own.values[x]), y ? marks.y(own.values[*y]) : marks.y(figure(own)), 5, 0,
                    6.28318530717958648);
       context->stroke();
     }
@@ -155,6 +169,53 @@ class StudyDrawing {
     context->rectangle(box.x, box.y, box.width, box.height);
     context->stroke();
     draw_axes(context, box, across, up, x, y, row + 1 == panels_, column == 0);
+  }
+
+  /// Where designs lie in a panel, each with room for its mark.
+  struct Marks {
+    const Box& box;
+    std::array<double, 2> across, up;
+    double wide = 0, high = 0;
+    double x(double value) const {
+      return box.x + wide / 2 + (value - across[0]) / (across[1] - across[0]) * (box.width - wide);
+    }
+    double y(double value) const {
+      return box.bottom() - high / 2 - (value - up[0]) / (up[1] - up[0]) * (box.height - high);
+    }
+  };
+
+  double figure(const StudyDesign& own) const { return result_.figures.empty() ? top_ / 2 : own.figures.front(); }
+  double height() const { return height_ > 0 ? height_ : side_; }
+
+  /// Over one parameter the first figure goes up, and designs without it are bands.
+  void draw_design(const Context& context, const Marks& marks, const StudyDesign& own, std::size_t x,
+                   std::optional<std::size_t> y) const {
+    set_colour(context, colour(own));
+    const double left = marks.x(own.values[x]) - marks.wide / 2;
+    if (y)
+      context->rectangle(left, marks.y(own.values[*y]) - marks.high / 2 - overlap, marks.wide + overlap,
+                         marks.high + overlap);
+    else if (own.status != Status::feasible || result_.figures.empty() || std::isnan(figure(own)))
+      context->rectangle(left, marks.box.y, marks.wide + overlap, marks.box.height);
+    else
+      context->rectangle(left, marks.y(figure(own)), marks.wide + overlap, marks.box.bottom() - marks.y(figure(own)));
+    context->fill();
+  }
+
+  /// The box that is proven around the file's design.
+  static void draw_tolerances(const Context& context, const core::StudyCell& own, const Box& box,
+                              const std::array<double, 2>& across, const std::array<double, 2>& up, std::size_t x,
+                              std::optional<std::size_t> y) {
+    const auto at = [](double value, const std::array<double, 2>& range, double from, double length) {
+      return from + (value - range[0]) / (range[1] - range[0]) * length;
+    };
+    const double left = at(own.lower[x], across, box.x, box.width), right = at(own.upper[x], across, box.x, box.width);
+    const double top = y ? at(own.upper[*y], up, box.bottom(), -box.height) : box.y;
+    const double bottom = y ? at(own.lower[*y], up, box.bottom(), -box.height) : box.bottom();
+    set_colour(context, {0.85, 0.1, 0.1});
+    context->set_line_width(1.6);
+    context->rectangle(left + 0.8, top + 0.8, right - left - 1.6, bottom - top - 1.6);
+    context->stroke();
   }
 
   /// Of a proof over more than two parameters cells lie over one another: what verifies shows through.
@@ -172,20 +233,20 @@ class StudyDrawing {
     like.status = own.status;
     like.reason = own.reason;
     set_colour(context, colour(like), result_.parameters.size() > 2 ? 0.25 : 1);
-    context->rectangle(left, top, right - left, bottom - top);
+    const double more = result_.parameters.size() > 2 ? 0 : overlap;
+    context->rectangle(left, top - more, right - left + more, bottom - top + more);
     context->fill();
   }
 
   /// On a grid designs are cells; else they are dots that leave room for one another.
-  double mark_size(std::size_t x, std::optional<std::size_t> y, double side) const {
+  std::array<double, 2> mark_size(std::size_t x, std::optional<std::size_t> y, const Box& box) const {
     const core::StudyMethod& method = result_.study.method;
-    if (method.kind == core::StudyMethod::Kind::grid && method.counts.size() <= 2 &&
-        (!y || method.counts.size() == 2)) {
-      const int most = y ? std::max(method.counts[x], method.counts[*y]) : method.counts[x];
-      return side / most;
-    }
-    const double share = side / std::sqrt(static_cast<double>(std::max<std::size_t>(1, result_.designs.size())));
-    return std::clamp(share, 1.5, 6.0);
+    if (method.kind == core::StudyMethod::Kind::grid && method.counts.size() <= 2 && (!y || method.counts.size() == 2))
+      return {box.width / method.counts[x], y ? box.height / method.counts[*y] : 0.0};
+    const auto many = static_cast<double>(std::max<std::size_t>(1, result_.designs.size()));
+    if (!y) return {std::clamp(2 * box.width / many, 1.5, 12.0), 0.0};
+    const double share = std::clamp(box.width / std::sqrt(many), 1.5, 6.0);
+    return {share, share};
   }
 
   void draw_axes(const Context& context, const Box& box, const std::array<double, 2>& across,
@@ -193,19 +254,26 @@ class StudyDrawing {
                  bool beside) const {
     set_colour(context, ink);
     if (below) {
-      for (const Tick& tick : ticks(across[0], across[1], 52 / box.width * (across[1] - across[0])))
-        write_text(context, tick.label, box.x + (tick.at - across[0]) / (across[1] - across[0]) * box.width,
-                   box.bottom() + 13, tick_font, Align::centre);
-      write_text(context, result_.parameters[x], box.x + box.width / 2, box.bottom() + 28, label_font, Align::centre);
+      const double unit = unit_of_axis(across);
+      const double low = across[0] / unit, high = across[1] / unit;
+      for (const Tick& tick : ticks(low, high, 52 / box.width * (high - low)))
+        write_text(context, tick.label, box.x + (tick.at - low) / (high - low) * box.width, box.bottom() + 13,
+                   tick_font, Align::centre);
+      write_text(context, result_.parameters[x] + words_of_unit(unit), box.x + box.width / 2, box.bottom() + 28,
+                 label_font, Align::centre);
     }
-    if (!beside || !y) return;
-    for (const Tick& tick : ticks(up[0], up[1], 30 / box.height * (up[1] - up[0])))
-      write_text(context, tick.label, box.x - 5, box.bottom() - (tick.at - up[0]) / (up[1] - up[0]) * box.height + 3,
+    if (!beside || (!y && result_.figures.empty())) return;
+    const double unit = unit_of_axis(up), low = up[0] / unit, high = up[1] / unit;
+    for (const Tick& tick : ticks(low, high, 30 / box.height * (high - low)))
+      write_text(context, tick.label, box.x - 5, box.bottom() - (tick.at - low) / (high - low) * box.height + 3,
                  tick_font, Align::right);
     context->save();
     context->translate(margin + 12, box.y + box.height / 2);
     context->rotate(-1.57079632679489662);
-    write_text(context, result_.parameters[*y], 0, 0, label_font, Align::centre);
+    write_text(context,
+               y ? result_.parameters[*y] + words_of_unit(unit)
+                 : core::to_string(result_.figures.front()) + " (" + scale_.unit + ")" + words_of_unit(unit),
+               0, 0, y ? label_font : legend_font, Align::centre);
     context->restore();
   }
 
@@ -235,6 +303,18 @@ class StudyDrawing {
     if (std::any_of(result_.cells.begin(), result_.cells.end(),
                     [](const core::StudyCell& c) { return c.status == Status::undecided; }))
       entry({0.25, 0.25, 0.25}, "undecided");
+    if (result_.tolerances) {
+      set_colour(context, {0.85, 0.1, 0.1});
+      context->set_line_width(1.4);
+      context->rectangle(x + 0.7, y + 1.7, 8.6, 8.6);
+      context->stroke();
+      set_colour(context, ink);
+      for (const std::string& piece : wrap("proven around the file's design", legend_width - 16, measure)) {
+        write_text(context, piece, x + 16, y + 9.5, legend_font);
+        y += 11.5;
+      }
+      y += 2;
+    }
     for (std::size_t i = 0; i < std::min(reasons_.size(), most_reasons); ++i) entry(reason_colour(i), reasons_[i]);
     if (reasons_.size() > most_reasons) entry({0.85, 0.85, 0.85}, "other reasons");
     if (result_.best) {
@@ -253,6 +333,8 @@ class StudyDrawing {
   FieldScale scale_;
   std::size_t panels_ = 1;
   double side_ = 380;
+  double height_ = 0;  ///< of the only panel, where it is not a square
+  double top_ = 1;     ///< of the first figure, over one parameter
 };
 
 }  // namespace

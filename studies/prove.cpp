@@ -1,5 +1,6 @@
 #include "studies/prove.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -44,6 +45,28 @@ std::vector<ExactRange> CellTree::ranges(std::uint64_t path) const {
 
 bool CellTree::is_finest(std::uint64_t path) const {
   return static_cast<std::size_t>(63 - std::countl_zero(path)) >= total_;
+}
+
+std::vector<core::StudyRange> joined_ranges(std::vector<core::StudyCell> cells) {
+  std::sort(cells.begin(), cells.end(),
+            [](const core::StudyCell& a, const core::StudyCell& b) { return a.lower[0] < b.lower[0]; });
+  const auto is = [&](std::size_t i, Status status) { return i < cells.size() && cells[i].status == status; };
+  std::vector<core::StudyRange> ranges;
+  for (std::size_t first = 0; first < cells.size(); ++first) {
+    if (!is(first, Status::feasible)) continue;
+    std::size_t last = first, before = first - 1;  // before the first cell: past all of them
+    while (is(last + 1, Status::feasible)) ++last;
+    std::size_t after = last + 1;
+    while (is(before, Status::undecided)) --before;
+    while (is(after, Status::undecided)) ++after;
+    core::StudyRange& own = ranges.emplace_back();
+    own.from = {before < cells.size() ? cells[before].upper[0] : cells.front().lower[0], cells[first].lower[0]};
+    own.to = {cells[last].upper[0], after < cells.size() ? cells[after].lower[0] : cells.back().upper[0]};
+    if (before < cells.size()) own.below = cells[before].reason;
+    if (after < cells.size()) own.above = cells[after].reason;
+    first = last;
+  }
+  return ranges;
 }
 
 CellJudge::CellJudge(const StudyProblem& problem) : problem_(problem), tree_(problem.study()) {

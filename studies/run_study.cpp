@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -101,13 +102,41 @@ core::StudyCell cell_of(const StudyDesign& design, const CellTree& tree) {
   return cell;
 }
 
+void require_provable(const core::Study& study) {
+  using core::Figure;
+  for (const core::StudyRequirement& own : study.require)
+    if (own.figure != Figure::margin && own.figure != Figure::min_force && own.figure != Figure::pose_error)
+      throw core::InputError({study.file}, core::to_string(own.figure) + " is not proven for boxes of designs",
+                             "require margin, min_force or pose_error, or choose another method");
+  const bool end = study.vary.size() == 1 && study.goals.size() == 1 && !study.goals.front().figure &&
+                   study.goals.front().expression == study.vary.front().name;
+  if (!study.goals.empty() && !end)
+    throw core::InputError({study.file}, "a proof measures no goal",
+                           "leave the goal out; over one parameter that may be the goal itself");
+}
+
+/// The least or the greatest value that verifies, as the goal asks, rounded into its range to a thousandth of that: a
+/// number to build by.
+void choose_end(const core::Study& study, StudyResult& result) {
+  if (study.goals.empty() || result.ranges.empty()) return;
+  const bool most = study.goals.front().maximise;
+  const core::StudyRange& own = most ? result.ranges.back() : result.ranges.front();
+  const core::Rational low(own.from[1]), high(own.to[0]);
+  const int exponent = static_cast<int>(std::floor(std::log10(own.to[0] - own.from[1]))) - 3;
+  const core::Rational unit = core::rational_from_decimal("1e" + std::to_string(exponent));
+  const core::Rational steps = (most ? high : low) / unit;
+  core::Integer whole;
+  (most ? mpz_fdiv_q : mpz_cdiv_q)(whole.get_mpz_t(), steps.get_num_mpz_t(), steps.get_den_mpz_t());
+  StudyDesign best;
+  best.status = Status::feasible;
+  best.values = {core::to_double(core::Rational(whole) * unit)};
+  result.designs = {best};
+  result.best = 0;
+}
+
 /// Cells level by level: what is undecided is cut, down to the finest.
 void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyResult& result) {
-  for (const core::Figure figure : problem.figures())
-    if (std::any_of(problem.study().require.begin(), problem.study().require.end(),
-                    [&](const core::StudyRequirement& own) { return own.figure == figure; }))
-      throw core::InputError({problem.study().file}, core::to_string(figure) + " is not proven for boxes of designs",
-                             "require margin or min_force, or choose another method");
+  require_provable(problem.study());
   const CellTree tree(problem.study());
   Work work;
   work.worker = [&]() -> Worker {
@@ -146,6 +175,10 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
     }
     (void)found.take();
     for (const StudyDesign& own : leaves) result.cells.push_back(cell_of(own, tree));
+    if (result.complete && problem.study().vary.size() == 1) {
+      result.ranges = joined_ranges(result.cells);
+      choose_end(problem.study(), result);
+    }
     if (result.complete) result.tolerances = proven_tolerances(problem);
   });
 }

@@ -33,16 +33,10 @@ std::vector<mechanism::ParameterRange> ranges_of(const core::Study& study) {
   return ranges;
 }
 
-/// What is required of a figure that tasks ask for themselves is asked of them.
-core::Task with_requirements(core::Task task, const core::Study& study) {
-  for (const core::StudyRequirement& own : study.require) {
-    if (own.figure == Figure::margin) task.margin = std::max(task.margin, own.bound);
-    if (own.figure == Figure::min_force && own.bound > 0)
-      task.min_force = std::max(task.min_force.value_or(0), own.bound);
-  }
-  return task;
+/// What is required of these tasks ask for themselves.
+bool asked_of_tasks(Figure figure) {
+  return figure == Figure::margin || figure == Figure::min_force || figure == Figure::pose_error;
 }
-
 bool of_zones(Figure figure) { return figure == Figure::zone_area || figure == Figure::largest_circle; }
 bool wants_less(Figure figure) { return figure == Figure::effort || figure == Figure::pose_error; }
 
@@ -63,24 +57,19 @@ StudyProblem::StudyProblem(const Model& model, const core::Study& study) : model
           mechanism::in_varied(mechanism::parse_expression(goal.expression, {study_.file}), own, varied_));
   }
   for (const core::StudyRequirement& require : study_.require)
-    if (require.figure != Figure::margin && require.figure != Figure::min_force) want(require.figure);
-  for (const Figure figure : figures_) {
-    if (figure == Figure::pose_error)
-      throw core::InputError({study_.file}, "pose_error is not measured over a task yet", "choose another figure");
-    const bool size = figure == Figure::min_force || figure == Figure::effort;
-    if (size &&
-        std::any_of(study_.tasks.begin(), study_.tasks.end(), [](const auto& t) { return !t.loads_within.empty(); }))
-      throw core::InputError({study_.file}, core::to_string(figure) + " is not measured under loads_within",
-                             "choose margin, or require min_force without making it a goal");
-  }
+    if (!asked_of_tasks(require.figure)) want(require.figure);
+  if (std::find(figures_.begin(), figures_.end(), Figure::pose_error) != figures_.end() &&
+      own.space == mechanism::Space::spatial)
+    throw core::InputError({study_.file}, "pose_error is proven in the plane, and " + own.file + " is spatial",
+                           "choose another figure");
   for (const std::string& text : study_.keep) {
     const mechanism::Keep keep = mechanism::parse_keep(text, {study_.file});
     keep_.push_back(keep);
     keep_in_varied_.push_back(
         {mechanism::in_varied(keep.left, own, varied_), mechanism::in_varied(keep.right, own, varied_), keep.strict});
   }
-  for (const core::Task& task : study_.tasks)
-    tasks_.push_back(std::make_unique<DesignTask>(own, ranges_of(study_), with_requirements(task, study_)));
+  for (const core::Task& task : core::required_tasks(study_))
+    tasks_.push_back(std::make_unique<DesignTask>(own, ranges_of(study_), task));
 }
 
 bool StudyProblem::kept_exactly(const mechanism::Keep& keep, const std::vector<Rational>& values) const {
@@ -136,7 +125,7 @@ StudyJudge::StudyJudge(const StudyProblem& problem) : problem_(problem) {
   for (const auto& task : problem.tasks()) {
     judges_.push_back(task->judge());
     const bool sizes = std::any_of(problem.figures().begin(), problem.figures().end(),
-                                   [](Figure f) { return f == Figure::min_force || f == Figure::effort; });
+                                   [](Figure f) { return f != Figure::margin && !of_zones(f); });
     measures_.push_back(sizes ? task->measure() : nullptr);
   }
 }
@@ -204,7 +193,7 @@ double StudyJudge::violation(const std::vector<Rational>& values) {
   return sum / static_cast<double>(judges_.size());
 }
 
-double StudyJudge::measured(Figure figure, std::size_t t, const loci::DesignBox& box) {
+std::optional<Interval> StudyJudge::measured(Figure figure, std::size_t t, const loci::DesignBox& box) {
   const DesignTask& task = *problem_.tasks()[t];
   if (figure == Figure::margin) {
     const core::Point2 lower = task.region().lower(), upper = task.region().upper();
@@ -212,31 +201,51 @@ double StudyJudge::measured(Figure figure, std::size_t t, const loci::DesignBox&
     double limit = task.margin();
     for (std::size_t c = 0; c < 2; ++c)
       limit += core::to_double(own.coordinates[c].upper - own.coordinates[c].lower) + upper[c] - lower[c];
-    return judges_[t]->clearance(box, task.margin(), limit, figure_accuracy, figure_effort);
+    return Interval(judges_[t]->clearance(box, task.margin(), limit, figure_accuracy, figure_effort));
   }
-  if (!measures_[t]) return nan;
+  if (!measures_[t]) return std::nullopt;
+  const core::Task& asked = task.task();
   if (figure == Figure::min_force) {
     const std::vector<int> forces = task.forces();
-    return forces.empty() ? nan : measures_[t]->least_size(box, forces, figure_accuracy, figure_effort).lower();
+    if (forces.empty()) return std::nullopt;
+    const Interval size = measures_[t]->least_size(box, forces, figure_accuracy, figure_effort);
+    // The verdict has proven as much.
+    const double least = asked.min_force ? core::to_double(*asked.min_force) : 0.0;
+    return Interval(std::max(size.lower(), least), std::max(size.upper(), least));
   }
   if (figure == Figure::effort) {
     const std::vector<int> efforts = task.efforts();
-    return efforts.empty() ? nan : measures_[t]->greatest_size(box, efforts, figure_accuracy, figure_effort).upper();
+    if (efforts.empty()) return std::nullopt;
+    return measures_[t]->greatest_size(box, efforts, figure_accuracy, figure_effort);
   }
-  return nan;
+  if (figure == Figure::pose_error) {
+    const Interval size = measures_[t]->greatest_displacement(box, figure_accuracy, figure_effort);
+    const double most = asked.pose_error ? core::to_double(*asked.pose_error) : size.upper();
+    return Interval(std::min(size.lower(), most), std::min(size.upper(), most));
+  }
+  return std::nullopt;
 }
 
 void StudyJudge::measure(StudyDesign& design, const std::vector<Rational>& values,
                          const std::vector<loci::DesignBox>& boxes) {
   const std::vector<Figure>& figures = problem_.figures();
+  at_best_.assign(figures.size(), nan);
   for (std::size_t f = 0; f < figures.size(); ++f) {
     if (of_zones(figures[f])) continue;
-    double worst = nan;
+    // Of several tasks that of the worst.
+    std::optional<Interval> all;
+    const bool less = wants_less(figures[f]);
     for (std::size_t t = 0; t < judges_.size(); ++t) {
-      const double own = measured(figures[f], t, boxes[t]);
-      if (std::isnan(worst) || (wants_less(figures[f]) ? own > worst : own < worst)) worst = own;
+      const std::optional<Interval> own = measured(figures[f], t, boxes[t]);
+      if (!own || !all)
+        all = own ? own : all;
+      else
+        all = less ? Interval(std::max(all->lower(), own->lower()), std::max(all->upper(), own->upper()))
+                   : Interval(std::min(all->lower(), own->lower()), std::min(all->upper(), own->upper()));
     }
-    design.figures[f] = worst;
+    if (!all) continue;
+    design.figures[f] = less ? all->upper() : all->lower();
+    at_best_[f] = less ? all->lower() : all->upper();
   }
   if (std::any_of(figures.begin(), figures.end(), of_zones)) measure_zones(design, values);
 }
@@ -265,15 +274,19 @@ void StudyJudge::require(StudyDesign& design) const {
   const std::vector<Figure>& figures = problem_.figures();
   for (const core::StudyRequirement& own : problem_.study().require) {
     const auto place = std::find(figures.begin(), figures.end(), own.figure);
-    if (place == figures.end()) continue;  // the tasks ask for it
-    const double value = design.figures[static_cast<std::size_t>(place - figures.begin())];
+    if (place == figures.end() || asked_of_tasks(own.figure)) continue;
+    const auto f = static_cast<std::size_t>(place - figures.begin());
+    const double value = design.figures[f], best = std::isnan(at_best_[f]) ? value : at_best_[f];
     const double bound = core::to_double(own.bound);
     if (std::isnan(value)) {
       design.status = StudyDesign::Status::undecided;
       design.reason = core::to_string(own.figure) + " is not known";
-    } else if (wants_less(own.figure) ? value > bound : value < bound) {
+    } else if (wants_less(own.figure) ? best > bound : best < bound) {
       design.status = StudyDesign::Status::infeasible;
       design.reason = core::to_string(own.figure);
+    } else if (wants_less(own.figure) ? value > bound : value < bound) {
+      design.status = StudyDesign::Status::undecided;
+      design.reason = core::to_string(own.figure) + " is too near to what is required";
     }
   }
 }

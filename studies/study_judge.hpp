@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,12 +56,14 @@ class StudyJudge {
  private:
   void measure(core::StudyDesign& design, const std::vector<core::Rational>& values,
                const std::vector<loci::DesignBox>& boxes);
-  double measured(core::Figure figure, std::size_t task, const loci::DesignBox& box);
+  /// Where the figure lies; nothing where it is not known.
+  std::optional<loci::sheet::Interval> measured(core::Figure figure, std::size_t task, const loci::DesignBox& box);
   void measure_zones(core::StudyDesign& design, const std::vector<core::Rational>& values);
   void require(core::StudyDesign& design) const;
 
   const StudyProblem& problem_;
   std::vector<std::unique_ptr<loci::DesignJudge>> judges_, measures_;
+  std::vector<double> at_best_;  ///< what each figure of the design last measured is at best; the figure is at worst
 };
 
 }  // namespace clearloci

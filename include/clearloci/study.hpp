@@ -9,6 +9,7 @@
 // Lengths in m, forces in N, couples in N m.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -68,6 +69,9 @@ struct Study {
   StudyMethod method = {};
 };
 
+/// The study's tasks with what it requires besides of them: margin, min_force, pose_error.
+std::vector<Task> required_tasks(const Study& study);
+
 /// What became of one design.
 struct StudyDesign {
   enum class Status {
@@ -95,15 +99,23 @@ struct StudyCell {
   std::string reason = {};
 };
 
+/// Of a proof over one parameter: values that all verify, with an enclosure of either end. Beyond an enclosure designs
+/// fail, proven, or the study's range ends.
+struct StudyRange {
+  std::array<double, 2> from{}, to{};
+  std::string below = {}, above = {};  ///< why designs beyond fail; empty where the range of the study ends there
+};
+
 struct StudyResult {
   std::string mechanism;
   Study study;
   std::vector<std::string> parameters;  ///< that vary
   std::vector<Figure> figures;
   std::vector<StudyDesign> designs;          ///< by index; of a search its history
-  std::optional<std::size_t> best;           ///< in `designs`, by the first goal
+  std::optional<std::size_t> best;           ///< in `designs`, by the first goal; of a proof the only one there
   std::vector<std::size_t> front;            ///< in `designs`, with several goals: none is better in all
   std::vector<StudyCell> cells = {};         ///< of a proof
+  std::vector<StudyRange> ranges = {};       ///< of a proof over one parameter, in its order
   std::optional<StudyCell> tolerances = {};  ///< of a proof: the largest box around the file's design that is proven
   bool complete = true;
 };

@@ -10,7 +10,9 @@ import subprocess
 import time
 import unittest
 
-from program import FIVE_BAR, PROGRAM, InOwnFolder
+from program import FIVE_BAR, PROGRAM, SOURCE, InOwnFolder
+
+STUDIES = SOURCE / "examples" / "studies"
 
 STUDY = """format: 1
 vary: {L: [0.3, 0.7], d: [0.3, 0.7]}
@@ -43,11 +45,70 @@ class Design(InOwnFolder):
         for name in ("designs.svg", "designs.png"):
             self.assertGreater((self.folder / "here" / name).stat().st_size, 5000)
 
+    def design(self, model, study, folder):
+        """A shipped study as a user runs it: what it prints, designs.json and the page."""
+        process = self.run_program("design", model, STUDIES / study, "-o", folder)
+        self.assertIn("report.html", process.stdout)
+        result = json.loads((self.folder / folder / "designs.json").read_text(encoding="utf-8"))
+        return process.stdout, result, (self.folder / folder / "report.html").read_text(encoding="utf-8")
+
+    def assert_page(self, page, *words):
+        for heading in ("What was varied", "What was required", "What is feasible", "Why the rest fails",
+                        "Recommended design, and its proof"):
+            self.assertIn(f"<h2>{heading}</h2>", page)
+        for own in words:
+            self.assertIn(own, page)
+        self.assertNotIn("<script", page)
+        self.assertNotIn("http", page.replace("http-equiv", ""))
+        self.assertGreater(page.count("data:image/svg+xml;base64,"), 0)
+
+    def test_link_lengths(self):
+        told, result, page = self.design(FIVE_BAR, "link_lengths.yaml", "lengths")
+        self.assertIn("verify: VERIFIED", told)
+        self.assertEqual(result["counts"]["undecided"], 0)
+        self.assert_page(page, "VERIFIED", "out of reach", "2*L + d")
+        self.assertGreater(result["best"]["figures"]["margin"], 0.33)
+
+    def test_three_rrr_base(self):
+        told, result, page = self.design(STUDIES / "three_rrr.yaml", "three_rrr_base.yaml", "base")
+        self.assertIn("verify: VERIFIED", told)
+        self.assert_page(page, "VERIFIED")
+        self.assertAlmostEqual(result["best"]["parameters"]["R"], 0.724, delta=0.01)
+
+    def test_clearance_budget(self):
+        """Of the front none may be larger, and what it says is what verify says."""
+        told, result, page = self.design(STUDIES / "clearances.yaml", "clearance_budget.yaml", "budget")
+        self.assertIn("verify: VERIFIED", told)
+        self.assert_page(page, "What can be traded", "pose_error")
+        front = [(own["parameters"]["rho"], own["parameters"]["delta"]) for own in result["front"]]
+        self.assertGreater(len(front), 5)
+        for rho, delta in front:
+            self.assertFalse(any(r > rho and d >= delta or r >= rho and d > delta for r, d in front))
+        task = self.folder / "task.yaml"
+        path = "path: [[0, -0.7], [0, -0.675], [0.5, -0.675], [0.5, -0.7]]"
+        task.write_text(f"format: 1\n{path}\nmargin: 0.01\npose_error: 50e-6\n", encoding="utf-8")
+        rho, delta = front[len(front) // 2]
+        for more, status in ((1.0, 0), (1.1, 1)):
+            words = ["--set", f"rho={rho * more!r}", "--set", f"delta={delta * more!r}"]
+            process = self.run_program("verify", STUDIES / "clearances.yaml", task, *words, "-o", "v", status=status)
+            self.assertIn("pose error    at most" if status == 0 else "displace the end effector by", process.stdout)
+
+    def test_softest_spring(self):
+        told, result, page = self.design(STUDIES / "preloaded.yaml", "softest_spring.yaml", "spring")
+        self.assertIn("k verifies from [22.43627377098", told)
+        self.assert_page(page, "22.43627377098", "22.5", "contact lost in A1, B1, P")
+        self.assertEqual(len(result["ranges"]), 1)
+
+    def test_proven_lengths(self):
+        _, result, page = self.design(FIVE_BAR, "proven_lengths.yaml", "proof")
+        self.assert_page(page, "every such design is proven")
+        self.assertGreater(result["shares"]["feasible"], 0.5)
+
     def test_same_bytes_whatever_the_threads(self):
         study = self.study(10)
         for threads in (1, 4):
             self.run_program("design", FIVE_BAR, study, "-o", f"by{threads}", "--threads", threads, "--quiet")
-        for name in ("designs.csv", "designs.json", "designs.svg"):
+        for name in ("designs.csv", "designs.json", "designs.svg", "report.html"):
             self.assertEqual((self.folder / "by1" / name).read_bytes(), (self.folder / "by4" / name).read_bytes())
 
     def test_nothing_is_lost_by_kill(self):

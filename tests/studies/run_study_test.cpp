@@ -164,6 +164,55 @@ TEST(Study, ProvesCellsOfDesigns) {
           Verdict::verified);
 }
 
+/// The contact of A1, B1 and P is lost where the load and the spring's pull k (1 - l0/|HP|)(H - P) together point along
+/// B2 P. Over the task of the study the stiffest spring for which they do is that of the corner (-1/20, 3/5).
+double stiffness_at_the_corner() {
+  const double x = -0.05, y = 0.6, half = 0.5, dx = x - half, dy = y;  // P from A2
+  const double square = dx * dx + dy * dy, up = std::sqrt((half * half - square / 4) / square);
+  const double vx = dx / 2 + up * dy, vy = dy / 2 - up * dx;  // B2 P
+  const double hx = 0.75 - x, hy = -0.25 - y, pull = 1 - 0.25 / std::hypot(hx, hy);
+  return -100 * vx / (pull * (hx * vy - hy * vx));
+}
+
+TEST(Study, TheSoftestSpringIsThatOfTheClosedForm) {
+  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/studies/preloaded.yaml");
+  const Study study = read_study(CLEARLOCI_SOURCE_DIR "/examples/studies/softest_spring.yaml", model);
+  const StudyResult result = run_study(model, study, {.threads = 2});
+  ASSERT_EQ(result.ranges.size(), 1U);
+  const StudyRange& own = result.ranges.front();
+  const double closed_form = stiffness_at_the_corner();
+  EXPECT_LE(own.from[0], closed_form);
+  EXPECT_GE(own.from[1], closed_form);
+  EXPECT_LT(own.from[1] - own.from[0], 1e-12 * closed_form);
+  EXPECT_EQ(own.below, "contact lost in A1, B1, P");
+  EXPECT_EQ(own.to[0], 400);
+  EXPECT_EQ(own.to[1], 400);
+  EXPECT_EQ(own.above, "");
+}
+
+TEST(Study, RangesEndWhereCellsFail) {
+  // The way between the motors: too near, and too far, fail; in between the box of the task is within reach.
+  const Model model = five_bar();
+  const StudyResult result =
+      run_study(model, parse_study("format: 1\nvary: {L: [0.3, 0.9]}\ntask: {box: {x: [0.1, 0.4], y: [-0.7, -0.5]}}\n"
+                                   "method: {prove: 1/1048576}\n",
+                                   model));
+  ASSERT_FALSE(result.ranges.empty());
+  for (const StudyRange& own : result.ranges) {
+    EXPECT_LE(own.from[0], own.from[1]);
+    EXPECT_LT(own.from[1], own.to[0]);
+    EXPECT_LE(own.to[0], own.to[1]);
+    if (!own.below.empty()) {
+      EXPECT_EQ(verdict_of(model, result, {own.from[0] - 1e-5}), Verdict::refuted) << own.below;
+    }
+    if (!own.above.empty()) {
+      EXPECT_EQ(verdict_of(model, result, {own.to[1] + 1e-5}), Verdict::refuted) << own.above;
+    }
+    EXPECT_EQ(verdict_of(model, result, {own.from[1] + 1e-5}), Verdict::verified);
+    EXPECT_EQ(verdict_of(model, result, {own.to[0] - 1e-5}), Verdict::verified);
+  }
+}
+
 TEST(Study, ASearchBeatsAGrid) {
   const Model model = five_bar();
   const StudyResult grid = run_study(model, parse_study(study_text("{grid: [9, 9]}"), model));
