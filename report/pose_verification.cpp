@@ -67,6 +67,8 @@ std::string witness_words(const core::PoseTaskWitness& witness) {
       words = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(witness.reactions.front()), *witness.size,
                           unit_of(witness.reactions.front()), core::to_string(*witness.least));
       break;
+    case Kind::displaced:  // not asked for over poses in space
+      break;
   }
   if (!witness.load.empty()) {
     words += " under the load (";
