@@ -56,6 +56,8 @@ const CurveAlgebra::Divided& CurveAlgebra::divided(const Polynomial& p) {
     own.rest = std::move(*quotient);
     ++own.order;
   }
+  // What a curve with long coefficients leaves of a product is below what MultiInterval resolves.
+  own.rest = core::scaled_for_doubles(own.rest);
   return divided_.emplace_back(p, std::move(own)).second;
 }
 

@@ -75,10 +75,8 @@ CurveProjection::CurveProjection(const core::LocusProblem& problem, const core::
   if (const auto* line = std::get_if<core::LineForm>(&curve.closed_form)) self.line = *line;
   if (!self.circles.empty() || self.line) return;
   const bool low = !curve.implicit.is_zero() && core::total_degree(curve.implicit) <= low_degree;
-  if (low || factor == nullptr)
-    self.plane = std::make_unique<PlaneCurve>(curve.implicit);
-  else
-    self.sheet = std::make_unique<OnSheet>(problem, curve, *factor);
+  if (low || factor == nullptr) self.plane = std::make_unique<PlaneCurve>(curve.implicit);
+  if (factor != nullptr) self.sheet = std::make_unique<OnSheet>(problem, curve, *factor);
 }
 
 CurveProjection::~CurveProjection() = default;
@@ -103,7 +101,10 @@ CurvePoint CurveProjection::operator()(const Point2& near) const {
     }
     return best;
   }
-  if (self.sheet) return self.sheet->project(near);
+  if (self.sheet) {
+    const CurvePoint on = self.sheet->project(near);
+    if (!self.plane || on.tangent != Point2{}) return on;
+  }
   const Point2 at = self.plane->project(near);
   const PlaneCurve::Jet jet = self.plane->jet(at);
   return {at, unit(-jet.fy, jet.fx)};

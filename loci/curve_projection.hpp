@@ -1,5 +1,6 @@
-// Points near a traced curve moved onto it, in doubles: by the closed form where there is one, by the implicit
-// polynomial where its degree is low, else on the mode's sheet, where high degrees lose no digits.
+// Points near a traced curve moved onto it, in doubles: by the closed form where there is one, else on the mode's
+// sheet, where high degrees lose no digits and branches of other modes do not cross; by the implicit polynomial where
+// that finds nothing or there is no sheet, and the degree is low.
 #pragma once
 
 #include <map>
@@ -17,7 +18,7 @@ struct CurvePoint {
 
 class CurveProjection {
  public:
-  /// `factor`: whose zeros the curve is; may be null where the degree is low.
+  /// `factor`: whose zeros the curve is; may be null, as for the workspace boundary.
   CurveProjection(const core::LocusProblem& problem, const core::LocusCurve& curve, const core::LocusFactor* factor);
   ~CurveProjection();
   CurveProjection(CurveProjection&&) noexcept;

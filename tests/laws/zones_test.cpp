@@ -155,6 +155,18 @@ void expect_partition(const mechanism::Mechanism& mechanism, const core::ZoneMap
   }
 }
 
+// Once open: in the base of a cylinder, where |A| vanishes in either mode on a curve of its own; and where what a curve
+// with long coefficients leaves of a product was too small to have a sign.
+TEST(Zones, OfTheCorpusAreCertified) {
+  for (const std::string name : {"rrrpr_singularities_cross_at_base", "five_bar_long_coefficients"}) {
+    SCOPED_TRACE(name);
+    const core::ZoneMap map = find_zones(
+        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml"), {});
+    EXPECT_TRUE(certified(map));
+    EXPECT_FALSE(map.zones.empty());
+  }
+}
+
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
   const core::ZoneMap map = find_zones(example("five_bar"));
   const auto home = std::find_if(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) {
