@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "loci/sheet/boundary_curves.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -25,79 +26,6 @@ Polynomial as_polynomial(int variables, const Collected& collected) {
 
 bool has_roots(const core::Term& term) {
   return std::any_of(term.exponents.begin() + 2, term.exponents.end(), [](int e) { return e != 0; });
-}
-
-/// A circle on which a root's square vanishes.
-struct BoundaryCircle {
-  int root = 0;
-  Rational x, y, radius_squared;
-};
-
-/// The coefficients of p as a polynomial of degree 1 or 2 in D, if it is one.
-std::optional<std::array<Rational, 3>> in_powers_of(const Polynomial& distance, Polynomial p) {
-  std::array<Rational, 3> coefficients = {0, 0, 0};
-  const Polynomial square = distance * distance;
-  const std::vector<int> x4 = square.terms.front().exponents, x2 = distance.terms.front().exponents;
-  coefficients[2] = core::coefficient(p, x4) / square.terms.front().coefficient;
-  p = p - core::constant_polynomial(p.variables, coefficients[2]) * square;
-  coefficients[1] = core::coefficient(p, x2) / distance.terms.front().coefficient;
-  p = p - core::constant_polynomial(p.variables, coefficients[1]) * distance;
-  if (!p.is_constant()) return std::nullopt;
-  coefficients[0] = p.is_zero() ? Rational(0) : p.terms.front().coefficient;
-  return coefficients;
-}
-
-/// The positive zeros of a polynomial of degree at most 2 that are rational.
-std::vector<Rational> positive_zeros(const std::array<Rational, 3>& c) {
-  std::vector<Rational> zeros;
-  if (c[2] == 0) {
-    if (c[1] != 0) zeros.emplace_back(-c[0] / c[1]);
-  } else if (const auto root = core::square_root(Rational(c[1] * c[1] - 4 * c[0] * c[2]))) {
-    zeros.emplace_back((-c[1] + *root) / (2 * c[2]));
-    if (*root != 0) zeros.emplace_back((-c[1] - *root) / (2 * c[2]));
-  }
-  zeros.erase(std::remove_if(zeros.begin(), zeros.end(), [](const Rational& z) { return z <= 0; }), zeros.end());
-  return zeros;
-}
-
-std::vector<BoundaryCircle> boundary_circles(const core::RootTower& tower) {
-  std::vector<BoundaryCircle> circles;
-  for (std::size_t j = 0; j < tower.roots.size(); ++j)
-    for (const Polynomial& denominator : tower.denominators) {
-      const auto centre = double_point(denominator);
-      if (!centre) continue;
-      const auto coefficients = in_powers_of(denominator, tower.roots[j].square);
-      if (!coefficients) continue;
-      const Rational scale = denominator.terms.front().coefficient;
-      for (const Rational& zero : positive_zeros(*coefficients))
-        circles.push_back({static_cast<int>(j), (*centre)[0], (*centre)[1], zero / scale});
-      break;
-    }
-  return circles;
-}
-
-/// Two circles of different roots, with what they have in common.
-struct CirclePair {
-  BoundaryCircle first, second;
-  Rational dx, dy;  ///< from one centre to the other
-  Rational along;   ///< of the chord's middle, as a part of the way
-  Rational rise;    ///< (half the chord / the way)^2; 0: they touch; < 0: they do not meet
-};
-
-std::vector<CirclePair> meeting_circles(const core::RootTower& tower) {
-  std::vector<CirclePair> pairs;
-  const std::vector<BoundaryCircle> circles = boundary_circles(tower);
-  for (std::size_t i = 0; i < circles.size(); ++i)
-    for (std::size_t k = i + 1; k < circles.size(); ++k) {
-      const BoundaryCircle &a = circles[i], &b = circles[k];
-      CirclePair pair{a, b, b.x - a.x, b.y - a.y, 0, 0};
-      const Rational way = pair.dx * pair.dx + pair.dy * pair.dy;
-      if (a.root == b.root || way == 0) continue;
-      pair.along = (way + a.radius_squared - b.radius_squared) / (2 * way);
-      pair.rise = a.radius_squared / way - pair.along * pair.along;
-      if (pair.rise >= 0) pairs.push_back(pair);
-    }
-  return pairs;
 }
 
 void add(std::vector<Star>& stars, Star star) {
@@ -179,8 +107,8 @@ std::vector<Star> cones(const core::RootTower& tower) {
 
 namespace {
 
-/// The tangent of a circle whose radius at the star points to (dx, dy) is (-dy, dx).
-void set_tangent(Star& star, const Rational& dx, const Rational& dy) {
+void set_tangent(Star& star, const BoundaryCurve& curve) {
+  const auto [dx, dy] = curve.normal_at({star.x, star.y});
   star.along_y = abs(dx) > abs(dy);
   star.slope = star.along_y ? -dy / dx : -dx / dy;
 }
@@ -194,14 +122,14 @@ Rational slope_in_root(const Polynomial& function, int root, const std::vector<R
 
 std::vector<Star> touches(const core::RootTower& tower) {
   std::vector<Star> result;
-  for (const CirclePair& pair : meeting_circles(tower)) {
-    if (pair.rise != 0) continue;
+  for (const BoundaryMeeting& meeting : boundary_meetings(tower)) {
+    if (!meeting.touching) continue;
     Star star;
     star.shape = Star::Shape::touch;
-    star.x = pair.first.x + pair.along * pair.dx;
-    star.y = pair.first.y + pair.along * pair.dy;
-    star.roots = {pair.first.root, pair.second.root};
-    set_tangent(star, pair.dx, pair.dy);
+    star.x = meeting.foot[0];
+    star.y = meeting.foot[1];
+    star.roots = {meeting.first.root, meeting.second.root};
+    set_tangent(star, meeting.first);
     if (alone(tower, star)) add(result, std::move(star));
   }
   return result;
@@ -209,20 +137,19 @@ std::vector<Star> touches(const core::RootTower& tower) {
 
 std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& function) {
   std::vector<Star> result;
-  for (const CirclePair& pair : meeting_circles(tower)) {
-    const int first = pair.first.root, second = pair.second.root;
-    const auto rise = core::square_root(pair.rise);
+  for (const BoundaryMeeting& meeting : boundary_meetings(tower)) {
+    const int first = meeting.first.root, second = meeting.second.root;
     const bool others = std::any_of(function.terms.begin(), function.terms.end(), [&](const core::Term& term) {
       for (std::size_t v = 2; v < term.exponents.size(); ++v)
         if (const int j = static_cast<int>(v) - 2; term.exponents[v] != 0 && j != first && j != second) return true;
       return false;
     });
     const bool on_either = core::depends_on(function, 2 + first) || core::depends_on(function, 2 + second);
-    if (pair.rise == 0 || !rise || others || !on_either) continue;
-    for (const int side : {1, -1}) {
+    if (meeting.touching || others || !on_either) continue;
+    for (const std::array<Rational, 2>& point : meeting.rational_points()) {
       std::vector<Rational> at(static_cast<std::size_t>(tower.variables()), Rational(0));
-      at[0] = pair.first.x + pair.along * pair.dx - side * *rise * pair.dy;
-      at[1] = pair.first.y + pair.along * pair.dy + side * *rise * pair.dx;
+      at[0] = point[0];
+      at[1] = point[1];
       if (core::evaluate(function, at) != 0) continue;
       Star star;
       star.shape = Star::Shape::corner;
@@ -233,10 +160,10 @@ std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& fun
       const bool by_first = slope_in_root(function, first, at) != 0;
       const bool by_second = slope_in_root(function, second, at) != 0;
       if (by_first != by_second) {
-        const BoundaryCircle& touched = by_first ? pair.first : pair.second;
+        const BoundaryCurve& touched = by_first ? meeting.first : meeting.second;
         star.shape = Star::Shape::bend;
         star.roots.push_back(touched.root);
-        set_tangent(star, star.x - touched.x, star.y - touched.y);
+        set_tangent(star, touched);
       }
       if (alone(tower, star)) add(result, std::move(star));
     }

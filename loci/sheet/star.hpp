@@ -60,10 +60,10 @@ struct Star {
 /// The double zeros of root squares at rational points of the plane where a denominator of the tower vanishes.
 std::vector<Star> cones(const core::RootTower& tower);
 
-/// The points at which the boundary circles of two roots touch, each a circle around a rational centre.
+/// The points at which the boundary curves (boundary_curves.hpp) of two roots touch.
 std::vector<Star> touches(const core::RootTower& tower);
 
-/// The rational points at which the boundary circles of two roots cross and the function vanishes with both roots.
+/// The rational points at which the boundary curves of two roots cross and the function vanishes with both roots.
 std::vector<Star> corners_on(const core::RootTower& tower, const core::Polynomial& function);
 
 /// Stars of a whole tower for a part of it, and for the tower without one root.

@@ -132,6 +132,24 @@ TEST(Engines, AgreeOnDesignsOfTheCorpus) {
   EXPECT_NEAR(arcs[2], 0.75 * std::numbers::pi, 1e-9);
 }
 
+// The line of the slider's reach runs through A2: where it crosses the circles of the other leg's ends, right above and
+// below A2, the couple in A2 vanishes.
+TEST(Engines, ArcsEndInCornersOfALineAndACircle) {
+  const core::LocusMap map =
+      trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
+                                           "/tests/corpus/loci/prrr_r_corner_of_rail_and_circle.yaml"),
+                 {});
+  int ends = 0;
+  for (const core::LocusCurve& curve : map.curves) {
+    EXPECT_TRUE(curve.certified) << curve.id;
+    if (curve.kind != core::LocusKind::backlash) continue;
+    for (const core::Arc& arc : curve.arcs)
+      for (const core::Point2& end : {arc.points.front(), arc.points.back()})
+        ends += end == core::Point2{0.75, 0.25} || end == core::Point2{0.75, -1.75} ? 1 : 0;
+  }
+  EXPECT_EQ(ends, 2);
+}
+
 /// Both boundaries' circles touch, from outside or from inside, on bases of several inclinations.
 std::vector<test::FiveBarDesign> touching_designs() {
   std::vector<test::FiveBarDesign> designs(5);

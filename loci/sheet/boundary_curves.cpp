@@ -1,0 +1,148 @@
+#include "loci/sheet/boundary_curves.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "loci/sheet/star.hpp"
+
+namespace clearloci::loci::sheet {
+namespace {
+
+using core::Polynomial;
+using core::Rational;
+
+using Quadratic = std::array<Rational, 3>;  ///< from the constant up
+
+std::vector<Rational> rational_zeros(const Quadratic& c) {
+  std::vector<Rational> zeros;
+  if (c[2] == 0) {
+    if (c[1] != 0) zeros.emplace_back(-c[0] / c[1]);
+  } else if (const auto root = core::square_root(Rational(c[1] * c[1] - 4 * c[0] * c[2]))) {
+    zeros.emplace_back((-c[1] + *root) / (2 * c[2]));
+    if (*root != 0) zeros.emplace_back((-c[1] - *root) / (2 * c[2]));
+  }
+  return zeros;
+}
+
+/// The coefficients of p as a polynomial of degree 1 or 2 in D, if it is one.
+std::optional<Quadratic> in_powers_of(const Polynomial& distance, Polynomial p) {
+  Quadratic coefficients = {0, 0, 0};
+  const Polynomial square = distance * distance;
+  const std::vector<int> x4 = square.terms.front().exponents, x2 = distance.terms.front().exponents;
+  coefficients[2] = core::coefficient(p, x4) / square.terms.front().coefficient;
+  p = p - core::constant_polynomial(p.variables, coefficients[2]) * square;
+  coefficients[1] = core::coefficient(p, x2) / distance.terms.front().coefficient;
+  p = p - core::constant_polynomial(p.variables, coefficients[1]) * distance;
+  if (!p.is_constant()) return std::nullopt;
+  coefficients[0] = p.is_zero() ? Rational(0) : p.terms.front().coefficient;
+  return coefficients;
+}
+
+std::vector<BoundaryCurve> circles_of(const core::RootTower& tower, int root) {
+  std::vector<BoundaryCurve> circles;
+  for (const Polynomial& denominator : tower.denominators) {
+    const auto centre = double_point(denominator);
+    if (!centre) continue;
+    const auto coefficients = in_powers_of(denominator, tower.roots[static_cast<std::size_t>(root)].square);
+    if (!coefficients) continue;
+    const Rational scale = denominator.terms.front().coefficient;
+    for (const Rational& zero : rational_zeros(*coefficients))
+      if (zero > 0) circles.push_back({root, false, (*centre)[0], (*centre)[1], zero / scale, {}, {}});
+    break;
+  }
+  return circles;
+}
+
+/// Of a square that changes in one direction of the plane only, and there as a quadratic polynomial at most.
+std::vector<BoundaryCurve> lines_of(const core::RootTower& tower, int root) {
+  const Polynomial& square = tower.roots[static_cast<std::size_t>(root)].square;
+  if (square.is_constant() || core::total_degree(square) > 2) return {};
+  const auto part = [&](int i, int k) {
+    std::vector<int> exponents(static_cast<std::size_t>(square.variables), 0);
+    exponents[0] = i;
+    exponents[1] = k;
+    return core::coefficient(square, exponents);
+  };
+  for (int v = 2; v < square.variables; ++v)
+    if (core::depends_on(square, v)) return {};
+  const Rational xx = part(2, 0), xy = part(1, 1), yy = part(0, 2), x = part(1, 0), y = part(0, 1);
+  if (xy * xy != 4 * xx * yy) return {};
+  // Square = second t^2 + first t + constant with t = a x + b y.
+  std::array<Rational, 2> normal = xx != 0 ? std::array<Rational, 2>{2 * xx, xy} : std::array<Rational, 2>{xy, 2 * yy};
+  if (normal[0] == 0 && normal[1] == 0) normal = {x, y};
+  if (x * normal[1] != y * normal[0]) return {};
+  const std::size_t larger = normal[0] != 0 ? 0 : 1;
+  const Rational second = (larger == 0 ? xx : yy) / (normal[larger] * normal[larger]);
+  const Rational first = (larger == 0 ? x : y) / normal[larger];
+  std::vector<BoundaryCurve> lines;
+  for (const Rational& level : rational_zeros({part(0, 0), first, second}))
+    lines.push_back({root, true, {}, {}, {}, normal, level});
+  return lines;
+}
+
+Rational square_of(const std::array<Rational, 2>& a) { return a[0] * a[0] + a[1] * a[1]; }
+
+std::optional<BoundaryMeeting> meeting_of_circles(const BoundaryCurve& a, const BoundaryCurve& b) {
+  const std::array<Rational, 2> way = {b.x - a.x, b.y - a.y};
+  const Rational length = square_of(way);
+  if (length == 0) return std::nullopt;
+  const Rational along = (length + a.radius_squared - b.radius_squared) / (2 * length);
+  const Rational rise = a.radius_squared / length - along * along;
+  return BoundaryMeeting{a, b, {a.x + along * way[0], a.y + along * way[1]}, {-way[1], way[0]}, rise, rise == 0};
+}
+
+std::optional<BoundaryMeeting> meeting_with_line(const BoundaryCurve& line, const BoundaryCurve& circle) {
+  const Rational length = square_of(line.normal);
+  const Rational off = (line.level - line.normal[0] * circle.x - line.normal[1] * circle.y) / length;
+  const Rational rise = circle.radius_squared / length - off * off;
+  return BoundaryMeeting{line,
+                         circle,
+                         {circle.x + off * line.normal[0], circle.y + off * line.normal[1]},
+                         {-line.normal[1], line.normal[0]},
+                         rise,
+                         rise == 0};
+}
+
+std::optional<BoundaryMeeting> meeting_of_lines(const BoundaryCurve& a, const BoundaryCurve& b) {
+  const Rational turn = a.normal[0] * b.normal[1] - a.normal[1] * b.normal[0];
+  if (turn == 0) return std::nullopt;
+  const Rational x = (a.level * b.normal[1] - b.level * a.normal[1]) / turn;
+  const Rational y = (a.normal[0] * b.level - b.normal[0] * a.level) / turn;
+  return BoundaryMeeting{a, b, {x, y}, {0, 0}, 0, false};
+}
+
+}  // namespace
+
+std::array<Rational, 2> BoundaryCurve::normal_at(const std::array<Rational, 2>& at) const {
+  if (is_line) return normal;
+  return {at[0] - x, at[1] - y};
+}
+
+std::vector<std::array<Rational, 2>> BoundaryMeeting::rational_points() const {
+  const std::optional<Rational> root = core::square_root(rise);
+  if (!root) return {};
+  std::vector<std::array<Rational, 2>> points = {{foot[0] + *root * way[0], foot[1] + *root * way[1]}};
+  if (*root != 0) points.push_back({foot[0] - *root * way[0], foot[1] - *root * way[1]});
+  return points;
+}
+
+std::vector<BoundaryMeeting> boundary_meetings(const core::RootTower& tower) {
+  std::vector<BoundaryCurve> curves;
+  for (int root = 0; root < static_cast<int>(tower.roots.size()); ++root)
+    for (const auto& own : {circles_of(tower, root), lines_of(tower, root)})
+      curves.insert(curves.end(), own.begin(), own.end());
+  std::vector<BoundaryMeeting> meetings;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    for (std::size_t k = i + 1; k < curves.size(); ++k) {
+      const BoundaryCurve &a = curves[i], &b = curves[k];
+      if (a.root == b.root) continue;
+      std::optional<BoundaryMeeting> meeting = a.is_line && b.is_line ? meeting_of_lines(a, b)
+                                               : a.is_line            ? meeting_with_line(a, b)
+                                               : b.is_line            ? meeting_with_line(b, a)
+                                                                      : meeting_of_circles(a, b);
+      if (meeting && meeting->rise >= 0) meetings.push_back(std::move(*meeting));
+    }
+  return meetings;
+}
+
+}  // namespace clearloci::loci::sheet
