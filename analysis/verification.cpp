@@ -363,6 +363,12 @@ bool inside(const core::Zone& zone, const Point2& at) {
          });
 }
 
+bool all_certified(const core::LocusMap& map) {
+  const auto certified = [](const auto& one) { return one.certified; };
+  return std::all_of(map.curves.begin(), map.curves.end(), certified) &&
+         std::all_of(map.isolated_points.begin(), map.isolated_points.end(), certified);
+}
+
 /// The loci and zones that the picture shows and the answer names. Under a range of loads they are those of the file's.
 void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verification& result) {
   result.notes = verifier.notes();
@@ -372,8 +378,11 @@ void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verifi
   else if (verifier.traced())
     traced = verifier.traced()->front();
   if (traced && traced->map.complete) {
-    result.map = loci::zones(traced->problem, std::move(traced->map), verifier.effort() == TraceEffort::sketch);
+    const bool sketch = verifier.effort() == TraceEffort::sketch;
+    result.map = loci::zones(traced->problem, std::move(traced->map), sketch);
     result.notes = result.map.loci.notes;
+    if (sketch && !all_certified(result.map.loci))
+      result.notes.emplace_back("the picture's loci are a sketch, not all of them certified; see clearloci loci");
   } else {
     result.map.loci = empty_map(mechanism);
     if (result.notes.empty()) result.notes.emplace_back("the loci could not be traced within the time limit");

@@ -69,6 +69,7 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
   map.lower = problem.lower;
   map.upper = problem.upper;
   map.tolerance = problem.tolerance;
+  if (options.sketch) map.notes.clear();  // what a sketch leaves open says nothing about the mechanism
   sort_and_name(map, problem.modes);
   return map;
 }

@@ -19,7 +19,7 @@ struct TraceOptions {
   std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
   std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
   /// For pictures and names, where something else proves what counts: the adaptive engine alone, with a small part of
-  /// its budget. What that leaves open is drawn and not certified.
+  /// its budget. What that leaves open is drawn, not certified, and not spoken of in notes.
   bool sketch = false;
   /// Where the adaptive engine puts what it claims of its cells; not asked for where it is null.
   core::Certificate* certificate = nullptr;

@@ -24,10 +24,10 @@ constexpr double same_place = 1e-8;
 constexpr double largest_circle = 0.02, smallest_circle = 3e-8;
 constexpr int agreeing_circles = 1;
 constexpr double rounding = 1e-13;  // of points moved onto a curve
+// Tolerances by which chords may cross beside the curves' crossing.
+constexpr double drawn_off = 100;
 // The exact arrangement of two curves is quick up to this degree.
 constexpr int exact_degree = 8;
-// Of a picture, where crossings of other curves may stay open: of circles and of what the coupler of a 5R draws.
-constexpr int sketch_degree = 6;
 
 double distance(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
@@ -61,6 +61,38 @@ std::vector<Foot> passes(const Polyline& line, const Point2& at, double reach) {
   return list;
 }
 
+/// A chord of an edge or a strand.
+struct Segment {
+  Point2 a, b;
+  int of;
+};
+
+void add_segments(const Polyline& points, int of, std::vector<Segment>& segments) {
+  for (std::size_t i = 1; i < points.size(); ++i) segments.push_back({points[i - 1], points[i], of});
+}
+
+/// Twice the area of a triangle, positive where it turns left.
+double turn(const Point2& a, const Point2& b, const Point2& p) {
+  return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+/// Visits the pairs of segments of different lines that cross.
+template <typename Visit>
+void each_crossing(std::vector<Segment> segments, const Visit& visit) {
+  const auto low = [](const Segment& s) { return std::min(s.a[0], s.b[0]); };
+  std::sort(segments.begin(), segments.end(), [&](const Segment& s, const Segment& t) { return low(s) < low(t); });
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Segment& s = segments[i];
+    const double end = std::max(s.a[0], s.b[0]);
+    for (std::size_t k = i + 1; k < segments.size() && low(segments[k]) <= end; ++k) {
+      const Segment& t = segments[k];
+      if (s.of != t.of && turn(s.a, s.b, t.a) * turn(s.a, s.b, t.b) < 0 &&
+          turn(t.a, t.b, s.a) * turn(t.a, t.b, s.b) < 0)
+        visit(s, t);
+    }
+  }
+}
+
 /// One arc to be split.
 struct Strand {
   int owner = box_owner;
@@ -74,7 +106,6 @@ class Builder {
   Builder(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
           CurveProjections& projections, bool sketch)
       : problem_(problem), map_(map), mode_(mode), sketch_(sketch), projections_(projections) {
-    if (sketch) effort_.most_cells = sheet::cells_of_a_sketch;
     for (std::size_t i = 0; i < 2; ++i) {
       low_[i] = core::to_double(map.lower[i]);
       high_[i] = core::to_double(map.upper[i]);
@@ -89,12 +120,16 @@ class Builder {
       node_at(strand.points.front());
       node_at(strand.points.back());
     }
-    add_crossings();
+    result_.certified = !sketch_;
+    if (sketch_)
+      add_drawn_crossings();
+    else
+      add_crossings();
     for (std::size_t n = 0; n < result_.graph.nodes.size(); ++n) cut_at(static_cast<int>(n));
     for (Strand& strand : strands_) split(strand);
     order_edges();
     if (!is_planar(result_.graph)) doubt("the order of curves around a crossing is not clear");
-    check_separation();
+    if (!sketch_) check_separation();
     return std::move(result_);
   }
 
@@ -158,6 +193,35 @@ class Builder {
     }
   }
 
+  /// Those that the polylines show, moved onto both curves.
+  void add_drawn_crossings() {
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < strands_.size(); ++i)
+      if (strands_[i].owner != box_owner) add_segments(strands_[i].points, static_cast<int>(i), segments);
+    each_crossing(std::move(segments), [&](const Segment& s, const Segment& t) {
+      const int first = strands_[static_cast<std::size_t>(s.of)].owner,
+                second = strands_[static_cast<std::size_t>(t.of)].owner;
+      if (first == second) return;
+      const double part = turn(t.a, t.b, s.a) / (turn(t.a, t.b, s.a) - turn(t.a, t.b, s.b));
+      const Point2 drawn = {s.a[0] + part * (s.b[0] - s.a[0]), s.a[1] + part * (s.b[1] - s.a[1])};
+      const Point2 at = on_both(*projection(first), *projection(second), drawn);
+      node_at(distance(at, drawn) <= drawn_off * map_.tolerance ? at : drawn);
+    });
+  }
+
+  /// Where the tangents of both curves meet, time and again.
+  static Point2 on_both(const CurveProjection& first, const CurveProjection& second, Point2 at) {
+    for (int round = 0; round < 6; ++round) {
+      const auto [p, v] = first(at);
+      const auto [q, w] = second(at);
+      const double cross = v[0] * w[1] - v[1] * w[0];
+      if (cross == 0) break;
+      const double part = ((q[0] - p[0]) * w[1] - (q[1] - p[1]) * w[0]) / cross;
+      at = {p[0] + part * v[0], p[1] + part * v[1]};
+    }
+    return at;
+  }
+
   /// False: there may be more. An open cell where something ends anyway is no doubt.
   bool add_zeros(const sheet::ZeroSet& found) {
     for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
@@ -172,8 +236,7 @@ class Builder {
 
   /// The rung above: the exact arrangement of the two curves, for all modes at once.
   void add_plane_crossings(const core::LocusCurve& a, const core::LocusCurve& b) {
-    const int bearable = sketch_ ? sketch_degree : exact_degree;
-    if (std::max(core::total_degree(a.implicit), core::total_degree(b.implicit)) > bearable)
+    if (std::max(core::total_degree(a.implicit), core::total_degree(b.implicit)) > exact_degree)
       return doubt("crossings of " + a.id + " and " + b.id + " are not proven");
     const CurveArrangement both({a.implicit, b.implicit}, {map_.lower[0], map_.lower[1]},
                                 {map_.upper[0], map_.upper[1]});
@@ -395,34 +458,13 @@ class Builder {
 
   /// Edges that are proven to meet at nodes only must not seem to cross elsewhere, unless they are too close to tell.
   void check_separation() {
-    struct Segment {
-      Point2 a, b;
-      int edge;
-    };
     std::vector<Segment> segments;
     const PlaneGraph& g = graph();
-    for (std::size_t e = 0; e < g.edges.size(); ++e) {
-      const Polyline& points = g.edges[e].points;
-      for (std::size_t i = 1; i < points.size(); ++i)
-        segments.push_back({points[i - 1], points[i], static_cast<int>(e)});
-    }
-    const auto low = [](const Segment& s) { return std::min(s.a[0], s.b[0]); };
-    std::sort(segments.begin(), segments.end(), [&](const Segment& s, const Segment& t) { return low(s) < low(t); });
-    const auto side = [](const Point2& a, const Point2& b, const Point2& p) {
-      return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-    };
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      const Segment& s = segments[i];
-      const double end = std::max(s.a[0], s.b[0]);
-      for (std::size_t k = i + 1; k < segments.size() && low(segments[k]) <= end; ++k) {
-        const Segment& t = segments[k];
-        if (s.edge == t.edge || side(s.a, s.b, t.a) * side(s.a, s.b, t.b) >= 0 ||
-            side(t.a, t.b, s.a) * side(t.a, t.b, s.b) >= 0)
-          continue;
-        if (!close_to_node(s.edge, t.edge, s.a) && !close_to_node(s.edge, t.edge, s.b))
-          doubt("two curves come closer to each other than the tolerance");
-      }
-    }
+    for (std::size_t e = 0; e < g.edges.size(); ++e) add_segments(g.edges[e].points, static_cast<int>(e), segments);
+    each_crossing(std::move(segments), [&](const Segment& s, const Segment& t) {
+      if (!close_to_node(s.of, t.of, s.a) && !close_to_node(s.of, t.of, s.b))
+        doubt("two curves come closer to each other than the tolerance");
+    });
   }
 
   /// Polylines of curves that touch at a node may cross up to where the curves are a tolerance apart.

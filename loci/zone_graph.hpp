@@ -24,8 +24,7 @@ struct ZoneGraph {
 /// Whether a curve cuts the workspace: component loci do not.
 bool cuts_workspace(const core::LocusCurve& curve);
 
-/// `sketch`: for a picture; crossings that take more than a small part of the search's budget, or the exact
-/// arrangement, are not proven.
+/// `sketch`: for a picture; curves cross where their polylines do, and nothing is certified.
 ZoneGraph zone_graph(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
                      CurveProjections& projections, bool sketch = false);
 

@@ -29,6 +29,7 @@ class ModeZones {
       : problem_(problem),
         map_(map),
         mode_(mode),
+        sketch_(sketch),
         workspace_(problem.tower, mode),
         singularities_(problem.tower, determinants(problem)),
         sign_(singularities_, mode),
@@ -48,7 +49,8 @@ class ModeZones {
       if (walks.outer.empty()) continue;
       if (Face face = measured(std::move(walks)); face.area > 0) faces.push_back(std::move(face));
     }
-    for (Face& face : faces) refine(face);
+    for (Face& face : faces)
+      if (!sketch_) refine(face);
     for (const GraphEdge& edge : graph.edges)
       obstacles_.push_back({&edge.points, curve_of(edge) == nullptr ? nullptr : &projections_.of(edge.owners.front())});
 
@@ -59,6 +61,7 @@ class ModeZones {
     std::stable_sort(found.begin(), found.end(), [](const Zone& a, const Zone& b) { return a.area > b.area; });
     account_for(found, map);
     for (Zone& zone : found) map.zones.push_back(std::move(zone));
+    if (sketch_) return;
     for (const std::string& note : cut_.notes) map.loci.notes.push_back("zones: " + note);
   }
 
@@ -271,7 +274,7 @@ class ModeZones {
     }
     std::optional<Circle> best;
     for (const Circle& candidate : candidates) {
-      const Circle circle = polished(candidate, borders, points, map_.tolerance);
+      const Circle circle = sketch_ ? candidate : polished(candidate, borders, points, map_.tolerance);
       if (inside(circle.centre) && (!best || circle.radius > best->radius)) best = circle;
     }
     return best;
@@ -310,6 +313,7 @@ class ModeZones {
   const core::LocusProblem& problem_;
   const LocusMap& map_;
   core::WorkingMode mode_;
+  bool sketch_;
   ModeWorkspace workspace_;
   sheet::SheetProgram singularities_;
   sheet::PointSign sign_;
