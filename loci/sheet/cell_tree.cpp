@@ -12,6 +12,9 @@ namespace {
 
 // Cuts stay near the middle but off it, since designs are symmetric and curves like to touch or cross middles.
 constexpr double most_offset = 0.06;
+// A cell is not made more slender than this. Enclosures over a long cell may be so wide, or infinite, that they vary
+// most along the axis that was cut all the time.
+constexpr double most_slender = 32;
 // Below this size, relative to the patch, multi-precision is worth its price where rounding is what hides a sign.
 constexpr double worth_precision = 1e-4;
 constexpr int cells_between_stops = 256;
@@ -159,7 +162,8 @@ void CellTree::build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions
       cut_short_ = cut_short_ || (divisible && !may_split);
       if (divisible && may_split) {
         split = true;
-        node.axis = widths[judgement.cut_axis] > smallest_ ? judgement.cut_axis : 1 - judgement.cut_axis;
+        const int own = judgement.cut_axis, other = 1 - own;
+        node.axis = widths[own] > smallest_ && most_slender * widths[own] > widths[other] ? own : other;
         const Interval& range = node.axis == 0 ? node.cell.x : node.cell.y;
         const double offset = most_offset * scatter(static_cast<unsigned>(i), options.attempt);
         node.cut = range.lower() + range.width() * (0.5 + offset);

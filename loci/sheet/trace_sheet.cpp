@@ -522,7 +522,9 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
     }
     const core::RootTower below = on_rim(tower, static_cast<int>(j));
     SheetFunction boundary = square_of(tower, static_cast<int>(j), options.special);
-    if (rim) boundary = {sheet, rest_of_square->is_constant() ? boundary.line : core::StraightLine{}};
+    // The line is that of the whole square: of the boundary where the rest are denominators.
+    if (rim && !without_denominators(*rest_of_square, tower).is_constant()) boundary.line = {};
+    if (rim) boundary.polynomial = sheet;
     SheetTraceOptions there = options;
     there.special = on_rim(options.special, static_cast<int>(j));
     SheetTrace all = trace_sheet(below, rest, lower, upper, without_variable(boundary, v), on_boundary, there);
