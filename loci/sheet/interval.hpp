@@ -33,6 +33,11 @@ class Interval {
   /// +1 or -1 where the sign is proven, else 0.
   int sign() const { return lower() > 0 ? 1 : upper() < 0 ? -1 : 0; }
 
+  /// The middle and all that is no further from it than the magnitudes of two intervals together.
+  friend Interval around(const Interval& middle, const Interval& first, const Interval& second);
+  /// What both contain; the caller knows that they meet (both enclose one quantity).
+  friend Interval meet(const Interval& a, const Interval& b);
+
 #if defined(__SSE2__)
   friend Interval operator+(const Interval& a, const Interval& b) { return outward(_mm_add_pd(a.ends_, b.ends_)); }
   friend Interval operator-(const Interval& a, const Interval& b) {
@@ -46,6 +51,17 @@ class Interval {
     const __m128d upper = _mm_max_pd(straight, _mm_xor_pd(crossed, sign));
     const __m128d lower = _mm_max_pd(crossed, _mm_xor_pd(straight, sign));
     return outward(_mm_max_pd(_mm_unpacklo_pd(lower, upper), _mm_unpackhi_pd(lower, upper)));
+  }
+  friend Interval around(const Interval& middle, const Interval& first, const Interval& second) {
+    const __m128d one = _mm_max_pd(first.ends_, _mm_shuffle_pd(first.ends_, first.ends_, 1));
+    const __m128d other = _mm_max_pd(second.ends_, _mm_shuffle_pd(second.ends_, second.ends_, 1));
+    return outward(_mm_add_pd(outward(_mm_add_pd(one, other)).ends_, middle.ends_));
+  }
+  friend Interval meet(const Interval& a, const Interval& b) {
+    const __m128d ends = _mm_min_pd(a.ends_, b.ends_);
+    // Where rounding leaves nothing, the lower end.
+    const __m128d lower = _mm_xor_pd(_mm_set1_pd(-0.0), _mm_unpacklo_pd(ends, ends));
+    return Interval(_mm_move_sd(_mm_max_pd(ends, lower), ends));
   }
 
  private:
@@ -73,6 +89,15 @@ class Interval {
     const double ul = a.upper() * b.lower(), uu = a.upper() * b.upper();
     return outward(-std::min({ll, lu, ul, uu}), std::max({ll, lu, ul, uu}));
   }
+  friend Interval around(const Interval& middle, const Interval& first, const Interval& second) {
+    const double by = first.magnitude() + second.magnitude();
+    const Interval reach = outward(by, by);
+    return outward(middle.ends_[0] + reach.ends_[1], middle.ends_[1] + reach.ends_[1]);
+  }
+  friend Interval meet(const Interval& a, const Interval& b) {
+    const double lower = std::max(a.lower(), b.lower());
+    return {lower, std::max(lower, std::min(a.upper(), b.upper()))};
+  }
 
  private:
   static Interval outward(double negated_lower, double upper) {
@@ -90,12 +115,6 @@ class Interval {
 /// The smallest interval containing both.
 inline Interval hull(const Interval& a, const Interval& b) {
   return {std::min(a.lower(), b.lower()), std::max(a.upper(), b.upper())};
-}
-
-/// What both contain; the caller knows that they meet (both enclose one quantity).
-inline Interval meet(const Interval& a, const Interval& b) {
-  const double lower = std::max(a.lower(), b.lower());
-  return {lower, std::max(lower, std::min(a.upper(), b.upper()))};
 }
 
 inline bool disjoint(const Interval& a, const Interval& b) { return a.upper() < b.lower() || b.upper() < a.lower(); }

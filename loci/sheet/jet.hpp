@@ -26,8 +26,7 @@ struct Jet {
 
   /// The value met with its mean-value form.
   Jet& tighten() {
-    const Interval spread(-1, 1);
-    value = meet(value, middle + Interval(slope[0].magnitude()) * spread + Interval(slope[1].magnitude()) * spread);
+    value = meet(value, around(middle, slope[0], slope[1]));
     return *this;
   }
 };

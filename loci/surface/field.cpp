@@ -44,7 +44,7 @@ Interval variable_over(const LocusProblem& problem, std::size_t i, const Interva
   // Beyond a half turn the tangent starts anew: the cell is cut to the chart first.
   const double from = std::max(coordinate.lower(), core::angle_at(**chart, lower));
   const double to = std::min(coordinate.upper(), core::angle_at(**chart, upper));
-  return sheet::meet(Interval(t(from) - angle_rounding, std::max(t(from), t(to)) + angle_rounding),
+  return meet(Interval(t(from) - angle_rounding, std::max(t(from), t(to)) + angle_rounding),
                      Interval(lower - angle_rounding, upper + angle_rounding));
 }
 
