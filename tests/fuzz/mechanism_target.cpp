@@ -19,7 +19,7 @@ void require_finite(const core::Rational& value, const std::string& what) {
 /// Every index names something, every number is finite, and as many unknowns as equations.
 void check_accepted(const Mechanism& mechanism) {
   for (const mechanism::Parameter& parameter : mechanism.parameters) require_finite(parameter.value, "a parameter");
-  require(!mechanism.coordinates.empty() && mechanism.coordinates.size() <= 3, "one to three coordinates");
+  require(!mechanism.coordinates.empty() && mechanism.coordinates.size() <= 6, "one to six coordinates");
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
     require_finite(coordinate.lower, "the lower end of a coordinate");
     require_finite(coordinate.upper, "the upper end of a coordinate");
