@@ -93,6 +93,10 @@ int lead(const Arguments& arguments, const StudyRanks* ranks, TimeLimit& limit) 
     const StudyDesign& best = result.designs[*result.best];
     files.push_back(folder / "best.yaml");
     report::write_atomically(files.back(), design_text(model, result, best));
+    for (const std::size_t own : result.front)
+      report::write_atomically(folder / "front" / fmt::format("{}.yaml", result.designs[own].index),
+                               design_text(model, result, result.designs[own]));
+    if (!result.front.empty()) files.push_back(folder / "front");
     proofs = proofs_of(design_model(model, result, best), study, limit);
   }
   if (formats.contains("html")) {

@@ -39,8 +39,9 @@ std::string head(const std::string& words, bool number = false) {
 std::string row(const std::string& cells) { return "<tr>" + cells + "</tr>\n"; }
 std::string table(const std::string& rows) { return "<table>\n" + rows + "</table>\n"; }
 std::string item(const std::string& words) { return "<li>" + text(words) + "</li>\n"; }
-std::string image(const std::string& svg, const std::string& what) {
-  return "<p><img alt=\"" + text(what) + "\" src=\"data:image/svg+xml;base64," + base64(svg) + "\"></p>\n";
+std::string image(const std::string& bytes, const std::string& what, PictureFormat format = PictureFormat::svg) {
+  const std::string type = format == PictureFormat::svg ? "svg+xml" : "png";
+  return "<p><img alt=\"" + text(what) + "\" src=\"data:image/" + type + ";base64," + base64(bytes) + "\"></p>\n";
 }
 
 std::string percent(double part) { return short_number(100 * part, 4) + " %"; }
@@ -120,7 +121,11 @@ std::string what_is_feasible(const StudyResult& result) {
       rows += row(cell(core::to_string(status)) + number_cell(std::to_string(many)));
     }
   }
-  return table(rows) + ranges_of(result) + image(study_picture(result, PictureFormat::svg), "Designs of the study");
+  // Of many designs the shapes are more to read than the pixels.
+  constexpr std::size_t most_shapes = 4000;
+  const bool many = result.designs.size() + result.cells.size() > most_shapes;
+  const PictureFormat format = many ? PictureFormat::png : PictureFormat::svg;
+  return table(rows) + ranges_of(result) + image(study_picture(result, format), "Designs of the study", format);
 }
 
 std::string why_the_rest_fails(const StudyResult& result) {

@@ -1,5 +1,6 @@
 #include "studies/work.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <exception>
@@ -17,6 +18,10 @@ using Clock = std::chrono::steady_clock;
 
 /// Items handed out at a time: work enough that threads seldom meet, little enough that they end together.
 constexpr std::size_t piece = 32;
+/// What another rank gets at a time takes it about so long: messages are few, whatever a design takes, and of a run
+/// that is killed no more than that is lost.
+constexpr std::chrono::duration<double> between_messages(0.1);
+constexpr std::size_t largest_piece = 8192;
 /// How often rank 0 looks for messages while its own threads work.
 constexpr std::chrono::microseconds between_looks(500);
 
@@ -33,12 +38,12 @@ class Desk {
   Desk(const Work& work, const StudyOptions& options) : work_(work), options_(options) {}
 
   /// Empty: there are none left, or the time is up.
-  std::vector<std::uint64_t> take() {
+  std::vector<std::uint64_t> take(std::size_t most = piece) {
     const std::lock_guard lock(mutex_);
     std::vector<std::uint64_t> items;
     if (failed_) return items;
     if (options_.deadline && Clock::now() >= *options_.deadline) stopped_ = true;
-    while (!stopped_ && items.size() < piece) {
+    while (!stopped_ && items.size() < most) {
       const auto next = work_.next();
       if (!next) break;
       items.push_back(*next);
@@ -127,20 +132,34 @@ std::vector<StudyDesign> results_of(const std::string& lines, std::size_t figure
 /// Hands out work to the other ranks until none is left and all have answered. A message is what a rank found since it
 /// last asked; it asks for more by it. What is empty sends it to wait.
 void hand_out(Desk& desk, const Work& work, const StudyRanks& ranks, const std::atomic<int>& busy) {
+  struct Given {
+    std::size_t items = piece;
+    Clock::time_point at = {};
+  };
+  std::vector<Given> given(static_cast<std::size_t>(ranks.size));
   std::vector<int> waiting;
   int out = 0;
   for (int rank = 1; rank < ranks.size; ++rank) waiting.push_back(rank);
   while (true) {
     bool more = true;
     while (more && !waiting.empty()) {
-      const std::vector<std::uint64_t> items = desk.take();
+      Given& own = given[static_cast<std::size_t>(waiting.back())];
+      const std::vector<std::uint64_t> items = desk.take(own.items);
       more = !items.empty();
       if (!more) break;
+      own.at = Clock::now();
       ranks.send(waiting.back(), list_of(items));
       waiting.pop_back();
       ++out;
     }
     if (const auto message = ranks.poll()) {
+      Given& own = given[static_cast<std::size_t>(message->first)];
+      const std::chrono::duration<double> took = Clock::now() - own.at;
+      const double fitting = static_cast<double>(own.items) * (between_messages.count() / std::max(took.count(), 1e-6));
+      // At most twice as many at a time: what is next may be harder.
+      own.items = static_cast<std::size_t>(
+          std::clamp(fitting, static_cast<double>(piece), 2.0 * static_cast<double>(own.items)));
+      own.items = std::min(own.items, largest_piece);
       desk.give(results_of(message->second, work.figures));
       waiting.push_back(message->first);
       --out;

@@ -3,7 +3,7 @@
 For every design of DESIGNS (lines "L d") the Newton-Euler systems of Altuzarra et al. (2011), equation (13), are solved
 at NODES x NODES poses of a box; the design passes where all are within reach, the determinant and the actuators' couples
 keep one sign, and no joint's force falls to a thousandth of the load. It proves nothing between the nodes.
-Usage: numpy_designs.py DESIGNS NODES X0 X1 Y0 Y1     prints the seconds, and a line of 0 and 1 for the designs
+Usage: numpy_designs.py DESIGNS NODES X0 X1 Y0 Y1     prints the processor seconds, and a line of 0 and 1 for the designs
 """
 
 import sys
@@ -37,9 +37,9 @@ def main():
     nodes = int(sys.argv[2])
     x0, x1, y0, y1 = map(float, sys.argv[3:7])
     poses = np.stack(np.meshgrid(np.linspace(x0, x1, nodes), np.linspace(y0, y1, nodes)), axis=-1)
-    start = time.perf_counter()
+    start = time.process_time()
     verdicts = [passes(length, base, poses) for length, base in designs]
-    print(time.perf_counter() - start)
+    print(time.process_time() - start)
     print("".join("1" if own else "0" for own in verdicts))
 
 

@@ -19,6 +19,12 @@ py::list cells_of(const StudyResult& result) {
   return cells;
 }
 
+py::list ranges_of(const StudyResult& result) {
+  py::list ranges;
+  for (const StudyRange& own : result.ranges) ranges.append(py::make_tuple(own.from, own.to, own.below, own.above));
+  return ranges;
+}
+
 /// Columns by name: what a data frame takes.
 py::dict data_of(const Model& model, const StudyResult& result) {
   py::dict one, columns;
@@ -45,6 +51,7 @@ py::dict data_of(const Model& model, const StudyResult& result) {
       result.best ? py::cast(design_text(model, result, result.designs[*result.best])) : py::object(py::none());
   one["front"] = result.front;
   one["cells"] = cells_of(result);
+  one["ranges"] = ranges_of(result);
   one["tolerances"] =
       result.tolerances ? py::object(py::make_tuple(result.tolerances->lower, result.tolerances->upper)) : py::none();
   one["complete"] = result.complete;

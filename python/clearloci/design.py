@@ -25,6 +25,9 @@ class Designs:
     best_model: str | None = field(repr=False, default=None)  #: its mechanism file
     front: list[int] = field(default_factory=list)  #: rows, with several goals
     cells: list[tuple] = field(default_factory=list, repr=False)  #: of a proof: lower, upper, status, reason
+    #: of a proof over one parameter: all values that verify, range by range: an enclosure of where it begins, one of
+    #: where it ends, and why designs below and above fail
+    ranges: list[tuple] = field(default_factory=list)
     tolerances: tuple[list[float], list[float]] | None = None  #: of a proof: the box around the file's design
     complete: bool = True
 

@@ -49,6 +49,24 @@ def test_dask_says_the_same(five_bar, designs):
             same(cl.design(five_bar, STUDY, executor=client.get_executor(), chunk=40), designs)
 
 
+def test_a_proof_over_one_parameter_has_ranges(five_bar):
+    study = {"vary": {"L": [0.3, 0.9]}, "task": STUDY["task"], "goal": {"minimise": "L"}, "method": {"prove": "1/65536"}}
+    answer = cl.design(five_bar, study)
+    begin, end, below, _ = answer.ranges[0]
+    assert begin[0] <= begin[1] < end[0] <= end[1] and below == "workspace"
+    assert begin[1] <= answer.best_design.parameters["L"] <= end[0]
+    assert answer.best_design.verify(STUDY["task"])
+
+
+def test_a_task_may_bound_the_pose_error(five_bar):
+    task = dict(STUDY["task"], pose_error=0.1)
+    answer = five_bar.verify(task)
+    assert answer and 0 < answer.pose_error < 0.1
+    refuted = five_bar.verify(dict(task, pose_error=answer.pose_error * 0.95))
+    assert refuted.verdict == "refuted" and refuted.witness["kind"] == "displaced"
+    assert refuted.witness["size"] > answer.pose_error * 0.95
+
+
 def test_tolerances_have_a_witness(five_bar):
     task = dict(STUDY["task"], tolerances={"L": 0.12})
     answer = five_bar.verify(task)

@@ -87,6 +87,10 @@ class Design(InOwnFolder):
         task = self.folder / "task.yaml"
         path = "path: [[0, -0.7], [0, -0.675], [0.5, -0.675], [0.5, -0.7]]"
         task.write_text(f"format: 1\n{path}\nmargin: 0.01\npose_error: 50e-6\n", encoding="utf-8")
+        self.assertEqual(
+            sorted(own["index"] for own in result["front"]),
+            sorted(int(file.stem) for file in (self.folder / "budget" / "front").glob("*.yaml")),
+        )
         rho, delta = front[len(front) // 2]
         for more, status in ((1.0, 0), (1.1, 1)):
             words = ["--set", f"rho={rho * more!r}", "--set", f"delta={delta * more!r}"]
