@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/model.hpp"
+#include "analysis/pose_demands.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "loci/pose/pose_nearest.hpp"
@@ -19,7 +20,6 @@ namespace {
 
 using core::PoseTask;
 using core::PoseVerification;
-using core::Quantity;
 using core::TaskDemand;
 using loci::pose::Doubt;
 using loci::pose::NearPose;
@@ -51,12 +51,6 @@ LociRequest request_for(const PoseTask& task, const LociRequest& request) {
   conditions.min_force = task.min_force;
   conditions.min_couple = task.min_couple;
   return request_of(conditions, request);
-}
-
-core::LocusKind kind_of(const TaskDemand& demand) {
-  if (demand.least > 0) return core::LocusKind::margin;
-  const bool effort = demand.quantity == Quantity::M || demand.quantity == Quantity::F;
-  return effort ? core::LocusKind::backlash : core::LocusKind::contact_loss;
 }
 
 /// Metrics that margins are told in: what grows together.
@@ -101,8 +95,11 @@ class Verifier {
           "the working mode has " + std::to_string(sides_.size()) + " sides, and the mechanism another number of dyads",
           "give one side for each dyad");
     for (const Mechanism& own : loads_) models_.push_back(numeric::compile(own));
-    std::vector<TaskDemand> demands = demands_of(mechanism, request_);
-    drop_never_loaded(demands);
+    constexpr std::size_t poses = 24;
+    std::vector<Pose> samples = region_.samples();
+    if (samples.size() > poses) samples.erase(samples.begin() + 1, samples.end() - (poses - 1));
+    const std::vector<TaskDemand> demands =
+        loaded_demands(models_, sides_, demands_of(mechanism, request_), samples, notes_);
     witness_.emplace(witness_for(demands));
     std::vector<const Mechanism*> list;
     for (const Mechanism& own : loads_) list.push_back(&own);
@@ -162,27 +159,6 @@ class Verifier {
     std::vector<const numeric::NumericModel*> models;
     for (const numeric::NumericModel& own : models_) models.push_back(&own);
     return {std::move(models), sides_, demands, region_.samples()};
-  }
-
-  /// A reaction that is zero at every pose looked at, to rounding, is taken for one that nothing loads.
-  void drop_never_loaded(std::vector<TaskDemand>& demands) {
-    constexpr std::size_t poses = 24;
-    std::vector<Pose> samples = region_.samples();
-    if (samples.size() > poses) samples.erase(samples.begin() + 1, samples.end() - (poses - 1));
-    const numeric::PoseWitness all = witness_for(demands);
-    std::vector<TaskDemand> loaded;
-    std::string names;
-    for (std::size_t d = 0; d < demands.size(); ++d) {
-      const bool never = demands[d].least == 0 && all.is_never_loaded(static_cast<int>(d), samples);
-      if (!never)
-        loaded.push_back(demands[d]);
-      else
-        names += (names.empty() ? "" : ", ") + core::to_string(demands[d].quantity) + "_" + demands[d].joint;
-    }
-    if (!names.empty())
-      notes_.push_back(names +
-                       ": zero, to rounding, at every pose looked at; taken as never loaded, and not asked for");
-    demands = std::move(loaded);
   }
 
   core::PoseTaskWitness told(const Pose& at, const numeric::TaskFailure& failure) const {
@@ -289,7 +265,7 @@ class Verifier {
       if (other.distance > first.distance + together * (1 + first.distance)) continue;
       const TaskDemand& demand = statics_.demands[static_cast<std::size_t>(other.demand)].demand;
       own.reactions.push_back({demand.joint, demand.quantity, 1});
-      const core::LocusKind kind = kind_of(demand);
+      const core::LocusKind kind = locus_kind_of(demand);
       own.kind = gravest ? std::min(own.kind, kind) : kind;
       gravest = true;
     }

@@ -7,14 +7,19 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/pose_zones.hpp"
 #include "analysis/zones.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
+#include "core/errors.hpp"
+#include "mechanism/read_pose_task.hpp"
+#include "report/files.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
+#include "report/pose_zones.hpp"
 #include "report/zones.hpp"
 
 namespace clearloci::cli {
@@ -25,15 +30,49 @@ struct Arguments {
   LociArguments loci;
   std::string formats = "svg,png";
   std::string certificate;
+  long cells = 300'000;
 };
 
+/// Over one to three coordinates, not two lengths: by cells.
+int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
+  std::vector<std::string> known = report::format_names(report::Answer::zones);
+  known.emplace_back("stl");
+  const std::set<std::string> formats = parse_formats(arguments.formats, known);
+  if (formats.contains("stl") && mechanism.coordinates.size() != 3)
+    throw core::InputError({.file = "--export"}, "zones are bounded by surfaces over three free coordinates alone",
+                           "leave out stl");
+  Progress progress(arguments.common.quiet);
+  const core::PoseZones map =
+      find_pose_zones(mechanism, loci_request(arguments.loci, mechanism, progress, limit), arguments.cells);
+  progress.clear();
+  limit.writing();
+  const std::filesystem::path folder = output_folder(arguments.common);
+  std::vector<std::filesystem::path> files = {folder / "zones.json"};
+  const std::string json = report::json_text(report::pose_zones_object(map));
+  report::write_atomically(files.front(), json);
+  for (const core::PoseZone& zone : map.zones) {
+    if (!formats.contains("stl")) break;
+    files.push_back(folder / ("zones-" + zone.id + ".stl"));
+    report::write_atomically(files.back(), report::pose_zone_stl(zone));
+  }
+  if (arguments.common.json)
+    fmt::print("{}", json);
+  else if (!arguments.common.quiet)
+    fmt::print("{}\n{}", report::pose_zones_table(map), written_words(folder, files));
+  return map.complete ? exit_done : exit_limit_reached;
+}
+
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names(report::Answer::zones));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
+  const bool over_poses = mechanism::has_pose_tasks(mechanism);
+  const std::set<std::string> formats =
+      over_poses ? std::set<std::string>{}
+                 : parse_formats(arguments.formats, report::format_names(report::Answer::zones));
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "zones.json", incomplete_body(name, "the zones were"));
   });
+  if (over_poses) return run_over_poses(arguments, mechanism, limit);
   Progress progress(arguments.common.quiet);
   const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   core::Certificate certificate;
@@ -67,6 +106,10 @@ Command add_zones_command(CLI::App& program) {
                   fmt::format("Files besides zones.json, several after commas: {}",
                               fmt::join(report::format_names(report::Answer::zones), ", ")))
       ->type_name("LIST")
+      ->capture_default_str();
+  app->add_option("--cells", arguments->cells,
+                  "Over one to three coordinates that are not two lengths: cells to look at; more part zones sharper")
+      ->check(CLI::Range(1L, 100'000'000L))
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate);
   app->footer(

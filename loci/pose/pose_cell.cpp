@@ -333,6 +333,19 @@ PoseCell::State PoseCell::enter(const PoseChart& chart, const PoseBox& box) {
   return State::proven;
 }
 
+std::vector<int> PoseCell::known_signs() {
+  std::vector<int> signs(statics_->demands.size(), 0);
+  if (doubt_ != Doubt::demand) return signs;
+  const int own = demand_;
+  const std::array<double, Affine::noises> spreads = spreads_;
+  for (std::size_t d = 0; d < signs.size(); ++d)
+    if (statics_->demands[d].components.size() == 1 && static_cast<int>(d) != own && keeps(static_cast<int>(d)))
+      signs[d] = component_values(statics_->demands[d], 0).front() > 0 ? 1 : -1;
+  demand_ = own;
+  spreads_ = spreads;
+  return signs;
+}
+
 std::optional<PoseCell::At> PoseCell::at(const std::vector<double>& pose) {
   if (run({pose, {}}, {}) != State::proven || !invert()) return std::nullopt;
   At result;

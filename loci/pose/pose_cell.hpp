@@ -39,6 +39,10 @@ class PoseCell {
   /// Of a proven cell: what every reaction has at least, N or N m, one a demand.
   const std::vector<double>& least_sizes() const { return least_; }
 
+  /// Of a cell in doubt: the signs, +1 or -1, that demands of one component have in all of it; 0 where that is not
+  /// known, and of others. Under one load.
+  std::vector<int> known_signs();
+
   /// A single pose in floating point; nothing where it cannot be assembled or A cannot be inverted.
   struct At {
     int determinant = 0;                                       ///< its sign

@@ -3,7 +3,7 @@
 import re
 import unittest
 
-from program import FIVE_BAR, PICK_AND_PLACE, InOwnFolder
+from program import FIVE_BAR, FOUR_BAR, PICK_AND_PLACE, InOwnFolder
 
 
 class WrongCalls(InOwnFolder):
@@ -28,11 +28,15 @@ class WrongCalls(InOwnFolder):
 
     def test_mechanisms_that_a_command_is_not_for(self):
         examples = FIVE_BAR.parent
-        for command in ("validate", "zones", "error"):
+        for command in ("validate", "error"):
             for name in ("gough_stewart",) if command == "error" else ("four_bar", "gough_stewart"):
                 self.assertIn(f"{name}.yaml: ", self.complaint(command, examples / f"{name}.yaml"))
-        for command in ("validate", "zones", "error"):
+        for command in ("validate", "error"):
             self.assertIn("free coordinates", self.complaint(command, examples / "three_rpr_orientation.yaml"))
+        for command in ("loci", "zones", "validate", "error"):
+            self.assertIn("this workspace has 6", self.complaint(command, examples / "gough_stewart_poses.yaml"))
+        self.assertIn("--export: zones are bounded by surfaces over three", self.complaint("zones", FOUR_BAR, "--export", "stl"))
+        self.assertIn("--working-mode: ", self.complaint("zones", FOUR_BAR, "--working-mode", "all"))
         self.assertIn("dxf does not hold loci over 3 free coordinates",
                       self.complaint("loci", examples / "three_upu.yaml", "--export", "dxf"))
         self.assertIn("stl does not hold loci over 2 free coordinates", self.complaint("loci", FIVE_BAR, "--export", "stl"))
@@ -51,7 +55,7 @@ class WrongCalls(InOwnFolder):
         self.assertIn("task.yaml:3:13: ", self.complaint("verify", platform, "task.yaml"))
         text = platform.read_text(encoding="utf-8").replace("  y: [-0.4, 0.4]\n", "").replace("z: 0.6", "y: 0.05\n  z: 0.6")
         (self.folder / "line.yaml").write_text(text, encoding="utf-8")
-        for command, words in (("zones", "free coordinates"), ("validate", "free coordinates"), ("error", "planar")):
+        for command, words in (("validate", "free coordinates"), ("error", "planar")):
             self.assertIn(words, self.complaint(command, "line.yaml"))
 
     def test_wrong_tasks(self):

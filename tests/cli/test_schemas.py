@@ -78,6 +78,8 @@ class Results(InOwnFolder):
 
     def test_zones(self):
         self.holds("zones", "zones", FIVE_BAR)
+        self.holds("zones", "zones", FOUR_BAR)
+        self.holds("zones", "zones", EXAMPLES / "three_upu.yaml", "--cells", "5000")
 
     def test_verify(self):
         task = EXAMPLES / "tasks" / "pick_and_place.yaml"
@@ -85,6 +87,11 @@ class Results(InOwnFolder):
         refuted = self.folder / "task.yaml"
         refuted.write_text("format: 1\nbox: {x: [0.1, 0.4], y: [-0.8, -0.2]}\n", encoding="utf-8")
         self.holds("verify", "verify", FIVE_BAR, refuted, status=1)
+        poses = self.folder / "poses.yaml"
+        poses.write_text("format: 1\nbox: {theta: [70 deg, 80 deg]}\n", encoding="utf-8")
+        self.holds("verify", "verify", FOUR_BAR, poses)
+        poses.write_text("format: 1\npath: [50 deg, 80 deg]\n", encoding="utf-8")
+        self.holds("verify", "verify", FOUR_BAR, poses, status=1)
 
     def test_pose(self):
         self.holds("pose", "pose", FIVE_BAR, "--at", "0.25,-0.7", "--iterate")

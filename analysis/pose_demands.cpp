@@ -1,0 +1,36 @@
+#include "analysis/pose_demands.hpp"
+
+#include "numeric/pose_witness.hpp"
+
+namespace clearloci {
+
+using core::Quantity;
+using core::TaskDemand;
+
+std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>& models, const std::vector<int>& sides,
+                                       std::vector<TaskDemand> demands, const std::vector<std::vector<double>>& poses,
+                                       std::vector<std::string>& notes) {
+  std::vector<const numeric::NumericModel*> list;
+  for (const numeric::NumericModel& own : models) list.push_back(&own);
+  const numeric::PoseWitness all(list, sides, demands, poses);
+  std::vector<TaskDemand> loaded;
+  std::string names;
+  for (std::size_t d = 0; d < demands.size(); ++d) {
+    const bool never = demands[d].least == 0 && all.is_never_loaded(static_cast<int>(d), poses);
+    if (!never)
+      loaded.push_back(std::move(demands[d]));
+    else
+      names += (names.empty() ? "" : ", ") + core::to_string(demands[d].quantity) + "_" + demands[d].joint;
+  }
+  if (!names.empty())
+    notes.push_back(names + ": zero, to rounding, at every pose looked at; taken as never loaded, and not asked for");
+  return loaded;
+}
+
+core::LocusKind locus_kind_of(const TaskDemand& demand) {
+  if (demand.least > 0) return core::LocusKind::margin;
+  const bool effort = demand.quantity == Quantity::M || demand.quantity == Quantity::F;
+  return effort ? core::LocusKind::backlash : core::LocusKind::contact_loss;
+}
+
+}  // namespace clearloci

@@ -1,0 +1,24 @@
+// What proofs over one to six coordinates ask of which reactions.
+// Private to analysis/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/locus_map.hpp"
+#include "core/task_conditions.hpp"
+#include "numeric/model.hpp"
+
+namespace clearloci {
+
+/// Demands without those of reactions that are zero at every pose given, to rounding, which are taken for ones that
+/// nothing loads; a note then says which. Those that ask for a least size stay.
+std::vector<core::TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>& models,
+                                             const std::vector<int>& sides, std::vector<core::TaskDemand> demands,
+                                             const std::vector<std::vector<double>>& poses,
+                                             std::vector<std::string>& notes);
+
+/// Margin, backlash or contact loss.
+core::LocusKind locus_kind_of(const core::TaskDemand& demand);
+
+}  // namespace clearloci

@@ -1,0 +1,181 @@
+#include "report/pose_zones.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "report/exports.hpp"
+#include "report/file_units.hpp"
+#include "report/loci_json.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json signs_of(const core::PoseZone& zone) {
+  Json signs = Json::object();
+  for (const auto& [reaction, sign] : zone.signs) signs[reaction.joint][core::to_string(reaction.quantity)] = sign;
+  return signs;
+}
+
+Json zone_object(const core::PoseZone& zone) {
+  Json bounds = Json::array();
+  for (const core::PoseZoneBound& own : zone.bounds)
+    bounds.push_back({{"kind", core::to_string(own.kind)}, {"vanishing", vanishing_array(own.reactions)}});
+  Json ends = Json::array();
+  for (const core::PoseZoneEnd& own : zone.ends) {
+    ends.push_back(
+        {{"at", own.at}, {"kind", core::to_string(own.kind)}, {"vanishing", vanishing_array(own.reactions)}});
+    if (own.jumps) ends.back()["jump"] = {{"dx", own.dx}, {"dy", own.dy}, {"dalpha", own.dalpha}};
+  }
+  if (zone.at_side) bounds.push_back({{"kind", "box"}, {"vanishing", Json::array()}});
+  return {{"id", zone.id},
+          {"assembly_mode", zone.assembly_mode},
+          {"signs", signs_of(zone)},
+          {"at_least", zone.at_least},
+          {"at_most", zone.at_most},
+          {"lower", zone.lower},
+          {"upper", zone.upper},
+          {"sample", zone.sample},
+          {"bounds", std::move(bounds)},
+          {"ends", std::move(ends)},
+          {"perhaps_one_with", zone.perhaps_one_with}};
+}
+
+/// "m rad", "m3": what sizes are in.
+std::string unit_of_size(const core::PoseZones& map) {
+  const auto angles = std::count(map.angles.begin(), map.angles.end(), true);
+  const auto lengths = static_cast<std::ptrdiff_t>(map.angles.size()) - angles;
+  const auto power = [](const std::string& unit, std::ptrdiff_t count) {
+    return count == 0 ? std::string() : count == 1 ? unit : unit + std::to_string(count);
+  };
+  const std::string m = power("m", lengths), rad = power("rad", angles);
+  return m + (m.empty() || rad.empty() ? "" : " ") + rad;
+}
+
+std::string bounds_words(const core::PoseZone& zone) {
+  std::string words;
+  for (const core::LocusKind kind :
+       {core::LocusKind::workspace_boundary, core::LocusKind::direct_singularity, core::LocusKind::contact_loss,
+        core::LocusKind::backlash, core::LocusKind::margin}) {
+    std::vector<core::Vanishing> all;
+    bool any = false;
+    for (const core::PoseZoneBound& own : zone.bounds) {
+      if (own.kind != kind) continue;
+      any = true;
+      all.insert(all.end(), own.reactions.begin(), own.reactions.end());
+    }
+    if (any) words += (words.empty() ? "" : "; ") + kind_words(kind) + (all.empty() ? "" : " ") + reaction_names(all);
+  }
+  if (zone.at_side) words += words.empty() ? "box" : "; box";
+  return words;
+}
+
+class Places {
+ public:
+  explicit Places(const core::PoseZones& map) : map_(map), length_(shown_unit("m", map.units)) {}
+
+  std::string value(std::size_t c, double at) const {
+    if (map_.angles[c]) return fmt::format("{:.9g} deg", at * 180 / std::numbers::pi);
+    return fmt::format("{:.9g} {}", at * length_.per_si, length_.name);
+  }
+  std::string pose(const std::vector<double>& at) const {
+    std::string words;
+    for (std::size_t c = 0; c < at.size(); ++c)
+      words += fmt::format("{}{} = {}", c == 0 ? "" : ", ", map_.coordinates[c], value(c, at[c]));
+    return words;
+  }
+
+ private:
+  const core::PoseZones& map_;
+  ShownUnit length_;
+};
+
+}  // namespace
+
+Json pose_zones_object(const core::PoseZones& map) {
+  Json mode = Json::object();
+  for (const auto& [point, side] : map.working_mode) mode[point] = side;
+  Json box = Json::array();
+  for (std::size_t c = 0; c < map.lower.size(); ++c) box.push_back({map.lower[c], map.upper[c]});
+  Json root = {{"format", 1},
+               {"mechanism", printable(map.mechanism)},
+               {"coordinates", map.coordinates},
+               {"angles", map.angles},
+               {"box", std::move(box)},
+               {"working_mode", std::move(mode)},
+               {"zones", Json::array()},
+               {"outside", map.outside},
+               {"in_doubt", map.in_doubt},
+               {"cells", map.cells},
+               {"complete", map.complete},
+               {"notes", map.notes}};
+  for (const core::PoseZone& zone : map.zones) root["zones"].push_back(zone_object(zone));
+  if (map.units.declared) root["units"] = "SI";
+  return root;
+}
+
+std::string pose_zones_table(const core::PoseZones& map) {
+  const Places places(map);
+  const std::string unit = unit_of_size(map);
+  std::string mode;
+  for (const auto& [point, side] : map.working_mode)
+    mode += fmt::format("{}{} {}", mode.empty() ? "" : ", ", point, side);
+  std::string out = printable(map.mechanism) + "\n\n";
+  if (!mode.empty()) out += "Working mode: " + printable(mode) + "\n";
+  const bool line = map.coordinates.size() == 1;
+  for (const core::PoseZone& zone : map.zones) {
+    std::string signs;
+    for (const auto& [reaction, sign] : zone.signs)
+      signs += fmt::format("{}{}{}", signs.empty() ? "" : " ", reaction_name(reaction),
+                           sign > 0   ? "+"
+                           : sign < 0 ? "-"
+                                      : "?");
+    out += fmt::format("{:<5} |A|{}  {}\n", zone.id, zone.assembly_mode > 0 ? "+" : "-", signs);
+    if (line)
+      out += fmt::format("      {} to {}\n", places.value(0, zone.lower[0]), places.value(0, zone.upper[0]));
+    else
+      out += fmt::format("      {:.6g} to {:.6g} {}; a pose of it: {}\n", zone.at_least, zone.at_most, unit,
+                         places.pose(zone.sample));
+    out += fmt::format("      beside it: {}\n", bounds_words(zone));
+    for (const core::PoseZoneEnd& own : zone.ends) {
+      out += fmt::format("      ends at {}: {}{}{}", places.value(0, own.at), kind_words(own.kind),
+                         own.reactions.empty() ? "" : " ", reaction_names(own.reactions));
+      const ShownUnit unit_of_jump = shown_unit("m", map.units);
+      if (own.jumps)
+        out += fmt::format("; the end effector jumps by ({:.3g}, {:.3g}) {} and {:.3g} rad",
+                           own.dx * unit_of_jump.per_si, own.dy * unit_of_jump.per_si, unit_of_jump.name, own.dalpha);
+      out += "\n";
+    }
+    if (!zone.perhaps_one_with.empty()) {
+      out += "      not proven to be another zone than";
+      for (const std::string& other : zone.perhaps_one_with) out += " " + other;
+      out += "\n";
+    }
+  }
+  if (map.zones.empty()) out += "no zones: nothing in the box is proven to be free of loci\n";
+  out += fmt::format("\nin doubt {:.6g} {}, out of reach {:.6g} {}; {} cells\n", map.in_doubt, unit, map.outside, unit,
+                     map.cells);
+  if (!map.complete) out += "the time limit came first\n";
+  for (const std::string& note : told_once(map.notes)) out += printable(note) + "\n";
+  return out;
+}
+
+std::string pose_zone_stl(const core::PoseZone& zone) {
+  core::LocusSurface surface;
+  surface.id = zone.id;
+  surface.kind = core::LocusKind::workspace_boundary;
+  for (const auto& corners : zone.faces) {
+    const int first = static_cast<int>(surface.vertices.size());
+    surface.vertices.insert(surface.vertices.end(), corners.begin(), corners.end());
+    surface.triangles.push_back({first, first + 1, first + 2});
+    surface.triangles.push_back({first, first + 2, first + 3});
+  }
+  return stl(surface);
+}
+
+}  // namespace clearloci::report

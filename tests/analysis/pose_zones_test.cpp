@@ -1,0 +1,162 @@
+// Zones by cells, held against grids over statics of the tests' own and against the loci.
+#include "clearloci/pose_zones.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "clearloci/errors.hpp"
+#include "clearloci/mechanism.hpp"
+
+namespace clearloci {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr long few_cells = 60'000;  // enough to tell the zones of these examples apart
+
+Model example(const std::string& name) {
+  return Model::read(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+}
+
+/// Signs of the three legs' forces.
+using Signs = std::array<int, 3>;
+
+Signs signs_of(const Eigen::Vector3d& forces) {
+  Signs signs{};
+  for (int leg = 0; leg < 3; ++leg) signs[static_cast<std::size_t>(leg)] = forces[leg] > 0 ? 1 : -1;
+  return signs;
+}
+
+Signs signs_of(const PoseZone& zone) {
+  Signs signs{};
+  for (const auto& [reaction, sign] : zone.signs)
+    if (reaction.quantity == Quantity::F) signs[static_cast<std::size_t>(reaction.joint[1] - '1')] = sign;
+  return signs;
+}
+
+/// The 3-UPU moves without turning: forces along the legs alone bear the load.
+Eigen::Vector3d upu_forces(double x, double y, double z) {
+  const Eigen::Matrix3d feet{{0.5, -0.25, -0.25}, {0, 0.43, -0.43}, {0, 0, 0}};
+  const Eigen::Matrix3d tips{{0.2, -0.1, -0.1}, {0, 0.17, -0.17}, {0, 0, 0}};
+  Eigen::Matrix3d A;
+  for (int leg = 0; leg < 3; ++leg)
+    A.col(leg) = (Eigen::Vector3d(x, y, z) + tips.col(leg) - feet.col(leg)).normalized();
+  return A.partialPivLu().solve(-Eigen::Vector3d(50, 20, -200));
+}
+
+/// The 3-RPR: forces along the legs and the couple on the platform.
+Eigen::Vector3d rpr_forces(double x, double y, double phi, double r) {
+  const std::array<Eigen::Vector2d, 3> feet = {Eigen::Vector2d(-0.8, -0.5), {0.8, -0.5}, {0, 0.9}};
+  constexpr std::array<double, 3> turned = {210, -30, 80};
+  Eigen::Matrix3d A;
+  for (std::size_t leg = 0; leg < 3; ++leg) {
+    const Eigen::Vector2d arm =
+        r * Eigen::Vector2d(std::cos(phi + turned[leg] * degree), std::sin(phi + turned[leg] * degree));
+    const Eigen::Vector2d u = (Eigen::Vector2d(x, y) + arm - feet[leg]).normalized();
+    A.col(static_cast<int>(leg)) << u, arm[0] * u[1] - arm[1] * u[0];
+  }
+  return A.partialPivLu().solve(-Eigen::Vector3d(30, -100, 5));
+}
+
+/// What a grid says of the share of each combination of signs, against the bounds of all zones that have it.
+template <class Forces>
+void expect_grid_within(const PoseZones& map, const Forces& forces) {
+  constexpr int n = 70;
+  std::map<Signs, double> grid, least, most;
+  double cell = 1;
+  for (std::size_t c = 0; c < 3; ++c) cell *= (map.upper[c] - map.lower[c]) / n;
+  const auto at = [&](std::size_t c, int i) { return map.lower[c] + (i + 0.5) / n * (map.upper[c] - map.lower[c]); };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) grid[signs_of(forces(at(0, i), at(1, j), at(2, k)))] += cell;
+  for (const PoseZone& zone : map.zones) {
+    least[signs_of(zone)] += zone.at_least;
+    most[signs_of(zone)] += zone.at_most;
+    EXPECT_EQ(signs_of(zone), signs_of(forces(zone.sample[0], zone.sample[1], zone.sample[2]))) << zone.id;
+  }
+  double whole = 1;
+  for (std::size_t c = 0; c < 3; ++c) whole *= map.upper[c] - map.lower[c];
+  const double fuzzy = 0.002 * whole;  // of a grid's own count
+  for (const auto& [signs, size] : grid) {
+    if (least.count(signs) == 0) {
+      EXPECT_LT(size, map.in_doubt + fuzzy);
+      continue;
+    }
+    EXPECT_LE(least[signs], size + fuzzy);
+    EXPECT_GE(most[signs], size - fuzzy);
+  }
+  double total = map.in_doubt + map.outside;
+  for (const PoseZone& zone : map.zones) total += zone.at_least;
+  EXPECT_NEAR(total, whole, 1e-9 * whole) << "nothing is counted twice or left out";
+}
+
+TEST(PoseZones, OfA3UpuAgreeWithAGrid) {
+  const PoseZones map = find_pose_zones(example("three_upu"), {}, few_cells);
+  EXPECT_TRUE(map.complete);
+  std::set<Signs> kinds;
+  for (const PoseZone& zone : map.zones) kinds.insert(signs_of(zone));
+  EXPECT_EQ(kinds.size(), 7U) << "every combination but the legs that all pull";
+  EXPECT_LT(map.in_doubt, 0.2 * 0.384);
+  expect_grid_within(map, upu_forces);
+}
+
+TEST(PoseZones, OfA3RprWithFreeOrientationAgreeWithAGrid) {
+  const Model model = example("three_rpr_orientation");
+  double r = 0;
+  for (const Model::Parameter& own : model.parameters())
+    if (own.name == "r") r = own.value;
+  const PoseZones map = find_pose_zones(model, {}, few_cells);
+  expect_grid_within(map, [r](double x, double y, double phi) { return rpr_forces(x, y, phi, r); });
+}
+
+TEST(PoseZones, OfThreeCoordinatesHaveClosedSurfaces) {
+  const PoseZones map = find_pose_zones(example("three_upu"), {}, 5000);
+  ASSERT_FALSE(map.zones.empty());
+  // By Gauss: the volume inside from the faces alone.
+  for (const PoseZone& zone : map.zones) {
+    double volume = 0;
+    for (const auto& corners : zone.faces) {
+      const auto point = [&](std::size_t i) { return Eigen::Vector3d(corners[i][0], corners[i][1], corners[i][2]); };
+      const Eigen::Vector3d area = (point(1) - point(0)).cross(point(3) - point(0));
+      volume += point(0).dot(area) / 3;
+    }
+    EXPECT_NEAR(volume, zone.at_least, 1e-9) << zone.id;
+  }
+}
+
+TEST(PoseZones, OfAFourBarEndAtItsLoci) {
+  const Model model = example("four_bar");
+  const PoseZones map = find_pose_zones(model);
+  const LocusMap loci = trace_loci(model);
+  std::set<double> cuts = {0, 2 * std::numbers::pi};
+  for (const IsolatedPoint& point : loci.isolated_points) cuts.insert(point.at.front());
+  ASSERT_EQ(map.zones.size() + 1, cuts.size());
+  for (const PoseZone& zone : map.zones) {
+    for (const double end : {zone.lower[0], zone.upper[0]}) {
+      double least = 10;
+      for (const double cut : cuts) least = std::min(least, std::abs(cut - end));
+      EXPECT_LT(least, 1e-7);
+    }
+    for (const double cut : cuts) EXPECT_FALSE(zone.lower[0] < cut - 1e-12 && cut + 1e-12 < zone.upper[0]);
+    EXPECT_FALSE(zone.ends.empty());
+  }
+  // The end effector jumps where the rocker is upright, and its couple changes its sign in every zone.
+  const auto jumps = std::count_if(map.zones.begin(), map.zones.end(), [](const PoseZone& zone) {
+    return std::any_of(zone.ends.begin(), zone.ends.end(), [](const PoseZoneEnd& end) { return end.dx != 0; });
+  });
+  EXPECT_GE(jumps, 3);
+}
+
+TEST(PoseZones, WantThreeCoordinatesAtMost) {
+  EXPECT_THROW(find_pose_zones(example("gough_stewart_poses")), InputError);
+}
+
+}  // namespace
+}  // namespace clearloci
