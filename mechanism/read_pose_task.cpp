@@ -13,9 +13,9 @@ using core::InputError;
 using core::RationalPose;
 
 const std::vector<std::string> shape_keys = {"box", "ball", "path"};
-const std::vector<std::string> task_keys = {"format", "name",         "box",        "ball",        "path",
-                                            "margin", "angle_length", "min_force",  "min_couple",  "loads_from",
-                                            "circle", "polygon",      "tolerances", "loads_within"};
+const std::vector<std::string> task_keys = {"format", "name",         "box",        "ball",         "path",
+                                            "margin", "angle_length", "min_force",  "min_couple",   "loads_from",
+                                            "circle", "polygon",      "tolerances", "loads_within", "pose_error"};
 
 bool has_angle(const Mechanism& mechanism) {
   return std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
@@ -107,10 +107,12 @@ std::pair<core::PoseShape, Value> read_shape(const Mechanism& mechanism, const V
     if (const auto value = root.find(key))
       throw InputError(value->where, "a " + std::string(key) + " lies in the plane of two lengths",
                        "write a box, a ball or a path over the coordinates of " + mechanism.file);
-  for (const char* key : {"tolerances", "loads_within"})
+  for (const char* key : {"tolerances", "loads_within", "pose_error"})
     if (const auto value = root.find(key))
-      throw InputError(value->where, std::string(key) + " are asked of tasks in the plane of two lengths",
-                       "leave them out, or make the other coordinates parameters");
+      throw InputError(value->where,
+                       std::string(key) + (key == std::string("pose_error") ? " is" : " are") +
+                           " asked of tasks in the plane of two lengths",
+                       "leave it out, or make the other coordinates parameters");
   std::optional<std::pair<std::string, Value>> found;
   for (const std::string& key : shape_keys) {
     const auto value = root.find(key);
