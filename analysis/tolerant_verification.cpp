@@ -117,7 +117,7 @@ class Tolerant {
   }
 
   std::optional<core::TaskWitness> witness_of(const DesignFailure& failure) {
-    if (failure.kind == DesignFailure::Kind::displaced) return displaced_at(failure.at, failure.parameters);
+    if (failure.kind == DesignFailure::Kind::displaced) return displaced_at(failure);
     if (!failure.watched) return confirmed(failure.at, failure.parameters);
     // The sign changes between two poses and two designs: first the design changes, then the pose.
     const std::size_t w = *failure.watched;
@@ -195,30 +195,56 @@ class Tolerant {
     return found.empty() ? std::nullopt : std::optional(described(pose, parameters, found));
   }
 
-  /// A design whose end effector is displaced too far at a pose: under the first load, or the last.
-  std::optional<core::TaskWitness> displaced_at(const Point2& pose, const std::vector<double>& parameters) const {
-    const double most = core::to_double(*task_.task().pose_error);
-    for (std::size_t load = 0; load < task_.loads().size(); ++load) {
-      const numeric::NumericModel model = numeric::compile(with_clearances(task_.loads()[load], parameters));
-      const numeric::Posture posture = numeric::posture(model, values(pose, parameters), task_.sides());
-      if (!posture.reachable()) continue;
-      const double size = numeric::pose_accuracy(model, posture).error.dp();
-      if (!(size > most * (1 + rounding_of_pose_errors))) continue;
-      core::TaskWitness told;
-      told.kind = core::TaskWitness::Kind::displaced;
-      told.at = pose;
-      told.distance = std::max(0.0, task_.region().signed_distance(pose));
-      told.size = size;
-      told.most = task_.task().pose_error;
-      for (std::size_t p = 0; p < parameters.size(); ++p)
-        told.design.emplace_back(task_.design().varied[p], parameters[p]);
-      if (const auto& range = task_.task().loads) {
-        const core::RationalPoint& own = load == 0 ? range->first : range->second;
-        told.load = Point2{core::to_double(own[0]), core::to_double(own[1])};
+  /// A design whose end effector is displaced too far at a pose, under a load.
+  std::optional<core::TaskWitness> displaced_at(const DesignFailure& failure) const {
+    mechanism::Mechanism open = with_clearances(task_.loads().front(), failure.parameters);
+    const auto number = [](double value) { return core::Expression::number(core::Rational(value)); };
+    core::TaskWitness told;
+    if (const auto& range = task_.task().loads) {
+      Point2& load = told.load.emplace();
+      for (std::size_t c = 0; c < 2; ++c) {
+        load[c] =
+            (1 - failure.load) * core::to_double(range->first[c]) + failure.load * core::to_double(range->second[c]);
+        open.loads.front().force[c] = number(load[c]);
       }
-      return told;
     }
-    return std::nullopt;
+    if (!changed_by_balls(open, failure.load_factors)) return std::nullopt;
+    const numeric::NumericModel model = numeric::compile(open);
+    const numeric::Posture posture = numeric::posture(model, values(failure.at, failure.parameters), task_.sides());
+    if (!posture.reachable()) return std::nullopt;
+    const double size = numeric::pose_accuracy(model, posture).error.dp();
+    if (!(size > core::to_double(*task_.task().pose_error) * (1 + rounding_of_pose_errors))) return std::nullopt;
+    told.kind = core::TaskWitness::Kind::displaced;
+    told.at = failure.at;
+    told.distance = std::max(0.0, task_.region().signed_distance(failure.at));
+    told.size = size;
+    told.most = task_.task().pose_error;
+    for (std::size_t p = 0; p < failure.parameters.size(); ++p)
+      told.design.emplace_back(task_.design().varied[p], failure.parameters[p]);
+    for (const core::LoadWithin& within : task_.task().loads_within)
+      if (within.force > 0 || within.couple > 0)
+        told.loads.push_back({within.load, posture.loads[within.load].force, posture.loads[within.load].couple});
+    return told;
+  }
+
+  /// Adds to loads what these factors of the balls' directions are. False: to one that is written as a vector.
+  bool changed_by_balls(mechanism::Mechanism& open, const std::vector<double>& factors) const {
+    const auto add = [](core::Expression& to, double what) {
+      to = core::Expression::apply(core::Expression::Kind::add, {to, core::Expression::number(core::Rational(what))});
+    };
+    std::size_t ball = 0;
+    for (const core::LoadWithin& within : task_.task().loads_within) {
+      if (!(within.force > 0) && !(within.couple > 0)) continue;
+      const core::LoadBall& own = task_.balls()[ball++];
+      mechanism::Load& load = open.loads[within.load];
+      if (own.fx >= 0) {
+        if (load.force.size() != 2) return false;
+        add(load.force[0], factors[static_cast<std::size_t>(own.fx)]);
+        add(load.force[1], factors[static_cast<std::size_t>(own.fy)]);
+      }
+      if (own.couple >= 0) add(load.couple, factors[static_cast<std::size_t>(own.couple)]);
+    }
+    return true;
   }
 
   /// The open mechanism with the clearances of one design.

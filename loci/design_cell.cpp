@@ -56,6 +56,7 @@ DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode
 DesignCell::State DesignCell::enter(std::span<const Interval> box, std::vector<Interval> clearances) {
   differentiated_ = false;
   displacement_in_doubt_ = false;
+  parts_of_loads_ = 0;
   clearances_ = std::move(clearances);
   unmet_ = -1;
   in_doubt_.clear();
@@ -83,7 +84,7 @@ DesignCell::State DesignCell::enter(std::span<const Interval> box, std::vector<I
     return State::unmet;
   }
   if (clearances_.empty() || most_displaced_ == std::numeric_limits<double>::infinity()) return State::proven;
-  if (displacement().upper() <= most_displaced_) return State::proven;
+  if (displaced_within(most_displaced_)) return State::proven;
   displacement_in_doubt_ = true;
   return State::unmet;
 }
@@ -128,6 +129,7 @@ void DesignCell::differentiate() {
     middle_.push_back(std::clamp(box_[c].middle(), box_[c].lower(), box_[c].upper()));
     at_middle_.set(static_cast<int>(c), Interval(middle_.back()));
   }
+  centred_.assign(slopes_.size(), std::nullopt);
   offsets_.clear();
   for (std::size_t c = 0; c < box_.size(); ++c)
     offsets_.push_back(box_[c].lower() == box_[c].upper() ? Interval(0.0) : box_[c] - Interval(middle_[c]));

@@ -34,6 +34,9 @@ class DesignCell {
   DesignCell& operator=(const DesignCell&) = delete;
 
   int coordinates() const { return program_.coordinates(); }
+  /// Parts of the loads that the last cell was looked at under, one by one.
+  int parts_of_loads() const { return parts_of_loads_; }
+  bool has_many_loads() const { return conditions_.loads > 1 || !balls_.empty(); }
 
   /// As TaskCell::State: `outside` for certain in no pose and no design of the box; the others are not proven.
   enum class State { proven, outside, boundary, singular, unmet };
@@ -57,8 +60,13 @@ class DesignCell {
   /// A condition that every pose and design of the box fails, for certain: it is too small, or vanishes under some
   /// load; -1: none is known. Where the state is neither `outside` nor `boundary`.
   int failed() const;
-  /// Whether under some load all designs of the box are displaced farther than they may, in all its poses.
-  bool displaced_too_far();
+  /// Some of a task's loads: the part t of the range, and a factor of every direction.
+  struct Loads {
+    sheet::Interval t;
+    std::vector<sheet::Interval> factors;
+  };
+  /// A load, if one is found, under which all designs of the box are displaced farther than they may in all its poses.
+  std::optional<Loads> displaced_too_far();
 
   /// What changes its sign nowhere in a task that verifies: the factors of |A|, what reactions have in common, scalar
   /// reactions. +1 and -1 are certain.
@@ -74,9 +82,9 @@ class DesignCell {
   /// the box. Required: |A| has a sign.
   sheet::Interval size_of(int condition, bool least);
 
-  /// How far the end effector is displaced, m: not less than, not more than over the box, under every load, or under
-  /// the first or last one alone. Required: take-ups with their clearances, and |A| has a sign.
-  sheet::Interval displacement(std::optional<std::size_t> load = {});
+  /// How far the end effector is displaced at most under any load, m: an enclosure of it over the box. Required:
+  /// take-ups with their clearances, and |A| has a sign.
+  sheet::Interval displacement();
   /// spreads() are of the displacement from now on, whatever else is in doubt.
   void doubt_displacement() { displacement_in_doubt_ = true; }
   bool doubts_displacement() const { return displacement_in_doubt_; }
@@ -95,10 +103,15 @@ class DesignCell {
   sheet::Interval combined(const std::vector<std::pair<sheet::Interval, int>>& sum, bool with_slopes);
   /// What the balls take away from n.N at most, at least.
   sheet::Interval reach_of_balls(const core::TaskCondition& condition, const std::vector<double>& n, bool with_slopes);
-  Centred centred(int function);
-  Centred loaded(const core::TaskCondition& take_up, std::size_t part, std::optional<std::size_t> load);
-  std::vector<Centred> directions_taken(const core::TaskCondition& take_up, std::optional<std::size_t> load);
-  Centred squared_displacement(std::optional<std::size_t> load);
+  const Centred& centred(int function);
+  Centred loaded(const core::TaskCondition& take_up, std::size_t part, const Loads& loads);
+  std::vector<Centred> directions_taken(const core::TaskCondition& take_up, const Loads& loads);
+  Centred squared_displacement(const Loads& loads);
+  Loads all_loads() const;
+  static Loads middle_of(const Loads& loads);
+  std::vector<Loads> halves_of(const Loads& loads) const;
+  std::optional<sheet::Interval> displacement_under(const Loads& loads);
+  bool displaced_within(double most);
   /// A load that makes a reaction's size least: the part t of the range, what it comes to at the box's middle, and the
   /// factor of every direction.
   struct WorstLoad {
@@ -134,9 +147,11 @@ class DesignCell {
   int unmet_ = -1;
   double most_displaced_;
   bool displacement_in_doubt_ = false;
+  int parts_of_loads_ = 0;
   std::vector<sheet::Interval> clearances_, offsets_;
-  Centred squared_;                             ///< of the displacement in doubt
-  std::vector<sheet::Interval> per_clearance_;  ///< its derivatives
+  std::vector<std::optional<Centred>> centred_;  ///< of the functions, as far as they are known
+  Centred squared_;                              ///< of the displacement in doubt
+  std::vector<sheet::Interval> per_clearance_;   ///< its derivatives
   std::vector<double> clearance_spreads_;
   std::vector<int> clearances_downhill_;
 };

@@ -159,8 +159,13 @@ std::optional<DesignFailure> DesignJudge::looked_at(const Point2& pose, const De
   if (state != State::proven)
     if (const int condition = cell_.failed(); condition >= 0)
       return DesignFailure{Kind::too_small, condition, pose, middle};
-  if (state == State::unmet && cell_.unmet() < 0 && cell_.displaced_too_far())
-    return DesignFailure{Kind::displaced, -1, pose, middle};
+  if (state == State::unmet && cell_.unmet() < 0)
+    if (const auto loads = cell_.displaced_too_far()) {
+      DesignFailure found{Kind::displaced, -1, pose, middle};
+      found.load = loads->t.middle();
+      for (const Interval& own : loads->factors) found.load_factors.push_back(own.middle());
+      return found;
+    }
   for (std::size_t w = 0; w < cell_.watched(); ++w) {
     const int sign = cell_.sign(w);
     if (sign == 0) continue;
@@ -210,20 +215,22 @@ DesignProof DesignJudge::judge(const DesignBox& designs, double margin, Refuting
       proof.upper[c] = first ? box[c].upper() : std::max(proof.upper[c], box[c].upper());
     }
   };
-  int proven = 0;
+  int proven = 0, looks = 0;
   std::deque<Box> open = {whole};
   while (!open.empty()) {
     const Box box = std::move(open.front());
     open.pop_front();
     if (region_.distance(box[0], box[1]) > reach) continue;
     proof.out_of_cells = proof.cells >= (proven == 0 ? effort.most_cells_in_vain : effort.most_cells);
-    proof.out_of_time = out_of_time(effort, proof.cells);
+    proof.out_of_time = out_of_time(effort, looks++);
     if (proof.out_of_cells || proof.out_of_time) {
       open.push_front(box);
       break;
     }
     ++proof.cells;
-    if (enter(box) == DesignCell::State::proven) {
+    const DesignCell::State state = enter(box);
+    proof.cells += cell_.parts_of_loads();
+    if (state == DesignCell::State::proven) {
       ++proven;
       continue;
     }
@@ -350,7 +357,10 @@ Interval DesignJudge::greatest_displacement(const DesignBox& designs, double acc
     cell_.doubt_displacement();
     return own;
   };
-  return extreme(designs, size, accuracy, effort, false);
+  // Loads that differ are looked at part by part in every cell.
+  DesignEffort own = effort;
+  if (cell_.has_many_loads()) own.most_cells /= 20;
+  return extreme(designs, size, accuracy, own, false);
 }
 
 /// Best first: the bound of the best cell against the best value at a pose.

@@ -30,6 +30,9 @@ struct DesignFailure {
   std::optional<std::size_t> watched = {};
   core::Point2 other{};
   std::vector<double> other_parameters = {};
+  /// Of a displacement the load: the part of the range, and the factors of the directions of the balls.
+  double load = 0;
+  std::vector<double> load_factors = {};
 };
 
 struct DesignProof {

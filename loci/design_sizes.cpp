@@ -1,7 +1,6 @@
 // How large reactions are over a cell of poses and designs, and how far the end effector is displaced
 // (design_cell.hpp).
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/errors.hpp"
@@ -14,8 +13,6 @@ namespace {
 using core::TaskCondition;
 using sheet::Interval;
 
-Interval around_zero(double size) { return {-size, size}; }
-
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
@@ -26,19 +23,6 @@ Interval size_of_vector(const std::vector<Interval>& parts) {
   Interval square = 0;
   for (const Interval& part : parts) square = square + squared(part);
   return square_root(square);
-}
-
-/// Both, whichever of them it is.
-Centred either(const Centred& a, const Centred& b) {
-  return centred::combined(a, b, hull(a.over, b.over), hull(a.middle, b.middle),
-                           [](const Interval& x, const Interval& y) { return hull(x, y); });
-}
-
-/// With something added of which no more is known than its size and that of its slopes.
-void widen(Centred& a, double radius, const Centred& by) {
-  a.over = a.over + around_zero(radius) * by.over;
-  a.middle = a.middle + around_zero(radius) * by.middle;
-  for (std::size_t c = 0; c < a.slopes.size(); ++c) a.slopes[c] = a.slopes[c] + around_zero(radius) * by.slopes[c];
 }
 
 }  // namespace
@@ -145,93 +129,6 @@ Interval DesignCell::size_of(int index, bool least) {
   if (condition.squared_axis >= 0) below = below * square_root(value(condition.squared_axis));
   const Interval share = inverse(square_root(squared(below)));
   return least ? least_size_of(condition, share) : greatest_size_of(condition, share);
-}
-
-Centred DesignCell::centred(int function) {
-  Centred own{value(function), at_middle_.value(function), slopes(function)};
-  return own.tighten(offsets_);
-}
-
-/// A component of a reaction times D, under every load, or under one.
-Centred DesignCell::loaded(const TaskCondition& take_up, std::size_t part, std::optional<std::size_t> load) {
-  if (load) return centred(take_up.parts[*load][part]);
-  Centred own = centred(take_up.parts.front()[part]);
-  if (take_up.parts.size() > 1) own = either(own, centred(take_up.parts.back()[part]));
-  const auto add = [&](int direction, double radius) {
-    if (radius > 0) widen(own, radius, centred(take_up.directions[static_cast<std::size_t>(direction)][part]));
-  };
-  for (const core::LoadBall& ball : balls_) {
-    add(ball.fx, ball.force);
-    add(ball.fy, ball.force);
-    add(ball.couple, ball.couple_size);
-  }
-  return own;
-}
-
-/// f / |f| times the sign of D, or the sign of M likewise; what is not known of it is anything up to 1.
-std::vector<Centred> DesignCell::directions_taken(const TaskCondition& take_up, std::optional<std::size_t> load) {
-  const std::size_t n = box_.size(), parts = take_up.parts.front().size();
-  std::vector<Centred> own;
-  for (std::size_t i = 0; i < parts; ++i) own.push_back(loaded(take_up, i, load));
-  if (parts == 1) {
-    const int sign = own[0].over.sign();
-    return {sign != 0 ? Centred::constant(sign, n) : Centred::rough(around_zero(1), n)};
-  }
-  Centred square = Centred::constant(0.0, n);
-  for (const Centred& part : own) square = centred::sum(square, centred::square(part));
-  square.tighten(offsets_);
-  if (!(square.over.lower() > 0)) return std::vector(parts, Centred::rough(around_zero(1), n));
-  const Centred per_length = centred::reciprocal(centred::root(square));
-  for (Centred& part : own) {
-    part = centred::product(part, per_length).tighten(offsets_);
-    part.over = meet(part.over, around_zero(1));
-  }
-  return own;
-}
-
-Centred DesignCell::squared_displacement(std::optional<std::size_t> load) {
-  const std::size_t n = box_.size();
-  std::array<Centred, 2> displaced = {Centred::constant(0.0, n), Centred::constant(0.0, n)};
-  std::vector<std::array<Interval, 2>> shares;
-  per_clearance_.assign(clearances_.size(), Interval(0.0));
-  for (std::size_t k = 0; k < conditions_.take_ups.size(); ++k) {
-    const TaskCondition& take_up = conditions_.take_ups[k];
-    const Centred below = centred(take_up.denominator);
-    if (below.over.sign() == 0) return Centred::rough({0, 1e50}, n);
-    const Centred per_d = centred::scaled(below.over.sign(), centred::reciprocal(below));
-    const std::vector<Centred> taken = directions_taken(take_up, load);
-    std::array<Interval, 2>& own = shares.emplace_back();
-    for (std::size_t u = 0; u < 2; ++u) {
-      // The unit forces are the last two directions.
-      const std::vector<int>& to = take_up.directions[take_up.directions.size() - 2 + u];
-      Centred moved = Centred::constant(0.0, n);
-      for (std::size_t i = 0; i < taken.size(); ++i)
-        moved = centred::sum(moved, centred::product(centred(to[i]), taken[i]));
-      moved = centred::product(moved, per_d).tighten(offsets_);
-      own[u] = moved.over;
-      displaced[u] = centred::sum(displaced[u], centred::scaled(clearances_[k], moved));
-    }
-  }
-  for (Centred& own : displaced) own.tighten(offsets_);
-  for (std::size_t k = 0; k < shares.size(); ++k)
-    per_clearance_[k] = Interval(2.0) * (displaced[0].over * shares[k][0] + displaced[1].over * shares[k][1]);
-  Centred all = centred::sum(centred::square(displaced[0]), centred::square(displaced[1]));
-  all.over = meet(all.over, squared(displaced[0].over) + squared(displaced[1].over));
-  return all.tighten(offsets_);
-}
-
-Interval DesignCell::displacement(std::optional<std::size_t> load) {
-  core::ensure(clearances_.size() == conditions_.take_ups.size(), "a clearance for every take-up");
-  differentiate();
-  squared_ = squared_displacement(load);
-  return square_root(Interval(std::max(0.0, squared_.over.lower()), std::max(0.0, squared_.over.upper())));
-}
-
-bool DesignCell::displaced_too_far() {
-  if (clearances_.empty() || most_displaced_ == std::numeric_limits<double>::infinity()) return false;
-  for (std::size_t load = 0; load < conditions_.loads; ++load)
-    if (displacement(load).lower() > most_displaced_) return true;
-  return false;
 }
 
 }  // namespace clearloci::loci

@@ -108,13 +108,33 @@ TEST(TaskPoseError, HoldsUnderEveryLoad) {
   const Verification answer =
       decided(clearances(), box.text() + "loads_within: [{load: 1, radius: 10, couple: 0.5}]\npose_error: 1e-3\n");
   ASSERT_TRUE(answer.verified());
-  const Verification alone = decided(clearances(), box.text() + "pose_error: 1e-3\n");
-  EXPECT_GT(*answer.pose_error, *alone.pose_error);
+  const double alone = greatest_on_grid(mechanism::parse_mechanism(clearances(), "a.yaml"), box, 12);
+  EXPECT_GT(*answer.pose_error, alone);
+  double most = alone;
   for (int i = 0; i < 20; ++i) {
     const double angle = 6.283 * part(random);
     std::string text = under(clearances(), fmt::format("[{}, {}]", 10 * std::cos(angle), -100 + 10 * std::sin(angle)));
     text.replace(text.find("force: "), 0, fmt::format("couple: {}, ", part(random) - 0.5));
-    EXPECT_LE(greatest_on_grid(mechanism::parse_mechanism(text, "a.yaml"), box, 4), *answer.pose_error);
+    most = std::max(most, greatest_on_grid(mechanism::parse_mechanism(text, "a.yaml"), box, 4));
+  }
+  EXPECT_LE(most, *answer.pose_error);
+  EXPECT_LE(*answer.pose_error, 1.05 * most);
+}
+
+TEST(TaskPoseError, AWitnessNamesItsLoad) {
+  const double asked = 0.98 * greatest_on_grid(mechanism::parse_mechanism(clearances(), "a.yaml"), box, 12);
+  const std::string error = fmt::format("pose_error: {}\n", asked);
+  const Verification ball = decided(clearances(), box.text() + "loads_within: [{load: 1, radius: 20}]\n" + error);
+  ASSERT_EQ(ball.verdict, core::Verdict::refuted);
+  ASSERT_EQ(ball.witness->kind, core::TaskWitness::Kind::displaced);
+  const core::WitnessLoad& load = ball.witness->loads.at(0);
+  EXPECT_LE(std::hypot(load.force[0], load.force[1] + 100), 20);
+  const Verification range = decided(clearances(), box.text() + "loads_from: [[20, -80], [40, -90]]\n" + error);
+  ASSERT_EQ(range.verdict, core::Verdict::refuted);
+  ASSERT_TRUE(range.witness->load);
+  for (const auto& [force, at] : {std::pair(load.force, ball.witness->at), {*range.witness->load, range.witness->at}}) {
+    const std::string text = under(clearances(), fmt::format("[{}, {}]", force[0], force[1]));
+    EXPECT_GT(error_at(mechanism::parse_mechanism(text, "a.yaml"), at), asked);
   }
 }
 
