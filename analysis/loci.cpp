@@ -14,6 +14,7 @@
 #include "loci/sheet_maps.hpp"
 #include "loci/surfaces.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/idle.hpp"
 #include "numeric/sketch.hpp"
 
 namespace clearloci {
@@ -202,6 +203,7 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
     map.parameters.emplace_back(
         parameter.name, parameter.exact ? core::to_string(parameter.value) : core::to_string(parameter.expression));
   map.tolerance = request.tolerance;
+  for (std::string& note : mechanism::idle_notes(mechanism)) map.notes.push_back(std::move(note));
   return traced;
 }
 

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "loci/pose/pose_nearest.hpp"
 #include "loci/pose/pose_proof.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/read_pose_task.hpp"
 #include "numeric/pose_witness.hpp"
 #include "symbolic/pose_statics.hpp"
@@ -120,7 +121,8 @@ class Verifier {
     for (std::size_t i = 0; i < dyads.size(); ++i)
       result.working_mode.emplace_back(mechanism_.points[static_cast<std::size_t>(dyads[i])].name,
                                        mechanism::side_name(mechanism_, dyads[i], sides_[i]));
-    result.notes = notes_;
+    result.notes = mechanism::idle_notes(mechanism_);
+    result.notes.insert(result.notes.end(), notes_.begin(), notes_.end());
     progress("search");
     const std::vector<NearPose> near = loci::pose::near_loci(statics_, region_);
     progress("proof");

@@ -10,6 +10,7 @@
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "loci/pose/pose_zones.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/pose_statics.hpp"
@@ -91,6 +92,7 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
   PoseZones result;
   result.mechanism = mechanism.name;
   result.units = mechanism.units;
+  result.notes = mechanism::idle_notes(mechanism);
   for (const mechanism::Coordinate& c : mechanism.coordinates) {
     result.coordinates.push_back(c.name);
     result.angles.push_back(c.angle);

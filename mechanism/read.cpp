@@ -1,3 +1,4 @@
+#include "mechanism/idle.hpp"
 #include "mechanism/read.hpp"
 
 #include <algorithm>
@@ -76,6 +77,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   read_springs(mechanism, root.find("springs"));
   read_limits(mechanism, root.find("limits"));
 
+  hold_idle_freedoms(mechanism);
   check_names(mechanism);
   check_coordinates_used(mechanism, root.at("workspace").where);
   check_square(mechanism, root.at("joints").where);

@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/end_effector.hpp"
 #include "numeric/tape.hpp"
@@ -249,7 +250,8 @@ class Solver {
       for (const Vector3d& v : unit) couple(v);
     if (own.turns_about_axis())
       for (const Vector3d& v : across) couple(v);
-    if (own.couple == mechanism::BorneCouple::cross) couple(u.cross(axis(joint, 1)).normalized());
+    if (own.couple == mechanism::BorneCouple::cross)
+      couple(mechanism::holds_idle_freedom(joint) ? u : Vector3d(u.cross(axis(joint, 1)).normalized()));
     if (joint.actuated && !own.slides) columns_.push_back({j, none, u, true});
   }
 

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/evaluator.hpp"
 #include "numeric/named_tape.hpp"
@@ -209,7 +210,9 @@ class SpatialModelBuilder {
     if (own.slides) add_side_equation(j, first, Quantity::F, joint.actuated);
     if (own.couple == mechanism::BorneCouple::none) return;
     if (own.couple == mechanism::BorneCouple::cross) {
-      const Triple n = unit(cross(vector(joint.axes.at(0)), vector(joint.axes.at(1))));
+      const Triple n = mechanism::holds_idle_freedom(joint)
+                           ? unit(vector(joint.axes.front()))
+                           : unit(cross(vector(joint.axes.at(0)), vector(joint.axes.at(1))));
       add_unknown(j, Quantity::T, {zero_, zero_, zero_, n[0], n[1], n[2]});
       return;
     }

@@ -4,6 +4,7 @@
 
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci::symbolic {
@@ -107,6 +108,7 @@ Wrench unit_wrench(const Geometry& geometry, const mechanism::Joint& joint, Quan
       return couple(axis_vector(2));
     case Quantity::T:
       if (mechanism::traits(joint).couple != mechanism::BorneCouple::cross) return couple(axis_vector(2));
+      if (mechanism::holds_idle_freedom(joint)) return couple(axis(0));
       return couple(cross(axis(0), axis(1)));
     case Quantity::N:
       return force_at(r, cross(axis_vector(2), axis(0)));

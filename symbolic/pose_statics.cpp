@@ -6,6 +6,7 @@
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/linear_elimination.hpp"
 #include "symbolic/pose_program.hpp"
@@ -162,8 +163,10 @@ class StaticsBuilder {
     if (traits.slides && !joint.actuated) add_side_equation(own.axis, own.force);
     if (traits.couple == BorneCouple::none) return;
     if (traits.couple == BorneCouple::cross) {
-      const Vector second = points_.vector(joint.axes.at(1));
-      own.across = add_unknown(joint, couple(points_.unit(points_.cross(own.axis, second))));
+      const Vector along = mechanism::holds_idle_freedom(joint)
+                               ? own.axis
+                               : points_.unit(points_.cross(own.axis, points_.vector(joint.axes.at(1))));
+      own.across = add_unknown(joint, couple(along));
       return;
     }
     for (std::size_t c = 0; c < 3; ++c) own.couple.push_back(add_unknown(joint, couple(direction(c))));

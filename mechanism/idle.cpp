@@ -1,0 +1,154 @@
+#include "mechanism/idle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "mechanism/actions.hpp"
+#include "mechanism/posture_sample.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+/// Links that only two balls join to the rest.
+struct Hanging {
+  std::vector<LinkIndex> links;
+  std::size_t first = 0, second = 0;  ///< the balls, by their places among the joints
+};
+
+bool holds(const std::vector<LinkIndex>& links, LinkIndex link) {
+  return std::find(links.begin(), links.end(), link) != links.end();
+}
+
+/// Groups of links that anything but a ball joins, without those on the ground.
+std::vector<std::vector<LinkIndex>> groups_between_balls(const Mechanism& m) {
+  const std::size_t ground_place = m.links.size();
+  std::vector<std::size_t> parent(m.links.size() + 1);
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  const auto place = [&](LinkIndex link) { return link == ground ? ground_place : static_cast<std::size_t>(link); };
+  for (const Joint& joint : m.joints)
+    if (joint.type != JointType::spherical) parent[root(place(joint.from))] = root(place(joint.to));
+  std::vector<std::vector<LinkIndex>> groups(m.links.size() + 1);
+  for (std::size_t i = 0; i < m.links.size(); ++i)
+    if (root(i) != root(ground_place)) groups[root(i)].push_back(static_cast<LinkIndex>(i));
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  return groups;
+}
+
+std::vector<Hanging> hanging_on_two_balls(const Mechanism& m) {
+  std::vector<Hanging> all;
+  for (std::vector<LinkIndex>& group : groups_between_balls(m)) {
+    if (holds(group, m.end_effector_link) || holds(group, m.relative_to)) continue;
+    std::vector<std::size_t> balls;
+    for (std::size_t j = 0; j < m.joints.size(); ++j) {
+      const Joint& joint = m.joints[j];
+      if (joint.type == JointType::spherical && holds(group, joint.from) != holds(group, joint.to)) balls.push_back(j);
+    }
+    if (balls.size() == 2 && m.joints[balls[0]].at != m.joints[balls[1]].at)
+      all.push_back({std::move(group), balls[0], balls[1]});
+  }
+  return all;
+}
+
+std::string line_name(const Mechanism& m, PointIndex a, PointIndex b) {
+  return m.points[static_cast<std::size_t>(a)].name + "-" + m.points[static_cast<std::size_t>(b)].name;
+}
+
+/// Whether a point is on the line through two others in every posture of a sample.
+class OnLine {
+ public:
+  explicit OnLine(const Mechanism& m) : postures_(sample_postures(m, 12)) {}
+
+  bool holds(PointIndex point, PointIndex a, PointIndex b) const {
+    if (point == a || point == b) return true;
+    constexpr double rounding = 1e-9;  // of the line's length
+    const auto at = [](const PosturePoints& posture, PointIndex p) { return posture[static_cast<std::size_t>(p)]; };
+    return !postures_.empty() && std::all_of(postures_.begin(), postures_.end(), [&](const PosturePoints& posture) {
+      const auto p = at(posture, a), q = at(posture, b), x = at(posture, point);
+      std::array<double, 3> u{}, v{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        u[c] = q[c] - p[c];
+        v[c] = x[c] - p[c];
+      }
+      const double across = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+      const double length2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+      return across <= rounding * length2;
+    });
+  }
+
+ private:
+  std::vector<PosturePoints> postures_;
+};
+
+[[noreturn]] void refuse(const Mechanism& m, const Hanging& own, const core::SourcePosition& where,
+                         const std::string& what) {
+  const std::string link = m.links[static_cast<std::size_t>(own.links.front())].name;
+  throw core::InputError(where,
+                         what + " turns link " + link + " about the line " +
+                             line_name(m, m.joints[own.first].at, m.joints[own.second].at) +
+                             ", about which it spins between its two balls",
+                         "let it act on that line, or make one of the balls a universal joint");
+}
+
+void require_balance(const Mechanism& m, const Hanging& own, const OnLine& on_line) {
+  const PointIndex a = m.joints[own.first].at, b = m.joints[own.second].at;
+  for (std::size_t i = 0; i < m.loads.size(); ++i) {
+    const Load& load = m.loads[i];
+    if (!holds(own.links, load.link)) continue;
+    const bool couple = std::any_of(load.couple_vector.begin(), load.couple_vector.end(),
+                                    [](const Expression& e) { return !e.is_zero_literal(); });
+    if (couple || (load.at && load.has_force() && !on_line.holds(*load.at, a, b)))
+      refuse(m, own, load.where, "load " + std::to_string(i + 1));
+  }
+  for (const Mass& mass : masses(m))
+    if (!m.gravity.empty() && holds(own.links, mass.link) && !on_line.holds(mass.at, a, b))
+      refuse(m, own, m.links[static_cast<std::size_t>(mass.link)].where, "its weight");
+  for (const Spring& spring : m.springs)
+    for (const auto& [link, other, point] :
+         {std::tuple(spring.from, spring.to, spring.from_point), std::tuple(spring.to, spring.from, spring.to_point)})
+      if (holds(own.links, link) && !holds(own.links, other) &&
+          (spring.kind == Spring::Kind::torsion || !on_line.holds(point, a, b)))
+        refuse(m, own, spring.where, "spring " + spring.name);
+}
+
+}  // namespace
+
+void hold_idle_freedoms(Mechanism& m) {
+  if (m.space != Space::spatial) return;
+  const std::vector<Hanging> all = hanging_on_two_balls(m);
+  if (all.empty()) return;
+  const OnLine on_line(m);
+  for (const Hanging& own : all) {
+    require_balance(m, own, on_line);
+    // The line moves: the ball that holds it is not one of the ground's, if there is another.
+    const Joint& first = m.joints[own.first];
+    const bool grounded = first.from == ground || first.to == ground;
+    Joint& held = m.joints[grounded ? own.second : own.first];
+    held.axes = {way(m.joints[own.first].at, m.joints[own.second].at)};
+    held.type = JointType::universal;
+  }
+}
+
+std::vector<std::string> idle_notes(const Mechanism& m) {
+  std::string lines, balls;
+  for (const Joint& joint : m.joints) {
+    if (!holds_idle_freedom(joint)) continue;
+    const VectorExpression& line = joint.axes.front();
+    const PointIndex b = line.arguments.at(0).point, a = line.arguments.at(1).arguments.at(0).point;
+    lines += (lines.empty() ? "" : ", ") + line_name(m, a, b);
+    balls += (balls.empty() ? "" : ", ") + joint.name;
+  }
+  if (lines.empty()) return {};
+  return {"what hangs on two balls may spin about the line through them (" + lines +
+          "), which moves nothing else: held still at " + balls};
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,93 @@
+// Idle freedoms: rods and struts between balls.
+#include "mechanism/idle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "mechanism/read.hpp"
+#include "numeric/spatial.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+std::string text_of(const std::string& name) {
+  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+const numeric::SpatialReaction& reaction(const Mechanism& m, const numeric::SpatialPosture& posture,
+                                         const std::string& joint) {
+  for (std::size_t j = 0; j < m.joints.size(); ++j)
+    if (m.joints[j].name == joint) return posture.reactions[j];
+  throw std::out_of_range(joint);
+}
+
+/// The two rods of a parallelogram together are the forearm of a 3-RUU.
+TEST(IdleFreedoms, OfADeltaLeaveTheForcesOfA3Ruu) {
+  const Mechanism delta = parse_mechanism(text_of("delta"), "delta.yaml");
+  const Mechanism ruu = parse_mechanism(text_of("three_ruu"), "three_ruu.yaml");
+  for (const std::vector<double>& pose :
+       {std::vector<double>{0.05, 0.02, -0.65}, {-0.1, 0.07, -0.7}, {0, 0, -0.6}, {0.12, -0.1, -0.68}}) {
+    const numeric::SpatialPosture a = numeric::spatial_posture(delta, pose), b = numeric::spatial_posture(ruu, pose);
+    for (const std::string leg : {"1", "2", "3"}) {
+      const auto &motor = reaction(delta, a, "A" + leg), &other = reaction(ruu, b, "A" + leg);
+      EXPECT_NEAR(motor.actuator, other.actuator, 1e-9);
+      EXPECT_LT((motor.force - other.force).norm(), 1e-9);
+      const Eigen::Vector3d rods =
+          reaction(delta, a, "B" + leg + "a").force + reaction(delta, a, "B" + leg + "b").force;
+      EXPECT_LT((rods - reaction(ruu, b, "B" + leg).force).norm(), 1e-9);
+      EXPECT_LT(reaction(delta, a, "B" + leg + "a").couple.norm(), 1e-9) << "what is held bears nothing";
+    }
+  }
+  EXPECT_EQ(idle_notes(delta).size(), 1U);
+  EXPECT_TRUE(idle_notes(ruu).empty());
+}
+
+/// A Stewart platform whose struts stand on balls at both ends.
+TEST(IdleFreedoms, OfStrutsOnBallsLeaveTheForcesOfUniversalJoints) {
+  const std::string ups = text_of("gough_stewart");
+  std::string sps = ups;
+  for (const std::string i : {"1", "2", "3", "4", "5", "6"}) {
+    const auto begin = sps.find("U" + i + ": {universal"), end = sps.find('\n', begin);
+    sps.replace(begin, end - begin, "U" + i + ": {spherical: [ground, cylinder" + i + "], at: A" + i + "}");
+  }
+  const Mechanism one = parse_mechanism(ups, "ups.yaml"), two = parse_mechanism(sps, "sps.yaml");
+  const std::vector<double> pose = {0.1, -0.05, 0.6};
+  const auto a = numeric::spatial_posture(one, pose), b = numeric::spatial_posture(two, pose);
+  for (const std::string i : {"1", "2", "3", "4", "5", "6"}) {
+    EXPECT_NEAR(reaction(one, a, "S" + i).actuator, reaction(two, b, "S" + i).actuator, 1e-9);
+    EXPECT_LT((reaction(one, a, "B" + i).force - reaction(two, b, "B" + i).force).norm(), 1e-9);
+  }
+  EXPECT_EQ(idle_notes(two).size(), 1U);
+}
+
+TEST(IdleFreedoms, AreRefusedWhereSomethingTurnsThem) {
+  const std::string text = text_of("delta");
+  const auto complaint = [](const std::string& changed) {
+    try {
+      parse_mechanism(changed, "delta.yaml");
+    } catch (const core::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string load = "  - {link: platform, at: P, force: [30, 10, -100]}\n";
+  EXPECT_NE(complaint(text + "  - {link: rod1a, couple: [0, 0, 1]}\n").find("turns link rod1a"), std::string::npos);
+  EXPECT_EQ(complaint(text + "  - {link: rod1a, at: B1a, force: [0, 0, -1]}\n"), "");
+  const std::string heavy = "    'rod{i}a': {points: ['B{i}a', 'C{i}a'], mass: 0.2}\n";
+  const std::string light = "    'rod{i}a': {points: ['B{i}a', 'C{i}a']}\n";
+  EXPECT_EQ(complaint(replaced(text, light, heavy) + "gravity: [0, 0, -9.81]\n"), "") << "its middle is on the line";
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism
