@@ -48,6 +48,8 @@ double constant_as(const core::Rational& value, double*) { return core::to_doubl
 
 Interval constant_as(const core::Rational& value, Interval*) {
   const double nearest = core::to_double(value);
+  // Products with an infinite end are no numbers, of which comparisons prove nothing.
+  if (!std::isfinite(nearest)) throw core::LimitReached("the equations hold numbers beyond the range of doubles");
   if (core::Rational(nearest) == value) return nearest;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {std::nextafter(nearest, -infinity), std::nextafter(nearest, infinity)};

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <random>
 
+#include "core/errors.hpp"
 #include "loci/sheet/sheet_cell.hpp"
 #include "loci/sheet/sheet_program.hpp"
 #include "loci/sheet/smooth_cell.hpp"
@@ -16,6 +17,14 @@ namespace {
 
 using testing::FiveBar;
 using testing::Ring;
+
+TEST(Interval, HasNoEndBeyondDoubles) {
+  core::Rational huge = 1;
+  mpq_mul_2exp(huge.get_mpq_t(), huge.get_mpq_t(), 1100);
+  EXPECT_THROW(constant_as(huge, static_cast<Interval*>(nullptr)), core::LimitReached);
+  EXPECT_THROW(constant_as(-huge, static_cast<Interval*>(nullptr)), core::LimitReached);
+  EXPECT_EQ(constant_as(1 / huge, static_cast<Interval*>(nullptr)).sign(), 0);
+}
 
 TEST(Interval, EnclosesRoundedResults) {
   std::mt19937_64 random(7);
