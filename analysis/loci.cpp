@@ -190,6 +190,14 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
   return traced;
 }
 
+/// Whether the working modes traced place the mechanism at no pose of the workspace, as where a length is too short. Of
+/// surfaces that is not known.
+bool closes_nowhere(const core::LocusMap& map) {
+  if (!map.complete || map.lower.size() > 2) return false;
+  return map.reachable.empty() && std::all_of(map.workspace.begin(), map.workspace.end(),
+                                              [](const auto& region) { return region.rings.empty(); });
+}
+
 TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
                            const symbolic::LocusFamily* family, core::Certificate* certificate,
                            TraceEffort effort = TraceEffort::full) {
@@ -204,6 +212,7 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
         parameter.name, parameter.exact ? core::to_string(parameter.value) : core::to_string(parameter.expression));
   map.tolerance = request.tolerance;
   for (std::string& note : mechanism::idle_notes(mechanism)) map.notes.push_back(std::move(note));
+  if (closes_nowhere(map)) map.notes.emplace_back("no pose is reached: the mechanism does not close in the workspace");
   return traced;
 }
 
