@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import type { Browser, BrowserContext, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { launch, program, shot, source } from "./session";
+import { launch, program, shot, source } from "./program";
 
 let browser: Browser;
 let context: BrowserContext | undefined;

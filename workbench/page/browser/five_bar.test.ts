@@ -1,35 +1,11 @@
 // The 5R on the page, as a designer uses it.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Locator, Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
-import { difference, rest, session, shot, source } from "./session";
+import { drag, exact, onPage, pose, rest, shot, source, type } from "./program";
+import { difference, session } from "./session";
 
 const start = session("five_bar.yaml");
-
-const exact = (page: Page, name: string): Locator => page.getByLabel(`${name}, exact`, { exact: true });
-const pose = async (page: Page): Promise<number[]> => Promise.all(["x", "y"].map(async (name) => Number(await page.locator(`input.exact[aria-label="${name} of the pose"]`).inputValue())));
-
-/** Where a place of the plane stands on the page: the picture says how it is scaled. */
-async function onPage(page: Page, at: [number, number]): Promise<[number, number]> {
-  return page.evaluate(([x, y]) => {
-    const stage = document.querySelector<HTMLElement>(".stage");
-    const view = JSON.parse(stage?.dataset["view"] ?? "null") as { scale: [number, number]; origin: [number, number] };
-    const box = stage?.getBoundingClientRect();
-    return [(box?.left ?? 0) + view.origin[0] + x * view.scale[0], (box?.top ?? 0) + view.origin[1] - y * view.scale[1]];
-  }, at);
-}
-
-async function drag(page: Page, from: [number, number], to: [number, number]): Promise<void> {
-  const [x, y] = await onPage(page, from);
-  const [u, v] = await onPage(page, to);
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move((x + u) / 2, (y + v) / 2, { steps: 3 });
-  await page.mouse.move(u, v, { steps: 3 });
-  await page.mouse.up();
-  await rest(page);
-}
 
 describe("the page", () => {
   it("explains itself to a first visitor, and once", async () => {
@@ -63,7 +39,7 @@ describe("the hand", () => {
   it("drags the end effector, and undoes it in one step", async () => {
     const page = await start();
     const before = await pose(page);
-    await drag(page, before as [number, number], [0.3, -0.5]);
+    await drag(page, before, [0.3, -0.5]);
     const after = await pose(page);
     expect(after[0]).toBeCloseTo(0.3, 2);
     expect(after[1]).toBeCloseTo(-0.5, 2);
@@ -78,8 +54,15 @@ describe("the hand", () => {
 
   it("keeps the last posture where a pose is out of reach, and says so", async () => {
     const page = await start();
-    await drag(page, (await pose(page)) as [number, number], [-0.45, 0.9]);
+    await drag(page, (await pose(page)), [-0.45, 0.9]);
     expect(await page.getByText("out of reach").textContent()).toContain("cannot be placed");
+  });
+
+  it("hears what lets go on a locus that it crosses", async () => {
+    const page = await start();
+    await drag(page, await pose(page), [0.4, -0.3]);
+    const stage = page.locator(".stage:not(.space)");
+    expect(await stage.getAttribute("data-crossed")).toContain("direct singularity");
   });
 
   it("drags a joint on the ground", async () => {
@@ -116,9 +99,7 @@ describe("the hand", () => {
 describe("values", () => {
   it("are typed exactly, and stand in the address and in the file", async () => {
     const page = await start();
-    await exact(page, "L").fill("7/20");
-    await exact(page, "L").press("Enter");
-    await rest(page);
+    await type(page, "L", "7/20");
     await expect.poll(() => page.url()).toContain("#");
     const link = page.url();
     const waiting = page.waitForEvent("download");
@@ -136,21 +117,29 @@ describe("values", () => {
     const page = await start();
     const stage = page.locator('canvas[data-layer="loci"]');
     const before = await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
-    await exact(page, "L").fill("0,5");
-    await exact(page, "L").press("Enter");
+    await type(page, "L", "0,5");
     const said = page.locator('[id="fault-parameters/L"]');
     await expect.poll(() => said.textContent()).toMatch(/^five_bar\.yaml:\d+:\d+: /);
     expect(await exact(page, "L").getAttribute("aria-invalid")).toBe("true");
     expect(await page.locator(".notice").textContent()).toContain("last design that works");
     expect(await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL())).toBe(before);
     await shot(page, "wrong-value");
-    // A length that cannot close.
-    await exact(page, "L").fill("0.1");
-    await exact(page, "L").press("Enter");
-    await expect.poll(async () => (await said.textContent()) !== "" || (await page.locator(".notice").textContent()) === "").toBe(true);
-    await exact(page, "L").fill("0.5");
-    await exact(page, "L").press("Enter");
+    await type(page, "L", "0.5");
     await expect.poll(() => said.textContent()).toBe("");
+  });
+
+  it("that cannot close say so beside their field, and the last good picture stays", async () => {
+    const page = await start();
+    await type(page, "d", "0.5");
+    const stage = page.locator('canvas[data-layer="loci"]');
+    const before = await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+    await type(page, "L", "0.1");
+    expect(await page.locator('[id="fault-parameters/L"]').textContent()).toContain("does not close");
+    expect(await page.locator(".notice").textContent()).toContain("last design that works");
+    expect(await stage.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL())).toBe(before);
+    await page.getByRole("button", { name: "Undo" }).click();
+    await rest(page);
+    expect(await page.locator(".notice.fault").count()).toBe(0);
   });
 });
 
@@ -191,9 +180,7 @@ describe("curves", () => {
   it("of a kept design stay to compare", async () => {
     const page = await start();
     await page.getByRole("button", { name: "Keep to compare" }).click();
-    await exact(page, "L").fill("0.6");
-    await exact(page, "L").press("Enter");
-    await rest(page);
+    await type(page, "L", "0.6");
     await shot(page, "kept");
     await page.getByRole("button", { name: "Drop the kept design" }).click();
     await rest(page);
@@ -215,6 +202,13 @@ describe("a task", () => {
     await shot(page, "task-refuted");
     await page.getByRole("button", { name: "Fit nearest" }).click();
     await expect.poll(() => verdict.textContent(), { timeout: 30_000 }).toContain("Verified");
+    // A tolerance it does not bear: the witness is a pose and a design.
+    await page.getByLabel("tolerances", { exact: true }).fill("L: 0.1");
+    await page.getByLabel("tolerances", { exact: true }).press("Enter");
+    await expect.poll(() => verdict.textContent()).toMatch(/Refuted.*of the design L = /s);
+    await page.getByRole("button", { name: "Show the witness" }).click();
+    await rest(page);
+    expect(await exact(page, "L").inputValue()).not.toBe("0.5");
     await page.getByLabel("margin", { exact: true }).fill("a lot");
     await page.getByLabel("margin", { exact: true }).press("Enter");
     await expect.poll(() => page.getByRole("alert").allTextContents()).toEqual(expect.arrayContaining([expect.stringContaining("task:")]));
