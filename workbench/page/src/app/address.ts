@@ -1,5 +1,5 @@
 // The state as the part of an address after #: JSON, deflated, in base64 that addresses bear.
-import { freshState, type State } from "./state";
+import { freshState, noDemands, type State } from "./state";
 
 async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {
   const piped = new Blob([bytes]).stream().pipeThrough(stream);
@@ -30,7 +30,9 @@ export async function fromHash(hash: string): Promise<State | undefined> {
     const value: unknown = JSON.parse(new TextDecoder().decode(bytes));
     if (!(value instanceof Object) || !("text" in value) || typeof value.text !== "string") return undefined;
     const { v, ...rest } = value as Partial<State> & { v?: number; text: string };
-    return v === 1 ? { ...freshState("model.yaml", ""), ...rest } : undefined;
+    if (v !== 1) return undefined;
+    const task = rest.task && { ...noDemands, ...rest.task }; // links of earlier versions demand less
+    return { ...freshState("model.yaml", ""), ...rest, task };
   } catch {
     return undefined;
   }

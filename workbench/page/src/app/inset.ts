@@ -1,6 +1,6 @@
 // The mechanism in its pose where the plane of the loci is not its own: a small picture in a corner.
 import type { Point } from "../data/answers";
-import { drawSketch } from "../draw/mechanism";
+import { drawSketch, placesOf } from "../draw/mechanism";
 import { Layer } from "../draw/surface";
 import { fit } from "../draw/view";
 import { h } from "./dom";
@@ -25,7 +25,7 @@ export class Inset {
     this.layer.resize(size);
     const context = this.layer.begin();
     const sketch = bench.pose.sketch ?? this.projected();
-    const places = [...sketch.joints.map((joint) => joint.at), ...sketch.links.flatMap((link) => link.points)];
+    const places = placesOf(sketch);
     if (places.length === 0) return;
     const xs = places.map((at) => at[0]);
     const ys = places.map((at) => at[1]);

@@ -3,7 +3,7 @@ import type { Sketch, Zone } from "../data/answers";
 import { lengthWords, roundText, shortNumber } from "../data/exact";
 import type { Adjustable } from "../data/model_text";
 import { groupKey } from "../draw/loci";
-import { drawSketch } from "../draw/mechanism";
+import { drawSketch, placesOf } from "../draw/mechanism";
 import { fit } from "../draw/view";
 import { h, replace, section } from "./dom";
 import { legendSample } from "./legend_sample";
@@ -46,7 +46,7 @@ export function legendPanel(bench: Workbench): Panel {
     const { picture, theme } = bench;
     if (!picture) return;
     const groups = [...picture.curve_groups, ...picture.point_groups, ...picture.surface_groups];
-    const now = JSON.stringify([groups.map((group) => [group.kind, group.what, groupKey(group)]), bench.state.hidden, bench.dark]);
+    const now = JSON.stringify([groups.map((group) => [group.kind, group.what, groupKey(group)]), bench.state.hidden, bench.dark, picture.loci.notes, picture.loci.complete, bench.zonesFault]);
     if (now === signature) return;
     signature = now;
     const rows = groups.map((group) => {
@@ -57,13 +57,27 @@ export function legendPanel(bench: Workbench): Panel {
       return h("label", { class: "legend-row" }, box, legendSample(group, theme), h("span", {}, group.what, why));
     });
     replace(body, ...rows);
-    replace(notes, ...picture.loci.notes.map((note) => h("p", {}, note)), picture.loci.complete ? undefined : h("p", { class: "fault" }, "incomplete: stopped at the time limit"));
+    replace(
+      notes,
+      ...notesInShort(picture.loci.notes).map((note) => h("p", {}, note)),
+      picture.loci.complete ? undefined : h("p", { class: "fault" }, "incomplete: stopped at the time limit"),
+      bench.zonesFault ? h("p", { class: "fault" }, `zones: ${bench.zonesFault}`) : undefined,
+    );
   };
-  return { element: section("Curves", true, body, notes), update: (news) => (news.has("loci") || news.has("state") || news.has("theme")) && show() };
+  return { element: section("Curves", true, body, notes), update: (news) => ["loci", "zones", "state", "theme"].some((one) => news.has(one)) && show() };
+}
+
+/** Reactions that no load reaches are told in one note, not in one each. */
+export function notesInShort(notes: readonly string[]): string[] {
+  const idle = / is zero in every pose: no load reaches it$/;
+  const names = notes.filter((note) => idle.test(note)).map((note) => note.replace(idle, ""));
+  const others = notes.filter((note) => !idle.test(note));
+  return names.length > 1 ? [...others, `${names.join(", ")} are zero in every pose: no load reaches them`] : [...notes];
 }
 
 const groups: [Adjustable["group"], string, boolean][] = [
   ["parameters", "Parameters", true],
+  ["lengths", "Lengths", false],
   ["loads", "Loads", true],
   ["springs", "Springs", true],
   ["gravity", "Gravity", false],
@@ -179,7 +193,7 @@ function thumbnail(sketch: Sketch | undefined, theme: Workbench["theme"]): HTMLC
   const canvas = h("canvas", { width: size.width * ratio, height: size.height * ratio, "aria-hidden": "true" });
   const context = canvas.getContext("2d");
   if (!context || !sketch) return canvas;
-  const places = [...sketch.joints.map((joint) => joint.at), ...sketch.links.flatMap((link) => link.points)];
+  const places = placesOf(sketch);
   const xs = places.map((at) => at[0]);
   const ys = places.map((at) => at[1]);
   context.scale(ratio, ratio);

@@ -65,7 +65,7 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
       const [input, slider] = [inputs[2 * k], inputs[2 * k + 1]];
       const value = state.at?.[k];
       if (value === undefined || !input || !slider) return;
-      if (document.activeElement !== input) input.value = String(Number((value * degrees(k)).toPrecision(8)));
+      if (document.activeElement !== input) input.value = String(Number((value * degrees(k)).toPrecision(7)));
       slider.value = String(value);
     });
     fault.textContent = bench.poseFault ?? "";

@@ -1,4 +1,5 @@
 // The stage of three coordinates.
+import { roundText } from "../data/exact";
 import { h, replace } from "./dom";
 import type { Panel } from "./panels";
 import { readingOf } from "./reading";
@@ -7,10 +8,11 @@ import type { Space as SpaceScene } from "../space/scene";
 import { Space } from "../space/scene";
 
 export class SpaceStage implements Panel {
-  readonly element = h("div", { class: "stage space", tabindex: 0, role: "application", "aria-label": "Surfaces on which reactions vanish. Arrow keys turn them, + and - zoom." });
+  readonly element = h("div", { class: "stage space", tabindex: 0, role: "application", "aria-label": "Surfaces on which reactions vanish. Arrow keys turn them, + and - zoom; the ball is the end effector, which is dragged." });
   readonly controls: HTMLElement;
   private scene: SpaceScene | undefined;
   private fault: string | undefined;
+  private held = false;
   private readonly axis = h("select", { "aria-label": "Slice across" });
   private readonly slider = h("input", { type: "range", step: "any", "aria-label": "Place of the slice" });
   private readonly on = h("input", { type: "checkbox" });
@@ -34,7 +36,10 @@ export class SpaceStage implements Panel {
     });
     this.slider.addEventListener("change", () => bench.history.endGesture());
     this.element.append(this.under);
-    this.element.addEventListener("pointermove", (event) => this.hover(event));
+    // Before the canvas hears of it, which turns the view.
+    this.element.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
+    this.element.addEventListener("pointermove", (event) => this.move(event));
+    for (const end of ["pointerup", "pointercancel"] as const) this.element.addEventListener(end, () => this.release());
     this.element.addEventListener("keydown", (event) => this.key(event));
     new ResizeObserver(() => this.scene?.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
   }
@@ -43,6 +48,8 @@ export class SpaceStage implements Panel {
     if (this.scene || this.fault) return this.scene;
     try {
       this.scene = new Space(this.element);
+      // For tests, as the plane says how it is scaled.
+      this.scene.onDrawn = () => (this.element.dataset["pose"] = JSON.stringify(this.scene?.poseOnCanvas ?? null));
       this.scene.resize(this.element.clientWidth, this.element.clientHeight);
     } catch {
       this.fault = "this browser has no WebGL, which draws the surfaces";
@@ -57,7 +64,9 @@ export class SpaceStage implements Panel {
     this.element.hidden = this.controls.hidden = !spatial;
     if (!spatial || !bench.picture || bench.picture.loci.coordinates.length !== 3) return;
     const scene = this.open();
-    if (this.axis.options.length !== 3) replace(this.axis, ...bench.coordinates.map((one, k) => h("option", { value: k }, one.name)));
+    const names = bench.coordinates.map((one) => one.name).join();
+    if (this.axis.dataset["names"] !== names) replace(this.axis, ...bench.coordinates.map((one, k) => h("option", { value: k }, one.name)));
+    this.axis.dataset["names"] = names;
     const slice = bench.state.slice ?? { axis: 2, at: middleOf(bench, 2), on: false };
     const range = bench.coordinates[slice.axis];
     this.axis.value = String(slice.axis);
@@ -85,10 +94,45 @@ export class SpaceStage implements Panel {
     return [...links, ...legs].filter((line) => line.length > 1 && line.every((point) => point.length === 3));
   }
 
+  /** From -1 to 1 across the stage, and up. */
+  private place(event: PointerEvent): [number, number] {
+    const box = this.element.getBoundingClientRect();
+    return [(2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height];
+  }
+
+  private isOnPose(event: PointerEvent): boolean {
+    const at = this.scene?.poseOnCanvas;
+    const box = this.element.getBoundingClientRect();
+    const reach = 16; // pixels
+    return at !== undefined && Math.hypot(event.clientX - box.left - at[0], event.clientY - box.top - at[1]) <= reach;
+  }
+
+  private press(event: PointerEvent): void {
+    if (event.button !== 0 || !this.isOnPose(event)) return;
+    event.stopPropagation();
+    this.element.focus({ preventScroll: true });
+    this.element.setPointerCapture(event.pointerId);
+    this.element.dataset["grip"] = "pose";
+    this.held = true;
+  }
+
+  private release(): void {
+    if (!this.held) return;
+    this.held = false;
+    delete this.element.dataset["grip"];
+    this.bench.history.endGesture();
+  }
+
+  private move(event: PointerEvent): void {
+    if (!this.held) return this.hover(event);
+    const to = this.scene?.dragged(...this.place(event));
+    if (to) this.bench.change({ at: to.map((value, k) => roundedWithin(value, this.bench.coordinates[k])) }, "drag-pose");
+  }
+
   private hover(event: PointerEvent): void {
     if (event.buttons !== 0) return;
-    const box = this.element.getBoundingClientRect();
-    const id = this.scene?.at((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
+    this.element.style.cursor = this.isOnPose(event) ? "grab" : "default";
+    const id = this.scene?.at(...this.place(event));
     const surface = this.bench.picture?.loci.surfaces?.find((one) => one.id === id);
     replace(this.under, surface ? readingOf(this.bench.rules, surface) : undefined);
   }
@@ -101,6 +145,13 @@ export class SpaceStage implements Panel {
     } else if (event.key === "+" || event.key === "=") this.scene?.zoom(1.2);
     else if (event.key === "-") this.scene?.zoom(1 / 1.2);
   }
+}
+
+/** Within the range of the coordinate, on a grid of two thousand steps or finer. */
+function roundedWithin(value: number, range: { lower: number; upper: number } | undefined): number {
+  if (!range) return value;
+  const kept = Math.min(range.upper, Math.max(range.lower, value));
+  return Number(roundText(kept, (range.upper - range.lower) / 2000));
 }
 
 function middleOf(bench: Workbench, axis: number): number {

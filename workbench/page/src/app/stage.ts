@@ -4,12 +4,12 @@ import { parseExact, roundText } from "../data/exact";
 import type { ValuePath } from "../data/model_text";
 import { drawBox, drawGrid, type AxisNames } from "../draw/axes";
 import { drawCurves, drawPoints, drawWorkspace, drawZoneNames, drawZones, shownOf, type Shown } from "../draw/loci";
-import { drawLoads, drawNames, drawReactions, drawSketch, drawSprings, drawTakeUp, reactionArrows } from "../draw/mechanism";
+import { drawLoads, drawNames, drawReactions, drawSketch, drawSprings, drawTakeUp, placesOf, reactionArrows } from "../draw/mechanism";
 import { crossed, curveAt, zoneAt } from "../draw/pick";
 import { Layer } from "../draw/surface";
 import { fit, moved, page, plane, zoomed, type Box, type Size, type View } from "../draw/view";
 import { h } from "./dom";
-import { drawFlash, drawPath, drawPoseCross, drawTask, drawWitness } from "./stage_drawing";
+import { crossingWords, drawFlash, drawPath, drawPoseCross, drawTask, drawWitness } from "./stage_drawing";
 import { handles, movedShape, withHandle } from "./task_text";
 import type { Workbench } from "./workbench";
 
@@ -94,7 +94,7 @@ export class Stage {
 
   private cycleBox(): Box | undefined {
     const places = (this.bench.sweep?.answer.places ?? []).flatMap((at) => (at ? [[at[0] ?? 0, at[1] ?? 0] as Point] : []));
-    const all = [...places, ...(this.bench.pose?.sketch?.joints.map((joint) => joint.at) ?? [])];
+    const all = [...places, ...(this.bench.pose?.sketch ? placesOf(this.bench.pose.sketch) : [])];
     if (all.length === 0) return undefined;
     const xs = all.map((at) => at[0]);
     const ys = all.map((at) => at[1]);
@@ -286,7 +286,10 @@ export class Stage {
     const from = this.bench.state.at;
     if (from && to.length === 2) {
       const curves = crossed(this.shown, [from[0] ?? 0, from[1] ?? 0], [to[0] ?? 0, to[1] ?? 0]).filter((one) => one.kind !== "workspace-boundary");
-      if (curves.length > 0) this.flash = { curves, until: performance.now() + flashTime };
+      if (curves.length > 0) {
+        this.flash = { curves, until: performance.now() + flashTime };
+        this.element.dataset["crossed"] = crossingWords(curves);
+      }
     }
     this.bench.change({ at: to }, gesture);
   }
@@ -394,7 +397,7 @@ export class Stage {
   }
 }
 
-const flashTime = 700; // ms
+const flashTime = 1500; // ms, long enough to read what lets go
 
 function taskHit(shape: import("./state").TaskShape, at: Point, reach: number): boolean {
   if (shape.kind === "circle") return Math.hypot(at[0] - shape.centre[0], at[1] - shape.centre[1]) <= shape.radius;

@@ -1,5 +1,5 @@
 // What the stage alone draws: the task, its verdict, the path of a linkage, a flash on what lets go.
-import type { Curve, Point, Theme, Verdict } from "../data/answers";
+import { reactionName, type Curve, type Point, type Theme, type Verdict } from "../data/answers";
 import { colourOf, drawMarker, trace } from "../draw/loci";
 import { page, type View } from "../draw/view";
 import type { TaskState } from "./state";
@@ -77,6 +77,12 @@ export function drawPoseCross(context: CanvasRenderingContext2D, at: Point, them
   context.restore();
 }
 
+/** What lets go on these curves: "f_A1, f_B1; direct singularity". */
+export function crossingWords(curves: Curve[]): string {
+  const words = new Set(curves.map((curve) => curve.vanishing.map(reactionName).join(", ") || curve.kind.replace("-", " ")));
+  return [...words].join("; ");
+}
+
 export function drawFlash(context: CanvasRenderingContext2D, view: View, curves: Curve[], theme: Theme, left: number): void {
   context.save();
   context.globalAlpha = Math.max(0, left) * 0.55;
@@ -91,8 +97,7 @@ export function drawFlash(context: CanvasRenderingContext2D, view: View, curves:
   context.globalAlpha = Math.min(1, 2 * left);
   context.fillStyle = theme.failed;
   context.font = "700 15px system-ui, sans-serif";
-  const words = new Set(curves.map((curve) => curve.vanishing.map((one) => `${one.quantity}_${one.joint}`).join(" ") || curve.kind.replace("-", " ")));
-  context.fillText(`crossed: ${[...words].join("; ")}`, 46, 26);
+  context.fillText(`crossed: ${crossingWords(curves)}`, 46, 26);
   context.restore();
 }
 

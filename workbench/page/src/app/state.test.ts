@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { fromHash, toHash } from "./address";
-import { freshState, History } from "./state";
+import { freshState, History, noDemands, type TaskState } from "./state";
 import { handles, movedShape, outline, taskText, withHandle } from "./task_text";
 import { alongPath, signChanges } from "./way";
 
@@ -47,9 +47,20 @@ describe("the address", () => {
 describe("tasks", () => {
   const box = { kind: "box", low: [0, 0], high: [2, 1] } as const;
   it("are written as their files are", () => {
-    const text = taskText({ shape: { ...box, low: [0, 0], high: [2, 1] }, margin: "1/100", minForce: "5", minCouple: "", loads: "" }, ["x", "y"]);
+    const text = taskText({ ...noDemands, shape: { ...box, low: [0, 0], high: [2, 1] }, margin: "1/100", minForce: "5" }, ["x", "y"]);
     expect(text).toBe("format: 1\nbox: {x: [0, 2], y: [0, 1]}\nmargin: 1/100\nmin_force: 5\n");
-    expect(taskText({ shape: { kind: "path", points: [[0, 0.1], [1, 1]] }, margin: "", minForce: "", minCouple: "", loads: "[[1, 2], [3, 4]]" }, ["x", "y"])).toBe("format: 1\npath: [[0, 0.1], [1, 1]]\nloads_from: [[1, 2], [3, 4]]\n");
+    expect(taskText({ ...noDemands, shape: { kind: "path", points: [[0, 0.1], [1, 1]] }, loads: "[[1, 2], [3, 4]]" }, ["x", "y"])).toBe("format: 1\npath: [[0, 0.1], [1, 1]]\nloads_from: [[1, 2], [3, 4]]\n");
+  });
+  it("ask for tolerances and for loads that are off, in brackets or without", () => {
+    const shape = { ...box, low: [0, 0] as [number, number], high: [2, 1] as [number, number] };
+    const lines = "tolerances: {L: 0.1e-3}\nloads_within: [{load: 1, radius: 20}]\n";
+    expect(taskText({ ...noDemands, shape, tolerances: "L: 0.1e-3", loadsWithin: "{load: 1, radius: 20}" }, ["x", "y"])).toContain(lines);
+    expect(taskText({ ...noDemands, shape, tolerances: "{L: 0.1e-3}", loadsWithin: "[{load: 1, radius: 20}]" }, ["x", "y"])).toContain(lines);
+  });
+  it("of links of earlier versions demand nothing new", async () => {
+    const task = { shape: { kind: "circle", centre: [0, 0], radius: 1 }, margin: "1", minForce: "", minCouple: "", loads: "" };
+    const hash = await toHash({ ...freshState("five.yaml", "name: x"), task: task as unknown as TaskState });
+    expect((await fromHash(hash))?.task).toEqual({ ...noDemands, ...task });
   });
   it("move, and change by their handles", () => {
     expect(movedShape({ kind: "circle", centre: [1, 1], radius: 2 }, [1, -1])).toEqual({ kind: "circle", centre: [2, 0], radius: 2 });

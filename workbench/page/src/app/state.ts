@@ -13,7 +13,13 @@ export interface TaskState {
   minCouple: string;
   /** Loads between two, "[[-20, -100], [20, -100]]"; empty: the file's. */
   loads: string;
+  /** What may differ from the design, "L: 0.1e-3, d: [-0.2e-3, 0.1e-3]"; empty: nothing. */
+  tolerances: string;
+  /** What may come on top of the loads, "{load: 1, radius: 20}"; empty: nothing. */
+  loadsWithin: string;
 }
+
+export const noDemands: Omit<TaskState, "shape"> = { margin: "", minForce: "", minCouple: "", loads: "", tolerances: "", loadsWithin: "" };
 
 export interface State {
   file: string;

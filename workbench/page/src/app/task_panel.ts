@@ -1,11 +1,11 @@
 // A task: drawn, dragged, verified while it moves, moved to where it fits.
 import type { Verdict } from "../data/answers";
-import { lengthWords } from "../data/exact";
+import { lengthWords, shortNumber } from "../data/exact";
 import { ask, AskingError } from "./asking";
 import { download, h, replace, section } from "./dom";
 import type { Panel } from "./panels";
 import type { Stage } from "./stage";
-import type { TaskShape, TaskState } from "./state";
+import { noDemands, type TaskShape, type TaskState } from "./state";
 import { movedShape, taskText } from "./task_text";
 import type { Workbench } from "./workbench";
 
@@ -39,6 +39,19 @@ function firstShape(kind: TaskShape["kind"], bench: Workbench): TaskShape {
   }
 }
 
+/** Zones and proofs are those of two lengths; what else is free is to be fixed. */
+function noTaskWords(bench: Workbench): string {
+  const angles = bench.coordinates.filter((one) => one.angle).map((one) => one.name);
+  const mend = bench.coordinates.length < 2 ? "here the loci are marks on the one coordinate" : `make ${angles.length > 0 ? angles.join(" and ") : "one of them"} a parameter of the file to draw one`;
+  return `A task lies in the plane of two lengths; ${mend}.`;
+}
+
+/** A tenth of a percent of the first parameter that is a number. */
+function toleranceHint(bench: Workbench): string {
+  const first = bench.model.adjustables.find((one) => one.group === "parameters" && one.value !== undefined && one.path.length === 2);
+  return first?.value ? `${first.label}: ${shortNumber(Math.abs(first.value) / 1000, 2)}` : "L: 0.1e-3";
+}
+
 export function taskPanel(bench: Workbench, stage: Stage): Panel {
   const words = h("p", { class: "verdict", "aria-live": "polite" });
   const fault = h("div", { class: "fault", role: "alert" });
@@ -50,7 +63,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
 
   const start = (kind: TaskShape["kind"]): void => {
     const shape = firstShape(kind, bench);
-    bench.change({ task: { margin: "", minForce: "", minCouple: "", loads: "", ...bench.state.task, shape } });
+    bench.change({ task: { ...noDemands, ...bench.state.task, shape } });
     stage.showAll();
   };
   const set = (part: Partial<TaskState>): void => {
@@ -59,7 +72,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
   const field = (name: keyof Omit<TaskState, "shape">, label: string, unit: string, hint: string): HTMLElement => {
     const input = h("input", { type: "text", class: "exact", placeholder: hint, "aria-label": label, autocomplete: "off", "data-task": name });
     input.addEventListener("change", () => set({ [name]: input.value.trim() }));
-    return h("label", { class: "value-row" }, h("span", { class: "value-name" }, label), h("span"), input, h("span", { class: "unit" }, unit));
+    return h("label", { class: "value-row" }, h("span", { class: "value-name" }, label), h("span"), input, h("span", { class: "unit", "data-unit": unit }));
   };
   const fit = async (goal: "nearest" | "best"): Promise<void> => {
     const { task } = bench.state;
@@ -78,9 +91,17 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     h("button", { type: "button", title: "Move it to the nearest place that verifies", click: () => void fit("nearest") }, "Fit nearest"),
     h("button", { type: "button", title: "Move it to the place with the largest margin", click: () => void fit("best") }, "Fit best"),
     h("button", { type: "button", click: () => addPoint() }, "Add a point"),
+    h("button", { type: "button", title: "Move the end effector to where the task fails, in the design that fails", click: () => goToWitness() }, "Show the witness"),
     h("button", { type: "button", click: () => bench.state.task && download("task.yaml", taskText(bench.state.task, bench.model.coordinateNames, bench.model.taskUnit), "application/yaml") }, "Download"),
     h("button", { type: "button", click: () => bench.change({ task: undefined }) }, "Remove"),
   );
+  const goToWitness = (): void => {
+    const witness = bench.verdict?.witness;
+    if (!witness) return;
+    let { model } = bench;
+    for (const [name, value] of Object.entries(witness.design ?? {})) model = model.write(["parameters", name], String(value));
+    bench.change({ at: witness.at, text: model.text });
+  };
   const addPoint = (): void => {
     const shape = bench.state.task?.shape;
     if (!shape || (shape.kind !== "polygon" && shape.kind !== "path")) return;
@@ -94,25 +115,33 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     field("minForce", "least force", "N", "none"),
     field("minCouple", "least couple", "N m", "none"),
     field("loads", "loads from … to", "N", "[[-20, -100], [20, -100]]"),
+    field("loadsWithin", "loads off by", "", "{load: 1, radius: 20}"),
+    field("tolerances", "tolerances", "", toleranceHint(bench)),
   );
-  const element = section("Task", false, h("p", { class: "quiet" }, "What the end effector has to reach without losing contact:"), shapes, words, fault, fields, tools);
+  const intro = h("p", { class: "quiet" });
+  const element = section("Task", false, intro, shapes, words, fault, fields, tools);
 
   const update = (): void => {
     const { task } = bench.state;
-    element.hidden = bench.coordinates.length !== 2 || bench.coordinates.some((one) => one.angle);
-    for (const part of [fields, tools, words]) part.hidden = !task;
-    if (!task) {
+    intro.textContent = bench.taskable || bench.coordinates.length === 0 ? "What the end effector has to reach without losing contact:" : noTaskWords(bench);
+    shapes.hidden = !bench.taskable;
+    for (const part of [fields, tools, words]) part.hidden = !task || !bench.taskable;
+    if (!task || !bench.taskable) {
       fault.textContent = "";
       return;
     }
     element.open = true;
     fault.textContent = bench.taskFault ?? "";
+    // What is typed is in the units of the mechanism file, as in a task file.
+    const units: Record<string, string> = { m: bench.model.unit("length"), N: bench.model.unit("force"), "N m": `${bench.model.unit("force")} m` };
+    for (const unit of fields.querySelectorAll<HTMLElement>("[data-unit]")) unit.textContent = units[unit.dataset["unit"] ?? ""] ?? "";
     for (const input of fields.querySelectorAll("input")) {
       const name = input.dataset["task"] as keyof Omit<TaskState, "shape">;
       if (document.activeElement !== input) input.value = task[name];
     }
-    const last = tools.querySelectorAll("button")[2];
-    if (last) last.hidden = task.shape.kind !== "polygon" && task.shape.kind !== "path";
+    const [, , addition, witness] = tools.querySelectorAll("button");
+    if (addition) addition.hidden = task.shape.kind !== "polygon" && task.shape.kind !== "path";
+    if (witness) witness.hidden = !bench.verdict?.witness;
     const { verdict } = bench;
     words.textContent = verdict ? verdictWords(verdict) : bench.taskFault ? "" : "…";
     words.className = `verdict ${verdict?.verdict === "verified" ? "good" : verdict?.verdict === "refuted" ? "fault" : "quiet"}`;

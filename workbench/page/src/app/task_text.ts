@@ -10,7 +10,14 @@ export function taskText(task: TaskState, names: readonly string[], unit = ""): 
   if (task.minForce) lines.push(`min_force: ${task.minForce}`);
   if (task.minCouple) lines.push(`min_couple: ${task.minCouple}`);
   if (task.loads) lines.push(`loads_from: ${task.loads}`);
+  if (task.tolerances) lines.push(`tolerances: ${within("{", task.tolerances, "}")}`);
+  if (task.loadsWithin) lines.push(`loads_within: ${within("[", task.loadsWithin, "]")}`);
   return `${lines.join("\n")}\n`;
+}
+
+/** YAML's brackets need not be typed. */
+function within(open: string, typed: string, close: string): string {
+  return typed.startsWith(open) && typed.endsWith(close) ? typed : `${open}${typed}${close}`;
 }
 
 function shapeLine(shape: TaskShape, names: readonly string[], number: (value: number) => string, pair: (point: readonly [number, number]) => string): string {

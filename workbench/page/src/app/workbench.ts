@@ -32,6 +32,7 @@ export class Workbench {
   fault: ShownFault | undefined;
   poseFault: string | undefined;
   taskFault: string | undefined;
+  zonesFault: string | undefined;
   trajectoryFault: string | undefined;
   progress: { fraction: number; stage: string } | undefined;
   /** The field that the hand changed last. */
@@ -46,7 +47,7 @@ export class Workbench {
   private readonly lanes = {
     model: new Following<ModelFacts>("model", (facts) => this.onModel(facts), (fault) => this.onFault(fault)),
     loci: new Following<Picture>("loci", (picture, made) => this.onLoci(picture, made), (fault) => this.onFault(fault)),
-    zones: new Following<Zones>("zones", (zones) => this.onZones(zones), () => this.onNoZones()),
+    zones: new Following<Zones>("zones", (zones) => this.onZones(zones), (fault) => this.onNoZones(fault)),
     pose: new Following<Pose>("pose", (pose, made) => this.onPose(pose, made), (fault) => this.onPoseFault(fault)),
     verify: new Following<Verdict>("verify", (verdict) => this.onVerdict(verdict), (fault) => this.onTaskFault(fault)),
     modes: new Following<Modes>("modes", (modes) => this.onModes(modes), () => undefined),
@@ -63,10 +64,10 @@ export class Workbench {
 
   /** Whether answers or drawings are still to come, for assistive programs and for tests. */
   private sayBusy(): void {
-    const busy = this.frame !== 0 || this.timers > 0 || Object.values(this.lanes).some((lane) => lane.busy) || this.pending > 0;
+    const resting = this.hashTimer === undefined && this.quietTimer === undefined;
+    const busy = this.frame !== 0 || !resting || Object.values(this.lanes).some((lane) => lane.busy) || this.pending > 0;
     document.documentElement.dataset["busy"] = String(busy);
   }
-  private timers = 0;
   private pending = 0;
 
   get state(): State {
@@ -81,6 +82,10 @@ export class Workbench {
   /** Whether the mechanism is drawn in the plane of its loci. */
   get inPlace(): boolean {
     return this.facts?.pose_is_place ?? false;
+  }
+  /** Whether the free coordinates are two lengths: what zones are cut from and tasks lie in. */
+  get taskable(): boolean {
+    return this.coordinates.length === 2 && this.coordinates.every((one) => !one.angle);
   }
   adjustable(id: string): Adjustable | undefined {
     return this.model.adjustables.find((one) => one.id === id);
@@ -167,15 +172,15 @@ export class Workbench {
     if (changed("zones") && now.zones) this.askZones();
     if (changed("kept")) void this.askKept();
     if (changed("trajectory", "text", "mode")) void this.askTrajectory();
-    if (changed("text") && before && structureOf(before.text) !== structureOf(now.text)) this.modes = undefined;
     this.atRest();
     this.tell("state");
   }
 
-  /** Another mechanism: nothing of the one before is shown. */
+  /** Another mechanism: nothing of the one before is shown, nor what is still to be answered of it. */
   private forget(): void {
+    for (const lane of Object.values(this.lanes)) lane.forget();
     this.facts = this.picture = this.zones = this.pose = this.modes = this.verdict = this.sweep = undefined;
-    this.fault = undefined;
+    this.fault = this.poseFault = this.taskFault = this.zonesFault = this.progress = undefined;
   }
 
   private askPose(made: number): void {
@@ -185,12 +190,12 @@ export class Workbench {
 
   private askVerdict(): void {
     const { task } = this.state;
-    if (task) this.lanes.verify.want({ ...this.lociQuestion(), task: taskText(task, this.model.coordinateNames, this.model.taskUnit) });
+    if (task && this.taskable) this.lanes.verify.want({ ...this.lociQuestion(), task: taskText(task, this.model.coordinateNames, this.model.taskUnit) });
     else this.verdict = undefined;
   }
 
   private askZones(): void {
-    if (this.coordinates.length === 2 && this.coordinates.every((one) => !one.angle)) this.lanes.zones.want(this.lociQuestion());
+    if (this.taskable) this.lanes.zones.want(this.lociQuestion());
   }
 
   private async askKept(): Promise<void> {
@@ -239,17 +244,19 @@ export class Workbench {
   private atRest(): void {
     clearTimeout(this.hashTimer);
     clearTimeout(this.quietTimer);
-    this.timers = 2;
     this.hashTimer = setTimeout(() => {
-      void toHash(this.state).then((hash) => {
-        history.replaceState(null, "", hash);
-        --this.timers;
+      this.hashTimer = undefined;
+      const { state } = this;
+      ++this.pending;
+      void toHash(state).then((hash) => {
+        if (state === this.state) history.replaceState(null, "", hash);
+        --this.pending;
       });
     }, 250);
     this.quietTimer = setTimeout(() => {
+      this.quietTimer = undefined;
       this.lanes.modes.want(this.question());
       this.tell("rest");
-      --this.timers;
     }, 300);
   }
 
@@ -262,14 +269,18 @@ export class Workbench {
       this.history.amend({ ...this.state, at: facts.sample });
       this.askPose(performance.now());
     }
-    if (!known && this.state.zones) this.askZones();
+    if (!known) {
+      if (this.state.zones) this.askZones();
+      this.askVerdict();
+    }
     this.tell("model");
   }
 
   private onLoci(picture: Picture, made: number): void {
-    this.picture = picture;
-    this.fault = undefined;
     this.progress = undefined;
+    this.fault = undefined;
+    if (this.picture && closesNowhere(picture)) return this.onFault({ status: 0, message: picture.loci.notes.join("; "), line: 0, column: 0 });
+    this.picture = picture;
     this.moves.push({ name: "loci", made });
     if (this.state.zones) this.askZones();
     this.tell("loci");
@@ -277,12 +288,14 @@ export class Workbench {
 
   private onZones(zones: Zones): void {
     this.zones = zones;
+    this.zonesFault = undefined;
     this.zonesStale = this.lanes.loci.busy;
     this.tell("zones");
   }
 
-  private onNoZones(): void {
+  private onNoZones(fault: Fault): void {
     this.zones = undefined;
+    this.zonesFault = fault.message;
     this.tell("zones");
   }
 
@@ -330,7 +343,8 @@ export class Workbench {
   }
 }
 
-/** What stays the same while values change: the file without its numbers. */
-function structureOf(text: string): string {
-  return text.replace(/[-+]?\d[\d./eE]*/g, "#");
+/** Such as after a length that cannot close; a note says so. */
+function closesNowhere({ loci }: Picture): boolean {
+  if (!loci.complete || loci.coordinates.length > 2) return false;
+  return (loci.reachable ?? []).length === 0 && loci.workspace.every((region) => region.rings.length === 0);
 }

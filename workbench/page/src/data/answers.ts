@@ -195,7 +195,7 @@ export interface Verdict {
   zone: string | null;
   margin: number | null;
   nearest: { curve: string | null; kind: string; joints: string[]; at: Point; distance: number } | null;
-  witness: { at: Point; reason: string; distance: number } | null;
+  witness: { at: Point; reason: string; distance: number; design?: Record<string, number> } | null;
   open: { reason: string; cells: number } | null;
   moved_by?: Point;
 }

@@ -33,6 +33,21 @@ describe("a mechanism file", () => {
     expect(ids).not.toContain("points/P/0"); // the end effector is no joint on the ground
     expect(new ModelText(fiveBar).adjustables.find((one) => one.id === "parameters/d")?.value).toBeUndefined();
   });
+  it("knows what a block of copies writes out, and changes it there", () => {
+    const hexapod = read("hexapod.yaml");
+    const model = new ModelText(hexapod);
+    const own = model.adjustables.find((one) => one.id === "repeat/table/a/1");
+    expect(own).toMatchObject({ label: "a, i = 2", text: "108", value: 108 });
+    expect(model.adjustables.map((one) => one.id)).toContain("repeat/joints/S{i}/clearance/axial");
+    const changed = model.write(own?.path ?? [], "110").text;
+    expect(changed).toBe(hexapod.replace("a: [12, 108,", "a: [12, 110,"));
+    expect(model.write(["repeat", "points", "A{i}", 0], "top*cos(a{i})").text).toContain("A{i}: ['top*cos(a{i})',");
+  });
+  it("knows lengths that are numbers of their own", () => {
+    const lengths = new ModelText(read("jansen_leg.yaml")).adjustables.filter((one) => one.group === "lengths");
+    expect(lengths[0]).toMatchObject({ id: "points/T/lengths/0", label: "M–T", text: "0.05", unit: "m" });
+    expect(new ModelText(fiveBar).adjustables.filter((one) => one.group === "lengths")).toEqual([]);
+  });
   it("finds the value at a place of the file", () => {
     const model = new ModelText(fiveBar);
     const line = fiveBar.split("\n").findIndex((one) => one.startsWith("  L: ")) + 1;

@@ -1,5 +1,5 @@
 // The mechanism file as text whose values change in place: comments, order and spelling of all else stay as they are.
-import { isMap, isScalar, isSeq, parseDocument, type Document, type Node, type YAMLMap } from "yaml";
+import { isMap, isScalar, isSeq, parseDocument, type Document, type Node } from "yaml";
 import { parseExact, toNumber } from "./exact";
 
 /** Where a value stands in the file. */
@@ -11,7 +11,7 @@ export interface Adjustable {
   path: ValuePath;
   label: string;
   unit: string;
-  group: "parameters" | "loads" | "springs" | "gravity" | "points" | "clearances";
+  group: "parameters" | "lengths" | "loads" | "springs" | "gravity" | "points" | "clearances";
   /** As written. */
   text: string;
   /** Of a plain number; an expression is typed, not slid. */
@@ -31,17 +31,10 @@ export class ModelText {
     return found instanceof Object ? (found as Node) : undefined;
   }
 
-  private mapOf(key: string): YAMLMap | undefined {
-    const found = this.node([key]);
-    return isMap(found) ? found : undefined;
-  }
-
-  private entries(key: string): [string, Node][] {
-    const map = this.mapOf(key);
-    if (!map) return [];
-    return map.items.flatMap((pair): [string, Node][] =>
-      isScalar(pair.key) && pair.value instanceof Object ? [[String(pair.key.value), pair.value as Node]] : [],
-    );
+  /** The keys of the mapping at this place; none where there is none. */
+  private names(path: ValuePath): string[] {
+    const map = path.length === 0 ? this.document.contents : this.node(path);
+    return isMap(map) ? map.items.flatMap((pair) => (isScalar(pair.key) ? [String(pair.key.value)] : [])) : [];
   }
 
   read(path: ValuePath): string | undefined {
@@ -52,10 +45,11 @@ export class ModelText {
   /** The file with this value in the place of the old one. */
   write(path: ValuePath, value: string): ModelText {
     const node = this.node(path);
-    if (!isScalar(node) || !node.range) return this;
+    if (!isScalar(node) || !node.range || node.value === value) return this;
     const [from, to] = node.range;
     // What is no expression is quoted, so that it stays one value: the program then says what is wrong with it.
-    const written = /^[\w.+\-*/^() ]+$/.test(value) ? value : JSON.stringify(value);
+    const plain = /^[\w.+\-*/^() ]+$/.test(value) && node.type !== "QUOTE_SINGLE";
+    const written = plain ? value : node.type === "QUOTE_SINGLE" ? `'${value.replace(/'/g, "''")}'` : JSON.stringify(value);
     return new ModelText(this.text.slice(0, from) + written + this.text.slice(to));
   }
 
@@ -76,12 +70,18 @@ export class ModelText {
 
   /** Points with coordinates that are numbers or parameters alone, by whose place the mechanism stands on the ground. */
   get basePoints(): { name: string; path: ValuePath }[] {
+    return this.basePointsOf([]);
+  }
+
+  private basePointsOf(root: ValuePath): { name: string; path: ValuePath }[] {
     const free = new Set(this.coordinateNames);
-    return this.entries("points").flatMap(([name, node]) => {
+    return this.names([...root, "points"]).flatMap((name) => {
+      const path = [...root, "points", name];
+      const node = this.node(path);
       if (!isSeq(node) || node.items.length < 2) return [];
       const words = node.items.map((one) => (isScalar(one) ? String(one.value) : "?"));
       const fixed = words.every((word) => !(word.match(/[A-Za-z_]\w*/g) ?? []).some((symbol) => free.has(symbol)));
-      return fixed && !words.includes("?") ? [{ name, path: ["points", name] as ValuePath }] : [];
+      return fixed && !words.includes("?") ? [{ name, path }] : [];
     });
   }
 
@@ -101,10 +101,21 @@ export class ModelText {
   }
 
   get coordinateNames(): string[] {
-    return this.entries("workspace").map(([name]) => name);
+    return this.names(["workspace"]);
   }
 
   get adjustables(): Adjustable[] {
+    return this.sections.flatMap((root) => this.adjustablesOf(root));
+  }
+
+  /** The file itself, and every block of `repeat`, whose sections are read like its own. */
+  private get sections(): ValuePath[] {
+    const repeat = this.node(["repeat"]);
+    if (isSeq(repeat)) return [[], ...repeat.items.map((_, k): ValuePath => ["repeat", k])];
+    return isMap(repeat) ? [[], ["repeat"]] : [[]];
+  }
+
+  private adjustablesOf(root: ValuePath): Adjustable[] {
     const list: Adjustable[] = [];
     const add = (path: ValuePath, label: string, unit: string, group: Adjustable["group"]): void => {
       const text = this.read(path);
@@ -118,31 +129,64 @@ export class ModelText {
       if (!isSeq(node)) return;
       node.items.forEach((_, axis) => add([...path, axis], `${label} ${"xyz"[axis] ?? axis}`, unit, group));
     };
-    for (const [name] of this.entries("parameters")) add(["parameters", name], name, "", "parameters");
-    const loads = this.node(["loads"]);
+    for (const name of this.names([...root, "parameters"])) add([...root, "parameters", name], name, "", "parameters");
+    for (const name of root.length > 0 ? this.names([...root, "table"]) : []) {
+      const row = this.node([...root, "table", name]);
+      if (isSeq(row)) row.items.forEach((_, k) => add([...root, "table", name, k], `${name}, ${this.copyWords(root, k)}`, "", "parameters"));
+    }
+    this.addLengths(root, add);
+    this.addLoads(root, add, addVector);
+    addVector([...root, "gravity"], "gravity", "m/s²", "gravity");
+    for (const point of this.basePointsOf(root)) addVector(point.path, point.name, "m", "points");
+    for (const name of this.names([...root, "joints"])) {
+      for (const [key, unit] of [["radial", "m"], ["angular", "rad"], ["gap", "m"], ["half_length", "m"], ["axial", "m"]])
+        add([...root, "joints", name, "clearance", key ?? ""], `${name} ${(key ?? "").replace("_", " ")}`, unit ?? "", "clearances");
+    }
+    return list;
+  }
+
+  /** "i = 2" of the second value of a row of a table. */
+  private copyWords(root: ValuePath, k: number): string {
+    const counter = this.names(root).find((name) => isSeq(this.node([...root, name])));
+    return counter === undefined ? String(k + 1) : `${counter} = ${this.read([...root, counter, k]) ?? k + 1}`;
+  }
+
+  /** Lengths of links that are numbers of their own; of those that are formulas the parameters are moved. */
+  private addLengths(root: ValuePath, add: (path: ValuePath, label: string, unit: string, group: Adjustable["group"]) => void): void {
+    const addNumber = (path: ValuePath, label: string): void => {
+      if (parseExact(this.read(path) ?? "")) add(path, label, "m", "lengths");
+    };
+    for (const name of this.names([...root, "points"])) {
+      const path = [...root, "points", name];
+      for (const end of [0, 1]) addNumber([...path, "lengths", end], `${this.read([...path, "dyad", end]) ?? ""}–${name}`);
+      addNumber([...path, "length"], `${this.read([...path, "from"]) ?? ""}–${name}`);
+    }
+  }
+
+  private addLoads(
+    root: ValuePath,
+    add: (path: ValuePath, label: string, unit: string, group: Adjustable["group"]) => void,
+    addVector: (path: ValuePath, label: string, unit: string, group: Adjustable["group"]) => void,
+  ): void {
+    const loads = this.node([...root, "loads"]);
     if (isSeq(loads)) {
       loads.items.forEach((_, index) => {
-        const where = this.read(["loads", index, "at"]) ?? this.read(["loads", index, "link"]) ?? "";
-        addVector(["loads", index, "force"], `force at ${where},`, "N", "loads");
-        add(["loads", index, "couple"], `couple on ${this.read(["loads", index, "link"]) ?? ""}`, "N m", "loads");
-        addVector(["loads", index, "couple"], `couple at ${where},`, "N m", "loads");
+        const path = [...root, "loads", index];
+        const where = this.read([...path, "at"]) ?? this.read([...path, "link"]) ?? "";
+        addVector([...path, "force"], `force at ${where},`, "N", "loads");
+        add([...path, "couple"], `couple on ${this.read([...path, "link"]) ?? ""}`, "N m", "loads");
+        addVector([...path, "couple"], `couple at ${where},`, "N m", "loads");
       });
     }
-    const springs = this.node(["springs"]);
+    const springs = this.node([...root, "springs"]);
     if (isSeq(springs)) {
       const units = { stiffness: "", free_length: "m", force: "N", rest: "rad" };
       springs.items.forEach((_, index) => {
-        const name = this.read(["springs", index, "name"]) ?? `S${index + 1}`;
-        for (const [key, unit] of Object.entries(units)) add(["springs", index, key], `${name} ${key.replace("_", " ")}`, unit, "springs");
+        const path = [...root, "springs", index];
+        const name = this.read([...path, "name"]) ?? `S${index + 1}`;
+        for (const [key, unit] of Object.entries(units)) add([...path, key], `${name} ${key.replace("_", " ")}`, unit, "springs");
       });
     }
-    addVector(["gravity"], "gravity", "m/s²", "gravity");
-    for (const point of this.basePoints) addVector(point.path, point.name, "m", "points");
-    for (const [name] of this.entries("joints")) {
-      for (const [key, unit] of [["radial", "m"], ["angular", "rad"], ["gap", "m"], ["half_length", "m"], ["axial", "m"]])
-        add(["joints", name, "clearance", key ?? ""], `${name} ${(key ?? "").replace("_", " ")}`, unit ?? "", "clearances");
-    }
-    return list;
   }
 
   get wrong(): boolean {

@@ -54,6 +54,16 @@ function drawGround(context: CanvasRenderingContext2D, at: Point, theme: Theme):
   context.stroke();
 }
 
+/** All places that the sketch of a mechanism holds. */
+export function placesOf(sketch: Sketch): Point[] {
+  return [
+    ...sketch.joints.map((joint) => joint.at),
+    ...sketch.links.flatMap((link) => link.points),
+    ...sketch.slides.flatMap((slide) => [slide.from, slide.to]),
+    ...(sketch.springs ?? []).flatMap((spring) => [spring.from, spring.to]),
+  ];
+}
+
 export function drawSketch(context: CanvasRenderingContext2D, view: View, sketch: Sketch, theme: Theme, width = bar): void {
   const small = width < bar;
   context.save();
@@ -128,6 +138,20 @@ export function drawSprings(context: CanvasRenderingContext2D, view: View, sketc
   context.restore();
 }
 
+/** Joints that stand at one place of the canvas share a label. */
+export function namedPlaces(joints: { name: string; at: Point; on_ground: boolean }[]): { at: Point; names: string[]; raised: boolean }[] {
+  const near = 6; // pixels
+  const places: { at: Point; names: string[]; raised: boolean }[] = [];
+  for (const joint of joints) {
+    const place = places.find((one) => Math.hypot(one.at[0] - joint.at[0], one.at[1] - joint.at[1]) < near);
+    if (place) {
+      place.names.push(joint.name);
+      place.raised ||= joint.on_ground;
+    } else places.push({ at: joint.at, names: [joint.name], raised: joint.on_ground });
+  }
+  return places;
+}
+
 export function drawNames(context: CanvasRenderingContext2D, view: View, sketch: Sketch, theme: Theme): void {
   context.save();
   context.font = "600 12px system-ui, sans-serif";
@@ -135,11 +159,10 @@ export function drawNames(context: CanvasRenderingContext2D, view: View, sketch:
   context.lineWidth = 3;
   context.strokeStyle = theme.paper;
   context.fillStyle = theme.ink;
-  for (const joint of sketch.joints) {
-    const at = page(view, joint.at);
-    const below = joint.on_ground ? -10 : 16;
-    context.strokeText(joint.name, at[0] + 8, at[1] + below);
-    context.fillText(joint.name, at[0] + 8, at[1] + below);
+  for (const { at, names, raised } of namedPlaces(sketch.joints.map((joint) => ({ ...joint, at: page(view, joint.at) })))) {
+    const below = raised ? -10 : 16;
+    context.strokeText(names.join(", "), at[0] + 8, at[1] + below);
+    context.fillText(names.join(", "), at[0] + 8, at[1] + below);
   }
   context.restore();
 }

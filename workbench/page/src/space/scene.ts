@@ -28,11 +28,14 @@ export class Space {
   private readonly camera = new OrthographicCamera();
   private readonly controls: OrbitControls;
   private readonly model = new Group();
+  onDrawn: () => void = () => undefined;
   private drawn: Drawn[] = [];
   private picture: Picture | undefined;
   private theme: Theme | undefined;
   private marker: ThreeMesh | undefined;
   private frame = 0;
+  private mechanism: string | undefined;
+  private fitted = false;
 
   constructor(parent: HTMLElement) {
     this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
@@ -111,6 +114,11 @@ export class Space {
         }),
       );
     }
+    if (picture.loci.mechanism !== this.mechanism) {
+      this.mechanism = picture.loci.mechanism;
+      this.fitted = false;
+      this.zoom(1 / this.camera.zoom);
+    }
     this.theme = theme;
     this.clear();
     this.model.add(this.boxEdges(theme));
@@ -144,6 +152,7 @@ export class Space {
       this.marker.renderOrder = 3;
       this.marker.position.copy(this.place(at));
       const points = lines.flatMap((line) => line.slice(1).flatMap((end, k) => [this.place(line[k] ?? end), this.place(end)]));
+      this.showWhole(points);
       if (points.length > 0) {
         const bars = new LineSegments(new BufferGeometry().setFromPoints(points.map((point) => point.sub(this.place(at)))), new LineBasicMaterial({ color: this.theme.outline, depthTest: false }));
         bars.renderOrder = 2;
@@ -152,6 +161,32 @@ export class Space {
       this.model.add(this.marker);
     }
     this.draw();
+  }
+
+  /** Of a mechanism that comes anew: from so far that it is seen whole. */
+  private showWhole(points: readonly Vector3[]): void {
+    if (points.length === 0 || this.fitted) return;
+    this.fitted = true;
+    this.camera.updateMatrixWorld();
+    const largest = Math.max(...points.flatMap((point) => { const at = point.clone().project(this.camera); return [Math.abs(at.x), Math.abs(at.y)]; }));
+    if (largest > 1) this.zoom(0.96 / largest);
+  }
+
+  /** Where the marked pose stands on the canvas, in pixels from its upper left. */
+  get poseOnCanvas(): [number, number] | undefined {
+    const at = this.marker?.position.clone().project(this.camera);
+    return at && [((1 + at.x) * this.canvas.clientWidth) / 2, ((1 - at.y) * this.canvas.clientHeight) / 2];
+  }
+
+  /** Where the marked pose comes to when it is dragged there, in the plane across the line of sight. */
+  dragged(x: number, y: number): number[] | undefined {
+    if (!this.marker) return undefined;
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2(x, y), this.camera);
+    const across = new Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new Vector3()), this.marker.position);
+    const to = ray.ray.intersectPlane(across, new Vector3());
+    const { middle, factor } = this.scales;
+    return to?.toArray().map((value, k) => value / (factor[k] ?? 1) + (middle[k] ?? 0));
   }
 
   /** Empties the scene; what is drawn anew each time gives its memory back. */
@@ -229,6 +264,7 @@ export class Space {
     this.frame ||= requestAnimationFrame(() => {
       this.frame = 0;
       this.renderer.render(this.scene, this.camera);
+      this.onDrawn();
     });
   }
 }
