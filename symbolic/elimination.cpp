@@ -94,26 +94,36 @@ Poly Elimination::strip_denominators(Poly p) const {
   return p;
 }
 
-std::vector<PolyFactor> Elimination::split_at_folds(Poly sheet) const {
+std::vector<PolyFactor> Elimination::factors_over_tower(Poly sheet) const {
   Rational constant;
-  std::vector<PolyFactor> folds;
-  for (const Fold& fold : geometry_->folds())
-    for (const PolyFactor& part : fold.where.factors(constant)) {
-      PolyFactor found{part.poly, 0};
-      while (std::optional<Poly> rest = quotient_over_tower(sheet, part.poly, independent_roots_)) {
-        sheet = strip_denominators(std::move(*rest));
-        ++found.multiplicity;
-      }
-      if (found.multiplicity > 0) folds.push_back(std::move(found));
+  std::vector<PolyFactor> elements;
+  const auto split_off = [&](const Poly& element) {
+    PolyFactor found{element, 0};
+    while (std::optional<Poly> rest = quotient_over_tower(sheet, element, independent_roots_)) {
+      sheet = strip_denominators(std::move(*rest));
+      ++found.multiplicity;
     }
+    if (found.multiplicity > 0) elements.push_back(std::move(found));
+  };
+  for (const Fold& fold : geometry_->folds())
+    for (const PolyFactor& part : fold.where.factors(constant)) split_off(part.poly);
+  for (const TowerRoot& root : independent_roots_)
+    if (root.role == core::RootRole::working_mode && sheet.depends_on(root.variable) && vanishes_with(sheet, root))
+      split_off(Poly::variable(sheet.ring(), root.variable));
   std::vector<PolyFactor> factors = sheet.factors(constant);
-  factors.insert(factors.end(), folds.begin(), folds.end());
+  factors.insert(factors.end(), elements.begin(), elements.end());
   return factors;
+}
+
+bool Elimination::vanishes_with(const Poly& sheet, const TowerRoot& root) {
+  const Poly rest = split(sheet, root.variable).first;
+  Poly quotient(sheet.ring());
+  return rest.is_zero() || rest.divides(root.square, quotient);
 }
 
 std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with_implicit) const {
   std::vector<SheetFactor> result;
-  std::vector<PolyFactor> factors = split_at_folds(strip_denominators(sheet));
+  std::vector<PolyFactor> factors = factors_over_tower(strip_denominators(sheet));
   for (const PolyFactor& factor : factors) {
     if (!has_free_coordinate(factor.poly) || is_denominator(factor.poly)) continue;
     SheetFactor entry{factor.poly, factor.multiplicity, {}};

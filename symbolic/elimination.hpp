@@ -59,9 +59,11 @@ class Elimination {
  private:
   void eliminate(Poly p, std::vector<Poly>& found) const;
   /// The factors of a sheet polynomial. Over a tower elements have no unique factors, but where a root depends on
-  /// earlier ones numerators and |A| share the element in whose sign it differs: that is divided out as often as it
-  /// goes.
-  std::vector<PolyFactor> split_at_folds(Poly sheet) const;
+  /// earlier ones numerators and |A| share the element in whose sign it differs, and where a dyad is stretched the root
+  /// that is zero there: those are divided out as often as it goes.
+  std::vector<PolyFactor> factors_over_tower(Poly sheet) const;
+  /// A sheet polynomial a + b s is zero where the root is: its square divides a.
+  static bool vanishes_with(const Poly& sheet, const TowerRoot& root);
   bool is_denominator(const Poly& irreducible) const;
   bool has_free_coordinate(const Poly& p) const;
   Poly strip_denominators(Poly p) const;
