@@ -9,6 +9,7 @@
 
 #include "loci/curve_arrangement.hpp"
 #include "loci/curve_projection.hpp"
+#include "loci/sheet/apex.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
 
 namespace clearloci::loci {
@@ -111,6 +112,7 @@ class Builder {
       high_[i] = core::to_double(map.upper[i]);
     }
     size_ = std::max(high_[0] - low_[0], high_[1] - low_[1]);
+    if (!sketch) effort_.special = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
   }
 
   ZoneGraph build() {
