@@ -228,7 +228,7 @@ std::optional<DesignCell::Loads> DesignCell::displaced_too_far() {
   constexpr int directions = 16;
   for (int i = 0; i < 2 * directions; ++i) {
     Loads one = middle_of(all);
-    const double angle = 2 * M_PI * (i / 2) / directions, inwards = 1 - 0x1p-40;
+    const double angle = M_PI * i / directions, inwards = 1 - 0x1p-40;
     for (const core::LoadBall& ball : balls_) {
       if (ball.force > 0) {
         one.factors[static_cast<std::size_t>(ball.fx)] = inwards * ball.force * std::cos(angle);

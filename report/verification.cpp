@@ -184,10 +184,15 @@ std::string verification_text(const core::Verification& in_si, bool fit) {
   else if (fit)
     put("No place in the box was found that verifies; where the task lies:\n");
   put("{}\n", verdict_line(result.verdict));
-  if (!result.task.tolerances.empty() || !result.task.loads_within.empty())
-    put("of            every design within the tolerances of {} parameter{}, every load within {} ball{}\n",
-        result.task.tolerances.size(), result.task.tolerances.size() == 1 ? "" : "s", result.task.loads_within.size(),
-        result.task.loads_within.size() == 1 ? "" : "s");
+  const auto many = [](std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  std::string of;
+  if (const std::size_t count = result.task.tolerances.size(); count > 0)
+    of = "every design within the tolerances of " + many(count, "parameter");
+  if (const std::size_t count = result.task.loads_within.size(); count > 0)
+    of += (of.empty() ? "" : ", ") + ("every load within " + many(count, "ball"));
+  if (!of.empty()) put("of            {}\n", of);
   if (!result.zone.empty()) put("zone          {}\n", result.zone);
   if (result.verified()) put("margin        at least {:.6g} {}, proven\n", result.margin, unit);
   if (result.pose_error) put("pose error    at most {:.6g} {}, proven\n", *result.pose_error, unit);

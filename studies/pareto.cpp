@@ -45,9 +45,14 @@ void choose(const StudyProblem& problem, core::StudyResult& result) {
   result.best = candidates.front().place;
   if (goals.size() < 2) return;
   std::vector<const Candidate*> front;
+  // A search may come to a design twice.
+  const auto same = [&](const Candidate& a, const Candidate& b) {
+    return result.designs[a.place].values == result.designs[b.place].values;
+  };
   for (const Candidate& own : candidates)
-    if (std::none_of(front.begin(), front.end(),
-                     [&](const Candidate* other) { return dominates(other->values, own.values, goals); }))
+    if (std::none_of(front.begin(), front.end(), [&](const Candidate* other) {
+          return dominates(other->values, own.values, goals) || same(*other, own);
+        }))
       front.push_back(&own);
   for (const Candidate* own : front) result.front.push_back(own->place);
 }

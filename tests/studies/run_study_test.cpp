@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "clearloci/study.hpp"
 #include "clearloci/verify.hpp"
@@ -222,6 +223,16 @@ TEST(Study, ASearchBeatsAGrid) {
   EXPECT_LE(found.designs.size(), 150U);
   EXPECT_GT(found.designs[*found.best].figures.front(), grid.designs[*grid.best].figures.front());
   EXPECT_EQ(told(found), told(run_study(model, study))) << "the same from run to run";
+}
+
+TEST(Study, AFrontOfASearchHasEveryDesignOnce) {
+  const Model model = five_bar();
+  const StudyResult found = run_study(
+      model, parse_study(study_text("{search: 200}", "goal: [{maximise: margin}, {minimise: pose_error}]"), model));
+  ASSERT_GT(found.front.size(), 2U);
+  std::set<std::vector<double>> values;
+  for (const std::size_t own : found.front) values.insert(found.designs[own].values);
+  EXPECT_EQ(values.size(), found.front.size());
 }
 
 TEST(Study, WritesADesignAsTheFileThatItComesFrom) {
