@@ -33,7 +33,7 @@ using mechanism::Mechanism;
 
 /// Of the margin and of least reactions, to how much of themselves they are proven, and the cells that this may take.
 constexpr double margin_accuracy = 0.05, least_accuracy = 0.1;
-constexpr long cells_of_a_margin = 150'000, cells_of_least = 60'000;
+constexpr long cells_of_a_margin = 250'000, cells_of_least = 60'000;
 
 std::vector<Mechanism> under_loads_of(const PoseTask& task, const Mechanism& mechanism) {
   if (!task.loads) return {mechanism};

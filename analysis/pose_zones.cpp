@@ -137,7 +137,11 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
     result.zones.push_back(std::move(zone));
   }
   add_perhaps(found.zones, result.zones);
-  if (result.coordinates.size() == 1) add_ends(mechanism, request, sides, result);
+  if (result.coordinates.size() == 1) try {
+      add_ends(mechanism, request, sides, result);
+    } catch (const core::LimitReached&) {
+      result.notes.emplace_back("the loci that end the zones could not be named within the time limit");
+    }
   return result;
 }
 

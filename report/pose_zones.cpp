@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -146,7 +147,7 @@ std::string pose_zones_table(const core::PoseZones& map) {
       out += fmt::format("      ends at {}: {}{}{}", places.value(0, own.at), kind_words(own.kind),
                          own.reactions.empty() ? "" : " ", reaction_names(own.reactions));
       const ShownUnit unit_of_jump = shown_unit("m", map.units);
-      if (own.jumps)
+      if (own.jumps && std::isfinite(own.dx + own.dy + own.dalpha))
         out += fmt::format("; the end effector jumps by ({:.3g}, {:.3g}) {} and {:.3g} rad",
                            own.dx * unit_of_jump.per_si, own.dy * unit_of_jump.per_si, unit_of_jump.name, own.dalpha);
       out += "\n";

@@ -315,16 +315,18 @@ double pose_clearance(const core::PoseStatics& statics, const PoseRegion& region
   // What looks like failing is enough here: it ends an attempt.
   const PoseRefuted any = [](const PoseSuspect&) { return true; };
   constexpr int most_attempts = 40;
-  double proven = from, too_far = limit;
+  // Wider margins take many times the cells: small steps first, so that something is proven before they run out.
+  double proven = from, too_far = limit, part = 1.0 / 16;
   long cells = 0;
   for (int attempt = 0; attempt < most_attempts && proven < (1 - accuracy) * too_far; ++attempt) {
     PoseEffort left = effort;
     left.most_cells -= cells;
     if (left.most_cells <= 0 || (effort.deadline && std::chrono::steady_clock::now() >= *effort.deadline)) break;
-    const double margin = 0.5 * (proven + too_far);
+    const double margin = proven + part * (too_far - proven);
     const PoseProof proof = prove_poses(statics, region, margin, any, left);
     cells += proof.cells;
     (proof.verdict == core::Verdict::verified ? proven : too_far) = margin;
+    part = std::min(0.5, 2 * part);
   }
   return proven;
 }
