@@ -120,7 +120,7 @@ TEST(PoseTasks, RandomBoxesOfAHexapodAreJudgedRight) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> length(0.01, 0.12), angle(1, 12), height(0.4, 0.6);
   int verified = 0, refuted = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 12; ++i) {
     const PoseTask task = hexapod_box(length(random), angle(random), "min_force: 20\n", height(random));
     const PoseVerification answer = decide_poses(hexapod(), task);
     if (answer.verified()) {
@@ -135,9 +135,9 @@ TEST(PoseTasks, RandomBoxesOfAHexapodAreJudgedRight) {
     else
       EXPECT_LT(least, 1e-6) << "task " << i;
   }
-  EXPECT_GT(verified, 4);
-  EXPECT_GT(refuted, 4);
-  EXPECT_GE(verified + refuted, 23) << "hardly any stays open";
+  EXPECT_GT(verified, 2);
+  EXPECT_GT(refuted, 2);
+  EXPECT_GE(verified + refuted, 11) << "hardly any stays open";
 }
 
 TEST(PoseTasks, ALoadMayTurnInSpace) {
