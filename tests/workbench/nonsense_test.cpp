@@ -132,7 +132,7 @@ TEST(Nonsense, AskedOfSoundMechanismsIsRefusedInASentence) {
                                  "html",
                                  7,
                                  true};
-  for (int i = 0; i < 250; ++i) {
+  for (int i = 0; i < 120; ++i) {
     Json body = {{"text", example(models[static_cast<std::size_t>(below(random, 8))])}};
     for (int k = below(random, 4); k > 0; --k)
       body[fields[static_cast<std::size_t>(1 + below(random, 17))]] =

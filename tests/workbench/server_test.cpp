@@ -109,6 +109,23 @@ TEST_F(TheServer, VerifiesTasksAndExportsWhatIsAskedFor) {
   EXPECT_EQ(server->ask("export", question)->status, 422);
 }
 
+TEST_F(TheServer, VerifiesTasksOverAnglesToo) {
+  Json question = {{"text", example("four_bar.yaml")}, {"client", "test"}};
+  question["task"] = "format: 1\nbox: {theta: [250 deg, 280 deg]}\n";
+  const Json verified = Json::parse(server->ask("verify", question)->body);
+  EXPECT_EQ(verified["verdict"], "verified");
+  EXPECT_GT(verified["angle_margin"], 0);
+  question["fit"] = "best";
+  EXPECT_EQ(server->ask("verify", question)->status, 422);
+  question.erase("fit");
+  question["task"] = "format: 1\nbox: {theta: [10 deg, 40 deg]}\n";
+  question["what"] = "verification";
+  question["format"] = "json";
+  const Json files = Json::parse(server->ask("export", question)->body)["files"];
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files[0]["name"], "verify.json");
+}
+
 TEST(TheTimeLimit, IsKept) {
   const RunningServer server(0.001);
   const auto answer = server.ask("zones", {{"text", example("five_bar_weights.yaml")}});

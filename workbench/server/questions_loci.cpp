@@ -1,11 +1,15 @@
 // Loci, zones, verdicts, and their files.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "clearloci/export.hpp"
+#include "clearloci/pose_tasks.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 #include "report/base64.hpp"
 #include "report/formats.hpp"
+#include "report/loci_json.hpp"
+#include "report/pose_verification.hpp"
 #include "report/verification.hpp"
 #include "report/viewer.hpp"
 #include "report/zones.hpp"
@@ -21,6 +25,18 @@ Json files_json(const std::vector<ExportedFile>& files) {
   Json list = Json::array();
   for (const ExportedFile& file : files) list.push_back({{"name", file.name}, {"base64", report::base64(file.bytes)}});
   return {{"files", std::move(list)}};
+}
+
+/// Tasks of two lengths lie among loci and zones; those of other coordinates are proven over poses.
+bool over_two_lengths(const Model& model) {
+  const std::vector<Model::Coordinate> own = model.coordinates();
+  return own.size() == 2 && std::none_of(own.begin(), own.end(), [](const auto& one) { return one.angle; });
+}
+
+Json pose_verification(const Fields& fields, const Model& model, const Watch& watch) {
+  if (fields.has("fit")) throw Refusal(422, "a task is moved in the plane of two lengths");
+  const PoseTask task = parse_pose_task(fields.text("task"), model);
+  return report::pose_verification_object(verify_poses(model, task, watched(loci_request(fields, model), watch)));
 }
 
 /// `task`: the text of a task file.
@@ -53,7 +69,10 @@ Json answer_zones(const Json& body, const Watch& watch) {
 }
 
 Json answer_verify(const Json& body, const Watch& watch) {
-  return report::verification_object(verification(Fields(body), watch));
+  const Fields fields(body);
+  const Model model = model_of(fields);
+  if (!over_two_lengths(model)) return pose_verification(fields, model, watch);
+  return report::verification_object(verification(fields, watch));
 }
 
 Json answer_export(const Json& body, const Watch& watch) {
@@ -61,6 +80,8 @@ Json answer_export(const Json& body, const Watch& watch) {
   const std::string what = fields.text("what", "loci");
   const std::set<std::string> formats = {fields.text("format")};
   const Model model = model_of(fields);
+  if (what == "verification" && !over_two_lengths(model))
+    return files_json({{"verify.json", report::json_text(pose_verification(fields, model, watch))}});
   if (what == "verification") return files_json(verification_files(verification(fields, watch), formats));
   const LociRequest request = watched(loci_request(fields, model), watch);
   if (what == "zones") return files_json(zone_files(find_zones(model, request), formats));

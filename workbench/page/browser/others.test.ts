@@ -1,7 +1,7 @@
 // Other mechanisms on the page: one, two and three coordinates, in the plane and in space.
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Page } from "playwright-core";
+import type { Locator, Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import { drag, exact, rest, shot, source, type } from "./program";
 import { session } from "./session";
@@ -102,6 +102,43 @@ describe("a file in mm and degrees, whose legs are written once", () => {
   });
 });
 
+describe("a task over other than two lengths", () => {
+  const verdict = (page: Page): Locator => page.locator(".verdict");
+  const draw = async (page: Page, kind = "box"): Promise<void> => {
+    await page.getByText("Task", { exact: true }).click();
+    await page.getByRole("button", { name: kind, exact: true }).click();
+    await rest(page);
+  };
+  const set = async (page: Page, name: string, value: string): Promise<void> => {
+    await page.getByLabel(`${name} of the task,`).nth(value.startsWith(">") ? 1 : 0).fill(value.replace(">", ""));
+    await page.keyboard.press("Enter");
+    await rest(page);
+  };
+
+  it("is a range of the one coordinate, on the strip of the cycle", async () => {
+    const page = await example("four_bar.yaml");
+    await draw(page);
+    await set(page, "theta", "10");
+    await set(page, "theta", ">40");
+    await expect.poll(() => verdict(page).textContent()).toMatch(/^(Verified.*deg|Refuted)/s);
+    await shot(page, "four-bar-task");
+    // All the way round it meets its loci.
+    await set(page, "theta", "0");
+    await set(page, "theta", ">360");
+    await expect.poll(() => verdict(page).textContent()).toContain("Refuted");
+  });
+
+  it("is a box with an angle, and of six coordinates, of which there are no loci", async () => {
+    const page = await example("gough_stewart_poses.yaml");
+    expect(await page.locator(".notice").textContent()).toContain("one to three free coordinates");
+    expect(await page.locator(".inset").isVisible()).toBe(true);
+    await draw(page);
+    expect(await page.locator(".range-row").count()).toBe(6);
+    await expect.poll(() => verdict(page).textContent()).toMatch(/^(Verified|Refuted|Undecided)/);
+    await shot(page, "six-coordinates");
+  });
+});
+
 describe("a trajectory", () => {
   it("is played back, with its contact losses", async () => {
     const page = await example("pick_and_place/manipulator.yaml");
@@ -124,7 +161,7 @@ describe("a trajectory", () => {
 
 describe("every shipped example", () => {
   // Those that take seconds to trace are opened by the tests above, and by those of the program.
-  const slow = /jansen_leg|klann_leg|five_bar_coupler|three_ruu|three_rrr|gough_stewart.yaml|hexapod|four_bar/;
+  const slow = /jansen_leg|klann_leg|five_bar_coupler|three_ruu|three_rrr|gough_stewart.yaml|gough_stewart_poses|hexapod|four_bar/;
   const names = readdirSync(join(source, "examples")).filter((name) => name.endsWith(".yaml") && !slow.test(name));
   it("is drawn", async () => {
     const page = await start();

@@ -4,6 +4,7 @@ import { colourOf, drawMarker, groupKey } from "../draw/loci";
 import { Layer } from "../draw/surface";
 import { ticks, tickText } from "../draw/view";
 import { h } from "./dom";
+import { verdictColour } from "./stage_drawing";
 import type { Workbench } from "./workbench";
 
 const margin = 30;
@@ -11,6 +12,7 @@ const margin = 30;
 export class CycleStrip {
   readonly element = h("div", { class: "cycle", tabindex: 0, role: "slider", "aria-label": "The coordinate of the linkage" });
   private readonly layer: Layer;
+  private held: "low" | "high" | undefined;
 
   constructor(private readonly bench: Workbench) {
     this.layer = new Layer(this.element, "cycle");
@@ -19,10 +21,13 @@ export class CycleStrip {
       const range = bench.coordinates[0];
       if (!range || event.buttons !== 1) return;
       const part = Math.min(1, Math.max(0, (event.offsetX - margin) / (this.element.clientWidth - 2 * margin)));
-      bench.change({ at: [Number((range.lower + part * (range.upper - range.lower)).toPrecision(6))] }, "cycle");
+      const to = Number((range.lower + part * (range.upper - range.lower)).toPrecision(6));
+      if (this.held) this.moveEnd(to);
+      else bench.change({ at: [to] }, "cycle");
     };
     this.element.addEventListener("pointerdown", (event) => {
       this.element.setPointerCapture(event.pointerId);
+      this.held = this.endAt(event.offsetX);
       drag(event);
     });
     this.element.addEventListener("pointermove", drag);
@@ -38,6 +43,23 @@ export class CycleStrip {
     bench.watch(() => this.draw());
   }
 
+  /** The end of the task's range that a press at this place takes hold of. */
+  private endAt(place: number): "low" | "high" | undefined {
+    const [range] = this.bench.coordinates;
+    const shape = this.bench.state.task?.shape;
+    if (!range || shape?.kind !== "ranges") return undefined;
+    const reach = 6; // pixels
+    const scale = (this.element.clientWidth - 2 * margin) / (range.upper - range.lower);
+    return (["low", "high"] as const).find((end) => Math.abs(margin + ((shape[end][0] ?? 0) - range.lower) * scale - place) <= reach);
+  }
+
+  private moveEnd(to: number): void {
+    const { task } = this.bench.state;
+    if (!this.held || task?.shape.kind !== "ranges") return;
+    const shape = { ...task.shape, [this.held]: [to] };
+    if ((shape.low[0] ?? 0) <= (shape.high[0] ?? 0)) this.bench.change({ task: { ...task, shape } }, "drag-task");
+  }
+
   private draw(): void {
     const [range] = this.bench.coordinates;
     this.element.hidden = this.bench.coordinates.length !== 1;
@@ -51,6 +73,17 @@ export class CycleStrip {
     this.element.setAttribute("aria-valuenow", String(state.at?.[0] ?? 0));
     context.fillStyle = theme.workspace;
     for (const piece of picture?.loci.reachable ?? []) context.fillRect(x(piece.from), y - 12, x(piece.to) - x(piece.from), 24);
+    const shape = state.task?.shape;
+    if (shape?.kind === "ranges") {
+      const [from, to] = [x(shape.low[0] ?? 0), x(shape.high[0] ?? 0)];
+      context.fillStyle = context.strokeStyle = verdictColour(this.bench.verdict, theme);
+      context.globalAlpha = 0.25;
+      context.fillRect(from, y - 12, to - from, 24);
+      context.globalAlpha = 1;
+      context.lineWidth = 2;
+      context.strokeRect(from, y - 12, to - from, 24);
+      context.lineWidth = 1;
+    }
     context.strokeStyle = theme.frame;
     context.beginPath();
     context.moveTo(x(range.lower), y);

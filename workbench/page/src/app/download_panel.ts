@@ -2,7 +2,6 @@
 import { ask, AskingError } from "./asking";
 import { download, h, replace, section } from "./dom";
 import type { Panel } from "./panels";
-import { taskText } from "./task_text";
 import type { Workbench } from "./workbench";
 
 interface Files {
@@ -23,7 +22,7 @@ export function downloadPanel(bench: Workbench): Panel {
       const answer = await ask<Files>("export", {
         text, file, mode: mode ?? [], what, format, with_loci: true, lane: `export${what}${format}`,
         ...(joints ? { joints } : {}), ...(quantities ? { quantities } : {}),
-        ...(what === "verification" && task ? { task: taskText(task, bench.model.coordinateNames, bench.model.taskUnit) } : {}),
+        ...(what === "verification" && task ? { task: bench.taskFile(task) } : {}),
       });
       for (const one of answer.files) download(one.name, bytesOf(one.base64), "application/octet-stream");
     } catch (error) {
@@ -38,8 +37,8 @@ export function downloadPanel(bench: Workbench): Panel {
     if (!facts || now === shown) return;
     shown = now;
     const rows: [string, string, string[]][] = [["loci", "Loci", facts.formats.loci]];
-    if (facts.coordinates.length === 2 && facts.coordinates.every((one) => !one.angle)) rows.push(["zones", "Zones", facts.formats.zones]);
-    if (bench.state.task) rows.push(["verification", "Verdict", facts.formats.verification]);
+    if (bench.overTwoLengths) rows.push(["zones", "Zones", facts.formats.zones]);
+    if (bench.state.task) rows.push(["verification", "Verdict", bench.overTwoLengths ? facts.formats.verification : ["json"]]);
     replace(
       body,
       h("div", { class: "buttons" }, h("button", { type: "button", id: "download-model", click: () => download(bench.state.file, bench.state.text, "application/yaml") }, "Mechanism file")),

@@ -6,7 +6,8 @@ import { fit } from "../draw/view";
 import { h } from "./dom";
 import type { Workbench } from "./workbench";
 
-const size = { width: 190, height: 150 };
+const small = { width: 190, height: 150 };
+const alone = { width: 380, height: 320 }; // where there are no loci beside
 
 export class Inset {
   readonly element = h("div", { class: "inset", "aria-hidden": "true" });
@@ -22,6 +23,9 @@ export class Inset {
     const wanted = bench.coordinates.length > 1 && !bench.inPlace && bench.pose !== undefined && !(bench.coordinates.length === 3 && bench.facts?.spatial);
     this.element.hidden = !wanted;
     if (!wanted || !bench.pose) return;
+    const size = bench.traceable ? small : alone;
+    this.element.style.width = `${size.width}px`;
+    this.element.style.height = `${size.height}px`;
     this.layer.resize(size);
     const context = this.layer.begin();
     const sketch = bench.pose.sketch ?? this.projected();

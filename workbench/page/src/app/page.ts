@@ -54,7 +54,8 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
     const unplaced = bench.fault && !bench.fault.field ? bench.fault.message : "";
     const words = bench.fault ? `${unplaced || "The value in red is refused"}${bench.picture ? " — shown is the last design that works" : ""}` : "";
     const busy = bench.progress ? `${bench.progress.stage}: ${Math.round(100 * bench.progress.fraction)} %` : "";
-    notice.textContent = words || busy;
+    const beyond = bench.traceable ? "" : "Loci are drawn over one to three free coordinates: here are the pose, what the joints bear, and tasks.";
+    notice.textContent = words || busy || beyond;
     notice.className = words ? "notice fault" : "notice";
     document.title = `${bench.facts?.name ?? "clearloci"} — clearloci workbench`;
   });

@@ -44,7 +44,11 @@ export function legendPanel(bench: Workbench): Panel {
   let signature = "";
   const show = (): void => {
     const { picture, theme } = bench;
-    if (!picture) return;
+    if (!picture) {
+      signature = "";
+      replace(body);
+      return replace(notes);
+    }
     const groups = [...picture.curve_groups, ...picture.point_groups, ...picture.surface_groups];
     const now = JSON.stringify([groups.map((group) => [group.kind, group.what, groupKey(group)]), bench.state.hidden, bench.dark, picture.loci.notes, picture.loci.complete, bench.zonesFault]);
     if (now === signature) return;
@@ -64,7 +68,7 @@ export function legendPanel(bench: Workbench): Panel {
       bench.zonesFault ? h("p", { class: "fault" }, `zones: ${bench.zonesFault}`) : undefined,
     );
   };
-  return { element: section("Curves", true, body, notes), update: (news) => ["loci", "zones", "state", "theme"].some((one) => news.has(one)) && show() };
+  return { element: section("Curves", true, body, notes), update: (news) => ["loci", "zones", "state", "theme", "model"].some((one) => news.has(one)) && show() };
 }
 
 /** Reactions that no load reaches are told in one note, not in one each. */

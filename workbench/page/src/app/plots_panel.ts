@@ -25,7 +25,7 @@ export function plotsPanel(bench: Workbench): Panel {
       const factor = only.angle ? 180 / Math.PI : 1;
       return { x: values.map((value) => value * factor), poses: values, label: `${only.name} (${only.angle ? "deg" : "m"})` };
     }
-    return bench.coordinates.length === 2 && bench.state.task ? alongPath(outline(bench.state.task.shape), steps) : undefined;
+    return bench.overTwoLengths && bench.state.task ? alongPath(outline(bench.state.task.shape), steps) : undefined;
   };
   const wanted = (): boolean => cycle() || (element.open && bench.state.task !== undefined);
   let asked = "";

@@ -15,9 +15,11 @@ function errorWords(pose: Pose): string {
     .join(", ");
 }
 
-function reactionCells(parts: Record<string, number | null>): string {
+/** `largest`: of all reactions; what is nothing beside it is rounding. */
+function reactionCells(parts: Record<string, number | null>, largest: number): string {
+  const rounding = 1e-12 * largest;
   return Object.entries(parts)
-    .map(([name, value]) => `${name} ${shortNumber(value)}`)
+    .map(([name, value]) => `${name} ${shortNumber(value !== null && Math.abs(value) < rounding ? 0 : value)}`)
     .join("  ");
 }
 
@@ -79,10 +81,11 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
     ];
     if (!bench.facts?.spatial && state.takeUp && bench.coordinates.length < 3) shown.push(["take-up drawn", `${stage.magnification.toLocaleString("en")} times as large`]);
     replace(facts, ...shown.flatMap(([name, value]) => [h("dt", {}, name), h("dd", { "data-fact": name }, value)]));
+    const largest = Math.max(0, ...Object.values(pose.reactions).flatMap((parts) => Object.values(parts).map((value) => Math.abs(value ?? 0))));
     const lost = new Set(pose.vanishing.map((one) => one.joint));
     replace(
       table,
-      h("tbody", {}, ...Object.entries(pose.reactions).map(([joint, parts]) => h("tr", lost.has(joint) ? { class: "lost" } : {}, h("th", { scope: "row" }, joint), h("td", {}, reactionCells(parts), lost.has(joint) ? " — lets go" : "")))),
+      h("tbody", {}, ...Object.entries(pose.reactions).map(([joint, parts]) => h("tr", lost.has(joint) ? { class: "lost" } : {}, h("th", { scope: "row" }, joint), h("td", {}, reactionCells(parts, largest), lost.has(joint) ? " — lets go" : "")))),
     );
   };
   return {

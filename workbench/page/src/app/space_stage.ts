@@ -3,6 +3,7 @@ import { roundText } from "../data/exact";
 import { h, replace } from "./dom";
 import type { Panel } from "./panels";
 import { readingOf } from "./reading";
+import { verdictColour } from "./stage_drawing";
 import type { Workbench } from "./workbench";
 import type { Space as SpaceScene } from "../space/scene";
 import { Space } from "../space/scene";
@@ -77,6 +78,9 @@ export class SpaceStage implements Panel {
     this.words.textContent = `${range?.name ?? ""} = ${range?.angle ? `${((slice.at * 180) / Math.PI).toFixed(1)} deg` : `${slice.at.toFixed(4)} m`}`;
     if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice);
     scene?.showPose(bench.state.at, this.bars());
+    const shape = bench.state.task?.shape;
+    const [low, high] = shape?.kind === "ranges" ? [shape.low, shape.high] : [];
+    scene?.showTask(low, high, verdictColour(bench.verdict, bench.theme));
   }
 
   /** The links, where the coordinates are the end effector's place in space. */

@@ -65,7 +65,11 @@ export class Stage {
   }
 
   private onNews(news: Set<string>): void {
-    if (!this.active) return;
+    if (!this.active) {
+      this.ground.begin();
+      this.top.begin();
+      return;
+    }
     if (news.has("loci") || news.has("state")) {
       const { picture, state } = this.bench;
       if (picture) this.shown = shownOf(picture, undefined, new Set(state.hidden));
@@ -183,7 +187,7 @@ export class Stage {
     } else if (state.at && !this.cycle) {
       drawPoseCross(context, page(view, [state.at[0] ?? 0, state.at[1] ?? 0]), theme);
     }
-    if (bench.verdict && state.task) drawWitness(context, view, bench.verdict, theme);
+    if (bench.verdict && state.task && !this.cycle) drawWitness(context, view, bench.verdict, theme);
     if (this.flash && performance.now() < this.flash.until) {
       drawFlash(context, view, this.flash.curves, theme, (this.flash.until - performance.now()) / flashTime);
       requestAnimationFrame(() => this.drawTop());
@@ -400,6 +404,7 @@ export class Stage {
 const flashTime = 1500; // ms, long enough to read what lets go
 
 function taskHit(shape: import("./state").TaskShape, at: Point, reach: number): boolean {
+  if (shape.kind === "ranges") return false;
   if (shape.kind === "circle") return Math.hypot(at[0] - shape.centre[0], at[1] - shape.centre[1]) <= shape.radius;
   if (shape.kind === "box")
     return at[0] >= shape.low[0] && at[0] <= shape.high[0] && at[1] >= shape.low[1] && at[1] <= shape.high[1];

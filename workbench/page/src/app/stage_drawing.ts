@@ -7,9 +7,14 @@ import { handles, outline } from "./task_text";
 import { parseExact, toNumber } from "../data/exact";
 import type { Workbench } from "./workbench";
 
+/** Of a task: green where it is verified, red where it is refuted, grey while it is not known. */
+export function verdictColour(verdict: Verdict | undefined, theme: Theme): string {
+  return !verdict || verdict.verdict === "undecided" ? theme.faded_ink : verdict.verified ? theme.verified : theme.failed;
+}
+
 /** Green and solid where it is verified, red and dashed where it is refuted, grey while it is not known. */
 export function drawTask(context: CanvasRenderingContext2D, view: View, task: TaskState, verdict: Verdict | undefined, theme: Theme, metres: number): void {
-  const colour = !verdict || verdict.verdict === "undecided" ? theme.faded_ink : verdict.verified ? theme.verified : theme.failed;
+  const colour = verdictColour(verdict, theme);
   const exact = parseExact(task.margin);
   const margin = exact ? toNumber(exact) * metres : 0;
   const line = outline(task.shape);
@@ -46,7 +51,7 @@ export function drawTask(context: CanvasRenderingContext2D, view: View, task: Ta
 export function drawWitness(context: CanvasRenderingContext2D, view: View, verdict: Verdict, theme: Theme): void {
   const at = verdict.verified ? verdict.nearest?.at : verdict.witness?.at;
   if (!at) return;
-  const there = page(view, at);
+  const there = page(view, [at[0] ?? 0, at[1] ?? 0]);
   context.save();
   context.lineWidth = 4.5;
   context.strokeStyle = theme.paper;

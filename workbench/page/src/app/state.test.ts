@@ -47,15 +47,19 @@ describe("the address", () => {
 describe("tasks", () => {
   const box = { kind: "box", low: [0, 0], high: [2, 1] } as const;
   it("are written as their files are", () => {
-    const text = taskText({ ...noDemands, shape: { ...box, low: [0, 0], high: [2, 1] }, margin: "1/100", minForce: "5" }, ["x", "y"]);
+    const text = taskText({ ...noDemands, shape: { ...box, low: [0, 0], high: [2, 1] }, margin: "1/100", minForce: "5" }, { names: ["x", "y"] });
     expect(text).toBe("format: 1\nbox: {x: [0, 2], y: [0, 1]}\nmargin: 1/100\nmin_force: 5\n");
-    expect(taskText({ ...noDemands, shape: { kind: "path", points: [[0, 0.1], [1, 1]] }, loads: "[[1, 2], [3, 4]]" }, ["x", "y"])).toBe("format: 1\npath: [[0, 0.1], [1, 1]]\nloads_from: [[1, 2], [3, 4]]\n");
+    expect(taskText({ ...noDemands, shape: { kind: "path", points: [[0, 0.1], [1, 1]] }, loads: "[[1, 2], [3, 4]]" }, { names: ["x", "y"] })).toBe("format: 1\npath: [[0, 0.1], [1, 1]]\nloads_from: [[1, 2], [3, 4]]\n");
   });
   it("ask for tolerances and for loads that are off, in brackets or without", () => {
     const shape = { ...box, low: [0, 0] as [number, number], high: [2, 1] as [number, number] };
     const lines = "tolerances: {L: 0.1e-3}\nloads_within: [{load: 1, radius: 20}]\n";
-    expect(taskText({ ...noDemands, shape, tolerances: "L: 0.1e-3", loadsWithin: "{load: 1, radius: 20}" }, ["x", "y"])).toContain(lines);
-    expect(taskText({ ...noDemands, shape, tolerances: "{L: 0.1e-3}", loadsWithin: "[{load: 1, radius: 20}]" }, ["x", "y"])).toContain(lines);
+    expect(taskText({ ...noDemands, shape, tolerances: "L: 0.1e-3", loadsWithin: "{load: 1, radius: 20}" }, { names: ["x", "y"] })).toContain(lines);
+    expect(taskText({ ...noDemands, shape, tolerances: "{L: 0.1e-3}", loadsWithin: "[{load: 1, radius: 20}]" }, { names: ["x", "y"] })).toContain(lines);
+  });
+  it("over other coordinates are boxes, angles in degrees, lengths in the unit given", () => {
+    const text = taskText({ ...noDemands, shape: { kind: "ranges", low: [0, 0.5, Math.PI / 6], high: [0.1, 0.5, Math.PI / 4] } }, { names: ["x", "z", "phi"], angles: [false, false, true], unit: "m" });
+    expect(text).toBe("format: 1\nbox: {x: [0 m, 0.1 m], z: 0.5 m, phi: [30 deg, 45 deg]}\n");
   });
   it("of links of earlier versions demand nothing new", async () => {
     const task = { shape: { kind: "circle", centre: [0, 0], radius: 1 }, margin: "1", minForce: "", minCouple: "", loads: "" };

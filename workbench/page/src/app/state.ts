@@ -3,7 +3,9 @@
 export type TaskShape =
   | { kind: "box"; low: [number, number]; high: [number, number] }
   | { kind: "circle"; centre: [number, number]; radius: number }
-  | { kind: "polygon" | "path"; points: [number, number][] };
+  | { kind: "polygon" | "path"; points: [number, number][] }
+  /** Over other than two coordinates: a box of one range each. */
+  | { kind: "ranges"; low: number[]; high: number[] };
 
 export interface TaskState {
   shape: TaskShape;

@@ -1,49 +1,67 @@
 // A task: drawn, dragged, verified while it moves, moved to where it fits.
 import type { Verdict } from "../data/answers";
-import { lengthWords, shortNumber } from "../data/exact";
+import { lengthWords, parseExact, shortNumber, toNumber } from "../data/exact";
 import { ask, AskingError } from "./asking";
 import { download, h, replace, section } from "./dom";
 import type { Panel } from "./panels";
 import type { Stage } from "./stage";
 import { noDemands, type TaskShape, type TaskState } from "./state";
-import { movedShape, taskText } from "./task_text";
+import { movedShape } from "./task_text";
 import type { Workbench } from "./workbench";
 
-function verdictWords(verdict: Verdict): string {
+function placeWords(at: readonly number[], bench: Workbench): string {
+  return at.map((value, k) => (bench.coordinates[k]?.angle ? `${shortNumber((value * 180) / Math.PI)} deg` : shortNumber(value))).join(", ");
+}
+
+function verdictWords(verdict: Verdict, bench: Workbench): string {
   switch (verdict.verdict) {
     case "verified":
-      return `Verified: no locus, singularity or boundary in the task, proven. Margin at least ${lengthWords(verdict.margin)}.`;
+      return `Verified: no locus, singularity or boundary in the task, proven.${marginWords(verdict)}`;
     case "refuted":
-      return `Refuted: ${verdict.witness?.reason ?? "it fails"} at (${verdict.witness?.at.map((value) => value.toPrecision(4)).join(", ") ?? ""}).`;
+      return `Refuted: ${verdict.witness?.reason ?? "it fails"} at (${placeWords(verdict.witness?.at ?? [], bench)}).`;
     default:
       return `Undecided: neither proven nor refuted; ${verdict.open?.reason ?? ""}.`;
   }
+}
+
+/** Of lengths and of angles, as far as the task has them. */
+function marginWords(verdict: Verdict): string {
+  const margins = [
+    ...(typeof verdict.margin === "number" ? [lengthWords(verdict.margin)] : []),
+    ...(typeof verdict.angle_margin === "number" ? [`${shortNumber((verdict.angle_margin * 180) / Math.PI)} deg`] : []),
+  ];
+  return margins.length > 0 ? ` Margin at least ${margins.join(" and ")}.` : "";
+}
+
+/** What can be drawn over the free coordinates: among loci and zones, over a plane with an angle, over others. */
+function kindsOf(bench: Workbench): TaskShape["kind"][] {
+  if (bench.overTwoLengths) return ["box", "circle", "polygon", "path"];
+  return bench.coordinates.length === 2 ? ["box", "path"] : ["ranges"];
 }
 
 /** Amid what is reached, some of the box large. */
 function firstShape(kind: TaskShape["kind"], bench: Workbench): TaskShape {
   const [x, y] = bench.coordinates;
   const at = bench.state.at ?? [0, 0];
-  const size = 0.08 * Math.min((x?.upper ?? 1) - (x?.lower ?? 0), (y?.upper ?? 1) - (y?.lower ?? 0));
+  const sizes = [x, y].map((one) => 0.08 * ((one?.upper ?? 1) - (one?.lower ?? 0)));
+  const least = Math.min(...sizes);
+  const size = (axis: 0 | 1): number => (bench.overTwoLengths ? least : sizes[axis] ?? least);
   const round = (value: number): number => Number(value.toPrecision(3));
-  const place = (dx: number, dy: number): [number, number] => [round((at[0] ?? 0) + dx * size), round((at[1] ?? 0) + dy * size)];
+  const place = (dx: number, dy: number): [number, number] => [round((at[0] ?? 0) + dx * size(0)), round((at[1] ?? 0) + dy * size(1))];
   switch (kind) {
     case "box":
       return { kind, low: place(-1, -1), high: place(1, 1) };
     case "circle":
-      return { kind, centre: place(0, 0), radius: round(size) };
+      return { kind, centre: place(0, 0), radius: round(least) };
+    case "ranges": {
+      const part = bench.coordinates.map((one, k) => ({ at: at[k] ?? 0, half: 0.05 * (one.upper - one.lower), ...one }));
+      return { kind, low: part.map((one) => round(Math.max(one.lower, one.at - one.half))), high: part.map((one) => round(Math.min(one.upper, one.at + one.half))) };
+    }
     case "polygon":
       return { kind, points: [place(-1, -1), place(1, -1), place(0, 1)] };
     case "path":
       return { kind, points: [place(-1, -0.6), place(-1, 0.6), place(1, 0.6), place(1, -0.6)] };
   }
-}
-
-/** Zones and proofs are those of two lengths; what else is free is to be fixed. */
-function noTaskWords(bench: Workbench): string {
-  const angles = bench.coordinates.filter((one) => one.angle).map((one) => one.name);
-  const mend = bench.coordinates.length < 2 ? "here the loci are marks on the one coordinate" : `make ${angles.length > 0 ? angles.join(" and ") : "one of them"} a parameter of the file to draw one`;
-  return `A task lies in the plane of two lengths; ${mend}.`;
 }
 
 /** A tenth of a percent of the first parameter that is a number. */
@@ -52,14 +70,37 @@ function toleranceHint(bench: Workbench): string {
   return first?.value ? `${first.label}: ${shortNumber(Math.abs(first.value) / 1000, 2)}` : "L: 0.1e-3";
 }
 
+/** Fields for the two ends of every range, where the task is not drawn in the plane. */
+function showRanges(parent: HTMLElement, bench: Workbench, shape: TaskShape, change: (shape: TaskShape) => void): void {
+  if (shape.kind !== "ranges") return replace(parent);
+  if (parent.contains(document.activeElement)) return;
+  replace(
+    parent,
+    ...bench.coordinates.map((one, k) => {
+      const factor = one.angle ? 180 / Math.PI : 1;
+      const end = (which: "low" | "high"): HTMLInputElement => {
+        const input = h("input", { type: "text", class: "exact", "aria-label": `${one.name} of the task, ${which === "low" ? "from" : "to"}`, autocomplete: "off", value: String(Number(((shape[which][k] ?? 0) * factor).toPrecision(7))) });
+        input.addEventListener("change", () => {
+          const typed = parseExact(input.value);
+          input.setAttribute("aria-invalid", String(!typed));
+          if (!typed) return;
+          const now = bench.state.task?.shape; // another field may have changed it since
+          if (now?.kind === "ranges") change({ ...now, [which]: now[which].map((value, i) => (i === k ? toNumber(typed) / factor : value)) });
+        });
+        return input;
+      };
+      return h("div", { class: "range-row" }, h("span", { class: "value-name" }, one.name), end("low"), end("high"), h("span", { class: "unit" }, one.angle ? "deg" : "m"));
+    }),
+  );
+}
+
 export function taskPanel(bench: Workbench, stage: Stage): Panel {
   const words = h("p", { class: "verdict", "aria-live": "polite" });
   const fault = h("div", { class: "fault", role: "alert" });
   const fields = h("div", {});
   const shapes = h("div", { class: "buttons" });
   const tools = h("div", { class: "buttons" });
-  for (const kind of ["box", "circle", "polygon", "path"] as const)
-    shapes.append(h("button", { type: "button", click: () => start(kind) }, kind));
+  const ranges = h("div", { class: "ranges" });
 
   const start = (kind: TaskShape["kind"]): void => {
     const shape = firstShape(kind, bench);
@@ -72,14 +113,14 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
   const field = (name: keyof Omit<TaskState, "shape">, label: string, unit: string, hint: string): HTMLElement => {
     const input = h("input", { type: "text", class: "exact", placeholder: hint, "aria-label": label, autocomplete: "off", "data-task": name });
     input.addEventListener("change", () => set({ [name]: input.value.trim() }));
-    return h("label", { class: "value-row" }, h("span", { class: "value-name" }, label), h("span"), input, h("span", { class: "unit", "data-unit": unit }));
+    return h("label", { class: "task-row" }, h("span", { class: "value-name" }, label), input, h("span", { class: "unit", "data-unit": unit }));
   };
   const fit = async (goal: "nearest" | "best"): Promise<void> => {
     const { task } = bench.state;
     if (!task) return;
     words.textContent = "Looking for a place …";
     try {
-      const verdict = await ask<Verdict>("verify", { text: bench.state.text, mode: bench.state.mode ?? [], task: taskText(task, bench.model.coordinateNames, bench.model.taskUnit), fit: goal, lane: "fit" });
+      const verdict = await ask<Verdict>("verify", { text: bench.state.text, mode: bench.state.mode ?? [], task: bench.taskFile(task), fit: goal, lane: "fit" });
       if (verdict.moved_by) set({ shape: movedShape(task.shape, verdict.moved_by) });
       else words.textContent = verdict.verified ? "It fits where it is." : "No place was found that verifies.";
     } catch (error) {
@@ -92,7 +133,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     h("button", { type: "button", title: "Move it to the place with the largest margin", click: () => void fit("best") }, "Fit best"),
     h("button", { type: "button", click: () => addPoint() }, "Add a point"),
     h("button", { type: "button", title: "Move the end effector to where the task fails, in the design that fails", click: () => goToWitness() }, "Show the witness"),
-    h("button", { type: "button", click: () => bench.state.task && download("task.yaml", taskText(bench.state.task, bench.model.coordinateNames, bench.model.taskUnit), "application/yaml") }, "Download"),
+    h("button", { type: "button", click: () => bench.state.task && download("task.yaml", bench.taskFile(bench.state.task), "application/yaml") }, "Download"),
     h("button", { type: "button", click: () => bench.change({ task: undefined }) }, "Remove"),
   );
   const goToWitness = (): void => {
@@ -118,32 +159,44 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     field("loadsWithin", "loads off by", "", "{load: 1, radius: 20}"),
     field("tolerances", "tolerances", "", toleranceHint(bench)),
   );
-  const intro = h("p", { class: "quiet" });
-  const element = section("Task", false, intro, shapes, words, fault, fields, tools);
+  const intro = h("p", { class: "quiet" }, "What the end effector has to reach without losing contact:");
+  const element = section("Task", false, intro, shapes, words, fault, ranges, fields, tools);
+  let offered = "";
+  const offer = (): void => {
+    const kinds = kindsOf(bench);
+    if (offered === kinds.join()) return;
+    offered = kinds.join();
+    replace(shapes, ...kinds.map((kind) => h("button", { type: "button", click: () => start(kind) }, kind === "ranges" ? "box" : kind)));
+  };
 
   const update = (): void => {
     const { task } = bench.state;
-    intro.textContent = bench.taskable || bench.coordinates.length === 0 ? "What the end effector has to reach without losing contact:" : noTaskWords(bench);
-    shapes.hidden = !bench.taskable;
-    for (const part of [fields, tools, words]) part.hidden = !task || !bench.taskable;
-    if (!task || !bench.taskable) {
+    offer();
+    for (const part of [fields, tools, words, ranges]) part.hidden = !task;
+    if (!task) {
       fault.textContent = "";
       return;
     }
     element.open = true;
     fault.textContent = bench.taskFault ?? "";
     // What is typed is in the units of the mechanism file, as in a task file.
-    const units: Record<string, string> = { m: bench.model.unit("length"), N: bench.model.unit("force"), "N m": `${bench.model.unit("force")} m` };
+    const units: Record<string, string> = { m: bench.model.unit(bench.coordinates.every((one) => one.angle) ? "angle" : "length"), N: bench.model.unit("force"), "N m": `${bench.model.unit("force")} m` };
     for (const unit of fields.querySelectorAll<HTMLElement>("[data-unit]")) unit.textContent = units[unit.dataset["unit"] ?? ""] ?? "";
     for (const input of fields.querySelectorAll("input")) {
       const name = input.dataset["task"] as keyof Omit<TaskState, "shape">;
       if (document.activeElement !== input) input.value = task[name];
     }
-    const [, , addition, witness] = tools.querySelectorAll("button");
+    showRanges(ranges, bench, task.shape, (shape) => set({ shape }));
+    for (const name of ["tolerances", "loadsWithin"]) {
+      const row = fields.querySelector<HTMLElement>(`[data-task="${name}"]`)?.closest("label");
+      if (row) row.hidden = !bench.overTwoLengths;
+    }
+    const [nearest, best, addition, witness] = tools.querySelectorAll("button");
+    if (nearest && best) nearest.hidden = best.hidden = !bench.overTwoLengths;
     if (addition) addition.hidden = task.shape.kind !== "polygon" && task.shape.kind !== "path";
     if (witness) witness.hidden = !bench.verdict?.witness;
     const { verdict } = bench;
-    words.textContent = verdict ? verdictWords(verdict) : bench.taskFault ? "" : "…";
+    words.textContent = verdict ? verdictWords(verdict, bench) : bench.taskFault ? "" : "…";
     words.className = `verdict ${verdict?.verdict === "verified" ? "good" : verdict?.verdict === "refuted" ? "fault" : "quiet"}`;
   };
   return { element, update: (news) => (news.has("verify") || news.has("state") || news.has("model")) && update() };

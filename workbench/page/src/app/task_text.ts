@@ -1,11 +1,15 @@
 // A task as its file says it (docs: clearloci verify).
 import type { TaskShape, TaskState } from "./state";
 
-/** `unit`: what m are called where the mechanism file has units of its own. */
-export function taskText(task: TaskState, names: readonly string[], unit = ""): string {
-  const number = (value: number): string => `${Number(value.toPrecision(9))}${unit && ` ${unit}`}`;
-  const pair = (point: readonly [number, number]): string => `[${number(point[0])}, ${number(point[1])}]`;
-  const lines = ["format: 1", shapeLine(task.shape, names, number, pair)];
+/** What the free coordinates are called, which of them are angles, and what m are where the file has units of its own. */
+export interface TaskCoordinates {
+  names: readonly string[];
+  angles?: readonly boolean[];
+  unit?: string;
+}
+
+export function taskText(task: TaskState, coordinates: TaskCoordinates): string {
+  const lines = ["format: 1", shapeLine(task.shape, coordinates)];
   if (task.margin) lines.push(`margin: ${task.margin}`);
   if (task.minForce) lines.push(`min_force: ${task.minForce}`);
   if (task.minCouple) lines.push(`min_couple: ${task.minCouple}`);
@@ -20,16 +24,25 @@ function within(open: string, typed: string, close: string): string {
   return typed.startsWith(open) && typed.endsWith(close) ? typed : `${open}${typed}${close}`;
 }
 
-function shapeLine(shape: TaskShape, names: readonly string[], number: (value: number) => string, pair: (point: readonly [number, number]) => string): string {
-  const [x, y] = [names[0] ?? "x", names[1] ?? "y"];
+function shapeLine(shape: TaskShape, { names, angles = [], unit = "" }: TaskCoordinates): string {
+  const short = (value: number): number => Number(value.toPrecision(9));
+  const length = (value: number): string => `${short(value)}${unit && ` ${unit}`}`;
+  const number = (value: number, axis: number): string => (angles[axis] ? `${short((value * 180) / Math.PI)} deg` : length(value));
+  const pair = (point: readonly [number, number]): string => `[${number(point[0], 0)}, ${number(point[1], 1)}]`;
   switch (shape.kind) {
     case "box":
-      return `box: {${x}: [${number(shape.low[0])}, ${number(shape.high[0])}], ${y}: [${number(shape.low[1])}, ${number(shape.high[1])}]}`;
+    case "ranges":
+      return `box: {${shape.low.map((from, k) => `${names[k] ?? "xy"[k] ?? ""}: ${range(number(from, k), number(shape.high[k] ?? from, k))}`).join(", ")}}`;
     case "circle":
-      return `circle: {centre: ${pair(shape.centre)}, radius: ${number(shape.radius)}}`;
+      return `circle: {centre: ${pair(shape.centre)}, radius: ${length(shape.radius)}}`;
     default:
       return `${shape.kind}: [${shape.points.map(pair).join(", ")}]`;
   }
+}
+
+/** A coordinate that is held has no range. */
+function range(from: string, to: string): string {
+  return from === to ? from : `[${from}, ${to}]`;
 }
 
 export function movedShape(shape: TaskShape, by: readonly [number, number]): TaskShape {
@@ -39,6 +52,8 @@ export function movedShape(shape: TaskShape, by: readonly [number, number]): Tas
       return { ...shape, low: move(shape.low), high: move(shape.high) };
     case "circle":
       return { ...shape, centre: move(shape.centre) };
+    case "ranges":
+      return shape; // it is moved by its ends
     default:
       return { ...shape, points: shape.points.map(move) };
   }
@@ -51,6 +66,8 @@ export function handles(shape: TaskShape): [number, number][] {
       return [shape.low, [shape.high[0], shape.low[1]], shape.high, [shape.low[0], shape.high[1]]];
     case "circle":
       return [[shape.centre[0] + shape.radius, shape.centre[1]]];
+    case "ranges":
+      return [];
     default:
       return shape.points;
   }
@@ -65,6 +82,8 @@ export function withHandle(shape: TaskShape, index: number, to: [number, number]
     }
     case "circle":
       return { ...shape, radius: Math.max(1e-6, Math.hypot(to[0] - shape.centre[0], to[1] - shape.centre[1])) };
+    case "ranges":
+      return shape;
     default:
       return { ...shape, points: shape.points.map((point, k) => (k === index ? to : point)) };
   }
@@ -80,6 +99,7 @@ export function outline(shape: TaskShape): [number, number][] {
       return [shape.centre[0] + shape.radius * Math.cos(turn), shape.centre[1] + shape.radius * Math.sin(turn)];
     });
   }
+  if (shape.kind === "ranges") return [];
   const first = shape.points[0];
   return shape.kind === "polygon" && first ? [...shape.points, first] : shape.points;
 }

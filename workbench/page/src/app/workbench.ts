@@ -3,7 +3,7 @@ import type { ModelFacts, Modes, Picture, Pose, Rules, Start, Sweep, Theme, Traj
 import { ModelText, type Adjustable } from "../data/model_text";
 import { toHash } from "./address";
 import { ask, AskingError, Following, type Fault } from "./asking";
-import { History, type State } from "./state";
+import { History, type State, type TaskState } from "./state";
 import { taskText } from "./task_text";
 
 /** An error beside the field that caused it; without one, above the picture. */
@@ -83,8 +83,16 @@ export class Workbench {
   get inPlace(): boolean {
     return this.facts?.pose_is_place ?? false;
   }
-  /** Whether the free coordinates are two lengths: what zones are cut from and tasks lie in. */
-  get taskable(): boolean {
+  /** A task as its file says it. */
+  taskFile(task: TaskState): string {
+    return taskText(task, { names: this.model.coordinateNames, angles: this.coordinates.map((one) => one.angle), unit: this.model.taskUnit });
+  }
+  /** Whether loci are drawn over the free coordinates; over more of them there are poses and tasks. */
+  get traceable(): boolean {
+    return this.model.coordinateNames.length <= 3;
+  }
+  /** Whether the free coordinates are two lengths: what zones are cut from. */
+  get overTwoLengths(): boolean {
     return this.coordinates.length === 2 && this.coordinates.every((one) => !one.angle);
   }
   adjustable(id: string): Adjustable | undefined {
@@ -162,7 +170,7 @@ export class Workbench {
     if (changed("text")) this.model = new ModelText(now.text);
     if (changed("file")) this.forget();
     if (changed("text", "mode", "joints", "quantities")) {
-      this.lanes.loci.want(this.lociQuestion(), made);
+      if (this.traceable) this.lanes.loci.want(this.lociQuestion(), made);
       this.zonesStale = true;
       if (!now.zones) this.zones = undefined;
     }
@@ -190,12 +198,12 @@ export class Workbench {
 
   private askVerdict(): void {
     const { task } = this.state;
-    if (task && this.taskable) this.lanes.verify.want({ ...this.lociQuestion(), task: taskText(task, this.model.coordinateNames, this.model.taskUnit) });
+    if (task && this.facts) this.lanes.verify.want({ ...this.lociQuestion(), task: this.taskFile(task) });
     else this.verdict = undefined;
   }
 
   private askZones(): void {
-    if (this.taskable) this.lanes.zones.want(this.lociQuestion());
+    if (this.overTwoLengths) this.lanes.zones.want(this.lociQuestion());
   }
 
   private async askKept(): Promise<void> {
@@ -279,7 +287,7 @@ export class Workbench {
   private onLoci(picture: Picture, made: number): void {
     this.progress = undefined;
     this.fault = undefined;
-    if (this.picture && closesNowhere(picture)) return this.onFault({ status: 0, message: picture.loci.notes.join("; "), line: 0, column: 0 });
+    if (this.picture && closesNowhere(picture)) return this.onFault({ status: 0, message: picture.loci.notes.at(-1) ?? "", line: 0, column: 0 });
     this.picture = picture;
     this.moves.push({ name: "loci", made });
     if (this.state.zones) this.askZones();

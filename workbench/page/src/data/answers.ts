@@ -194,8 +194,10 @@ export interface Verdict {
   verified: boolean;
   zone: string | null;
   margin: number | null;
-  nearest: { curve: string | null; kind: string; joints: string[]; at: Point; distance: number } | null;
-  witness: { at: Point; reason: string; distance: number; design?: Record<string, number> } | null;
+  /** rad, of tasks over angles. */
+  angle_margin?: number | null;
+  nearest: { curve: string | null; kind: string; joints: string[]; at: number[]; distance: number } | null;
+  witness: { at: number[]; reason: string; distance: number; design?: Record<string, number> } | null;
   open: { reason: string; cells: number } | null;
   moved_by?: Point;
 }

@@ -33,6 +33,7 @@ export class Space {
   private picture: Picture | undefined;
   private theme: Theme | undefined;
   private marker: ThreeMesh | undefined;
+  private task: LineSegments | undefined;
   private frame = 0;
   private mechanism: string | undefined;
   private fitted = false;
@@ -138,6 +139,25 @@ export class Space {
     }
     if (slice?.on) this.model.add(this.sheet(slice, theme));
     if (this.marker) this.model.add(this.marker);
+    if (this.task) this.model.add(this.task);
+    this.draw();
+  }
+
+  /** The task as a box of one range a coordinate. */
+  showTask(low: readonly number[] | undefined, high: readonly number[] | undefined, colour: string): void {
+    if (this.task) {
+      this.model.remove(this.task);
+      release(this.task);
+    }
+    this.task = undefined;
+    if (low && high) {
+      const [from, to] = [this.place(low), this.place(high)];
+      const size = to.clone().sub(from);
+      this.task = new LineSegments(new EdgesGeometry(new BoxGeometry(size.x, size.y, size.z)), new LineBasicMaterial({ color: colour, depthTest: false }));
+      this.task.position.copy(from.add(to).multiplyScalar(0.5));
+      this.task.renderOrder = 2;
+      this.model.add(this.task);
+    }
     this.draw();
   }
 
@@ -192,7 +212,7 @@ export class Space {
   /** Empties the scene; what is drawn anew each time gives its memory back. */
   private clear(): void {
     const kept = new Set<unknown>(this.drawn.map((one) => one.object));
-    for (const child of this.model.children) if (!kept.has(child) && child !== this.marker) release(child);
+    for (const child of this.model.children) if (!kept.has(child) && child !== this.marker && child !== this.task) release(child);
     this.model.clear();
   }
 
