@@ -13,6 +13,7 @@
 
 #include "clearloci/errors.hpp"
 #include "clearloci/mechanism.hpp"
+#include "clearloci/pose.hpp"
 
 namespace clearloci {
 namespace {
@@ -188,6 +189,56 @@ TEST(PoseTasks, AnIntervalEndsAtTheLociOfAFourBar) {
   ASSERT_EQ(across.verdict, Verdict::refuted);
   EXPECT_NEAR(across.witness->at.front(), below, 1e-9);
 }
+
+/// Random boxes and balls of other mechanisms, against reactions solved pose by pose: dyads, working modes, angles.
+class Sampled : public testing::TestWithParam<const char*> {};
+
+TEST_P(Sampled, VerifiedTasksHaveNoChangeOfSign) {
+  const Model model = Model::read(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + GetParam() + ".yaml");
+  const std::vector<Model::Coordinate> coordinates = model.coordinates();
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> part(0, 1);
+  int verified = 0;
+  for (int i = 0; i < 16; ++i) {
+    std::string box;
+    std::vector<std::array<double, 2>> ranges;
+    for (const Model::Coordinate& c : coordinates) {
+      const double width = c.upper - c.lower, size = 0.12 * part(random) * width;
+      const double low = c.lower + part(random) * (width - size);
+      ranges.push_back({low, low + size});
+      box += (box.empty() ? "" : ", ") + c.name + ": [" + std::to_string(low) + ", " + std::to_string(low + size) + "]";
+    }
+    const PoseVerification answer = decide_poses(model, parse_pose_task("format: 1\nbox: {" + box + "}\n", model));
+    if (answer.verdict == Verdict::refuted) {
+      ASSERT_TRUE(answer.witness) << box;
+      continue;
+    }
+    if (!answer.verified()) continue;
+    ++verified;
+    std::vector<double> poses;
+    constexpr std::size_t samples = 60;
+    for (std::size_t k = 0; k < samples; ++k)
+      for (const auto& [low, high] : ranges) {
+        const double t = part(random);
+        poses.push_back(low + (t < 0.2 ? 0 : t > 0.8 ? 1 : t) * (high - low));
+      }
+    const Reactions all = reactions(model, poses);
+    for (std::size_t column = 0; column < all.quantities.size(); ++column) {
+      const bool effort = all.quantities[column] == Quantity::M || all.quantities[column] == Quantity::F;
+      const std::vector<double>& values = all.table.columns[column];
+      for (const double value : values) {
+        ASSERT_TRUE(std::isfinite(value)) << box << " " << all.table.names[column];
+        ASSERT_TRUE(!effort || value * values.front() > 0) << box << " " << all.table.names[column];
+      }
+    }
+  }
+  EXPECT_GT(verified, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(PoseTasks, Sampled,
+                         testing::Values("three_ruu", "delta", "three_upu", "three_rpr_orientation", "four_bar",
+                                         "stephenson_six_bar"),
+                         [](const auto& test) { return test.param; });
 
 TEST(PoseTasks, RefuseWhatHasNoMeaningInOneLine) {
   const Model model = hexapod();
