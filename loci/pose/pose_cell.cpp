@@ -173,6 +173,7 @@ bool PoseCell::invert() {
 }
 
 bool PoseCell::is_regular() {
+  if (n_ == 0) return true;  // every pivot was a number
   std::array<double, Affine::noises> moves{};
   for (std::size_t i = 0; i < n_; ++i)
     for (std::size_t j = 0; j < n_; ++j) {

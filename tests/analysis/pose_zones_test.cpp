@@ -154,6 +154,31 @@ TEST(PoseZones, OfAFourBarEndAtItsLoci) {
   EXPECT_GE(jumps, 3);
 }
 
+/// F = -10 (q - 1/3); the ends bear (5 -+ 20 (q - 1/3))/2 under it: zero at q = 1/3 -+ 1/4. All unknowns are
+/// eliminated.
+TEST(PoseZones, OfASlideEndWhereItsReactionsVanish) {
+  const Model model = Model::parse(R"(
+format: 1
+space: planar
+workspace: {q: [0, 1]}
+points: {S: [q, 0], T: [q, 0.1]}
+links:
+  slide: {points: [S, T]}
+joints:
+  J: {prismatic: [ground, slide], at: S, axis: [1, 0], actuated: true, clearance: {gap: 1e-5, half_length: 0.05, axial: 1e-5}}
+end_effector: {link: slide, at: T}
+loads:
+  - {link: slide, at: T, force: ['10*(q - 1/3)', -5]}
+)",
+                                   "slide.yaml");
+  const PoseZones map = find_pose_zones(model);
+  std::set<double> ends;
+  for (const PoseZone& zone : map.zones) ends.insert({zone.lower[0], zone.upper[0]});
+  for (const double cut : {1.0 / 12, 1.0 / 3, 7.0 / 12})
+    EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), [&](double end) { return std::abs(end - cut) < 1e-8; })) << cut;
+  EXPECT_EQ(map.zones.size(), 4U);
+}
+
 TEST(PoseZones, WantThreeCoordinatesAtMost) {
   EXPECT_THROW(find_pose_zones(example("gough_stewart_poses")), InputError);
 }
