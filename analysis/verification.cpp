@@ -379,7 +379,7 @@ void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verifi
     traced = verifier.traced()->front();
   if (traced && traced->map.complete) {
     const bool sketch = verifier.effort() == TraceEffort::sketch;
-    result.map = loci::zones(traced->problem, std::move(traced->map), sketch);
+    result.map = loci::zones(traced->problem, std::move(traced->map), sketch).map;
     result.notes = result.map.loci.notes;
     if (sketch && !all_certified(result.map.loci))
       result.notes.emplace_back("the picture's loci are a sketch, not all of them certified; see clearloci loci");

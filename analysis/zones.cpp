@@ -61,11 +61,14 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
 }
 
 /// Where the loci are those of several sheets, zones lie on one sheet each; a curve's name is that of the joined map.
-core::ZoneMap zones_of(TracedProblem traced) {
+loci::CutZones zones_of(TracedProblem traced) {
   if (traced.sheets.empty()) return loci::zones(traced.problem, std::move(traced.map));
-  core::ZoneMap joined;
+  loci::CutZones all;
+  core::ZoneMap& joined = all.map;
   for (TracedSheet& sheet : traced.sheets) {
-    core::ZoneMap own = loci::zones(sheet.problem, std::move(sheet.map));
+    loci::CutZones cut = loci::zones(sheet.problem, std::move(sheet.map));
+    core::ZoneMap& own = cut.map;
+    all.finer_may_tell = all.finer_may_tell && cut.finer_may_tell;
     const std::vector<core::LocusCurve> curves = own.loci.curves;
     loci::drop_own_roots(own.loci);
     for (core::Zone& zone : own.zones) {
@@ -104,7 +107,7 @@ core::ZoneMap zones_of(TracedProblem traced) {
                    [&](const core::Zone& a, const core::Zone& b) { return key(a) < key(b); });
   int number = 0;
   for (core::Zone& zone : joined.zones) zone.id = "z" + std::to_string(++number);
-  return joined;
+  return all;
 }
 
 }  // namespace
@@ -126,16 +129,17 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
     TracedProblem traced = trace_problem(mechanism, finer, certificate);
     if (!traced.map.complete) throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
-    core::ZoneMap map = zones_of(std::move(traced));
+    loci::CutZones cut = zones_of(std::move(traced));
+    core::ZoneMap& map = cut.map;
     const bool certified = std::all_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return z.certified; });
-    if (!certified && attempt < attempts) {
+    if (!certified && cut.finer_may_tell && attempt < attempts) {
       finer.tolerance /= 16;
       continue;
     }
     add_signs(mechanism, request, map);
     const std::chrono::duration<double> taken = Clock::now() - start;
     map.loci.timing.emplace_back("zones", taken.count());
-    return map;
+    return std::move(map);
   }
 }
 

@@ -145,11 +145,17 @@ class Builder {
       result_.notes.push_back(note);
   }
 
+  /// What no finer polyline tells.
+  void doubt_for_good(const std::string& note) {
+    result_.finer_may_tell = false;
+    doubt(note);
+  }
+
   void collect_strands() {
     for (std::size_t c = 0; c < map_.curves.size(); ++c) {
       const core::LocusCurve& curve = map_.curves[c];
       if (curve.mode != mode_ || !cuts_workspace(curve)) continue;
-      if (!curve.certified) doubt("curve " + curve.id + " is not certified");
+      if (!curve.certified) doubt_for_good("curve " + curve.id + " is not certified");
       for (const core::Arc& arc : curve.arcs) {
         if (arc.points.size() > 1) strands_.push_back({static_cast<int>(c), arc.closed, arc.points, {}});
       }
@@ -183,7 +189,7 @@ class Builder {
         if (one_singular || a.implicit == b.implicit) continue;
         const core::LocusFactor *first = factor_of(problem_, a), *second = factor_of(problem_, b);
         if (first == nullptr || second == nullptr) {
-          doubt("crossings of " + a.id + " and " + b.id + " are not proven");
+          doubt_for_good("crossings of " + a.id + " and " + b.id + " are not proven");
         } else if (first == second) {
           add_plane_crossings(a, b);
         } else if (done.emplace(std::minmax(first, second), true).second) {
@@ -239,7 +245,7 @@ class Builder {
   /// The rung above: the exact arrangement of the two curves, for all modes at once.
   void add_plane_crossings(const core::LocusCurve& a, const core::LocusCurve& b) {
     if (std::max(core::total_degree(a.implicit), core::total_degree(b.implicit)) > exact_degree)
-      return doubt("crossings of " + a.id + " and " + b.id + " are not proven");
+      return doubt_for_good("crossings of " + a.id + " and " + b.id + " are not proven");
     const CurveArrangement both({a.implicit, b.implicit}, {map_.lower[0], map_.lower[1]},
                                 {map_.upper[0], map_.upper[1]});
     std::vector<std::array<bool, 2>> on(both.vertices().size(), {false, false});

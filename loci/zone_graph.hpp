@@ -19,6 +19,7 @@ struct ZoneGraph {
   PlaneGraph graph;
   bool certified = true;
   std::vector<std::string> notes;  ///< why it is not
+  bool finer_may_tell = true;      ///< finer polylines may certify it
 };
 
 /// Whether a curve cuts the workspace: component loci do not.

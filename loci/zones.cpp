@@ -40,6 +40,8 @@ class ModeZones {
     }
   }
 
+  bool finer_may_tell() const { return cut_.finer_may_tell; }
+
   /// The mode's zones go to `map`, which holds the loci that this was made from.
   void find(core::ZoneMap& map) {
     PlaneGraph& graph = cut_.graph;
@@ -326,14 +328,19 @@ class ModeZones {
 
 }  // namespace
 
-core::ZoneMap zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch) {
+CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch) {
   core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
-  core::ZoneMap map;
+  CutZones cut;
+  core::ZoneMap& map = cut.map;
   map.loci = std::move(traced);
-  for (const core::WorkingMode& mode : problem.modes) ModeZones(problem, map.loci, mode, sketch).find(map);
+  for (const core::WorkingMode& mode : problem.modes) {
+    ModeZones own(problem, map.loci, mode, sketch);
+    own.find(map);
+    cut.finer_may_tell = cut.finer_may_tell && own.finer_may_tell();
+  }
   int number = 0;
   for (Zone& zone : map.zones) zone.id = "z" + std::to_string(++number);
-  return map;
+  return cut;
 }
 
 }  // namespace clearloci::loci
