@@ -107,18 +107,26 @@ std::vector<PolyFactor> Elimination::factors_over_tower(Poly sheet) const {
   };
   for (const Fold& fold : geometry_->folds())
     for (const PolyFactor& part : fold.where.factors(constant)) split_off(part.poly);
-  for (const TowerRoot& root : independent_roots_)
-    if (root.role == core::RootRole::working_mode && sheet.depends_on(root.variable) && vanishes_with(sheet, root))
-      split_off(Poly::variable(sheet.ring(), root.variable));
+  for (const TowerRoot& root : independent_roots_) {
+    if (root.role != core::RootRole::working_mode || root.square.is_constant()) continue;  // a number's is never zero
+    PolyFactor found{Poly::variable(sheet.ring(), root.variable), 0};
+    while (std::optional<Poly> rest = without_root(sheet, root)) {
+      sheet = strip_denominators(std::move(*rest));
+      ++found.multiplicity;
+    }
+    if (found.multiplicity > 0) elements.push_back(std::move(found));
+  }
   std::vector<PolyFactor> factors = sheet.factors(constant);
   factors.insert(factors.end(), elements.begin(), elements.end());
   return factors;
 }
 
-bool Elimination::vanishes_with(const Poly& sheet, const TowerRoot& root) {
-  const Poly rest = split(sheet, root.variable).first;
+std::optional<Poly> Elimination::without_root(const Poly& sheet, const TowerRoot& root) {
+  if (!sheet.depends_on(root.variable)) return std::nullopt;
+  const auto [a, b] = split(sheet, root.variable);
   Poly quotient(sheet.ring());
-  return rest.is_zero() || rest.divides(root.square, quotient);
+  if (!a.divides(root.square, quotient)) return std::nullopt;
+  return b + quotient * Poly::variable(sheet.ring(), root.variable);
 }
 
 std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with_implicit) const {

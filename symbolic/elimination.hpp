@@ -62,8 +62,8 @@ class Elimination {
   /// earlier ones numerators and |A| share the element in whose sign it differs, and where a dyad is stretched the root
   /// that is zero there: those are divided out as often as it goes.
   std::vector<PolyFactor> factors_over_tower(Poly sheet) const;
-  /// A sheet polynomial a + b s is zero where the root is: its square divides a.
-  static bool vanishes_with(const Poly& sheet, const TowerRoot& root);
+  /// A sheet polynomial a + b s divided by s, where it holds s at all and s^2 divides a.
+  static std::optional<Poly> without_root(const Poly& sheet, const TowerRoot& root);
   bool is_denominator(const Poly& irreducible) const;
   bool has_free_coordinate(const Poly& p) const;
   Poly strip_denominators(Poly p) const;
