@@ -4,7 +4,7 @@
 import type { Page } from "playwright-core";
 import { launch, open, rest, Served } from "./program";
 
-const moves = 100;
+const moves = Number(process.env["CLEARLOCI_MOVES"] ?? 100);
 /** What docs/workbench.md promises, in ms. */
 const aims = { loci: 50, pose: 33, open: 1000 };
 
