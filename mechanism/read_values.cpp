@@ -188,7 +188,7 @@ InSi read_in_si(const Mechanism& mechanism, const Value& value, Scope scope) {
 }  // namespace
 
 Expression read_expression(const Mechanism& mechanism, const Value& value, Scope scope) {
-  const Expression expression = read_in_si(mechanism, value, scope).expression;
+  Expression expression = read_in_si(mechanism, value, scope).expression;
   if (scope == Scope::parameters_and_coordinates) check_degree(expression, mechanism, value);
   return expression;
 }
