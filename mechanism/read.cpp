@@ -1,5 +1,5 @@
-#include "mechanism/idle.hpp"
 #include "mechanism/read.hpp"
+#include "mechanism/idle.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -45,7 +45,7 @@ Interval variable_over(const LocusProblem& problem, std::size_t i, const Interva
   const double from = std::max(coordinate.lower(), core::angle_at(**chart, lower));
   const double to = std::min(coordinate.upper(), core::angle_at(**chart, upper));
   return meet(Interval(t(from) - angle_rounding, std::max(t(from), t(to)) + angle_rounding),
-                     Interval(lower - angle_rounding, upper + angle_rounding));
+              Interval(lower - angle_rounding, upper + angle_rounding));
 }
 
 }  // namespace
