@@ -28,7 +28,7 @@ struct Zone {
   double area = 0;                               ///< m^2
   Polyline outer;                                ///< counter-clockwise, first point repeated
   std::vector<Polyline> holes;                   ///< clockwise, first point repeated
-  Circle inscribed;                              ///< the largest that holds no isolated point either
+  Circle inscribed;                              ///< the largest without isolated points; radius 0: too thin
   Point2 sample{};                               ///< a pose inside: the centre of `inscribed`
   std::vector<ZoneBorder> borders;               ///< longest first
   std::vector<int> isolated_points;              ///< inside, by their place in LocusMap::isolated_points

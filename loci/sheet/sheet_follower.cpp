@@ -8,9 +8,8 @@ namespace clearloci::loci::sheet {
 namespace {
 
 constexpr int most_steps = 12;
-// Steps this small, relative to the region, are rounding; a tenth of the accuracy that vertices are held to.
+// Steps this small, relative to the region, are rounding.
 constexpr double converged = 1e-15;
-constexpr double acceptable = 1e-13;
 
 }  // namespace
 
@@ -42,7 +41,8 @@ void SheetFollower::evaluate(const LiftedPoint& point) {
   }
 }
 
-bool SheetFollower::correct(LiftedPoint& point, const LiftedPoint& row, double value) {
+bool SheetFollower::correct(LiftedPoint& point, const LiftedPoint& row, double value, double within) {
+  const int coordinates = program_->coordinates();
   double last = 0;
   for (int step = 0; step < most_steps; ++step) {
     evaluate(point);
@@ -74,14 +74,16 @@ bool SheetFollower::correct(LiftedPoint& point, const LiftedPoint& row, double v
       delta /= matrix_[c][c];
       residual_[c] = delta;  // reused for the step
       point[c] += delta;
-      size = std::max(size, std::abs(delta));
+      // Roots may be much larger than the region, and their rounding with them.
+      size = std::max(
+          size, c < coordinates ? std::abs(delta) : std::abs(delta) * size_ / std::max(size_, std::abs(point[c])));
     }
     if (!std::isfinite(size)) return false;
     if (size <= converged * size_) return true;
-    if (step > 2 && size > 0.5 * last) return size <= acceptable * size_;
+    if (step > 2 && size > 0.5 * last) return size <= within * size_;
     last = size;
   }
-  return last <= acceptable * size_;
+  return last <= within * size_;
 }
 
 LiftedPoint SheetFollower::tangent(const LiftedPoint& point) {

@@ -16,8 +16,10 @@ class SheetFollower {
   /// Function 0 of the program is the curve. `size`: of the region, sets the accuracy that counts as converged.
   SheetFollower(const SheetProgram& program, double size);
 
-  /// Moves `point` to the curve in the hyperplane row . u = value. False: no convergence to within 1e-13 of the size.
-  bool correct(LiftedPoint& point, const LiftedPoint& row, double value);
+  static constexpr double accuracy = 1e-13;  ///< a tenth of what vertices are held to, relative to the region
+  /// Moves `point` to the curve in the hyperplane row . u = value. False: no convergence to `within` of the size, of
+  /// roots that are larger to within that share of themselves.
+  bool correct(LiftedPoint& point, const LiftedPoint& row, double value, double within = accuracy);
 
   /// Unit tangent of the lifted curve, of either orientation; empty where the curve is singular.
   LiftedPoint tangent(const LiftedPoint& point);

@@ -171,7 +171,7 @@ class Tracer {
     return claim;
   }
 
-  TracedArc place(const Chain& chain) const {
+  TracedArc place(const Chain& chain) {
     TracedArc traced;
     traced.colour = chain.colour;
     traced.inner = point_inside(graph_, chain.legs, size_);
@@ -185,6 +185,7 @@ class Tracer {
       return traced;
     }
     PlacedArc placed = place_vertices(graph_, own_.mode, chain.legs, options_.tolerance, size_);
+    graph_.undecided.insert(graph_.undecided.end(), placed.open.begin(), placed.open.end());
     traced.arc.length = placed.length;
     traced.arc.points = std::move(placed.points);
     return traced;

@@ -14,6 +14,8 @@ constexpr int most_trials = 14, most_halvings = 12;
 // A step is long enough when its chord uses this share of the tolerance; aiming a little below it avoids rejections.
 constexpr double enough = 0.55, aim = 0.85;
 constexpr double most_growth = 3;
+// Points that tell how near a chord is need not be vertices: relative to the region.
+constexpr double to_measure = 1e-9;
 constexpr std::array<double, 3> samples = {0.25, 0.5, 0.75};
 
 double distance_to_chord(const core::Point2& p, const core::Point2& a, const core::Point2& b) {
@@ -50,6 +52,7 @@ class Run {
       const core::Point2 from = plane(at), to = plane(target.point);
       const double chord = std::hypot(to[0] - from[0], to[1] - from[1]);
       // A shallow arc over a chord c with sagitta d is 8 d^2 / (3 c) longer than it.
+      if (target.open) arc.open.push_back({hull(from[0], to[0]), hull(from[1], to[1])});
       if (chord > 0) arc.length += chord + 8 * target.deviation * target.deviation / (3 * chord);
       arc.points.push_back(to);
       at = std::move(target.point);
@@ -64,6 +67,7 @@ class Run {
     std::size_t leg = 0;   // where the next step starts
     double step = 0;       // length to try next
     double deviation = 0;  // of the chord, measured
+    bool open = false;     // it was not
   };
 
   core::Point2 plane(const LiftedPoint& p) const { return chart_->to_plane(p[0], p[1]); }
@@ -120,14 +124,14 @@ class Run {
   /// The point of a leg at a share of the way, told by its variable, from `start` to `end` on it. The leg is a graph
   /// over that variable: there is one such point.
   bool point_between(const LiftedPoint& start, const LiftedPoint& end, double share, std::size_t leg,
-                     LiftedPoint& point) {
+                     LiftedPoint& point, double within = SheetFollower::accuracy) {
     const int v = (*legs_)[leg].stretch->along;
     point = start;
     for (std::size_t i = 0; i < point.size(); ++i) point[i] += share * (end[i] - start[i]);
     LiftedPoint row(point.size(), 0.0);
     row[static_cast<std::size_t>(v)] = 1;
     const double value = point[static_cast<std::size_t>(v)];
-    return follower_.correct(point, row, value) && on_leg(point, leg);
+    return follower_.correct(point, row, value, within) && on_leg(point, leg);
   }
 
   /// Largest distance from the chord a, b of the points between two of one leg; infinite where they are not found.
@@ -136,7 +140,7 @@ class Run {
     double largest = 0;
     LiftedPoint point;
     for (const double share : samples) {
-      if (!point_between(start, end, share, leg, point)) return std::numeric_limits<double>::infinity();
+      if (!point_between(start, end, share, leg, point, to_measure)) return std::numeric_limits<double>::infinity();
       largest = std::max(largest, distance_to_chord(plane(point), a, b));
     }
     return largest;
@@ -252,8 +256,9 @@ class Run {
       part.deviation = deviation_between(at, part.point, leg, plane(at), plane(part.point));
       if (part.deviation <= tolerance_) return part;
     }
-    // The curve bends within rounding of its own cells; their ends are on it.
+    // No point between is found; the ends are on the curve.
     end.deviation = 0;
+    end.open = true;
     return end;
   }
 

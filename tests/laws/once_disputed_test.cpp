@@ -32,6 +32,17 @@ TEST(OnceDisputed, CurvesThatTakeManyCells) {
   hold("witness/stacked_5r", false, request);
 }
 
+// A root forty times as large as the box, whose rounding was taken for no convergence: a chord was accepted unmeasured.
+TEST(OnceDisputed, AChordBesideABend) {
+  LociRequest request;
+  request.working_modes = {{-1, -1}};  // right, right
+  request.joints = {"A1"};
+  request.quantities = {core::Quantity::fx};
+  const LociValidation validation = validate_loci(corpus("witness/coupler_with_large_roots"), request, {200, 200});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.held, 10000u);
+}
+
 // Numerators and |A| vanish together where the parallelogram is flat.
 TEST(OnceDisputed, AParallelogramOnALeg) {
   hold("modes/five_bar_parallelogram", false);
