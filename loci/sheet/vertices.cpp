@@ -256,9 +256,10 @@ class Run {
       part.deviation = deviation_between(at, part.point, leg, plane(at), plane(part.point));
       if (part.deviation <= tolerance_) return part;
     }
-    // No point between is found; the ends are on the curve.
+    // No point between is found; the ends are on the curve. At a star, whose crossings may be told in another direction
+    // than the leg's, that is no doubt: what is left there is short.
     end.deviation = 0;
-    end.open = true;
+    end.open = chart_->side == Chart::Side::plane;
     return end;
   }
 
