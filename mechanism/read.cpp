@@ -24,12 +24,6 @@ const std::vector<std::string> top_keys = {"format", "name",   "space",   "units
 const std::vector<std::string> repeatable_keys = {"parameters", "frames", "points",  "links",
                                                   "joints",     "loads",  "springs", "limits"};
 
-void check_format(const Value& value) {
-  const std::string text = text_of(value);
-  if (text != "1")
-    throw InputError(value.where, "the format is '" + text + "', but this version reads format 1", "write format: 1");
-}
-
 // No mechanism, task or path that a person writes comes near; a device or a wrong file would fill the memory.
 constexpr std::size_t largest_file = std::size_t{4} << 20;
 

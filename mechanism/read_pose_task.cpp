@@ -227,10 +227,7 @@ core::PoseTask parse_pose_task(const std::string& text, const std::string& file,
   if (!document.is_map())
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
   const Mapping root(document, task_keys);
-  const Value format = root.at("format");
-  if (text_of(format) != "1")
-    throw InputError(format.where, "the format is '" + text_of(format) + "', but this version reads format 1",
-                     "write format: 1");
+  check_format(root.at("format"));
   return pose_task_of(document, mechanism);
 }
 

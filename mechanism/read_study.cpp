@@ -197,10 +197,7 @@ core::Study parse_study(const std::string& text, const std::string& file, const 
   if (!document.is_map())
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
   const Mapping root(document, {"format", "name", "vary", "keep", "task", "tasks", "require", "goal", "method"});
-  const Value format = root.at("format");
-  if (text_of(format) != "1")
-    throw InputError(format.where, "the format is '" + text_of(format) + "', but this version reads format 1",
-                     "write format: 1");
+  check_format(root.at("format"));
   Study study;
   study.file = file;
   read_vary(study, mechanism, root.at("vary"));

@@ -278,10 +278,7 @@ core::Task parse_task(const std::string& text, const std::string& file, const Me
   const Value document = parse_document(text, file);
   if (document.is_map()) {
     const Mapping root(document, task_keys);
-    const Value format = root.at("format");
-    if (text_of(format) != "1")
-      throw InputError(format.where, "the format is '" + text_of(format) + "', but this version reads format 1",
-                       "write format: 1");
+    check_format(root.at("format"));
   }
   return task_of(document, mechanism);
 }

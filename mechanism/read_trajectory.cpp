@@ -350,10 +350,7 @@ Trajectory parse_trajectory(const std::string& text, const std::string& file, co
   if (!document.is_map())
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
   const Mapping root(document, {"format", "name", "path", "motion", "period", "payload"});
-  const Value format = root.at("format");
-  if (text_of(format) != "1")
-    throw InputError(format.where, "the format is '" + text_of(format) + "', but this version reads format 1",
-                     "write format: 1");
+  check_format(root.at("format"));
   Trajectory trajectory;
   trajectory.file = file;
   const auto name = root.find("name");

@@ -100,6 +100,12 @@ std::string text_of(const Value& value) {
   return value.node.Scalar();
 }
 
+void check_format(const Value& value) {
+  const std::string text = text_of(value);
+  if (text != "1")
+    throw InputError(value.where, "the format is '" + text + "', but this version reads format 1", "write format: 1");
+}
+
 bool boolean_of(const Value& value) {
   const std::string text = text_of(value);
   if (text == "true" || text == "True" || text == "TRUE") return true;

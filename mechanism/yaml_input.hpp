@@ -43,6 +43,9 @@ std::vector<Value> elements(const Value& value, int size = -1);
 /// A scalar's text. Throws for a list, a mapping or nothing.
 std::string text_of(const Value& value);
 
+/// Of a file's key format. Throws core::InputError where it is another than is read.
+void check_format(const Value& value);
+
 /// `true` or `false`.
 bool boolean_of(const Value& value);
 

@@ -8,6 +8,7 @@
 
 #include "report/file_units.hpp"
 #include "report/loci_json.hpp"
+#include "report/verification.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -108,18 +109,6 @@ class Words {
  private:
   const core::PoseVerification& result_;
 };
-
-const char* verdict_line(core::Verdict verdict) {
-  switch (verdict) {
-    case core::Verdict::verified:
-      return "VERIFIED      no locus, singularity or boundary in the task: proven";
-    case core::Verdict::refuted:
-      return "REFUTED       the task fails at the witness, confirmed numerically";
-    case core::Verdict::undecided:
-      break;
-  }
-  return "UNDECIDED     neither proven nor refuted";
-}
 
 }  // namespace
 

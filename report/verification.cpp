@@ -53,6 +53,8 @@ Json shape_json(const core::TaskShape& shape) {
   return points_json(std::get<core::TaskPath>(shape).points);
 }
 
+}  // namespace
+
 const char* verdict_line(core::Verdict verdict) {
   switch (verdict) {
     case core::Verdict::verified:
@@ -64,8 +66,6 @@ const char* verdict_line(core::Verdict verdict) {
   }
   return "UNDECIDED     neither proven nor refuted";
 }
-
-}  // namespace
 
 std::string witness_words(const core::TaskWitness& witness, const core::Units& units) {
   std::string words;

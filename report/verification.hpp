@@ -9,6 +9,9 @@
 
 namespace clearloci::report {
 
+/// The first line of an answer, in the plane and over other coordinates.
+const char* verdict_line(core::Verdict verdict);
+
 /// "f_A1 f_B1 vanish under the load (0, -100) N".
 /// The witness in these units (in_file_units); SI where none are given.
 std::string witness_words(const core::TaskWitness& witness, const core::Units& units = {});
