@@ -86,7 +86,7 @@ class InstantEquations {
  private:
   Series at(Register r) const { return registers_[static_cast<std::size_t>(r)]; }
   PointSeries point(mechanism::PointIndex p) const {
-    const auto& [x, y] = motion_.model.points[static_cast<std::size_t>(p)];
+    const auto& [x, y, z] = motion_.model.points[static_cast<std::size_t>(p)];
     return {at(x), at(y)};
   }
   RatePoint arm(mechanism::PointIndex p) const {
@@ -115,7 +115,7 @@ class InstantEquations {
   /// The force of a unit of an unknown; none of a couple.
   std::optional<RatePoint> unit_force(const mechanism::Unknown& unknown) const {
     const auto axis = [&] {
-      const auto& [x, y] = *motion_.model.axes[static_cast<std::size_t>(unknown.joint)];
+      const auto& [x, y, z] = *motion_.model.axes[static_cast<std::size_t>(unknown.joint)];
       return RatePoint{at(x).truncated<1>(), at(y).truncated<1>()};
     };
     switch (unknown.quantity) {
@@ -134,8 +134,8 @@ class InstantEquations {
 
   void assemble_loads() {
     for (const LoadRegisters& load : motion_.model.loads) {
-      const RatePoint force = {at(load.fx).truncated<1>(), at(load.fy).truncated<1>()};
-      rest_.add(load.link, load.at ? arm(*load.at) : RatePoint{}, force, at(load.couple).truncated<1>(), -1);
+      const RatePoint force = {at(load.force[0]).truncated<1>(), at(load.force[1]).truncated<1>()};
+      rest_.add(load.link, load.at ? arm(*load.at) : RatePoint{}, force, at(load.couple[2]).truncated<1>(), -1);
     }
   }
 
@@ -160,7 +160,7 @@ class InstantEquations {
       const double m = core::to_double(payload.mass);
       add_inertia(payload.link, payload.at, m, core::to_double(payload.inertia));
       if (!motion_.model.gravity) continue;
-      const auto& [gx, gy] = *motion_.model.gravity;
+      const auto& [gx, gy, gz] = *motion_.model.gravity;
       const RatePoint weight = {m * at(gx).truncated<1>(), m * at(gy).truncated<1>()};
       rest_.add(payload.link, arm(payload.at), weight, Rate(), -1);
     }
@@ -177,7 +177,7 @@ class InstantEquations {
   PointSeries direction(mechanism::LinkIndex link) const {
     const mechanism::JointIndex guide = motion_.guide[static_cast<std::size_t>(link)];
     if (guide >= 0) {
-      const auto& [x, y] = *motion_.model.axes[static_cast<std::size_t>(guide)];
+      const auto& [x, y, z] = *motion_.model.axes[static_cast<std::size_t>(guide)];
       return {at(x), at(y)};
     }
     const auto& points = motion_.model.mechanism.links[static_cast<std::size_t>(link)].points;
@@ -281,7 +281,7 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
   std::vector<Series> registers(static_cast<std::size_t>(model.posture_size));
   run<Series, 1>(model.tape, 0, model.posture_size, inputs.data(), registers.data());
   result.reachable = true;
-  for (const auto& [x, y] : model.points) {
+  for (const auto& [x, y, z] : model.points) {
     result.points.push_back({registers[static_cast<std::size_t>(x)], registers[static_cast<std::size_t>(y)]});
     for (const Series& s : result.points.back())
       for (const double c : s.c) result.reachable = result.reachable && std::isfinite(c);

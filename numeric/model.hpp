@@ -17,44 +17,46 @@ namespace clearloci::numeric {
 
 using core::Point2;
 
-/// An external force or couple as registers of the tape. `weight`: from gravity, not from the file's loads. `inner`: of
-/// a spring or an actuator of known effort, with its opposite on another link or the ground.
+/// Components of a vector along x, y and z as registers of the tape; in the plane the third is the constant 0.
+using Triple = std::array<Register, 3>;
+
+/// An external force or couple. `weight`: from gravity, not from the file's loads. `inner`: of a spring or an actuator
+/// of known effort, with its opposite on another link or the ground.
 struct LoadRegisters {
   mechanism::LinkIndex link = 0;
   std::optional<mechanism::PointIndex> at;  ///< may be absent from a pure couple
-  Register fx = 0, fy = 0, couple = 0;
+  Triple force{}, couple{};
   bool weight = false;
   bool inner = false;
   int spring = -1;  ///< of an inner one: which
 };
 
-/// A mechanism of the plane or of space. Both have a tape, unknowns, an elimination and the registers that must be
-/// finite: enough for the reactions at many poses (evaluator.hpp). What is of the plane or of space alone says so.
+/// A mechanism of the plane or of space: a link has three rows, fx, fy, mz, or six.
 struct NumericModel {
   mechanism::Mechanism mechanism;
-  std::vector<mechanism::Unknown> unknowns;  ///< columns of A; in space: of the equations of spatial_model.hpp
+  std::vector<mechanism::Unknown> unknowns;  ///< columns of A; in space: of equations.hpp
   std::vector<mechanism::PointIndex> dyads;  ///< dyads and sliders: the working mode has a sign for each
   std::vector<std::array<double, 2>> box;    ///< lower, upper of each free coordinate, m or rad
   Tape tape;                                 ///< inputs: free coordinates, then the signs of the working mode
   int posture_size = 0;                      ///< instructions that compute points and loads
   int reaction_size = 0;                     ///< and with them the reactions; the rest serves the unit wrenches
-  std::vector<Register> placed;              ///< finite where every point can be placed and no limit is broken
+  /// Finite where every point can be placed, every axis has a direction and no limit is broken.
+  std::vector<Register> placed;
   /// Of every limit what is left to its lower and upper end, negative beyond it; none where no pose is beyond.
   std::vector<std::array<std::optional<Register>, 2>> slack;
   Elimination elimination;
   /// The same matrix under a unit of each component of a wrench on the end effector, 3 or 6.
   std::vector<Elimination> unit_wrenches;
 
-  // Of the plane:
-  std::vector<std::array<Register, 2>> points;  ///< of every point
-  std::vector<LoadRegisters> loads;             ///< the file's loads in order, then the weights
-  /// Of every joint: the unit vector of its axis; nothing for a joint without one.
-  std::vector<std::optional<std::array<Register, 2>>> axes;
-  std::optional<std::array<Register, 2>> gravity;
-
-  // Of space:
-  std::vector<std::optional<std::array<Register, 3>>> space_axes;  ///< as `axes`; of a universal joint the first
-  /// Of every joint: the Cartesian directions, 0 to 2, of its components 1 and 2 across the axis.
+  std::vector<Triple> points;        ///< of every point
+  std::vector<LoadRegisters> loads;  ///< the file's in order, then springs and actuators, then the weights
+  /// Of every joint: the unit vector of its axis, of a universal joint of the first; in the plane k where none is
+  /// written. Nothing for a ball.
+  std::vector<std::optional<Triple>> axes;
+  /// Of every joint that bears a couple about one direction alone: that direction.
+  std::vector<std::optional<Triple>> couple_axes;
+  std::optional<Triple> gravity;
+  /// Of every joint in space: the Cartesian directions, 0 to 2, of its components 1 and 2 across the axis.
   std::vector<std::array<int, 2>> across;
 
   int inputs() const { return static_cast<int>(box.size() + dyads.size()); }
@@ -91,9 +93,10 @@ struct Posture {
   std::vector<Point2> axes;                          ///< of every joint: unit vector of its axis; zero without one
   Point2 gravity{};                                  ///< m/s²
   std::optional<mechanism::PointIndex> unreachable;  ///< the first point that cannot be placed
+  std::optional<mechanism::JointIndex> undirected;   ///< the first joint with an axis that has no direction
   std::optional<LimitEnd> broken;                    ///< the first limit that the pose is beyond
 
-  bool reachable() const { return !unreachable && !broken; }
+  bool reachable() const { return !unreachable && !undirected && !broken; }
 };
 
 /// `pose`: one value a free coordinate; `mode`: +1 (left) or -1 (right) a dyad. A pose on the workspace boundary is

@@ -49,8 +49,8 @@ class Batch {
     lane_ = lane;
     factorised_ = nullptr;
     for (std::size_t j = 0; j < joints_.size(); ++j)
-      for (std::size_t c = 0; model_.space_axes[j] && c < 3; ++c)
-        joints_[j].axis(static_cast<Eigen::Index>(c)) = evaluator_.value((*model_.space_axes[j])[c], lane);
+      for (std::size_t c = 0; model_.axes[j] && c < 3; ++c)
+        joints_[j].axis(static_cast<Eigen::Index>(c)) = evaluator_.value((*model_.axes[j])[c], lane);
     for (std::size_t row = 0; row < 6; ++row) {
       solve(model_.unit_wrenches[row]);
       for (std::size_t j = 0; j < joints_.size(); ++j) {

@@ -235,7 +235,7 @@ std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<cons
     std::array<Bounded, 3> force = {part(j, Quantity::fx), part(j, Quantity::fy), part(j, Quantity::fz)};
     if (mechanism::traits(joint.type).turns_about_axis()) {
       std::array<Bounded, 3> u;
-      for (std::size_t c = 0; c < 3; ++c) u[c] = evaluator.value((*model.space_axes[j])[c], 0);
+      for (std::size_t c = 0; c < 3; ++c) u[c] = evaluator.value((*model.axes[j])[c], 0);
       const Bounded along = force[0] * u[0] + force[1] * u[1] + force[2] * u[2];
       for (std::size_t c = 0; c < 3; ++c) force[c] = force[c] - along * u[c];
     }

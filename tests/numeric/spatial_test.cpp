@@ -1,5 +1,5 @@
 // Spatial mechanisms in floating point by two routes: one LU of the orthonormal form (spatial.hpp), and the compiled
-// Cartesian form with the equations of what joints do not bear (spatial_model.hpp).
+// Cartesian form with the equations of what joints do not bear (equations.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ void expect_same_reactions(const Mechanism& m, std::mt19937& random) {
       const auto j = static_cast<std::size_t>(unknown.joint);
       const SpatialReaction& r = plain.reactions[j];
       const double value = compiled.values[k].value / det;
-      const auto& axis = model.space_axes[j];
+      const auto& axis = model.axes[j];
       Eigen::Vector3d force = r.force, couple = r.couple;
       if (m.joints[j].actuated) {
         Evaluator<double, 1> evaluator(model, mode, model.posture_size);
