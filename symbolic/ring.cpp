@@ -1,8 +1,11 @@
 #include "symbolic/ring.hpp"
 
 #include <flint/fmpq_mpoly_factor.h>
+#include <flint/nmod_mpoly_factor.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <numeric>
 
 #include "core/errors.hpp"
@@ -35,6 +38,53 @@ std::vector<ulong> exponents_of(const Poly& p, slong term) {
   std::vector<ulong> exponents(static_cast<std::size_t>(p.ring().size()));
   fmpq_mpoly_get_term_exp_ui(exponents.data(), p.raw(), term, p.ring().context());
   return exponents;
+}
+
+/// Terms of a polynomial times the bits of its longest coefficient, from which on its image modulo a prime costs next
+/// to nothing beside its own factorisation.
+constexpr std::size_t worth_an_image = 100000;
+
+/// Whether the image modulo a prime keeps every degree and is irreducible. Then so is the polynomial over Q: each of
+/// two factors keeps its degrees too, so that neither image is a constant. Irreducible polynomials with long
+/// coefficients are the slow ones to factor, since lifted factors recombine to nothing.
+bool irreducible_modulo(ulong prime, const fmpz_mpoly_struct* p, const Ring& ring) {
+  const slong variables = ring.size();
+  const fmpz_mpoly_ctx_struct* const whole = ring.context()->zctx;
+  nmod_mpoly_ctx_t residues;
+  nmod_mpoly_ctx_init(residues, variables, ORD_LEX, prime);
+  nmod_mpoly_t image;
+  nmod_mpoly_init(image, residues);
+  std::vector<ulong> exponents(static_cast<std::size_t>(variables));
+  fmpz_t coefficient;
+  fmpz_init(coefficient);
+  for (slong term = 0; term < fmpz_mpoly_length(p, whole); ++term) {
+    fmpz_mpoly_get_term_exp_ui(exponents.data(), p, term, whole);
+    fmpz_mpoly_get_term_coeff_fmpz(coefficient, p, term, whole);
+    const ulong residue = fmpz_fdiv_ui(coefficient, prime);
+    if (residue != 0) nmod_mpoly_push_term_ui_ui(image, residue, exponents.data(), residues);
+  }
+  fmpz_clear(coefficient);
+  bool keeps = true;
+  for (slong variable = 0; variable < variables; ++variable)
+    keeps = keeps && nmod_mpoly_degree_si(image, variable, residues) == fmpz_mpoly_degree_si(p, variable, whole);
+  nmod_mpoly_factor_t parts;
+  nmod_mpoly_factor_init(parts, residues);
+  const bool factored = keeps && nmod_mpoly_factor(parts, image, residues) != 0;
+  const bool irreducible = factored && nmod_mpoly_factor_length(parts, residues) == 1 &&
+                           nmod_mpoly_factor_get_exp_si(parts, 0, residues) == 1;
+  nmod_mpoly_factor_clear(parts, residues);
+  nmod_mpoly_clear(image, residues);
+  nmod_mpoly_ctx_clear(residues);
+  return irreducible;
+}
+
+/// True is certain; false says nothing.
+bool is_seen_irreducible(const fmpz_mpoly_struct* p, const Ring& ring) {
+  const auto bits = static_cast<std::size_t>(std::abs(fmpz_mpoly_max_bits(p)));
+  if (bits * static_cast<std::size_t>(fmpz_mpoly_length(p, ring.context()->zctx)) < worth_an_image) return false;
+  // The largest below 2^62: most images of an irreducible polynomial are irreducible modulo a large prime.
+  constexpr std::array<ulong, 2> primes = {4611686018427387847, 4611686018427387817};
+  return std::any_of(primes.begin(), primes.end(), [&](ulong prime) { return irreducible_modulo(prime, p, ring); });
 }
 
 }  // namespace
@@ -226,7 +276,9 @@ std::vector<PolyFactor> Poly::factors(Rational& constant) const {
     result.push_back({rest.exact_quotient(shared).primitive(), 1});
     rest = shared;
   }
-  if (!rest.is_constant()) {
+  if (!rest.is_constant() && is_seen_irreducible(rest.value_->zpoly, *ring_)) {
+    result.push_back({rest.primitive(), 1});
+  } else if (!rest.is_constant()) {
     fmpq_mpoly_factor_t factorisation;
     fmpq_mpoly_factor_init(factorisation, ring_->context());
     core::ensure(fmpq_mpoly_factor(factorisation, rest.value_, ring_->context()) != 0, "a factorisation over Q");

@@ -35,6 +35,35 @@ TEST_F(RingTest, ConstantsAndZeroHaveNoFactors) {
   EXPECT_EQ(constant, Rational(7, 3));
 }
 
+TEST_F(RingTest, LongCoefficientsLeaveFactorsAsTheyAre) {
+  // As long as to be looked at modulo primes first: what is reducible must not pass for irreducible, nor a power for
+  // one factor, nor what splits modulo every prime though not over Q; and lines whose images lose their degree.
+  const Rational large(core::Integer("1" + std::string(9000, '7')), 3);
+  const Poly cubic = x.pow(3) + (x * y).scaled(large) + y.pow(3) + number(2);
+  const Poly line = x.scaled(large) + y + number(1);
+  const Poly everywhere_split = (x.pow(4) + number(1)) * number(large) + y.pow(4);
+  struct Case {
+    Poly product;
+    std::vector<int> multiplicities;
+  };
+  const std::vector<Case> cases = {{cubic, {1}},
+                                   {cubic * (x * x + y * y.scaled(large) + number(5)), {1, 1}},
+                                   {cubic * cubic, {2}},
+                                   {line * line * (x.pow(2) + y.pow(2)), {2, 1}},
+                                   {everywhere_split, {1}}};
+  for (const Case& c : cases) {
+    Rational constant;
+    const std::vector<PolyFactor> factors = c.product.factors(constant);
+    ASSERT_EQ(factors.size(), c.multiplicities.size());
+    Poly product = number(constant);
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+      EXPECT_EQ(factors[i].multiplicity, c.multiplicities[i]);
+      product *= factors[i].poly.pow(static_cast<unsigned>(factors[i].multiplicity));
+    }
+    EXPECT_TRUE(product == c.product);
+  }
+}
+
 TEST_F(RingTest, PrimitiveHasCoprimeIntegersAndAPositiveLead) {
   const Poly p = (x.scaled(Rational(-2, 3)) + y.scaled(Rational(4, 5)));
   EXPECT_TRUE(p.primitive() == x.scaled(5) - y.scaled(6));
