@@ -42,7 +42,8 @@ const Poly& Elimination::over_tower(const Poly& natural) const {
   Poly result = natural;
   for (const Substitution& pair : geometry_->substitutions()) {
     const int degree = Geometry::degree_in(result, pair);
-    if (degree > 0) result = geometry_->substituted(result, pair, degree);
+    // Clearing puts the denominators of every point to all terms: those that are not needed go before the next point.
+    if (degree > 0) result = strip_denominators(geometry_->substituted(result, pair, degree));
   }
   return over_tower_.emplace_back(natural, std::move(result)).second;
 }
@@ -84,6 +85,7 @@ bool Elimination::has_free_coordinate(const Poly& p) const {
 }
 
 Poly Elimination::strip_denominators(Poly p) const {
+  if (p.is_zero()) return p;
   Poly quotient(p.ring());
   for (const Poly& denominator : denominator_factors_) {
     while (p.divides(denominator, quotient)) p = quotient;

@@ -212,6 +212,8 @@ class Geometry {
   /// Divides by what is positive and common to all.
   void lighten(TowerPoint& place) const;
   Poly common_positive(Poly a, Poly b) const;
+  /// p / divisor, where that holds neither coordinates nor roots; none of zero.
+  std::optional<Poly> constant_quotient(const Poly& p, const Poly& divisor) const;
   /// A squared length that is divided by; its factors join what is known to be positive.
   void add_denominator(const Poly& squared_length);
   void add_positive(const Poly& divisor);

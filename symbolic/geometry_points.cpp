@@ -134,9 +134,12 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   const Vector way = {x, y, z};
   const Vector n = form.axis ? direction(*form.axis) : Vector{Poly(*ring_), Poly(*ring_), Poly(*ring_, 1)};
   const Poly n2 = reduce(dot(n, n)), h = reduce(dot(n, way)), way2 = reduce(dot(way, way));
-  const Poly w2 = reduce(w * w);
-  const Poly d = reduce(n2 * way2 - h * h);
-  Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + way2);
+  const Poly whole_w2 = reduce(w * w), whole_d = reduce(n2 * way2 - h * h);
+  // Between two points of one link D is the same number in every pose, and k and Q are: with D / 1 in place of d / w^2
+  // the point is a fixed combination of the two, and no denominator of theirs is taken twice.
+  const std::optional<Poly> rigid = form.axis ? std::nullopt : constant_quotient(whole_d, whole_w2);
+  const Poly w2 = rigid ? Poly(*ring_, 1) : whole_w2, d = rigid.value_or(whole_d);
+  Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + (rigid ? d : way2));
   Poly square = reduce((from_length * from_length * d * w2).scaled(4) - n2 * kn * kn);
   // What divides k and the root alike is taken out of the root.
   Poly scale(*ring_, 1), less(*ring_), quotient(*ring_);
@@ -149,8 +152,8 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   const Poly s = add_root({point, next_root(), RootRole::working_mode, square, w2.exact_quotient(shared),
                            scale.exact_quotient(shared)}) *
                  shared;
-  add_denominator(d);
-  if (!form.axis) dyad_ways_.push_back({point, x, y});
+  if (!d.is_constant()) add_denominator(d);
+  if (!form.axis && !rigid) dyad_ways_.push_back({point, x, y});
   const Vector left = cross(n, way);
   const auto component = [&](std::size_t i) { return reduce(kn * (n2 * way[i] - h * n[i]) + s * left[i]); };
   TowerPoint step{component(0), component(1), component(2), reduce(d * w).scaled(2)};
@@ -158,6 +161,14 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   tower_[index(point)] = sum(a, step);
   if (form.axis) keep_in_plane(point, form.from, n);
   if (roots_.back().value) keep_beside_another(point);
+}
+
+std::optional<Poly> Geometry::constant_quotient(const Poly& p, const Poly& divisor) const {
+  Poly quotient(*ring_);
+  if (p.is_zero() || !p.divides(divisor, quotient)) return std::nullopt;
+  for (const int variable : tower_variables())
+    if (quotient.depends_on(variable)) return std::nullopt;
+  return quotient;
 }
 
 void Geometry::keep_beside_another(PointIndex point) {
@@ -277,14 +288,11 @@ void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
   const Poly d = reduce(u * u + v * v + h * h);
   const Poly one(*ring_, 1);
   // On a rigid link the distance is constant: then the point is linear in the two others.
-  Poly squared_length(*ring_), length(*ring_);
-  const std::vector<int> free_variables = tower_variables();
-  const bool constant = d.divides(reduce(w * w), squared_length) &&
-                        std::none_of(free_variables.begin(), free_variables.end(),
-                                     [&](int variable) { return squared_length.depends_on(variable); });
-  bool known = constant && squared_length.square_root(length);
-  if (constant && !known && squared_length.is_constant()) {
-    const Expression root = Expression::apply(Expression::Kind::sqrt, {Expression::number(squared_length.constant())});
+  const std::optional<Poly> squared_length = constant_quotient(d, reduce(w * w));
+  Poly length(*ring_);
+  bool known = squared_length && squared_length->square_root(length);
+  if (squared_length && !known && squared_length->is_constant()) {
+    const Expression root = Expression::apply(Expression::Kind::sqrt, {Expression::number(squared_length->constant())});
     length = Poly(*ring_, mechanism::value_of(root, *mechanism_));
     known = true;
   }

@@ -93,5 +93,56 @@ TEST(AngleCoordinates, FourBarIsUnloadedWhereTheRockerPointsAlongTheLoad) {
   EXPECT_TRUE(found);
 }
 
+/// A four-bar whose coupler has a third corner F, 0.4 from B and 0.3 from C, that bears the load.
+mechanism::Mechanism coupler_point(const std::string& corner) {
+  return mechanism::parse_mechanism(R"(format: 1
+workspace: {theta: {angle: [0, 90 deg]}}
+points:
+  A: [0, 0]
+  D: [1, 0]
+  B: [0.3*cos(theta), 0.3*sin(theta)]
+  C: {dyad: [B, D], lengths: [0.5, 0.8], side: left}
+  F: )" + corner + R"(
+links: {AB: {points: [A, B]}, BCF: {points: [B, C, F]}, CD: {points: [C, D]}}
+joints:
+  A: {revolute: [ground, AB], at: A, actuated: true, clearance: {radial: 10e-6, angular: 0.5e-3}}
+  B: {revolute: [AB, BCF], at: B, clearance: {radial: 10e-6}}
+  C: {revolute: [BCF, CD], at: C, clearance: {radial: 10e-6}}
+  D: {revolute: [ground, CD], at: D, clearance: {radial: 10e-6}}
+end_effector: {link: BCF, at: F}
+loads: [{link: BCF, at: F, force: [3, -100]}]
+)",
+                                    "coupler_point.yaml");
+}
+
+TEST(RigidDyads, ArePlacedLikeAPointOfTheLink) {
+  // The corner is 0.32 along BC and 0.24 to its left: by lengths or by these, the curves are the same.
+  const std::string by_lengths = "{dyad: [B, C], lengths: [0.4, 0.3], side: left}";
+  const auto lengths = locus_problems(coupler_point(by_lengths), {}),
+             offsets = locus_problems(coupler_point("{on: [B, C], offset: [0.32, 0.24]}"), {});
+  ASSERT_EQ(lengths.size(), 1U);
+  ASSERT_EQ(offsets.size(), 1U);
+  const auto curves = [](const DerivedProblem& derived) {
+    std::vector<core::Polynomial> all;
+    for (const core::LocusFactor& factor : derived.problem.factors)
+      if (factor.role != core::FactorRole::construction)
+        for (const core::Polynomial& p : factor.implicit)
+          if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return core::to_string(a, std::vector<std::string>{"t"}) < core::to_string(b, std::vector<std::string>{"t"});
+    });
+    return all;
+  };
+  EXPECT_EQ(curves(lengths[0]), curves(offsets[0]));
+  EXPECT_EQ(curves(lengths[0]).size(), 3U);
+  // Nor does the construction divide by the distance of two points that never meet.
+  EXPECT_EQ(lengths[0].problem.tower.denominators.size(), offsets[0].problem.tower.denominators.size());
+}
+
+TEST(RigidDyads, AgreeWithTheWitness) {
+  // 0.4 and 0.35 make a triangle with the root of a number.
+  EXPECT_GT(hold_against_witness(coupler_point("{dyad: [B, C], lengths: [0.4, 0.35], side: right}")), 0);
+}
+
 }  // namespace
 }  // namespace clearloci::symbolic
