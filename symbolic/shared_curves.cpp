@@ -11,25 +11,11 @@
 namespace clearloci::symbolic {
 namespace {
 
-/// 2^61 - 1.
-constexpr unsigned long prime = (1UL << 61) - 1;
+constexpr unsigned long prime = Residue::prime;
 
-/// Lines tried until the curve has a point on one of them above which every root is in the field: of m roots that is
-/// about one in 2^m.
-constexpr unsigned lines_tried = 2000;
-
-unsigned long sum(unsigned long a, unsigned long b) { return (a + b) % prime; }
-unsigned long product(unsigned long a, unsigned long b) { return n_mulmod2(a, b, prime); }
-unsigned long power(unsigned long a, int exponent) {
-  return exponent == 1 ? a : n_powmod2(a, static_cast<slong>(exponent), prime);
-}
-
-unsigned long residue(const core::Rational& value) {
-  const unsigned long top = mpz_fdiv_ui(value.get_num_mpz_t(), prime);
-  const unsigned long bottom = mpz_fdiv_ui(value.get_den_mpz_t(), prime);
-  core::ensure(bottom != 0, "a denominator that the prime does not divide");
-  return bottom == 1 ? top : product(top, n_invmod(bottom, prime));
-}
+/// Lines tried until the curve has a point on one of them above which every root is in the field: that is the first one
+/// on which the curve has a point, unless roots stand below roots.
+constexpr unsigned lines_tried = 200;
 
 /// Numbers that follow no pattern, the same in every run.
 unsigned long scattered(unsigned long seed) {
@@ -60,7 +46,7 @@ std::optional<unsigned long> root_of(const std::vector<unsigned long>& coefficie
       nmod_poly_factor_equal_deg(factors, p, 1);
       const nmod_poly_struct* linear = factors->p;
       const unsigned long slope = nmod_poly_get_coeff_ui(linear, 1);
-      root = product(n_negmod(nmod_poly_get_coeff_ui(linear, 0), prime), n_invmod(slope, prime));
+      root = n_mulmod2(n_negmod(nmod_poly_get_coeff_ui(linear, 0), prime), n_invmod(slope, prime), prime);
       nmod_poly_factor_clear(factors);
     }
   }
@@ -87,13 +73,13 @@ const SharedCurves::Reduced& SharedCurves::reduced(const Poly& p) {
   return known_.emplace_back(p, std::move(result)).second;
 }
 
-SharedCurves::Residue SharedCurves::value(const Reduced& p, const std::vector<Residue>& at) const {
-  Residue total = 0;
+Residue SharedCurves::value(const Reduced& p, const std::vector<Residue>& at) const {
+  Residue total;
   for (std::size_t i = 0; i < p.coefficients.size(); ++i) {
-    Residue term = p.coefficients[i];
+    Residue term{p.coefficients[i], 0};
     for (const auto& [variable, exponent] : p.monomials[i])
-      term = product(term, power(at[static_cast<std::size_t>(variable)], exponent));
-    total = sum(total, term);
+      term = term * power(at[static_cast<std::size_t>(variable)], exponent);
+    total = total + term;
   }
   return total;
 }
@@ -101,27 +87,28 @@ SharedCurves::Residue SharedCurves::value(const Reduced& p, const std::vector<Re
 /// The points above one point of the curve; nothing where some root of theirs is not in the field, or a place divides
 /// by zero.
 std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsigned seed) {
-  std::vector<Residue> start(static_cast<std::size_t>(geometry_.ring().size()), 0);
+  std::vector<Residue> start(static_cast<std::size_t>(geometry_.ring().size()));
   int along = geometry_.coordinates() - 1;
   while (along > 0 && !curve.depends_on(along)) --along;
   for (int i = 0; i < geometry_.coordinates(); ++i)
-    if (i != along) start[static_cast<std::size_t>(i)] = scattered(seed * 8UL + static_cast<unsigned long>(i));
-  std::vector<Residue> coefficients;
-  for (const Poly& coefficient : curve.coefficients(along)) coefficients.push_back(value(reduced(coefficient), start));
-  const std::optional<Residue> root = root_of(coefficients);
+    if (i != along) start[static_cast<std::size_t>(i)] = {scattered(seed * 8UL + static_cast<unsigned long>(i)), 0};
+  std::vector<unsigned long> coefficients;
+  for (const Poly& coefficient : curve.coefficients(along))
+    coefficients.push_back(value(reduced(coefficient), start).real);
+  const std::optional<unsigned long> root = root_of(coefficients);
   if (!root) return std::nullopt;
-  start[static_cast<std::size_t>(along)] = *root;
+  start[static_cast<std::size_t>(along)] = {*root, 0};
   Fibre points = {start};
   for (const TowerRoot& own : geometry_.roots()) {
     Fibre next;
     for (std::vector<Residue>& point : points) {
-      const Residue square = value(reduced(own.square), point);
+      const std::optional<Residue> root_there = square_root(value(reduced(own.square), point));
+      if (!root_there) return std::nullopt;
       Residue& s = point[static_cast<std::size_t>(own.variable)];
-      if (square != 0) {
-        s = n_sqrtmod(square, prime);
-        if (s == 0) return std::nullopt;
+      s = *root_there;
+      if (!s.is_zero()) {
         next.push_back(point);
-        s = n_negmod(s, prime);
+        s = -s;
       }
       next.push_back(std::move(point));
     }
@@ -131,13 +118,13 @@ std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsign
   for (std::vector<Residue>& point : points)
     for (auto pair = places.rbegin(); pair != places.rend(); ++pair) {
       const Residue w = value(reduced(pair->place.w), point);
-      if (w == 0) return std::nullopt;
-      const Residue inverse = n_invmod(w, prime);
-      point[static_cast<std::size_t>(pair->x)] = product(value(reduced(pair->place.x), point), inverse);
+      if (w.is_zero()) return std::nullopt;
+      const Residue below = inverse(w);
+      point[static_cast<std::size_t>(pair->x)] = value(reduced(pair->place.x), point) * below;
       if (pair->y >= 0)
-        point[static_cast<std::size_t>(pair->y)] = product(value(reduced(pair->place.y), point), inverse);
+        point[static_cast<std::size_t>(pair->y)] = value(reduced(pair->place.y), point) * below;
       if (pair->z >= 0)
-        point[static_cast<std::size_t>(pair->z)] = product(value(reduced(pair->place.z), point), inverse);
+        point[static_cast<std::size_t>(pair->z)] = value(reduced(pair->place.z), point) * below;
     }
   return points;
 }
@@ -156,7 +143,7 @@ bool SharedCurves::may_vanish_along(const std::vector<Poly>& curves, const Poly&
   return std::any_of(curves.begin(), curves.end(), [&](const Poly& curve) {
     const std::optional<Fibre>& points = fibre_of(curve);
     return !points || std::any_of(points->begin(), points->end(), [&](const std::vector<Residue>& point) {
-      return value(reduced(sheet), point) == 0 && value(reduced(natural), point) == 0;
+      return value(reduced(sheet), point).is_zero() && value(reduced(natural), point).is_zero();
     });
   });
 }

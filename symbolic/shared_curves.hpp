@@ -7,12 +7,15 @@
 #include <vector>
 
 #include "symbolic/geometry.hpp"
+#include "symbolic/residue.hpp"
 
 namespace clearloci::symbolic {
 
 /// A polynomial that vanishes all along a component of the curve vanishes at all of its points modulo a prime too, over
 /// whichever signs of the roots: one point at which it does not, for any signs, is a proof that there is no such
-/// component. Nothing is expanded for it.
+/// component. Nothing is expanded for it. The coordinates are in the field of the prime, the roots in its quadratic
+/// extension, where every number of the field has a root: else a curve along which a product of roots is rational and
+/// no square modulo the prime would have no point at all.
 class SharedCurves {
  public:
   explicit SharedCurves(const Geometry& geometry);
@@ -22,10 +25,9 @@ class SharedCurves {
   bool may_vanish_along(const std::vector<Poly>& curves, const Poly& sheet, const Poly& natural);
 
  private:
-  using Residue = unsigned long;
   /// A polynomial modulo the prime.
   struct Reduced {
-    std::vector<Residue> coefficients;
+    std::vector<unsigned long> coefficients;
     std::vector<std::vector<std::pair<int, int>>> monomials;  ///< ring variable, power
   };
   /// All points above one point of a curve: values of the ring's variables, one set for each choice of signs.
