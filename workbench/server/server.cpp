@@ -4,6 +4,7 @@
 #include <httplib.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -36,9 +37,20 @@ std::string_view type_of(std::string_view path) {
   return "image/svg+xml";
 }
 
+/// Uncompressed: what is handed over whole, cpp-httplib compresses by brotli at its slowest, which took longer than all
+/// else, and nothing leaves this machine.
+void put_content(Response& response, std::string_view bytes, std::string_view type, std::shared_ptr<void> owner) {
+  response.set_content_provider(bytes.size(), std::string(type),
+                                [bytes, owner = std::move(owner)](std::size_t from, std::size_t count,
+                                                                  httplib::DataSink& sink) {
+                                  return sink.write(bytes.data() + from, count);
+                                });
+}
+
 void put_json(Response& response, int status, const Json& body) {
   response.status = status;
-  response.set_content(body.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
+  auto text = std::make_shared<std::string>(body.dump(-1, ' ', false, Json::error_handler_t::replace));
+  put_content(response, *text, "application/json", text);
 }
 
 void put_refusal(Response& response, int status, const std::string& sentence) {
@@ -128,7 +140,7 @@ void Server::Parts::answer_get(const std::string& path, const Request& request, 
   const std::string wanted = path.empty() ? "index.html" : path;
   for (const Asset& asset : page_assets())
     if (asset.path == wanted)
-      return response.set_content(asset.bytes.data(), asset.bytes.size(), std::string(type_of(wanted)));
+      return put_content(response, asset.bytes, type_of(wanted), nullptr);
   throw Refusal(404, "there is nothing at this address");
 }
 
