@@ -13,9 +13,9 @@ namespace clearloci::symbolic {
 
 /// A polynomial that vanishes all along a component of the curve vanishes at all of its points modulo a prime too, over
 /// whichever signs of the roots: one point at which it does not, for any signs, is a proof that there is no such
-/// component. Nothing is expanded for it. The coordinates are in the field of the prime, the roots in its quadratic
-/// extension, where every number of the field has a root: else a curve along which a product of roots is rational and
-/// no square modulo the prime would have no point at all.
+/// component. Nothing is expanded for it. Points are taken in the quadratic extension of the field of the prime, where
+/// every number of the field has a root: else a curve along which a product of roots is rational and no square modulo
+/// the prime, or one that falls into two over such a root, would have no point at all.
 class SharedCurves {
  public:
   explicit SharedCurves(const Geometry& geometry);
