@@ -39,6 +39,20 @@ Integer power_of_ten(unsigned long exponent) {
   return result;
 }
 
+/// The nearest double of a number of usual size: 55 or 56 bits of the quotient, the last one set where others follow,
+/// are rounded once.
+double rounded_once(const Rational& value) {
+  const auto bits = [](const Integer& n) { return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2)); };
+  const long shift = 55 - (bits(value.get_num()) - bits(value.get_den()));
+  Integer top = abs(value.get_num()), below = value.get_den(), rest;
+  Integer& shifted = shift >= 0 ? top : below;
+  mpz_mul_2exp(shifted.get_mpz_t(), shifted.get_mpz_t(), static_cast<mp_bitcnt_t>(std::abs(shift)));
+  mpz_tdiv_qr(top.get_mpz_t(), rest.get_mpz_t(), top.get_mpz_t(), below.get_mpz_t());
+  const unsigned long quotient = mpz_get_ui(top.get_mpz_t()) | (rest == 0 ? 0UL : 1UL);
+  const double size = std::ldexp(static_cast<double>(quotient), static_cast<int>(-shift));
+  return sgn(value) < 0 ? -size : size;
+}
+
 }  // namespace
 
 Rational rational_from_decimal(std::string_view text) {
@@ -82,6 +96,9 @@ std::optional<Rational> square_root(const Rational& value) {
 }
 
 double to_double(const Rational& value) {
+  if (sgn(value) == 0) return 0;
+  constexpr double least = 0x1p-1000, most = 0x1p1000;
+  if (const double near = std::abs(value.get_d()); near > least && near < most) return rounded_once(value);
   // GMP truncates towards zero; the nearest double is that one or its neighbour away from zero.
   const double truncated = value.get_d();
   if (!std::isfinite(truncated)) return truncated;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
+#include "loci/sheet/interval.hpp"
 #include "loci/sheet/star.hpp"
 #include "loci/tower_algebra.hpp"
 #include "loci/univariate.hpp"
@@ -15,10 +16,25 @@ namespace {
 
 using core::Polynomial;
 using core::Rational;
+using sheet::Interval;
 using sheet::MultiInterval;
 
 /// Halvings of a point's interval: below what MultiInterval resolves.
 constexpr int halvings = 260;
+
+/// +1 or -1 where intervals of doubles prove it, else 0.
+int sign_in_doubles(const Polynomial& p, const std::vector<MultiInterval>& at) {
+  std::vector<Interval> nearly;
+  for (const MultiInterval& value : at) nearly.emplace_back(value.lower(), value.upper());
+  Interval sum;
+  for (const core::Term& term : p.terms) {
+    Interval product = Interval(term.coefficient.get_d()) + Interval();  // GMP truncates: a step outwards encloses
+    for (std::size_t v = 0; v < term.exponents.size(); ++v)
+      for (int k = 0; k < term.exponents[v]; ++k) product = product * nearly[v];
+    sum = sum + product;
+  }
+  return std::isfinite(sum.lower()) && std::isfinite(sum.upper()) ? sum.sign() : 0;
+}
 
 }  // namespace
 
@@ -41,7 +57,7 @@ std::optional<CurvePoint> curve_point(const Polynomial& curve, const std::array<
   if (line.is_zero() || line.is_constant()) return std::nullopt;
   std::vector<RealRoot> roots = real_roots(square_free_part(univariate(line)), centre - radius, centre + radius);
   if (roots.size() != 1) return std::nullopt;
-  for (int k = 0; k < halvings; ++k) narrow(roots.front());
+  narrow_by(roots.front(), halvings);
   CurvePoint point(2);
   point[fixed] = {level, level};
   point[across] = {roots.front().lower, roots.front().upper};
@@ -128,17 +144,27 @@ bool ArcOrders::place_roots_on(int side) {
 std::optional<Germ> ArcOrders::coordinate_germ(const Polynomial& p, int side) {
   if (rule_) return rule_(p, side);
   const CurveAlgebra::Divided& own = algebra_->divided(p);
-  const int cofactor = evaluate(own.rest, at_).sign();
+  const int cofactor = sign_at_point(own.rest);
   if (cofactor == 0) return std::nullopt;
   return Germ{own.order, own.order % 2 == 0 ? cofactor : side * cofactor};
 }
 
-std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
-  if (p.is_zero()) return Germ{};
+/// +1 or -1 where it is proven, else 0.
+int ArcOrders::sign_at_point(const Polynomial& p) {
+  const auto known = std::find_if(signs_.begin(), signs_.end(), [&](const auto& own) { return own.first == p; });
+  if (known != signs_.end()) return known->second;
   // The variables of roots that are still to be placed do not occur.
   std::vector<MultiInterval> at = at_;
   at.resize(std::max(at.size(), static_cast<std::size_t>(p.variables)), MultiInterval(0.0));
-  if (const int sign = evaluate(p, at).sign(); sign != 0) return Germ{0, sign};
+  int sign = sign_in_doubles(p, at);
+  if (sign == 0) sign = evaluate(p, at).sign();
+  signs_.emplace_back(p, sign);
+  return sign;
+}
+
+std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
+  if (p.is_zero()) return Germ{};
+  if (const int sign = sign_at_point(p); sign != 0) return Germ{0, sign};
   const int top = top_root(p, tower_);
   if (top < 0) return coordinate_germ(p, side);
   const auto [a, b] = split(p, static_cast<int>(tower_.coordinates.size()) + top);

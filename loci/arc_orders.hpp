@@ -83,12 +83,14 @@ class ArcOrders {
   void place_roots(const CurvePoint& at);
   bool place_roots_on(int side);
   std::optional<Germ> coordinate_germ(const core::Polynomial& p, int side);
+  int sign_at_point(const core::Polynomial& p);
 
   const core::RootTower& tower_;
   core::WorkingMode mode_;
   std::shared_ptr<CurveAlgebra> algebra_;
   CoordinateGerm rule_;                       ///< instead of the curve's own; may be empty
   std::vector<sheet::MultiInterval> at_;      ///< coordinates, then the roots placed so far
+  std::list<std::pair<core::Polynomial, int>> signs_;  ///< at the point; of the one side as of the other
   std::map<int, std::vector<Germ>> squares_;  ///< of every side: of the squares placed so far
   std::vector<int> sides_;
   int ramification_ = 1;

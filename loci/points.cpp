@@ -87,7 +87,7 @@ std::vector<RealRoot> candidates(const LocusProblem& problem) {
   std::vector<RealRoot> roots;
   for (const Univariate& p : coprime_base(polynomials))
     for (RealRoot& root : real_roots(p, problem.lower[0], problem.upper[0])) {
-      for (int k = 0; k < halvings; ++k) narrow(root);
+      narrow_by(root, halvings);
       roots.push_back(std::move(root));
     }
   // No two are equal: narrowing ends.

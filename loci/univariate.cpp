@@ -188,6 +188,62 @@ void narrow(RealRoot& root) {
     (sign == sign_at(root.polynomial, root.lower) ? root.lower : root.upper) = middle;
 }
 
+void narrow_by(RealRoot& root, int bits) {
+  int won = 0, sure = 2;  // bits; those that the next step is to win
+  const int below = root.exact() ? 0 : sign_at(root.polynomial, root.lower);
+  const auto halve = [&] {
+    const Rational middle = (root.lower + root.upper) / 2;
+    const int sign = sign_at(root.polynomial, middle);
+    if (sign == 0) root.lower = root.upper = middle;
+    if (sign != 0) (sign == below ? root.lower : root.upper) = middle;
+    ++won;
+  };
+  while (won < bits && !root.exact()) {
+    const Rational width = root.upper - root.lower, middle = root.lower + width / 2;
+    Rational value = 0, slope = 0;
+    for (auto c = root.polynomial.rbegin(); c != root.polynomial.rend(); ++c) {
+      slope = slope * middle + value;
+      value = value * middle + *c;
+    }
+    // A part of the interval about Newton's place, with ends on a grid of it.
+    Rational place = slope == 0 ? Rational(-1) : Rational((middle - value / slope - root.lower) / width);
+    if (place <= 0 || place >= 1) {
+      halve();
+      continue;
+    }
+    const int step = std::min(sure, bits - won + 1);
+    Integer nearest;
+    mpz_mul_2exp(nearest.get_mpz_t(), place.get_num_mpz_t(), static_cast<mp_bitcnt_t>(step));
+    mpz_fdiv_q(nearest.get_mpz_t(), nearest.get_mpz_t(), place.get_den_mpz_t());
+    Rational part = width;
+    mpq_div_2exp(part.get_mpq_t(), part.get_mpq_t(), static_cast<mp_bitcnt_t>(step));
+    const auto sign_on = [&](const Rational& x) {
+      return x <= root.lower ? below : x >= root.upper ? -below : sign_at(root.polynomial, x);
+    };
+    Rational lower = root.lower + part * nearest, upper = lower + part;
+    int at_lower = sign_on(lower), at_upper = sign_on(upper);
+    if (at_lower == -below) {  // in the part before, if Newton is right
+      upper = lower, at_upper = at_lower;
+      lower -= part, at_lower = sign_on(lower);
+    } else if (at_upper == below) {
+      lower = upper, at_lower = at_upper;
+      upper += part, at_upper = sign_on(upper);
+    }
+    if (at_lower == 0) {
+      root.lower = root.upper = lower;
+    } else if (at_upper == 0) {
+      root.lower = root.upper = upper;
+    } else if (at_lower == below && at_upper == -below) {
+      root.lower = std::max(root.lower, lower), root.upper = std::min(root.upper, upper);
+      won += step;
+      sure *= 2;
+    } else {
+      sure = std::max(2, sure / 2);
+      halve();
+    }
+  }
+}
+
 int sign_at(const Univariate& q, RealRoot& root) {
   if (q.empty()) return 0;
   if (root.exact()) return sign_at(q, root.lower);

@@ -40,6 +40,10 @@ std::vector<RealRoot> real_roots(Univariate p, const core::Rational& lower, cons
 /// Halves the interval of the root; finds it where it is the middle.
 void narrow(RealRoot& root);
 
+/// Narrows the interval of the root to 2^-bits of what it is now, by Newton's method where it helps: the digits won
+/// double with every step (Abbott 2014, quadratic interval refinement).
+void narrow_by(RealRoot& root, int bits);
+
 /// -1, 0 or +1: the sign of q at the root, which is narrowed as far as the answer needs.
 int sign_at(const Univariate& q, RealRoot& root);
 
