@@ -7,8 +7,10 @@
 #include <numbers>
 #include <optional>
 
+#include "loci/circle_crossings.hpp"
 #include "loci/curve_arrangement.hpp"
 #include "loci/curve_projection.hpp"
+#include "loci/near_passes.hpp"
 #include "loci/segment_crossings.hpp"
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
@@ -28,6 +30,10 @@ constexpr int agreeing_circles = 1;
 constexpr double rounding = 1e-13;  // of points moved onto a curve
 // Tolerances by which chords may cross beside the curves' crossing.
 constexpr double drawn_off = 100;
+// Tolerances by which polylines of arcs that meet are apart at most, with room for rounding.
+constexpr double chords_apart = 2.5;
+// Curves that leave a star side by side are told apart this far from it.
+constexpr double around_a_star = 0.15;
 // The exact arrangement of two curves is quick up to this degree.
 constexpr int exact_degree = 8;
 
@@ -81,7 +87,11 @@ class Builder {
       high_[i] = core::to_double(map.upper[i]);
     }
     size_ = std::max(high_[0] - low_[0], high_[1] - low_[1]);
-    if (!sketch) effort_.special = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
+    if (sketch) return;
+    effort_.special = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
+    stars_ = sheet::bases(problem.tower);
+    for (const std::vector<sheet::Star>& list : {sheet::touches(problem.tower), effort_.special})
+      for (const sheet::Star& star : list) stars_.push_back({core::to_double(star.x), core::to_double(star.y)});
   }
 
   ZoneGraph build() {
@@ -149,25 +159,80 @@ class Builder {
       if (strand.owner == box_owner || curve(strand.owner).kind == LocusKind::workspace_boundary) continue;
       if (std::find(owners.begin(), owners.end(), strand.owner) == owners.end()) owners.push_back(strand.owner);
     }
-    std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, bool> done;
-    for (std::size_t i = 0; i < owners.size(); ++i) {
+    for (std::size_t i = 0; i < owners.size(); ++i)
       for (std::size_t k = i + 1; k < owners.size(); ++k) {
         const core::LocusCurve &a = curve(owners[i]), &b = curve(owners[k]);
         const bool one_singular =
             (a.kind == LocusKind::direct_singularity) != (b.kind == LocusKind::direct_singularity);
-        if (one_singular || a.implicit == b.implicit) continue;
-        const core::LocusFactor *first = factor_of(problem_, a), *second = factor_of(problem_, b);
-        if (first == nullptr || second == nullptr) {
-          doubt_for_good("crossings of " + a.id + " and " + b.id + " are not proven");
-        } else if (first == second) {
-          add_plane_crossings(a, b);
-        } else if (done.emplace(std::minmax(first, second), true).second) {
-          if (!add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line},
-                                               {second->sheet, second->line}, map_.lower, map_.upper, effort_)))
+        if (one_singular || a.implicit == b.implicit || add_closed_crossings(owners[i], owners[k])) continue;
+        for (const sheet::Cell& place : meeting_places(owners[i], owners[k]))
+          if (!add_crossings_in(place, owners[i], owners[k])) {
             add_plane_crossings(a, b);
-        }
+            break;
+          }
       }
+  }
+
+  /// Boxes outside which the curves stay apart: their arcs are next to their polylines.
+  std::vector<sheet::Cell> meeting_places(int first, int second) {
+    std::vector<sheet::Cell> places;
+    for (const Strand& one : strands_)
+      for (const Strand& other : strands_) {
+        if (one.owner != first || other.owner != second) continue;
+        const auto own = near_passes(boxed(one), boxed(other), chords_apart * map_.tolerance + same_place * size_);
+        if (!own) return {{{low_[0], high_[0]}, {low_[1], high_[1]}}};
+        places.insert(places.end(), own->begin(), own->end());
+      }
+    for (sheet::Cell& place : places)
+      for (const Point2& star : stars_)
+        if (place.x.contains(star[0]) && place.y.contains(star[1])) {
+          const double reach = around_a_star * size_;
+          place = {hull(place.x, {star[0] - reach, star[0] + reach}),
+                   hull(place.y, {star[1] - reach, star[1] + reach})};
+        }
+    return sheet::clusters(std::move(places));
+  }
+
+  const BoxedPolyline& boxed(const Strand& strand) { return boxed_.try_emplace(&strand, strand.points).first->second; }
+
+  /// False: there may be more than are found.
+  bool add_crossings_in(const sheet::Cell& place, int a, int b) {
+    const std::vector<core::Rational> lower = {core::Rational(place.x.lower()), core::Rational(place.y.lower())},
+                                      upper = {core::Rational(place.x.upper()), core::Rational(place.y.upper())};
+    const core::LocusFactor *first = factor_of(problem_, curve(a)), *second = factor_of(problem_, curve(b));
+    if (first == nullptr || second == nullptr) {
+      doubt_for_good("crossings of " + curve(a).id + " and " + curve(b).id + " are not proven");
+      return true;
     }
+    sheet::ZeroOptions effort = effort_;
+    effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
+    if (first != second)
+      return add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line},
+                                             {second->sheet, second->line}, lower, upper, effort));
+    // Curves of one factor are told apart in the plane; the tower knows where it is undefined.
+    const auto widened = [&](const core::Polynomial& p) { return core::with_variables(p, problem_.tower.variables()); };
+    sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, widened(curve(a).implicit),
+                                                 widened(curve(b).implicit), lower, upper, effort);
+    std::erase_if(found.zeros, [&](const sheet::SheetZero& zero) {
+      return !passed_by(a, {zero.x, zero.y}) || !passed_by(b, {zero.x, zero.y});
+    });
+    return add_zeros(found);
+  }
+
+  /// Whether a curve has arcs there.
+  bool passed_by(int owner, const Point2& at) const {
+    return std::any_of(strands_.begin(), strands_.end(), [&](const Strand& strand) {
+      return strand.owner == owner && !passes(strand.points, at, reach_of(strand)).empty();
+    });
+  }
+
+  /// Of lines and circles. False: they are others.
+  bool add_closed_crossings(int first, int second) {
+    const auto points = circle_crossings(curve(first).closed_form, curve(second).closed_form);
+    if (!points) return false;
+    for (const Point2& at : *points)
+      if (passed_by(first, at) && passed_by(second, at)) node_at(at);
+    return true;
   }
 
   /// Those that the polylines show, moved onto both curves.
@@ -231,12 +296,16 @@ class Builder {
   /// None for the sides of the box.
   const CurveProjection* projection(int owner) { return owner == box_owner ? nullptr : &projections_.of(owner); }
 
+  /// How near its polyline a node of the strand may be.
+  double reach_of(const Strand& strand) const {
+    return (strand.owner == box_owner ? 0 : 2 * map_.tolerance) + same_place * size_;
+  }
+
   /// Splits every strand that passes through the node.
   void cut_at(int node) {
     const Point2 at = graph().nodes[static_cast<std::size_t>(node)];
     for (Strand& strand : strands_) {
-      const double reach = strand.owner == box_owner ? same_place * size_ : 2 * map_.tolerance + same_place * size_;
-      for (const Foot& foot : passes(strand.points, at, reach)) {
+      for (const Foot& foot : passes(strand.points, at, reach_of(strand))) {
         // A vertex is on the curve, also where the curve is singular and nothing near could be moved onto it.
         const auto is_near = [&](std::size_t i) { return distance(strand.points[i], at) <= same_place * size_; };
         const CurveProjection* const own =
@@ -467,9 +536,11 @@ class Builder {
   core::WorkingMode mode_;
   bool sketch_;
   sheet::ZeroOptions effort_;
+  Polyline stars_;
   Point2 low_{}, high_{};
   double size_ = 1;
   std::vector<Strand> strands_;
+  std::map<const Strand*, BoxedPolyline> boxed_;
   CurveProjections& projections_;
   ZoneGraph result_;
 };

@@ -1,5 +1,5 @@
-// The field of p^2 elements, p = 2^61 - 1: a + b i with i^2 = -1, which is no square modulo p. Every number modulo p has
-// its square roots there. Private to symbolic/.
+// The field of p^2 elements, p = 2^61 - 1: a + b i with i^2 = -1, which is no square modulo p. Every number modulo p
+// has its square roots there. Private to symbolic/.
 #pragma once
 
 #include <optional>

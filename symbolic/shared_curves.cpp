@@ -139,10 +139,8 @@ std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsign
       if (w.is_zero()) return std::nullopt;
       const Residue below = inverse(w);
       point[static_cast<std::size_t>(pair->x)] = value(reduced(pair->place.x), point) * below;
-      if (pair->y >= 0)
-        point[static_cast<std::size_t>(pair->y)] = value(reduced(pair->place.y), point) * below;
-      if (pair->z >= 0)
-        point[static_cast<std::size_t>(pair->z)] = value(reduced(pair->place.z), point) * below;
+      if (pair->y >= 0) point[static_cast<std::size_t>(pair->y)] = value(reduced(pair->place.y), point) * below;
+      if (pair->z >= 0) point[static_cast<std::size_t>(pair->z)] = value(reduced(pair->place.z), point) * below;
     }
   return points;
 }

@@ -40,11 +40,11 @@ std::string_view type_of(std::string_view path) {
 /// Uncompressed: what is handed over whole, cpp-httplib compresses by brotli at its slowest, which took longer than all
 /// else, and nothing leaves this machine.
 void put_content(Response& response, std::string_view bytes, std::string_view type, std::shared_ptr<void> owner) {
-  response.set_content_provider(bytes.size(), std::string(type),
-                                [bytes, owner = std::move(owner)](std::size_t from, std::size_t count,
-                                                                  httplib::DataSink& sink) {
-                                  return sink.write(bytes.data() + from, count);
-                                });
+  response.set_content_provider(
+      bytes.size(), std::string(type),
+      [bytes, owner = std::move(owner)](std::size_t from, std::size_t count, httplib::DataSink& sink) {
+        return sink.write(bytes.data() + from, count);
+      });
 }
 
 void put_json(Response& response, int status, const Json& body) {
@@ -139,8 +139,7 @@ void Server::Parts::answer_get(const std::string& path, const Request& request, 
   if (path == "api/progress") return follow_progress(request, response);
   const std::string wanted = path.empty() ? "index.html" : path;
   for (const Asset& asset : page_assets())
-    if (asset.path == wanted)
-      return put_content(response, asset.bytes, type_of(wanted), nullptr);
+    if (asset.path == wanted) return put_content(response, asset.bytes, type_of(wanted), nullptr);
   throw Refusal(404, "there is nothing at this address");
 }
 
