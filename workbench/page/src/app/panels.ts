@@ -68,7 +68,7 @@ export function legendPanel(bench: Workbench): Panel {
       bench.zonesFault ? h("p", { class: "fault" }, `zones: ${bench.zonesFault}`) : undefined,
     );
   };
-  return { element: section("Curves", true, body, notes), update: (news) => ["loci", "zones", "state", "theme", "model"].some((one) => news.has(one)) && show() };
+  return { element: section("Curves", true, body, notes), update: (news) => ["loci", "zones", "state.hidden", "state.file", "theme"].some((one) => news.has(one)) && show() };
 }
 
 /** Reactions that no load reaches are told in one note, not in one each. */
@@ -184,11 +184,11 @@ export function modesPanel(bench: Workbench): Panel {
       ...modes.modes.map((one) => {
         const chosen = one.mode.length === own.length && one.mode.every((side, k) => side === own[k]);
         const canvas = thumbnail(one.sketch, theme);
-        return h("button", { type: "button", class: "mode", role: "radio", "aria-checked": String(chosen), title: words(one.mode), disabled: one.sample === null, click: () => bench.change({ mode: one.mode, ...(state.at ? {} : { at: one.sample ?? undefined }) }) }, canvas, h("span", {}, one.sample === null ? "reaches nothing" : words(one.mode)));
+        return h("button", { type: "button", class: "mode", role: "radio", "aria-checked": String(chosen), title: words(one.mode), disabled: one.sample === null, click: () => bench.change({ mode: one.mode, ...(bench.state.at ? {} : { at: one.sample ?? undefined }) }) }, canvas, h("span", {}, one.sample === null ? "reaches nothing" : words(one.mode)));
       }),
     );
   };
-  return { element, update: (news) => ["modes", "model", "theme", "state"].some((one) => news.has(one)) && show() };
+  return { element, update: (news) => ["modes", "kind", "theme", "state.mode"].some((one) => news.has(one)) && show() };
 }
 
 function thumbnail(sketch: Sketch | undefined, theme: Workbench["theme"]): HTMLCanvasElement {
@@ -241,5 +241,5 @@ export function countingPanel(bench: Workbench): Panel {
         box("take-up of clearances", state.takeUp, (on) => bench.change({ takeUp: on }))),
     );
   };
-  return { element, update: (news) => (news.has("model") || news.has("state")) && show() };
+  return { element, update: (news) => ["kind", "state.joints", "state.quantities", "state.zones", "state.reactions", "state.takeUp"].some((one) => news.has(one)) && show() };
 }

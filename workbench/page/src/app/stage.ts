@@ -70,11 +70,11 @@ export class Stage {
       this.top.begin();
       return;
     }
-    if (news.has("loci") || news.has("state")) {
+    if (news.has("loci") || news.has("state.hidden")) {
       const { picture, state } = this.bench;
       if (picture) this.shown = shownOf(picture, undefined, new Set(state.hidden));
     }
-    if (["loci", "state", "zones", "kept", "theme", "model", "sweep"].some((one) => news.has(one))) this.drawGround();
+    if (["loci", "zones", "kept", "theme", "kind", "sweep", "state.file", "state.hidden", "state.zones"].some((one) => news.has(one)) || (news.has("pose") && this.fitted !== this.mark)) this.drawGround();
     this.drawTop();
   }
 
@@ -127,9 +127,14 @@ export class Stage {
     this.drawTop();
   }
 
+  /** Of what is to be shown whole. */
+  private get mark(): string {
+    return `${this.bench.state.file}|${this.bench.coordinates.length}|${this.size.width}x${this.size.height}`;
+  }
+
   /** A new mechanism is shown whole; while one designs, the view stays. */
   private prepare(): View | undefined {
-    const mark = `${this.bench.state.file}|${this.bench.coordinates.length}|${this.size.width}x${this.size.height}`;
+    const { mark } = this;
     const box = this.box;
     if (box && this.size.width > 0 && (this.fitted !== mark || !this.view)) {
       this.view = fit(box, this.size, !this.angles.some(Boolean), this.cycle ? 60 : 34);

@@ -103,7 +103,10 @@ export class Workbench {
     this.watchers.push(watcher);
   }
 
-  /** Tells everyone, with the next frame. */
+  /**
+   * Tells everyone, with the next frame. What is told: the name of an answer; "state" and "state.KEY" of what changed in
+   * it; "kind" where the mechanism is another one, not only other values of it.
+   */
   tell(...what: string[]): void {
     what.forEach((one) => this.news.add(one));
     this.frame ||= requestAnimationFrame(() => {
@@ -181,7 +184,7 @@ export class Workbench {
     if (changed("kept")) void this.askKept();
     if (changed("trajectory", "text", "mode")) void this.askTrajectory();
     this.atRest();
-    this.tell("state");
+    this.tell("state", ...(Object.keys(now) as (keyof State)[]).filter((key) => changed(key)).map((key) => `state.${key}`));
   }
 
   /** Another mechanism: nothing of the one before is shown, nor what is still to be answered of it. */
@@ -270,6 +273,8 @@ export class Workbench {
 
   private onModel(facts: ModelFacts): void {
     const known = this.facts;
+    const kindOf = (one: ModelFacts): string => JSON.stringify({ ...one, parameters: undefined, sample: undefined });
+    if (!known || kindOf(known) !== kindOf(facts)) this.tell("kind");
     this.facts = facts;
     const at = this.state.at;
     const fits = at && at.length === facts.coordinates.length;
