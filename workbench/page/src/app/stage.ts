@@ -74,8 +74,10 @@ export class Stage {
       const { picture, state } = this.bench;
       if (picture) this.shown = shownOf(picture, undefined, new Set(state.hidden));
     }
-    if (["loci", "zones", "kept", "theme", "kind", "sweep", "state.file", "state.hidden", "state.zones"].some((one) => news.has(one)) || (news.has("pose") && this.fitted !== this.mark)) this.drawGround();
-    this.drawTop();
+    const any = (...names: string[]): boolean => names.some((one) => news.has(one));
+    const seen = this.view;
+    if (any("loci", "zones", "kept", "theme", "kind", "sweep", "state.file", "state.hidden", "state.zones") || (news.has("pose") && this.fitted !== this.mark)) this.drawGround();
+    if (this.view !== seen || any("pose", "verify", "theme", "kind", "sweep", "fault", "state.file", "state.at", "state.task", "state.reactions", "state.takeUp")) this.drawTop();
   }
 
   // ---- Looking
