@@ -50,7 +50,11 @@ void put_content(Response& response, std::string_view bytes, std::string_view ty
 void put_json(Response& response, int status, const Json& body) {
   response.status = status;
   auto text = std::make_shared<std::string>(body.dump(-1, ' ', false, Json::error_handler_t::replace));
-  put_content(response, *text, "application/json", text);
+  constexpr std::string_view type = "application/json";
+  if (status == 200)
+    put_content(response, *text, type, text);
+  else  // without a body at hand cpp-httplib would put its own words there
+    response.set_content(*text, std::string(type));
 }
 
 void put_refusal(Response& response, int status, const std::string& sentence) {
