@@ -78,17 +78,15 @@ void put_reactions(TableRows& row, const numeric::NumericModel& model, const Ran
 
 void put_take_up(TableRows& row, const numeric::NumericModel& model, const RangePose& pose) {
   const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(model.mechanism);
-  const std::vector<numeric::JointColumns> unknowns = numeric::joint_columns(model);
   for (std::size_t j = 0; j < clearances.size(); ++j) {
     const std::string& name = model.mechanism.joints[j].name;
     const numeric::TakeUp* own = pose.reachable ? &pose.accuracy.take_up[j] : nullptr;
-    const bool guide = unknowns[j].normal >= 0;
     if (clearances[j].radial > 0) row.put("beta_" + name, "rad", own != nullptr && own->beta ? *own->beta : nan);
-    if (clearances[j].angular > 0 && unknowns[j].couple >= 0)
-      row.put((guide ? "travel_" : "theta_") + name, guide ? "m" : "rad",
-              own != nullptr && !own->couple_vanishes ? own->rotation : nan);
+    const bool driven = own != nullptr && !own->actuator_vanishes;
+    if (clearances[j].angular > 0) row.put("theta_" + name, "rad", driven ? own->turn : nan);
+    if (clearances[j].axial > 0) row.put("travel_" + name, "m", driven ? own->travel : nan);
     if (clearances[j].gap > 0) {
-      const bool known = own != nullptr && !own->guide_vanishes;
+      const bool known = own != nullptr && !own->guide_vanishes();
       row.put("normal_" + name, "m", known ? own->normal : nan);
       row.put("tilt_" + name, "rad", known ? own->tilt : nan);
     }
@@ -106,8 +104,8 @@ core::Table table_of(const numeric::NumericModel& model, const std::vector<Range
     pose.reachable = pose.reachable && !on_event;
     const numeric::PoseError& error = pose.accuracy.error;
     const numeric::WorstCase& worst = pose.accuracy.worst;
-    const std::array values = {error.dx, error.dy, error.dalpha, error.dp(),
-                               worst.dx, worst.dy, worst.dalpha, worst.dp};
+    const std::array values = {error.dp[0], error.dp[1], error.dalpha[2], error.dp.norm(),
+                               worst.dp[0], worst.dp[1], worst.dalpha[2], worst.distance};
     row.put(coordinate.name, coordinate.angle ? "rad" : "m", pose.at);
     put_reactions(row, model, pose);
     put_take_up(row, model, pose);
@@ -138,9 +136,9 @@ numeric::PoseError without_noise(numeric::PoseError jump, const core::Table& tab
     return most;
   };
   const double place = std::max(largest("dx"), largest("dy"));
-  for (double* part : {&jump.dx, &jump.dy})
-    if (std::abs(*part) <= least_jump * place) *part = 0;
-  if (std::abs(jump.dalpha) <= least_jump * largest("dalpha")) jump.dalpha = 0;
+  for (double& part : jump.dp)
+    if (std::abs(part) <= least_jump * place) part = 0;
+  if (std::abs(jump.dalpha[2]) <= least_jump * largest("dalpha")) jump.dalpha[2] = 0;
   return jump;
 }
 
@@ -175,7 +173,7 @@ CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const 
     for (std::size_t i = 0; i < events.size(); ++i) {
       const numeric::PoseError jump = without_noise(
           numeric::error_jump(model, sides, events[i].at.front(), free_beside(events, i, all.range)), own.samples);
-      own.events.push_back({events[i], jumps(events[i]), jump.dx, jump.dy, jump.dalpha});
+      own.events.push_back({events[i], jumps(events[i]), jump.dp[0], jump.dp[1], jump.dalpha[2]});
     }
     all.modes.push_back(std::move(own));
   }

@@ -17,7 +17,6 @@
 #include "numeric/displaced.hpp"
 #include "numeric/dynamics.hpp"
 #include "numeric/pose_error.hpp"
-#include "numeric/spatial.hpp"
 
 namespace clearloci {
 namespace {
@@ -54,61 +53,95 @@ std::string name_of(const mechanism::Mechanism& mechanism, mechanism::PointIndex
   return mechanism.points[static_cast<std::size_t>(point)].name;
 }
 
-bool is_beyond_limit(const numeric::NumericModel& model, const DyadSides& sides, Pose& pose) {
-  const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(model, pose.at, sides);
-  if (!end || end->slack >= 0) return false;
+/// Of the limits that a pose is beyond the one that it is farthest beyond.
+std::string words_beyond(const numeric::NumericModel& model, const DyadSides& sides, const numeric::Posture& posture,
+                         std::span<const double> at) {
+  numeric::LimitEnd end = *posture.broken;
+  // An angle between points that coincide keeps no limit, and is beyond it by nothing that has a size.
+  if (const auto tightest = numeric::tightest_limit(model, at, sides); tightest && tightest->slack < 0) end = *tightest;
   const mechanism::Mechanism& m = model.mechanism;
-  pose.beyond_limit = mechanism::words_of(m, m.limits[end->limit], end->upper);
-  return true;
+  return mechanism::words_of(m, m.limits[end.limit], end.upper);
 }
 
-// ---- Plane
+std::vector<double> components(mechanism::Space space, const Eigen::Vector3d& v) {
+  return space == mechanism::Space::planar ? std::vector<double>{v(0), v(1)} : std::vector<double>{v(0), v(1), v(2)};
+}
 
-PoseError plane_error(const numeric::PoseError& error) { return {{error.dx, error.dy}, {error.dalpha}}; }
+std::vector<double> rotations(mechanism::Space space, const Eigen::Vector3d& v) {
+  return space == mechanism::Space::planar ? std::vector<double>{v(2)} : std::vector<double>{v(0), v(1), v(2)};
+}
+
+PoseError error_of(mechanism::Space space, const numeric::PoseError& error) {
+  return {components(space, error.dp), rotations(space, error.dalpha)};
+}
 
 /// Of the joints with a clearance.
-std::vector<JointTakeUp> plane_take_up(const mechanism::Mechanism& mechanism,
-                                       const std::vector<numeric::TakeUp>& take_up) {
-  const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
+std::vector<JointTakeUp> take_up_of(const mechanism::Mechanism& mechanism,
+                                    const std::vector<numeric::JointContact>& contacts,
+                                    const std::vector<numeric::TakeUp>& take_up) {
+  const bool planar = mechanism.space == mechanism::Space::planar;
   std::vector<JointTakeUp> list;
-  for (std::size_t j = 0; j < take_up.size(); ++j) {
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    const numeric::JointContact& joint = contacts[j];
     const numeric::TakeUp& t = take_up[j];
-    const auto& [radial, angular, gap, half_length] = clearances[j];
-    if (radial == 0 && angular == 0 && gap == 0) continue;
+    if (!joint.clearance.any()) continue;
     JointTakeUp own;
     own.joint = mechanism.joints[j].name;
-    if (mechanism::traits(mechanism.joints[j]).slides) {
-      if (gap > 0) own.normal = t.guide_vanishes ? nan : t.normal;
-      if (gap > 0) own.tilt = t.guide_vanishes ? nan : t.tilt;
-      if (angular > 0) own.axial = t.couple_vanishes ? nan : t.rotation;
-    } else {
-      const bool lost = t.force_vanishes && radial > 0;
-      own.displacement = {lost ? nan : t.displacement[0], lost ? nan : t.displacement[1]};
-      own.beta = t.beta.value_or(nan);
-      if (angular > 0) own.rotation = t.couple_vanishes ? nan : t.rotation;
+    const bool lost = t.force_vanishes && joint.presses();
+    // A pin in the plane that has play but no radial clearance is displaced by nothing, in a direction.
+    if (joint.presses() || (planar && !mechanism::traits(joint.type).slides))
+      own.displacement = components(mechanism.space, lost ? Eigen::Vector3d::Constant(nan) : t.displacement);
+    if (planar && !mechanism::traits(joint.type).slides) own.beta = t.beta.value_or(nan);
+    if (joint.clearance.angular > 0) own.rotation = t.actuator_vanishes ? nan : t.turn;
+    if (joint.clearance.axial > 0) own.axial = t.actuator_vanishes ? nan : t.travel;
+    if (joint.is_guided()) {
+      own.normal = t.guide_vanishes() ? nan : t.normal;
+      own.tilt = t.guide_vanishes() ? nan : t.tilt;
     }
     list.push_back(std::move(own));
   }
   return list;
 }
 
-std::vector<JointReaction> plane_reactions(const numeric::NumericModel& model, const Eigen::VectorXd& values) {
+/// A joint of space: its force and couple in Cartesian components, the actuator's share apart.
+JointReaction reaction_in_space(const mechanism::Joint& joint, const numeric::JointReaction& r) {
+  constexpr std::array forces = {core::Quantity::fx, core::Quantity::fy, core::Quantity::fz};
+  constexpr std::array couples = {core::Quantity::mx, core::Quantity::my, core::Quantity::mz};
+  JointReaction own{joint.name, {}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    own.components.push_back({forces[c], r.force(static_cast<Eigen::Index>(c))});
+    if (mechanism::traits(joint).couple != mechanism::BorneCouple::none)
+      own.components.push_back({couples[c], r.couple(static_cast<Eigen::Index>(c))});
+  }
+  if (joint.actuated) own.components.push_back({mechanism::actuator_quantity(joint), r.actuator});
+  return own;
+}
+
+/// In the plane by the unknowns, of which `values` has one each.
+std::vector<JointReaction> reactions_of(const numeric::NumericModel& model, const Eigen::VectorXd& values,
+                                        const std::vector<numeric::JointReaction>& of_joints) {
+  const std::vector<mechanism::Joint>& joints = model.mechanism.joints;
   std::vector<JointReaction> list;
-  for (const mechanism::Joint& joint : model.mechanism.joints) list.push_back({joint.name, {}});
+  if (model.mechanism.space == mechanism::Space::spatial) {
+    for (std::size_t j = 0; j < joints.size(); ++j) list.push_back(reaction_in_space(joints[j], of_joints[j]));
+    return list;
+  }
+  for (const mechanism::Joint& joint : joints) list.push_back({joint.name, {}});
   for (std::size_t k = 0; k < model.unknowns.size(); ++k)
     list[static_cast<std::size_t>(model.unknowns[k].joint)].components.push_back(
         {model.unknowns[k].quantity, values[static_cast<Eigen::Index>(k)]});
   return list;
 }
 
-ActualPose actual_of(const numeric::NumericModel& model, const numeric::ActualPose& found) {
+ActualPose actual_of(const numeric::NumericModel& model, const std::vector<numeric::JointContact>& contacts,
+                     const numeric::ActualPose& found) {
   ActualPose actual;
   actual.converged = found.converged;
   actual.reason = found.reason;
   if (!found.converged) return actual;
-  actual.error = plane_error(found.error);
-  actual.beyond_linear = plane_error(found.beyond_linear);
-  actual.take_up = plane_take_up(model.mechanism, found.take_up);
+  actual.error = error_of(model.mechanism.space, found.error);
+  actual.beyond_linear = error_of(model.mechanism.space, found.beyond_linear);
+  actual.take_up = take_up_of(model.mechanism, contacts, found.take_up);
   actual.iterations = found.iterations;
   actual.residual = found.residual;
   for (std::size_t i = 0; i < model.mechanism.links.size(); ++i) {
@@ -135,13 +168,13 @@ void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides
   }
   const numeric::Instant instant = numeric::instant_of(motion, coordinates);
   constexpr double second = 1;  // the period of a single instant
-  pose.reactions = plane_reactions(motion.model, instant.reactions(second));
+  pose.reactions = reactions_of(motion.model, instant.reactions(second), {});
   const numeric::InstantError accuracy = numeric::instant_error(motion, instant, second);
-  pose.take_up = plane_take_up(mechanism, accuracy.take_up);
-  pose.undefined = numeric::undefined_take_up(motion.model, motion.clearances, accuracy.take_up);
-  pose.vanishing = numeric::lost_reactions(motion.model, motion.clearances, accuracy.take_up);
+  pose.take_up = take_up_of(mechanism, accuracy.contacts, accuracy.take_up);
+  pose.undefined = numeric::undefined_take_up(mechanism, accuracy.contacts, accuracy.take_up);
+  pose.vanishing = numeric::lost_reactions(mechanism, accuracy.contacts, accuracy.take_up);
   pose.error.reset();
-  if (pose.undefined.empty()) pose.error = plane_error(accuracy.error);
+  if (pose.undefined.empty()) pose.error = error_of(mechanism.space, accuracy.error);
 }
 
 void require_rates(const mechanism::Mechanism& mechanism, const PoseRequest& request) {
@@ -159,101 +192,48 @@ void require_rates(const mechanism::Mechanism& mechanism, const PoseRequest& req
   }
 }
 
-void solve_in_plane(const mechanism::Mechanism& mechanism, const std::vector<numeric::Bounded>& at,
-                    const DyadSides& sides, const PoseRequest& request, Pose& pose) {
-  const numeric::NumericModel model = numeric::compile(mechanism);
-  const numeric::Posture posture = numeric::posture(model, pose.at, sides);
+/// Throws where an axis has no direction.
+numeric::Posture posture_at(const numeric::NumericModel& model, std::span<const double> at, const DyadSides& sides) {
+  numeric::Posture posture = numeric::posture(model, at, sides);
+  if (posture.undirected && !posture.unreachable)
+    throw core::InputError({model.mechanism.file},
+                           "an axis of joint " +
+                               model.mechanism.joints[static_cast<std::size_t>(*posture.undirected)].name +
+                               " has no direction at this pose",
+                           "choose another pose");
+  return posture;
+}
+
+void solve_at(const numeric::NumericModel& model, const std::vector<numeric::Bounded>& at, const DyadSides& sides,
+              const PoseRequest& request, Pose& pose) {
+  const mechanism::Mechanism& m = model.mechanism;
+  const numeric::Posture posture = posture_at(model, pose.at, sides);
   if (posture.unreachable) {
-    pose.unreachable = name_of(mechanism, *posture.unreachable);
+    pose.unreachable = name_of(m, *posture.unreachable);
     return;
   }
-  if (is_beyond_limit(model, sides, pose)) return;
-  const numeric::Accuracy accuracy =
-      numeric::pose_accuracy(model, posture, numeric::vanishing_unknowns(model, at, sides));
+  if (posture.broken) {
+    pose.beyond_limit = words_beyond(model, sides, posture, pose.at);
+    return;
+  }
+  const numeric::Accuracy accuracy = numeric::pose_accuracy(model, posture, numeric::lost_contacts(model, at, sides));
   const numeric::Bounded determinant = numeric::bounded_numerators(model, at, sides).determinant;
-  pose.points = named_points(mechanism, posture.points);
-  pose.reactions = plane_reactions(model, accuracy.reactions.values);
+  std::vector<std::vector<double>> places;
+  for (const Eigen::Vector3d& point : posture.points) places.push_back(components(m.space, point));
+  pose.points = named_points(m, places);
+  pose.reactions = reactions_of(model, accuracy.reactions.values, accuracy.of_joints);
   pose.determinant = accuracy.reactions.determinant;
   pose.condition = accuracy.reactions.condition;
   pose.singular = !(std::abs(determinant.value) > determinant.error);
-  pose.take_up = plane_take_up(mechanism, accuracy.take_up);
-  if (accuracy.undefined.empty()) pose.error = plane_error(accuracy.error);
+  pose.take_up = take_up_of(m, accuracy.contacts, accuracy.take_up);
+  if (accuracy.undefined.empty()) pose.error = error_of(m.space, accuracy.error);
   const numeric::WorstCase& worst = accuracy.worst;
-  pose.worst = {{worst.dx, worst.dy}, {worst.dalpha}, worst.dp, worst.dalpha};
+  pose.worst = {components(m.space, worst.dp), rotations(m.space, worst.dalpha), worst.distance, worst.rotation};
   pose.undefined = accuracy.undefined;
-  pose.vanishing = numeric::lost_reactions(model, numeric::joint_clearances(mechanism), accuracy.take_up);
-  if (request.iterate) pose.actual = actual_of(model, numeric::actual_pose(model, posture, accuracy));
-  if (!request.velocity.empty() || !request.acceleration.empty()) put_in_motion(mechanism, sides, request, pose);
-}
-
-// ---- Space
-
-std::vector<double> components(const Eigen::Vector3d& v) { return {v(0), v(1), v(2)}; }
-
-std::vector<JointTakeUp> space_take_up(const mechanism::Mechanism& mechanism,
-                                       const numeric::SpatialAccuracy& accuracy) {
-  std::vector<JointTakeUp> list;
-  for (std::size_t j = 0; j < accuracy.joints.size(); ++j) {
-    const numeric::SpatialJoint& joint = accuracy.joints[j];
-    const numeric::SpatialTakeUp& t = accuracy.take_up[j];
-    if (!joint.presses() && !joint.plays()) continue;
-    JointTakeUp own;
-    own.joint = mechanism.joints[j].name;
-    if (joint.presses()) own.displacement = t.force_vanishes ? std::vector<double>(3, nan) : components(t.displacement);
-    if (joint.plays())
-      (mechanism::traits(joint.type).slides ? own.axial : own.rotation) = t.actuator_vanishes ? nan : t.actuator;
-    list.push_back(std::move(own));
-  }
-  return list;
-}
-
-JointReaction space_reaction(const mechanism::Joint& joint, const numeric::SpatialReaction& r) {
-  constexpr std::array forces = {core::Quantity::fx, core::Quantity::fy, core::Quantity::fz};
-  constexpr std::array couples = {core::Quantity::mx, core::Quantity::my, core::Quantity::mz};
-  JointReaction own{joint.name, {}};
-  for (std::size_t c = 0; c < 3; ++c) {
-    own.components.push_back({forces[c], r.force(static_cast<Eigen::Index>(c))});
-    if (mechanism::traits(joint).couple != mechanism::BorneCouple::none)
-      own.components.push_back({couples[c], r.couple(static_cast<Eigen::Index>(c))});
-  }
-  if (joint.actuated) own.components.push_back({mechanism::actuator_quantity(joint), r.actuator});
-  return own;
-}
-
-std::vector<core::Vanishing> lost_in_space(const mechanism::Mechanism& mechanism,
-                                           const std::vector<numeric::SpatialTakeUp>& take_up) {
-  std::vector<core::Vanishing> lost;
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
-    const mechanism::Joint& joint = mechanism.joints[j];
-    if (take_up[j].force_vanishes) lost.push_back({joint.name, core::Quantity::f});
-    if (take_up[j].actuator_vanishes) lost.push_back({joint.name, mechanism::actuator_quantity(joint)});
-  }
-  return lost;
-}
-
-void solve_in_space(const mechanism::Mechanism& mechanism, const std::vector<numeric::Bounded>& at,
-                    const DyadSides& sides, Pose& pose) {
-  if (const auto point = numeric::spatial_posture(mechanism, pose.at, sides).unreachable) {
-    pose.unreachable = name_of(mechanism, *point);
-    return;
-  }
-  const numeric::NumericModel model = numeric::compile(mechanism);
-  if (is_beyond_limit(model, sides, pose)) return;
-  const numeric::SpatialAccuracy accuracy =
-      numeric::spatial_accuracy(mechanism, pose.at, numeric::lost_contacts(model, sides, at), sides);
-  const numeric::Bounded determinant = numeric::bounded_numerators(model, at, sides).determinant;
-  pose.points = named_points(mechanism, accuracy.posture.points);
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    pose.reactions.push_back(space_reaction(mechanism.joints[j], accuracy.posture.reactions[j]));
-  pose.determinant = accuracy.posture.determinant;
-  pose.condition = accuracy.posture.condition;
-  pose.singular = !(std::abs(determinant.value) > determinant.error);
-  pose.take_up = space_take_up(mechanism, accuracy);
-  if (accuracy.undefined.empty()) pose.error = {components(accuracy.error.dp), components(accuracy.error.dalpha)};
-  pose.worst = {components(accuracy.worst.dp), components(accuracy.worst.dalpha), accuracy.worst.distance,
-                accuracy.worst.rotation};
-  pose.undefined = accuracy.undefined;
-  pose.vanishing = lost_in_space(mechanism, accuracy.take_up);
+  pose.vanishing = numeric::lost_reactions(m, accuracy.contacts, accuracy.take_up);
+  if (request.iterate)
+    pose.actual = actual_of(model, accuracy.contacts, numeric::actual_pose(model, posture, accuracy));
+  if (!request.velocity.empty() || !request.acceleration.empty()) put_in_motion(m, sides, request, pose);
 }
 
 // ---- Many poses
@@ -284,20 +264,22 @@ Reactions reactions_in_plane(const mechanism::Mechanism& mechanism, std::span<co
 /// Pose by pose: the compiled equations of space have the actuator's share in the joint's force and couple.
 Reactions reactions_in_space(const mechanism::Mechanism& mechanism, std::span<const double> poses,
                              const DyadSides& sides) {
-  const std::size_t count = poses.size() / mechanism.coordinates.size();
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  const std::size_t width = mechanism.coordinates.size(), count = poses.size() / width;
   Reactions all;
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    for (const ReactionComponent& component : space_reaction(mechanism.joints[j], {}).components)
+    for (const ReactionComponent& component : reaction_in_space(mechanism.joints[j], {}).components)
       add_column(mechanism, {static_cast<mechanism::JointIndex>(j), component.quantity},
                  std::vector<double>(count, nan), all);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t width = mechanism.coordinates.size();
-    const numeric::SpatialPosture posture = numeric::spatial_posture(mechanism, poses.subspan(i * width, width), sides);
-    if (posture.unreachable) continue;
+    const numeric::Posture posture = posture_at(model, poses.subspan(i * width, width), sides);
+    if (!posture.reachable()) continue;
+    const Eigen::VectorXd values = numeric::solve_reactions(model, posture).values;
     std::size_t column = 0;
-    for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-      for (const ReactionComponent& component : space_reaction(mechanism.joints[j], posture.reactions[j]).components)
-        all.table.columns[column++][i] = component.value;
+    for (const JointReaction& joint : reactions_of(
+             model, values,
+             numeric::joint_reactions(mechanism.joints.size(), numeric::reaction_columns(model, posture), values)))
+      for (const ReactionComponent& component : joint.components) all.table.columns[column++][i] = component.value;
   }
   return all;
 }
@@ -335,8 +317,7 @@ DyadSides sides_of(const mechanism::Mechanism& mechanism, const DyadSides& sides
 
 Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                 const PoseRequest& request) {
-  const bool spatial = mechanism.space == mechanism::Space::spatial;
-  if (spatial && request.iterate)
+  if (mechanism.space == mechanism::Space::spatial && request.iterate)
     throw core::InputError({mechanism.file}, "the pose error of a spatial mechanism is not iterated",
                            "ask for the linear error");
   require_values(mechanism, at.size());
@@ -354,10 +335,7 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   for (const numeric::Bounded& value : values) pose.at.push_back(value.value);
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) pose.angles.push_back(coordinate.angle);
   pose.working_mode = named_mode(mechanism, sides);
-  if (spatial)
-    solve_in_space(mechanism, values, sides, pose);
-  else
-    solve_in_plane(mechanism, values, sides, request, pose);
+  solve_at(numeric::compile(mechanism), values, sides, request, pose);
   return pose;
 }
 

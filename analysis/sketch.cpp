@@ -8,8 +8,8 @@
 #include "analysis/pose.hpp"
 #include "clearloci/sketch.hpp"
 #include "core/errors.hpp"
+#include "numeric/reactions.hpp"
 #include "numeric/sketch.hpp"
-#include "numeric/spatial.hpp"
 
 namespace clearloci {
 namespace {
@@ -17,6 +17,7 @@ namespace {
 /// The reachable pose of a grid, off the box's symmetries, that is nearest to its middle.
 std::optional<std::vector<double>> middle_pose_in_space(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
   constexpr int steps = 9;
+  const numeric::NumericModel model = numeric::compile(mechanism);
   const std::size_t n = mechanism.coordinates.size();
   std::optional<std::vector<double>> best;
   double nearest = std::numeric_limits<double>::infinity();
@@ -32,8 +33,8 @@ std::optional<std::vector<double>> middle_pose_in_space(const mechanism::Mechani
       away = std::max(away, std::abs(part - 0.5));
     }
     if (away < nearest) {
-      const numeric::SpatialPosture posture = numeric::spatial_posture(mechanism, pose, sides);
-      if (!posture.unreachable && std::isfinite(posture.condition)) {
+      const numeric::Posture posture = numeric::posture(model, pose, sides);
+      if (posture.reachable() && std::isfinite(numeric::solve_reactions(model, posture).condition)) {
         nearest = away;
         best = std::move(pose);
       }

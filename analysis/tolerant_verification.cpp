@@ -212,7 +212,7 @@ class Tolerant {
     const numeric::NumericModel model = numeric::compile(open);
     const numeric::Posture posture = numeric::posture(model, values(failure.at, failure.parameters), task_.sides());
     if (!posture.reachable()) return std::nullopt;
-    const double size = numeric::pose_accuracy(model, posture).error.dp();
+    const double size = numeric::pose_accuracy(model, posture).error.dp.norm();
     if (!(size > core::to_double(*task_.task().pose_error) * (1 + rounding_of_pose_errors))) return std::nullopt;
     told.kind = core::TaskWitness::Kind::displaced;
     told.at = failure.at;
@@ -223,7 +223,8 @@ class Tolerant {
       told.design.emplace_back(task_.design().varied[p], failure.parameters[p]);
     for (const core::LoadWithin& within : task_.task().loads_within)
       if (within.force > 0 || within.couple > 0)
-        told.loads.push_back({within.load, posture.loads[within.load].force, posture.loads[within.load].couple});
+        told.loads.push_back({within.load, numeric::in_plane(posture.loads[within.load].force),
+                              posture.loads[within.load].couple[2]});
     return told;
   }
 
@@ -312,8 +313,8 @@ class Tolerant {
       const numeric::LoadChange& change = found.changes[ball++];
       core::WitnessLoad load{within.load};
       if (posture.reachable()) {
-        load.force = posture.loads[within.load].force;
-        load.couple = posture.loads[within.load].couple;
+        load.force = numeric::in_plane(posture.loads[within.load].force);
+        load.couple = posture.loads[within.load].couple[2];
       }
       if (told.load && within.load == 0) load.force = *told.load;
       load.force[0] += change.fx;

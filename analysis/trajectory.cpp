@@ -82,11 +82,11 @@ core::Table table_of(const numeric::Motion& motion, const Samples& samples, doub
       row.put("stage", "", stage < 0 ? 0 : stage + 1);  // 0: dwelling
       put_motion(row, motion, at, period);
       const auto& p = at.points[static_cast<std::size_t>(motion.model.mechanism.end_effector_point)];
-      row.put("actual_px", "m", p[0].value() + e.error.dx);
-      row.put("actual_py", "m", p[1].value() + e.error.dy);
-      row.put("dx", "m", e.error.dx);
-      row.put("dy", "m", e.error.dy);
-      row.put("dalpha", "rad", e.error.dalpha);
+      row.put("actual_px", "m", p[0].value() + e.error.dp[0]);
+      row.put("actual_py", "m", p[1].value() + e.error.dp[1]);
+      row.put("dx", "m", e.error.dp[0]);
+      row.put("dy", "m", e.error.dp[1]);
+      row.put("dalpha", "rad", e.error.dalpha[2]);
       put_joints(row, motion, at, period, e.take_up);
       row.end_row();
     }

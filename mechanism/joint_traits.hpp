@@ -1,6 +1,6 @@
 // What each type of joint is: one table that the reader, the equations, the witness and the reports ask. A new type is
 // a row here, a row of the reader's where it is written in another way, and its wrenches (symbolic/newton_euler.cpp,
-// numeric/spatial.cpp, numeric/equations.cpp).
+// numeric/equations.cpp, numeric/reactions.cpp).
 #pragma once
 
 #include <optional>

@@ -356,7 +356,7 @@ std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t
   const JointClearance& clearance = motion.clearances[joint];
   const JointColumns& columns = motion.columns[joint];
   std::vector<core::Quantity> watched;
-  if (clearance.angular > 0 && columns.couple >= 0)
+  if (clearance.angular > 0 || clearance.axial > 0)
     watched.push_back(mechanism::actuator_quantity(motion.model.mechanism.joints[joint]));
   if (clearance.radial > 0) watched.push_back(core::Quantity::f);
   if (clearance.gap > 0 && columns.normal >= 0)

@@ -7,7 +7,7 @@
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
-#include "numeric/end_effector.hpp"
+#include "numeric/wrench_rows.hpp"
 
 namespace clearloci::numeric {
 
@@ -27,7 +27,8 @@ class DisplacedMechanism {
   DisplacedMechanism(const NumericModel& model, const Posture& posture, const Eigen::VectorXd& u)
       : model_(model), posture_(posture), u_(u) {}
 
-  Point2 reference() const { return posture_.points[static_cast<std::size_t>(model_.mechanism.end_effector_point)]; }
+  Point2 reference() const { return point(model_.mechanism.end_effector_point); }
+  Point2 point(mechanism::PointIndex index) const { return in_plane(posture_.points[static_cast<std::size_t>(index)]); }
 
   /// p' - (E + t_i): the arm of a point of link i; of the ground, p - E.
   Point2 arm(mechanism::LinkIndex link, const Point2& p) const {
@@ -53,7 +54,7 @@ class DisplacedMechanism {
       for (const int sign : {1, -1}) {
         const mechanism::LinkIndex link = sign > 0 ? joint.to : joint.from;
         if (link == mechanism::ground) continue;
-        const Point2 r = arm(link, posture_.points[static_cast<std::size_t>(joint.at)]);
+        const Point2 r = arm(link, point(joint.at));
         const Eigen::Vector3d wrench = unknown.quantity == core::Quantity::fx   ? Eigen::Vector3d(1, 0, -r[1])
                                        : unknown.quantity == core::Quantity::fy ? Eigen::Vector3d(0, 1, r[0])
                                                                                 : Eigen::Vector3d(0, 0, 1);
@@ -67,9 +68,9 @@ class DisplacedMechanism {
     Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.unknowns.size()));
     for (const AppliedLoad& load : posture_.loads) {
       if (load.spring >= 0) continue;
-      const Point2 r = arm(load.link, load.at);
+      const Point2 r = arm(load.link, in_plane(load.at));
       w.segment<3>(3 * load.link) -=
-          Eigen::Vector3d(load.force[0], load.force[1], load.couple + r[0] * load.force[1] - r[1] * load.force[0]);
+          Vector3d(load.force[0], load.force[1], load.couple[2] + r[0] * load.force[1] - r[1] * load.force[0]);
     }
     for (const mechanism::Spring& spring : model_.mechanism.springs) add_spring(spring, w);
     return w;
@@ -81,7 +82,7 @@ class DisplacedMechanism {
     for (Eigen::Index k = 0; k < r.size(); ++k) {
       const mechanism::Unknown& unknown = model_.unknowns[static_cast<std::size_t>(k)];
       const mechanism::Joint& joint = model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
-      const Point2& p = posture_.points[static_cast<std::size_t>(joint.at)];
+      const Point2 p = point(joint.at);
       const auto value = [&](mechanism::LinkIndex link) {
         if (unknown.quantity == core::Quantity::M) return link == mechanism::ground ? 0.0 : u_(3 * link + 2);
         return moved(link, p)[unknown.quantity == core::Quantity::fx ? 0 : 1];
@@ -101,20 +102,19 @@ class DisplacedMechanism {
       const auto own = static_cast<int>(&spring - model_.mechanism.springs.data());
       const double more = value(spring.stiffness) * (turned(spring.to) - turned(spring.from));
       for (const AppliedLoad& load : posture_.loads)
-        if (load.spring == own) w(3 * load.link + 2) -= load.couple + (load.link == spring.to ? -more : more);
+        if (load.spring == own) w(3 * load.link + 2) -= load.couple[2] + (load.link == spring.to ? -more : more);
       return;
     }
-    const auto at = [&](mechanism::PointIndex point) { return posture_.points[static_cast<std::size_t>(point)]; };
-    const Point2 p = moved(spring.from, at(spring.from_point)), q = moved(spring.to, at(spring.to_point));
+    const Point2 p = moved(spring.from, point(spring.from_point)), q = moved(spring.to, point(spring.to_point));
     const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
     const double tension = spring.kind == mechanism::Spring::Kind::constant_force
                                ? value(spring.force)
                                : value(spring.stiffness) * (length - value(spring.free_length));
     if (length == 0) return;
     const Point2 force = {tension * (q[0] - p[0]) / length, tension * (q[1] - p[1]) / length};
-    const auto put = [&](mechanism::LinkIndex link, mechanism::PointIndex point, double sign) {
+    const auto put = [&](mechanism::LinkIndex link, mechanism::PointIndex at, double sign) {
       if (link == mechanism::ground) return;
-      const Point2 r = arm(link, at(point));
+      const Point2 r = arm(link, point(at));
       w.segment<3>(3 * link) -= sign * Eigen::Vector3d(force[0], force[1], r[0] * force[1] - r[1] * force[0]);
     };
     put(spring.from, spring.from_point, 1);
@@ -129,7 +129,7 @@ class DisplacedMechanism {
 /// Couples of clearance joints that changed sign between two iterates.
 std::string reversed_couple(const NumericModel& model, const std::vector<TakeUp>& a, const std::vector<TakeUp>& b) {
   for (std::size_t j = 0; j < a.size(); ++j)
-    if (a[j].rotation * b[j].rotation < 0) return model.mechanism.joints[j].name;
+    if (a[j].turn * b[j].turn < 0) return model.mechanism.joints[j].name;
   return {};
 }
 
@@ -139,14 +139,13 @@ std::string names(const std::vector<std::string>& list) {
   return text;
 }
 
-std::vector<std::vector<Point2>> displaced_points(const NumericModel& model, const Posture& posture,
-                                                  const DisplacedMechanism& displaced) {
+std::vector<std::vector<Point2>> displaced_points(const NumericModel& model, const DisplacedMechanism& displaced) {
   std::vector<std::vector<Point2>> all;
   const Point2 E = displaced.reference();
   for (std::size_t i = 0; i < model.mechanism.links.size(); ++i) {
     std::vector<Point2> points;
     for (const mechanism::PointIndex p : model.mechanism.links[i].points) {
-      const Point2 r = displaced.moved(static_cast<int>(i), posture.points[static_cast<std::size_t>(p)]);
+      const Point2 r = displaced.moved(static_cast<int>(i), displaced.point(p));
       points.push_back({E[0] + r[0], E[1] + r[1]});
     }
     all.push_back(std::move(points));
@@ -157,7 +156,7 @@ std::vector<std::vector<Point2>> displaced_points(const NumericModel& model, con
 class Iteration {
  public:
   Iteration(const NumericModel& model, const Posture& posture, const Accuracy& linear)
-      : model_(model), posture_(posture), clearances_(joint_clearances(model.mechanism)), linear_(linear) {
+      : model_(model), posture_(posture), contacts_(linear.contacts), linear_(linear) {
     size_ = typical_length(model, posture);
   }
 
@@ -194,14 +193,15 @@ class Iteration {
       return 0;
     }
     result_.reactions = lu.solve(displaced.load_column());
-    std::vector<TakeUp> next = take_up(model_, clearances_, result_.reactions);
-    if (const auto undefined = undefined_take_up(model_, clearances_, next); !undefined.empty()) {
+    std::vector<TakeUp> next =
+        take_up(contacts_, joint_reactions(contacts_.size(), linear_.columns, result_.reactions));
+    if (const auto undefined = undefined_take_up(model_.mechanism, contacts_, next); !undefined.empty()) {
       result_.reason = "the take-up of " + names(undefined) + " becomes undefined in the displaced geometry";
       return 0;
     }
     reversed_ = reversed_couple(model_, result_.take_up, next);
     result_.take_up = std::move(next);
-    const Eigen::VectorXd residual = displaced.closure(clearance_displacements(model_, result_.take_up));
+    const Eigen::VectorXd residual = displaced.closure(clearance_displacements(linear_.columns, result_.take_up));
     const Eigen::VectorXd step = lu.transpose().solve(residual);
     u_ -= step;
     double most = 0;
@@ -215,20 +215,19 @@ class Iteration {
   ActualPose finish() {
     const DisplacedMechanism displaced(model_, posture_, u_);
     result_.converged = true;
-    result_.residual = displaced.closure(clearance_displacements(model_, result_.take_up)).cwiseAbs().maxCoeff();
+    result_.residual =
+        displaced.closure(clearance_displacements(linear_.columns, result_.take_up)).cwiseAbs().maxCoeff();
     result_.displacements = u_;
-    const Eigen::Vector3d own = end_effector_displacement<3>(model_.mechanism, u_);
-    result_.error = {own(2), own(0), own(1)};
-    const PoseError& linear = linear_.error;
-    result_.beyond_linear = {result_.error.dalpha - linear.dalpha, result_.error.dx - linear.dx,
-                             result_.error.dy - linear.dy};
-    result_.link_points = displaced_points(model_, posture_, displaced);
+    const Vector6 own = end_effector_displacement(model_.mechanism, u_);
+    result_.error = {own.tail<3>(), own.head<3>()};
+    result_.beyond_linear = {result_.error.dalpha - linear_.error.dalpha, result_.error.dp - linear_.error.dp};
+    result_.link_points = displaced_points(model_, displaced);
     return result_;
   }
 
   const NumericModel& model_;
   const Posture& posture_;
-  std::vector<JointClearance> clearances_;
+  std::vector<JointContact> contacts_;
   const Accuracy& linear_;
   double size_ = 1;
   Eigen::VectorXd u_;

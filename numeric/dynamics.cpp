@@ -11,7 +11,7 @@
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
-#include "numeric/end_effector.hpp"
+#include "numeric/wrench_rows.hpp"
 
 namespace clearloci::numeric {
 
@@ -80,7 +80,7 @@ class InstantEquations {
     // A w = b  =>  A w' = b' - A' w
     instant.at_rest_rate = lu.solve(rest_.rate - A_rate_ * instant.at_rest);
     instant.inertial_rate = lu.solve(inertial_.rate - A_rate_ * instant.inertial);
-    instant.influence = lu.solve(unit_wrenches<3>(motion_.model.mechanism, size_)).transpose();
+    instant.influence = lu.solve(unit_wrenches(motion_.model.mechanism, size_)).transpose();
   }
 
  private:
@@ -292,6 +292,11 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
           end && !(registers[static_cast<std::size_t>(*end)].value() >= 0) && !result.broken)
         result.broken = LimitEnd{i, upper, registers[static_cast<std::size_t>(*end)].value()};
   result.reachable = result.reachable && !result.broken;
+  for (const auto& axis : model.axes) {
+    Vector3d& u = result.axes.emplace_back(Vector3d::Zero());
+    for (std::size_t c = 0; axis && c < 3; ++c)
+      u[static_cast<Eigen::Index>(c)] = registers[static_cast<std::size_t>((*axis)[c])].value();
+  }
   if (result.reachable) InstantEquations(motion, stretch, registers).solve(result);
 }
 
@@ -326,12 +331,16 @@ Instant instant(const Motion& motion, std::size_t interval, double tau) {
 
 InstantError instant_error(const Motion& motion, const Instant& at, double period) {
   InstantError result;
-  result.take_up = take_up(motion.model, motion.clearances, at.reactions(period));
-  if (undefined_take_up(motion.model, motion.clearances, result.take_up).empty()) {
-    result.error = pose_error(at.influence, clearance_displacements(motion.model, result.take_up));
+  const mechanism::Mechanism& m = motion.model.mechanism;
+  const std::vector<ReactionColumn> columns =
+      reaction_columns(m, at.axes, std::vector<Vector3d>(at.axes.size(), Vector3d::Zero()));
+  result.contacts = joint_contacts(m, at.axes);
+  result.take_up = take_up(result.contacts, joint_reactions(at.axes.size(), columns, at.reactions(period)));
+  if (undefined_take_up(m, result.contacts, result.take_up).empty()) {
+    result.error = pose_error(m.space, at.influence, clearance_displacements(columns, result.take_up));
   } else {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    result.error = {nan, nan, nan};
+    const Vector3d none = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    result.error = {none, none};
   }
   return result;
 }

@@ -49,6 +49,7 @@ struct Instant {
   Series distance;                              ///< along the path
   std::vector<Series> coordinates;              ///< free coordinates
   std::vector<PointSeries> points;              ///< of the mechanism
+  std::vector<Vector3d> axes;                   ///< as Posture::axes
   std::optional<LimitEnd> broken;               ///< a limit that the pose is beyond; then not reachable
   bool reachable = false;                       ///< everything below only then
   double determinant = 0;                       ///< |A|
@@ -74,6 +75,7 @@ Instant instant(const Motion& motion, std::size_t interval, double tau);
 
 /// Take-up and pose error at an instant of a cycle of the given period; NaN where a take-up is undefined.
 struct InstantError {
+  std::vector<JointContact> contacts;
   std::vector<TakeUp> take_up;
   PoseError error;
 };

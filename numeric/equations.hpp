@@ -8,7 +8,7 @@
 //     free about an axis u:    u · m = 0          cylindrical joints, and revolute ones that are not actuated
 //     actuated along, about u: F = u · f, M = u · m
 // A universal joint bears the one couple T (u × v)/|u × v|. The determinant is that of A alone in the orthonormal form
-// of spatial.hpp: each equation stands at the row of the unknown that it disposes of, and contributes the factor one.
+// of reactions.hpp: each equation stands at the row of the unknown that it disposes of, and contributes the factor one.
 #pragma once
 
 #include <vector>

@@ -28,19 +28,8 @@ struct ErrorMap {
   std::vector<std::string> never_loaded;
 };
 
-/// `mode`: a sign a dyad; empty in space. Fields are NaN outside the workspace. Throws core::InputError where the
+/// `mode`: a sign a dyad. Fields are NaN outside the workspace. Throws core::InputError where the
 /// mechanism has no clearance or not two free coordinates.
 ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid = {});
-
-/// Pose errors of a planar mechanism along a list of poses: one row of the map. NaN where unreachable or undefined.
-struct ErrorSamples {
-  std::vector<double> dx, dy, dalpha;
-  std::vector<double> worst_dx, worst_dy, worst_dalpha, worst_dp;  ///< empty unless asked for
-  std::vector<bool> reachable;
-};
-
-/// `poses`: pose after pose, one value a free coordinate. `under_load`: dx, dy, dalpha are wanted too.
-ErrorSamples error_samples(const NumericModel& model, std::span<const double> poses, std::span<const int> mode,
-                           bool under_load, bool worst_case, double worst_case_accuracy = 1e-9);
 
 }  // namespace clearloci::numeric

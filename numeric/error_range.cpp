@@ -20,16 +20,16 @@ RangePose pose_at(const NumericModel& model, std::span<const int> mode, double a
   pose.reachable = there.reachable();
   if (!pose.reachable) return pose;
   const std::vector<Bounded> exactly = {Bounded(at)};
-  pose.accuracy = pose_accuracy(model, there, vanishing_unknowns(model, exactly, mode));
+  pose.accuracy = pose_accuracy(model, there, lost_contacts(model, exactly, mode));
   return pose;
 }
 
 /// The limit of the error at `at` from the side of `step`, to the second order.
 PoseError one_sided(const NumericModel& model, std::span<const int> mode, double at, double step) {
   const RangePose near = pose_at(model, mode, at + step), far = pose_at(model, mode, at + 2 * step);
-  if (!near.reachable || !far.reachable) return {nan, nan, nan};
+  if (!near.reachable || !far.reachable) return {Vector3d::Constant(nan), Vector3d::Constant(nan)};
   const PoseError &a = near.accuracy.error, &b = far.accuracy.error;
-  return {2 * a.dalpha - b.dalpha, 2 * a.dx - b.dx, 2 * a.dy - b.dy};
+  return {2 * a.dalpha - b.dalpha, 2 * a.dp - b.dp};
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ std::vector<std::string> never_loaded(const NumericModel& model, const std::vect
 PoseError error_jump(const NumericModel& model, std::span<const int> mode, double at, double free) {
   const PoseError before = one_sided(model, mode, at, -nearest * free);
   const PoseError after = one_sided(model, mode, at, nearest * free);
-  return {after.dalpha - before.dalpha, after.dx - before.dx, after.dy - before.dy};
+  return {after.dalpha - before.dalpha, after.dp - before.dp};
 }
 
 }  // namespace clearloci::numeric

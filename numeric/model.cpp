@@ -18,34 +18,31 @@ Posture posture(const NumericModel& model, std::span<const double> pose, std::sp
   run<double, 1>(model.tape, 0, model.posture_size, inputs.data(), registers.data());
 
   const auto at = [&](Register r) { return registers[static_cast<std::size_t>(r)]; };
+  const auto vector = [&](const Triple& v) { return Vector3d(at(v[0]), at(v[1]), at(v[2])); };
   Posture result;
-  if (model.gravity) result.gravity = {at((*model.gravity)[0]), at((*model.gravity)[1])};
+  if (model.gravity) result.gravity = vector(*model.gravity);
   for (std::size_t i = 0; i < model.points.size(); ++i) {
-    const auto& [x, y, z] = model.points[i];
-    result.points.push_back({at(x), at(y)});
-    const bool placed = std::isfinite(at(x)) && std::isfinite(at(y));
-    if (!placed && !result.unreachable) result.unreachable = static_cast<int>(i);
+    result.points.push_back(vector(model.points[i]));
+    if (!result.points.back().allFinite() && !result.unreachable) result.unreachable = static_cast<int>(i);
   }
   for (std::size_t i = 0; i < model.slack.size() && !result.unreachable; ++i)
     for (const bool upper : {false, true})
       if (const auto& end = model.slack[i][upper ? 1 : 0]; end && !(at(*end) >= 0) && !result.broken)
         result.broken = LimitEnd{i, upper, at(*end)};
   for (std::size_t j = 0; j < model.axes.size(); ++j) {
-    const auto& axis = model.axes[j];
-    const Point2& u = result.axes.emplace_back(axis ? Point2{at((*axis)[0]), at((*axis)[1])} : Point2{});
-    if (!(std::isfinite(u[0]) && std::isfinite(u[1])) && !result.undirected)
+    const auto &axis = model.axes[j], &couple = model.couple_axes[j];
+    result.axes.push_back(axis ? vector(*axis) : Vector3d::Zero());
+    result.couple_axes.push_back(couple ? vector(*couple) : Vector3d::Zero());
+    // A universal joint with its axes in line bears no couple across both.
+    if (!result.couple_axes.back().allFinite()) result.couple_axes.back().setZero();
+    if (!result.axes.back().allFinite() && !result.undirected)
       result.undirected = static_cast<mechanism::JointIndex>(j);
   }
   for (const auto& load : model.loads) {
     const auto& link = model.mechanism.links[static_cast<std::size_t>(load.link)];
     const int place = load.at ? *load.at : link.centre_of_mass;  // a couple acts nowhere: any point of its link will do
-    result.loads.push_back({load.link,
-                            result.points[static_cast<std::size_t>(place)],
-                            {at(load.force[0]), at(load.force[1])},
-                            at(load.couple[2]),
-                            load.weight,
-                            load.inner,
-                            load.spring});
+    result.loads.push_back({load.link, result.points[static_cast<std::size_t>(place)], vector(load.force),
+                            vector(load.couple), load.weight, load.inner, load.spring});
   }
   return result;
 }
@@ -90,7 +87,7 @@ double typical_length(const NumericModel& model, const Posture& p) {
     if (link.points.size() < 2) continue;
     const auto& a = p.points[static_cast<std::size_t>(link.points[0])];
     const auto& b = p.points[static_cast<std::size_t>(link.points[1])];
-    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    const double length = (b - a).norm();
     if (std::isfinite(length) && length > 0) lengths.push_back(length);
   }
   if (lengths.empty()) return 1;

@@ -2,6 +2,7 @@
 // the symbolic derivation or the traced curves: it is their independent witness.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <span>
@@ -16,6 +17,7 @@
 namespace clearloci::numeric {
 
 using core::Point2;
+using Eigen::Vector3d;
 
 /// Components of a vector along x, y and z as registers of the tape; in the plane the third is the constant 0.
 using Triple = std::array<Register, 3>;
@@ -68,16 +70,17 @@ NumericModel compile(const mechanism::Mechanism& mechanism);
 /// The column of a joint's reaction; -1 where it has none of that kind.
 int column_of(const NumericModel& model, mechanism::JointIndex joint, core::Quantity quantity);
 
-/// A force (N) and couple (N m, counter-clockwise) applied to a link from outside the mechanism.
+/// A force (N) and a couple (N m) applied to a link from outside the mechanism.
 struct AppliedLoad {
   mechanism::LinkIndex link = 0;
-  Point2 at{};
-  Point2 force{};
-  double couple = 0;
+  Vector3d at = Vector3d::Zero();
+  Vector3d force = Vector3d::Zero(), couple = Vector3d::Zero();
   bool weight = false;
   bool inner = false;  ///< as LoadRegisters
   int spring = -1;     ///< likewise
 };
+
+inline Point2 in_plane(const Vector3d& v) { return {v[0], v[1]}; }
 
 /// An end of a limit.
 struct LimitEnd {
@@ -86,12 +89,12 @@ struct LimitEnd {
   double slack = 0;  ///< what is left to it, negative beyond; of a distance over its size, of an angle in its cosine
 };
 
-/// Every point and load at one pose of a planar mechanism. Coordinates in m, in the ground's frame.
+/// Every point and load at one pose, in m, in the ground's frame; of the plane with z = 0.
 struct Posture {
-  std::vector<Point2> points;                        ///< as mechanism.points; NaN from the unreachable one on
+  std::vector<Vector3d> points;                      ///< as mechanism.points; NaN from the unreachable one on
   std::vector<AppliedLoad> loads;                    ///< as NumericModel::loads
-  std::vector<Point2> axes;                          ///< of every joint: unit vector of its axis; zero without one
-  Point2 gravity{};                                  ///< m/s²
+  std::vector<Vector3d> axes, couple_axes;           ///< as NumericModel's; zero without one
+  Vector3d gravity = Vector3d::Zero();               ///< m/s²
   std::optional<mechanism::PointIndex> unreachable;  ///< the first point that cannot be placed
   std::optional<mechanism::JointIndex> undirected;   ///< the first joint with an axis that has no direction
   std::optional<LimitEnd> broken;                    ///< the first limit that the pose is beyond

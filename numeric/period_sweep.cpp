@@ -34,7 +34,6 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
   for (std::size_t j = 0; j < motion.columns.size(); ++j) {
     const JointColumns& columns = motion.columns[j];
     JointClearance clearance = motion.clearances[j];
-    if (columns.couple < 0) clearance.angular = 0;
     if (columns.normal < 0) clearance.gap = 0;
     joints.push_back({clearance, columns});
   }
@@ -52,9 +51,10 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
           const double scale = -clearance.radial / std::sqrt(x * x + y * y);
           error += scale * (x * at.influence.col(columns.fx) + y * at.influence.col(columns.fy));
         }
-        if (clearance.angular > 0) {
+        for (const double play : {clearance.angular, clearance.axial}) {
+          if (!(play > 0)) continue;
           const double m = reaction(columns.couple);
-          error += (m == 0 ? nan : -std::copysign(clearance.angular, m)) * at.influence.col(columns.couple);
+          error += (m == 0 ? nan : -std::copysign(play, m)) * at.influence.col(columns.couple);
         }
         if (clearance.gap > 0) {
           const double h = clearance.half_length;

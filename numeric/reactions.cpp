@@ -1,75 +1,148 @@
 #include "numeric/reactions.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/errors.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/evaluator.hpp"
+#include "numeric/wrench_rows.hpp"
 
 namespace clearloci::numeric {
 
 namespace {
 
-const Point2& point_of(const Posture& posture, int index) { return posture.points[static_cast<std::size_t>(index)]; }
+using core::Quantity;
+using mechanism::JointIndex;
 
-/// Moment about the end-effector point of `force` at `at`.
-double moment(const NumericModel& model, const Posture& posture, const Point2& at, const Point2& force) {
-  const Point2& reference = point_of(posture, model.mechanism.end_effector_point);
-  return (at[0] - reference[0]) * force[1] - (at[1] - reference[1]) * force[0];
+Vector3d arm_of(const NumericModel& model, const Posture& posture, const Vector3d& at) {
+  return at - posture.points[static_cast<std::size_t>(model.mechanism.end_effector_point)];
 }
 
-/// Force and moment of a unit of an unknown.
-Eigen::Vector3d unit_wrench(const NumericModel& model, const Posture& posture, const mechanism::Unknown& unknown) {
-  using core::Quantity;
-  const auto& joint = model.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
-  const Point2& u = posture.axes[static_cast<std::size_t>(unknown.joint)];
-  Point2 force{};
-  switch (unknown.quantity) {
+/// Every unit force and couple that a joint in space bears, its actuator's effort last of each kind.
+void add_columns(const mechanism::Joint& joint, JointIndex j, const Vector3d& u, const Vector3d& couple_axis,
+                 std::vector<ReactionColumn>& columns) {
+  const Vector3d none = Vector3d::Zero();
+  const auto force = [&](const Vector3d& v) { columns.push_back({j, v, none, false}); };
+  const auto couple = [&](const Vector3d& v) { columns.push_back({j, none, v, false}); };
+  const std::array<Vector3d, 3> unit = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+  const std::array<Vector3d, 2> across = {u.unitOrthogonal(), u.cross(u.unitOrthogonal())};
+  const mechanism::JointTraits& own = mechanism::traits(joint);
+  if (own.slides)
+    for (const Vector3d& v : across) force(v);
+  else
+    for (const Vector3d& v : unit) force(v);
+  if (joint.actuated && own.slides) columns.push_back({j, u, none, true});
+  if (own.couple == mechanism::BorneCouple::any)
+    for (const Vector3d& v : unit) couple(v);
+  if (own.turns_about_axis())
+    for (const Vector3d& v : across) couple(v);
+  if (own.couple == mechanism::BorneCouple::cross) couple(couple_axis);
+  if (joint.actuated && !own.slides) columns.push_back({j, none, u, true});
+}
+
+/// Of a planar joint with the axis u, k where it turns: N across the guide, along k × u.
+ReactionColumn planar_column(JointIndex j, Quantity quantity, const Vector3d& u) {
+  const Vector3d none = Vector3d::Zero(), k = Vector3d::UnitZ();
+  switch (quantity) {
     case Quantity::fx:
-      force = {1, 0};
-      break;
+      return {j, Vector3d::UnitX(), none, false};
     case Quantity::fy:
-      force = {0, 1};
-      break;
+      return {j, Vector3d::UnitY(), none, false};
     case Quantity::N:
-      force = {-u[1], u[0]};
-      break;
+      return {j, {-u.y(), u.x(), 0}, none, false};
     case Quantity::F:
-      force = u;
-      break;
+      return {j, u, none, true};
     default:
-      return {0, 0, 1};  // a couple
+      return {j, none, k, quantity == Quantity::M};
   }
-  return {force[0], force[1], moment(model, posture, point_of(posture, joint.at), force)};
 }
 
 }  // namespace
 
+std::vector<ReactionColumn> reaction_columns(const mechanism::Mechanism& m, const std::vector<Vector3d>& axes,
+                                             const std::vector<Vector3d>& couple_axes) {
+  std::vector<ReactionColumn> columns;
+  if (m.space == mechanism::Space::planar) {
+    for (const auto& [j, quantity] : mechanism::unknowns(m))
+      columns.push_back(planar_column(j, quantity, axes[static_cast<std::size_t>(j)]));
+    return columns;
+  }
+  for (std::size_t j = 0; j < m.joints.size(); ++j)
+    add_columns(m.joints[j], static_cast<JointIndex>(j), axes[j], couple_axes[j], columns);
+  return columns;
+}
+
+std::vector<ReactionColumn> reaction_columns(const NumericModel& model, const Posture& posture) {
+  return reaction_columns(model.mechanism, posture.axes, posture.couple_axes);
+}
+
+std::vector<ReactionColumn> unknown_columns(const NumericModel& model, const std::vector<Vector3d>& axes,
+                                            const std::vector<Vector3d>& couple_axes) {
+  if (model.mechanism.space == mechanism::Space::planar) return reaction_columns(model.mechanism, axes, couple_axes);
+  std::vector<ReactionColumn> columns;
+  for (const auto& [j, quantity] : model.unknowns) {
+    const Vector3d none = Vector3d::Zero();
+    const int component = static_cast<int>(quantity);
+    constexpr int force = static_cast<int>(Quantity::fx), couple = static_cast<int>(Quantity::mx);
+    if (component >= force && component < force + 3)
+      columns.push_back({j, Vector3d::Unit(component - force), none, false});
+    else if (component >= couple && component < couple + 3)
+      columns.push_back({j, none, Vector3d::Unit(component - couple), false});
+    else if (quantity == Quantity::T)
+      columns.push_back({j, none, couple_axes[static_cast<std::size_t>(j)], false});
+    else
+      columns.push_back({j, none, none, true});
+  }
+  return columns;
+}
+
 Eigen::MatrixXd newton_euler_matrix(const NumericModel& model, const Posture& posture) {
   core::ensure(posture.reachable(), "the posture is reachable");
-  const auto size = static_cast<Eigen::Index>(model.unknowns.size());
+  const mechanism::Mechanism& m = model.mechanism;
+  const std::vector<ReactionColumn> columns = reaction_columns(model, posture);
+  const Eigen::Index size = rows_of_link(m) * static_cast<Eigen::Index>(m.links.size());
+  core::ensure(static_cast<Eigen::Index>(columns.size()) == size, "the equations are square");
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
-  for (Eigen::Index column = 0; column < size; ++column) {
-    const auto& unknown = model.unknowns[static_cast<std::size_t>(column)];
-    const auto& joint = model.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
-    const Eigen::Vector3d wrench = unit_wrench(model, posture, unknown);
-    if (joint.to != mechanism::ground) A.block<3, 1>(3 * joint.to, column) += wrench;
-    if (joint.from != mechanism::ground) A.block<3, 1>(3 * joint.from, column) -= wrench;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const ReactionColumn& column = columns[static_cast<std::size_t>(k)];
+    const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(column.joint)];
+    const Vector3d arm = arm_of(model, posture, posture.points[static_cast<std::size_t>(joint.at)]);
+    const Vector6 wrench = wrench_of(arm, column.force, column.couple);
+    add_wrench(m, joint.to, wrench, 1, A.col(k));
+    add_wrench(m, joint.from, wrench, -1, A.col(k));
   }
   return A;
 }
 
 Eigen::VectorXd load_column(const NumericModel& model, const Posture& posture) {
   core::ensure(posture.reachable(), "the posture is reachable");
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.unknowns.size()));
-  for (const auto& load : posture.loads) {
-    const double couple = load.couple + moment(model, posture, load.at, load.force);
-    w.segment<3>(3 * load.link) -= Eigen::Vector3d(load.force[0], load.force[1], couple);
-  }
+  const mechanism::Mechanism& m = model.mechanism;
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(rows_of_link(m) * static_cast<Eigen::Index>(m.links.size()));
+  for (const AppliedLoad& load : posture.loads)
+    add_wrench(m, load.link, wrench_of(arm_of(model, posture, load.at), load.force, load.couple), -1, w);
   return w;
+}
+
+std::vector<JointReaction> joint_reactions(std::size_t joints, const std::vector<ReactionColumn>& columns,
+                                           const Eigen::VectorXd& values) {
+  std::vector<JointReaction> all(joints);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double w = values(static_cast<Eigen::Index>(k));
+    JointReaction& own = all[static_cast<std::size_t>(columns[k].joint)];
+    if (columns[k].actuator) {
+      own.actuator = w;
+      continue;
+    }
+    own.force += w * columns[k].force;
+    own.couple += w * columns[k].couple;
+  }
+  return all;
 }
 
 Reactions solve_reactions(const NumericModel& model, const Posture& posture) {

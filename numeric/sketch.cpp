@@ -11,7 +11,7 @@ namespace clearloci::numeric {
 
 namespace {
 
-const Point2& point_of(const Posture& posture, int index) { return posture.points[static_cast<std::size_t>(index)]; }
+Point2 point_of(const Posture& posture, int index) { return in_plane(posture.points[static_cast<std::size_t>(index)]); }
 
 double cross(const Point2& o, const Point2& p, const Point2& q) {
   return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
@@ -24,15 +24,15 @@ double openness(const NumericModel& model, const Posture& posture) {
   double least = 1;
   for (const int index : model.dyads) {
     const auto& form = model.mechanism.points[static_cast<std::size_t>(index)].form;
-    const Point2& apex = point_of(posture, index);
+    const Point2 apex = point_of(posture, index);
     if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) {
-      const Point2 &from = point_of(posture, dyad->from), &to = point_of(posture, dyad->to);
+      const Point2 from = point_of(posture, dyad->from), to = point_of(posture, dyad->to);
       least = std::min(least, std::abs(cross(apex, from, to)) / (distance(apex, from) * distance(apex, to)));
       continue;
     }
     // A slider: its rod is far from square to its path.
     const auto& slider = std::get<mechanism::SliderPoint>(form);
-    const Point2 &base = point_of(posture, slider.base), &from = point_of(posture, slider.from);
+    const Point2 base = point_of(posture, slider.base), from = point_of(posture, slider.from);
     const double path = distance(base, apex);
     if (path > 0) {
       const double along = (from[0] - apex[0]) * (base[0] - apex[0]) + (from[1] - apex[1]) * (base[1] - apex[1]);
@@ -70,8 +70,8 @@ int crossings(const NumericModel& model, const Posture& posture) {
   for (std::size_t i = 0; i < links.size(); ++i) {
     for (std::size_t j = i + 1; j < links.size(); ++j) {
       if (links[i].points.size() < 2 || links[j].points.size() < 2) continue;
-      const Point2 &p = point_of(posture, links[i].points[0]), &q = point_of(posture, links[i].points[1]);
-      const Point2 &r = point_of(posture, links[j].points[0]), &s = point_of(posture, links[j].points[1]);
+      const Point2 p = point_of(posture, links[i].points[0]), q = point_of(posture, links[i].points[1]);
+      const Point2 r = point_of(posture, links[j].points[0]), s = point_of(posture, links[j].points[1]);
       if (cross(p, q, r) * cross(p, q, s) < 0 && cross(r, s, p) * cross(r, s, q) < 0) ++count;
     }
   }
@@ -84,8 +84,8 @@ std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture&
   const auto& m = model.mechanism;
   const mechanism::Joint& joint = m.joints[joint_index];
   if (!mechanism::traits(joint).slides) return std::nullopt;
-  const Point2& u = posture.axes[joint_index];
-  const Point2& at = point_of(posture, joint.at);
+  const Vector3d& u = posture.axes[joint_index];
+  const Point2 at = point_of(posture, joint.at);
   if (joint.from == mechanism::ground || joint.to == mechanism::ground) {
     const double half = 0.6 * typical_length(model, posture);
     return core::SketchSlide{
@@ -95,7 +95,7 @@ std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture&
   double length = 0;
   for (const int i : m.links[static_cast<std::size_t>(joint.from)].points) {
     for (const int k : m.links[static_cast<std::size_t>(joint.to)].points) {
-      const Point2 &p = point_of(posture, i), &q = point_of(posture, k);
+      const Point2 p = point_of(posture, i), q = point_of(posture, k);
       const double across = (q[0] - p[0]) * u[1] - (q[1] - p[1]) * u[0], apart = distance(p, q);
       if (std::abs(across) > 1e-9 * apart || apart <= length) continue;
       length = apart;
@@ -150,7 +150,7 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     result.joints.push_back({joint.name, point_of(p, joint.at), on_ground, joint.actuated});
   }
   for (const auto& load : p.loads) {
-    if (!load.weight && !load.inner) result.loads.push_back({load.at, load.force, load.couple});
+    if (!load.weight && !load.inner) result.loads.push_back({in_plane(load.at), in_plane(load.force), load.couple[2]});
   }
   for (const auto& spring : m.springs) {
     if (spring.kind == mechanism::Spring::Kind::torsion)
@@ -158,7 +158,7 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     else
       result.springs.push_back({point_of(p, spring.from_point), point_of(p, spring.to_point), false});
   }
-  result.gravity = p.gravity;
+  result.gravity = in_plane(p.gravity);
   return result;
 }
 

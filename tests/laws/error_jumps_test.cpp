@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "analysis/loci.hpp"
-#include "numeric/error_map.hpp"
+#include "numeric/error_samples.hpp"
 
 namespace clearloci {
 namespace {
@@ -41,9 +41,10 @@ std::vector<std::optional<std::array<double, 3>>> errors(const numeric::NumericM
                                                          const std::vector<int>& mode,
                                                          const std::vector<double>& poses) {
   const numeric::ErrorSamples s = numeric::error_samples(model, poses, mode, true, false);
-  std::vector<std::optional<std::array<double, 3>>> result(s.dx.size());
-  for (std::size_t i = 0; i < s.dx.size(); ++i)
-    if (s.reachable[i] && !std::isnan(s.dx[i])) result[i] = {s.dx[i], s.dy[i], s.dalpha[i]};
+  std::vector<std::optional<std::array<double, 3>>> result(s.error.size());
+  for (std::size_t i = 0; i < s.error.size(); ++i)
+    if (s.reachable[i] && !std::isnan(s.error[i].dp[0]))
+      result[i] = {s.error[i].dp[0], s.error[i].dp[1], s.error[i].dalpha[2]};
   return result;
 }
 

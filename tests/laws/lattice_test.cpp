@@ -413,8 +413,8 @@ class Laws {
       std::vector<int> other = sides;
       other[i] = -other[i];
       const auto apex = static_cast<std::size_t>(witness_.model().dyads[i]);
-      const Point2 p = here.points[apex], q = numeric::posture(witness_.model(), at, other).points[apex];
-      least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1]) / 2);
+      const auto there = numeric::posture(witness_.model(), at, other);
+      least = std::min(least, (here.points[apex] - there.points[apex]).norm() / 2);
     }
     return least;
   }

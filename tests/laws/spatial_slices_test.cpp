@@ -9,7 +9,7 @@
 #include "analysis/verification.hpp"
 #include "analysis/zones.hpp"
 #include "mechanism/read_task.hpp"
-#include "numeric/spatial.hpp"
+#include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
 
 namespace clearloci {
@@ -125,7 +125,7 @@ void expect_one_sign_a_zone(const mechanism::Mechanism& m, std::mt19937& random)
       if (std::any_of(rings.begin(), rings.end(), [&](const auto& ring) { return distance_to(ring, at) < 1e-4; }))
         continue;
       ++seen;
-      const numeric::SpatialPosture posture = numeric::spatial_posture(m, at);
+      const test::Solved posture = test::solved(m, at);
       EXPECT_EQ(posture.determinant > 0 ? 1 : -1, zone.assembly_mode) << zone.id;
       EXPECT_FALSE(zone.signs.empty());
       for (const auto& [reaction, sign] : zone.signs) {
@@ -162,7 +162,7 @@ TEST(SpatialSlices, TheLeastForceIsKeptUpToItsCurve) {
     if (curve.kind != core::LocusKind::margin) continue;
     for (const core::Arc& arc : curve.arcs) {
       const core::Point2& at = arc.points[arc.points.size() / 2];
-      EXPECT_NEAR(numeric::spatial_posture(m, at).reactions[joint_index(m, "B1")].force.norm(), 100, 1);
+      EXPECT_NEAR(test::solved(m, at).reactions[joint_index(m, "B1")].force.norm(), 100, 1);
       ++places;
     }
   }

@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "analysis/loci.hpp"
-#include "numeric/spatial.hpp"
+#include "tests/numeric/solved.hpp"
 
 namespace clearloci {
 namespace {
@@ -127,7 +127,7 @@ TEST(SurfaceVertices, GoughStewartAgainstTheWitness) {
   double largest = 0;  // |A| somewhere in the box
   for (const double x : {-0.3, 0.0, 0.3})
     for (const double z : {0.45, 0.85})
-      largest = std::max(largest, std::abs(numeric::spatial_posture(mechanism, Point3{x, 0.1, z}).determinant));
+      largest = std::max(largest, std::abs(test::solved(mechanism, Point3{x, 0.1, z}).determinant));
   int legs = 0;
   for (const LocusSurface& surface : map.surfaces) {
     const std::string leg =
@@ -135,7 +135,7 @@ TEST(SurfaceVertices, GoughStewartAgainstTheWitness) {
     legs += leg.empty() ? 0 : 1;
     double most = 0;
     for (std::size_t v = 0; v < surface.vertices.size(); v += 31) {
-      const numeric::SpatialPosture posture = numeric::spatial_posture(mechanism, surface.vertices[v]);
+      const test::Solved posture = test::solved(mechanism, surface.vertices[v]);
       if (leg.empty()) {
         most = std::max(most, std::abs(posture.determinant) / largest);
         continue;

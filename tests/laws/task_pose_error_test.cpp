@@ -33,7 +33,7 @@ std::string under(std::string text, const std::string& force) {
 
 double error_at(const numeric::NumericModel& model, const Point2& at) {
   const numeric::Posture posture = numeric::posture(model, at, mechanism::working_mode(model.mechanism));
-  return numeric::pose_accuracy(model, posture).error.dp();
+  return numeric::pose_accuracy(model, posture).error.dp.norm();
 }
 
 double error_at(const mechanism::Mechanism& m, const Point2& at) { return error_at(numeric::compile(m), at); }
@@ -201,7 +201,7 @@ TEST(StudyFigures, OfReactionsHoldUnderBallsOfLoads) {
           least = std::min(least, std::hypot(all.reactions.values(joint.fx), all.reactions.values(joint.fy)));
           if (joint.couple >= 0) most = std::max(most, std::abs(all.reactions.values(joint.couple)));
         }
-        error = std::max(error, all.error.dp());
+        error = std::max(error, all.error.dp.norm());
       }
     }
     EXPECT_LE(design.figures[0], least);

@@ -74,8 +74,8 @@ class VirtualWork {
     for (const numeric::AppliedLoad& load : here.loads) {
       if (load.inner) continue;
       const auto place = point_of(here, load);
-      for (std::size_t i = 0; i < 2; ++i) add(load.force[i], [&](const Posture& p) { return p.points[place][i]; });
-      if (load.couple != 0) add(load.couple, turned(load.link));
+      for (Eigen::Index i = 0; i < 2; ++i) add(load.force[i], [&](const Posture& p) { return p.points[place][i]; });
+      if (load.couple[2] != 0) add(load.couple[2], turned(load.link));
     }
     for (const mechanism::Spring& spring : m_.springs) add(-1, [&](const Posture& p) { return energy(p, spring); });
     if (!(unresolved < 1e-7 * size)) return std::nullopt;
@@ -84,7 +84,9 @@ class VirtualWork {
 
  private:
   double value(const core::Expression& e) const { return core::to_double(mechanism::value_of(e, m_)); }
-  static const Point2& point(const Posture& p, int index) { return p.points[static_cast<std::size_t>(index)]; }
+  static Point2 point(const Posture& p, int index) {
+    return numeric::in_plane(p.points[static_cast<std::size_t>(index)]);
+  }
 
   /// The point that a load acts at, by its place.
   std::size_t point_of(const Posture& p, const numeric::AppliedLoad& load) const {
@@ -103,7 +105,7 @@ class VirtualWork {
     if (link == mechanism::ground) return 0;
     const auto& points = m_.links[static_cast<std::size_t>(link)].points;
     if (points.size() > 1) {
-      const Point2 &a = point(p, points[0]), &b = point(p, points[1]);
+      const Point2 a = point(p, points[0]), b = point(p, points[1]);
       return std::atan2(b[1] - a[1], b[0] - a[0]);
     }
     for (std::size_t j = 0; j < m_.joints.size(); ++j)
@@ -116,14 +118,14 @@ class VirtualWork {
   /// How far `to` slides along the axis of the pose `here`: of the ground's, or out of a cylinder whose point lies on
   /// it.
   double slid(const Posture& p, const Posture& here, const mechanism::Joint& joint, int index) const {
-    const Point2 &u = here.axes[static_cast<std::size_t>(index)], &q = point(p, joint.at);
+    const Point2 u = numeric::in_plane(here.axes[static_cast<std::size_t>(index)]), q = point(p, joint.at);
     if (joint.from == mechanism::ground) return u[0] * q[0] + u[1] * q[1];
-    const Point2& a = point(p, m_.links[static_cast<std::size_t>(joint.from)].points.front());
+    const Point2 a = point(p, m_.links[static_cast<std::size_t>(joint.from)].points.front());
     return std::hypot(q[0] - a[0], q[1] - a[1]);
   }
 
   double energy(const Posture& p, const mechanism::Spring& spring) const {
-    const Point2 &a = point(p, spring.from_point), &b = point(p, spring.to_point);
+    const Point2 a = point(p, spring.from_point), b = point(p, spring.to_point);
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
     if (spring.kind == mechanism::Spring::Kind::constant_force) return value(spring.force) * length;
     return value(spring.stiffness) / 2 * std::pow(length - value(spring.free_length), 2);

@@ -52,16 +52,16 @@ TEST_P(ErrorMaps, AgreeWithThePlainRoute) {
       const Accuracy a = pose_accuracy(model, p);
       if (a.reactions.condition > 1e6) continue;
       ++compared;
-      const double slack = 1e-13 * a.reactions.condition * a.worst.dp;
-      EXPECT_NEAR(value("dx"), a.error.dx, slack);
-      EXPECT_NEAR(value("dy"), a.error.dy, slack);
-      EXPECT_NEAR(value("dalpha"), a.error.dalpha, 10 * slack);
-      EXPECT_NEAR(value("dp"), a.error.dp(), slack);
-      EXPECT_NEAR(value("worst_dx"), a.worst.dx, slack);
-      EXPECT_NEAR(value("worst_dy"), a.worst.dy, slack);
-      EXPECT_NEAR(value("worst_dalpha"), a.worst.dalpha, 10 * slack);
-      EXPECT_LE(value("worst_dp"), a.worst.dp * (1 + 1e-9));
-      EXPECT_GE(value("worst_dp"), a.worst.dp * (1 - 1.1e-4));
+      const double slack = 1e-13 * a.reactions.condition * a.worst.distance;
+      EXPECT_NEAR(value("dx"), a.error.dp[0], slack);
+      EXPECT_NEAR(value("dy"), a.error.dp[1], slack);
+      EXPECT_NEAR(value("dalpha"), a.error.dalpha[2], 10 * slack);
+      EXPECT_NEAR(value("dp"), a.error.dp.norm(), slack);
+      EXPECT_NEAR(value("worst_dx"), a.worst.dp[0], slack);
+      EXPECT_NEAR(value("worst_dy"), a.worst.dp[1], slack);
+      EXPECT_NEAR(value("worst_dalpha"), a.worst.dalpha[2], 10 * slack);
+      EXPECT_LE(value("worst_dp"), a.worst.distance * (1 + 1e-9));
+      EXPECT_GE(value("worst_dp"), a.worst.distance * (1 - 1.1e-4));
     }
   }
   EXPECT_EQ(reached, errors.reachable);

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "mechanism/read.hpp"
-#include "numeric/spatial.hpp"
+#include "tests/numeric/solved.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -25,8 +25,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-const numeric::SpatialReaction& reaction(const Mechanism& m, const numeric::SpatialPosture& posture,
-                                         const std::string& joint) {
+const numeric::JointReaction& reaction(const Mechanism& m, const test::Solved& posture, const std::string& joint) {
   for (std::size_t j = 0; j < m.joints.size(); ++j)
     if (m.joints[j].name == joint) return posture.reactions[j];
   throw std::out_of_range(joint);
@@ -38,7 +37,7 @@ TEST(IdleFreedoms, OfADeltaLeaveTheForcesOfA3Ruu) {
   const Mechanism ruu = parse_mechanism(text_of("three_ruu"), "three_ruu.yaml");
   for (const std::vector<double>& pose :
        {std::vector<double>{0.05, 0.02, -0.65}, {-0.1, 0.07, -0.7}, {0, 0, -0.6}, {0.12, -0.1, -0.68}}) {
-    const numeric::SpatialPosture a = numeric::spatial_posture(delta, pose), b = numeric::spatial_posture(ruu, pose);
+    const test::Solved a = test::solved(delta, pose), b = test::solved(ruu, pose);
     for (const std::string leg : {"1", "2", "3"}) {
       const auto &motor = reaction(delta, a, "A" + leg), &other = reaction(ruu, b, "A" + leg);
       EXPECT_NEAR(motor.actuator, other.actuator, 1e-9);
@@ -63,7 +62,7 @@ TEST(IdleFreedoms, OfStrutsOnBallsLeaveTheForcesOfUniversalJoints) {
   }
   const Mechanism one = parse_mechanism(ups, "ups.yaml"), two = parse_mechanism(sps, "sps.yaml");
   const std::vector<double> pose = {0.1, -0.05, 0.6};
-  const auto a = numeric::spatial_posture(one, pose), b = numeric::spatial_posture(two, pose);
+  const auto a = test::solved(one, pose), b = test::solved(two, pose);
   for (const std::string i : {"1", "2", "3", "4", "5", "6"}) {
     EXPECT_NEAR(reaction(one, a, "S" + i).actuator, reaction(two, b, "S" + i).actuator, 1e-9);
     EXPECT_LT((reaction(one, a, "B" + i).force - reaction(two, b, "B" + i).force).norm(), 1e-9);

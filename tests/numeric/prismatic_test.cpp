@@ -29,33 +29,31 @@ TEST(Prismatic, PoseErrorOfThePrrrpByHand) {
   // P of rod 2 against P of rod 1: (0.6, -0.8) rho. Two equations for δP of rod 2.
   const double first = 0.3 * (x1 + 0.6 * rho) - 0.4 * (y1 - 0.8 * rho), second = -0.3 * x2 - 0.4 * y2;
   const double dy = -(first + second) / 0.8, dx = (first - second) / 0.6;
-  EXPECT_NEAR(accuracy.error.dx, dx, 1e-16);
-  EXPECT_NEAR(accuracy.error.dy, dy, 1e-16);
-  EXPECT_LE(std::abs(accuracy.error.dx), accuracy.worst.dx * (1 + 1e-12));
-  EXPECT_LE(std::hypot(dx, dy), accuracy.worst.dp * (1 + 1e-9));
+  EXPECT_NEAR(accuracy.error.dp[0], dx, 1e-16);
+  EXPECT_NEAR(accuracy.error.dp[1], dy, 1e-16);
+  EXPECT_LE(std::abs(accuracy.error.dp[0]), accuracy.worst.dp[0] * (1 + 1e-12));
+  EXPECT_LE(std::hypot(dx, dy), accuracy.worst.distance * (1 + 1e-9));
 }
 
 TEST(Prismatic, AGuideTiltsWhereTheCoupleOutweighsTheForce) {
   // Ends at ±h bear (N ± T/h)/2: pressed to one side while |T| < h |N|, to both where it is greater.
   const NumericModel model = compile(example("prrrp"));
-  const std::vector<JointClearance> clearances = joint_clearances(model.mechanism);
-  const double h = clearances[0].half_length, g = clearances[0].gap;
-  const JointColumns columns = joint_columns(model)[0];
-  Eigen::VectorXd reactions = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model.unknowns.size()));
+  const JointContact guide =
+      joint_contacts(model.mechanism, posture(model, std::array{0.3, 0.1}, std::array{1, 1}).axes)[0];
+  const double h = guide.clearance.half_length, g = guide.clearance.gap;
+  const auto taken_up = [&](double force, double couple) {
+    return take_up(guide, {force * guide.normal(), couple * Vector3d::UnitZ(), 1});
+  };
   for (const auto& [force, couple, normal, tilt] : {std::array{10.0, 0.5 * h * 10, -g, 0.0},
                                                     {-10.0, 0.5 * h * 10, g, 0.0},
                                                     {10.0, 2 * h * 10, 0.0, -g / h},
                                                     {10.0, -2 * h * 10, 0.0, g / h}}) {
-    reactions(columns.normal) = force;
-    reactions(columns.tilt) = couple;
-    const TakeUp t = take_up(model, clearances, reactions)[0];
-    EXPECT_FALSE(t.guide_vanishes);
+    const TakeUp t = taken_up(force, couple);
+    EXPECT_FALSE(t.guide_vanishes());
     EXPECT_NEAR(t.normal, normal, 1e-20);
     EXPECT_NEAR(t.tilt, tilt, 1e-20);
   }
-  reactions(columns.normal) = 10;
-  reactions(columns.tilt) = h * 10;
-  EXPECT_TRUE(take_up(model, clearances, reactions)[0].guide_vanishes);
+  EXPECT_TRUE(taken_up(10, h * 10).guide_vanishes());
 }
 
 // Inertia, against Jourdain's principle of virtual power with this file's own places and differences:

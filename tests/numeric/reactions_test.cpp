@@ -83,7 +83,7 @@ TEST(Posture, FollowsOffsetsMeansAndNestedDyads) {
   ASSERT_TRUE(p.reachable());
   const auto point = [&](const std::string& name) {
     for (std::size_t i = 0; i < p.points.size(); ++i) {
-      if (model.mechanism.points[i].name == name) return p.points[i];
+      if (model.mechanism.points[i].name == name) return in_plane(p.points[i]);
     }
     throw std::out_of_range(name);
   };

@@ -9,7 +9,7 @@
 
 #include "mechanism/read.hpp"
 #include "numeric/error_map.hpp"
-#include "numeric/spatial.hpp"
+#include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
 
 namespace clearloci::numeric {
@@ -45,7 +45,7 @@ std::vector<Mechanism> designs(int count, std::mt19937& random) {
   return all;
 }
 
-Vector6 as_vector(const SpatialPoseError& error) {
+Vector6 as_vector(const PoseError& error) {
   Vector6 v;
   v << error.dp, error.dalpha;
   return v;
@@ -79,34 +79,36 @@ TEST(SpatialAccuracy, WorkOfEveryUnitLoad) {
     SCOPED_TRACE(m.name);
     for (int sample = 0; sample < 4; ++sample) {
       const std::vector<double> pose = random_pose(m, random);
-      const SpatialAccuracy accuracy = spatial_accuracy(m, pose);
-      if (accuracy.posture.condition > 1e7) continue;
+      const Accuracy accuracy = test::accuracy_at(m, pose);
+      if (accuracy.reactions.condition > 1e7) continue;
       ASSERT_TRUE(accuracy.undefined.empty());
       const Vector6 error = as_vector(accuracy.error);
       for (int c = 0; c < 6; ++c) {
-        const SpatialPosture unit = spatial_posture(under_unit_load(m, c), pose);
+        const test::Solved unit = test::solved(under_unit_load(m, c), pose);
         double work = 0, terms = 0;
         for (std::size_t j = 0; j < m.joints.size(); ++j) {
-          const SpatialReaction& r = unit.reactions[j];
+          const JointReaction& r = unit.reactions[j];
           const bool slides = m.joints[j].type == mechanism::JointType::prismatic;
-          const Vector3d share = r.actuator * accuracy.joints[j].axis;
+          const Vector3d share = r.actuator * accuracy.contacts[j].axis;
           const Vector3d force = slides ? Vector3d(r.force + share) : r.force;
           const Vector3d couple = slides ? r.couple : Vector3d(r.couple + share);
           const double own = force.dot(accuracy.take_up[j].displacement) + couple.dot(accuracy.take_up[j].rotation);
           work += own;
           terms += std::abs(own);
         }
-        EXPECT_NEAR(error(c), -work, 1e-13 * accuracy.posture.condition * (terms + error.norm())) << c;
+        EXPECT_NEAR(error(c), -work, 1e-13 * accuracy.reactions.condition * (terms + error.norm())) << c;
         ++checked;
       }
-      EXPECT_LE((as_vector(pose_error(accuracy.influence, accuracy.take_up)) - error).norm(),
-                1e-12 * accuracy.posture.condition * error.norm());
+      EXPECT_LE(
+          (as_vector(pose_error(joint_influence(m, accuracy.columns, accuracy.influence), accuracy.take_up)) - error)
+              .norm(),
+          1e-12 * accuracy.reactions.condition * error.norm());
     }
   }
   EXPECT_GT(checked, 200);
 }
 
-Vector3d place(const Mechanism& m, const SpatialPosture& posture, const std::string& name) {
+Vector3d place(const Mechanism& m, const test::Solved& posture, const std::string& name) {
   for (std::size_t i = 0; i < m.points.size(); ++i)
     if (m.points[i].name == name) return posture.points[i];
   ADD_FAILURE() << name;
@@ -120,7 +122,7 @@ std::size_t joint_index(const Mechanism& m, const std::string& name) {
   return 0;
 }
 
-std::array<double, 6> leg_lengths(const Mechanism& m, const SpatialPosture& posture) {
+std::array<double, 6> leg_lengths(const Mechanism& m, const test::Solved& posture) {
   std::array<double, 6> lengths{};
   for (std::size_t i = 0; i < 6; ++i) {
     const std::string k = std::to_string(i + 1);
@@ -131,7 +133,7 @@ std::array<double, 6> leg_lengths(const Mechanism& m, const SpatialPosture& post
 
 /// The pose at which the legs from A_i to B_i have the given lengths, by Newton from the nominal one: translation of P
 /// and rotation vector.
-Vector6 platform_moved(const Mechanism& m, const SpatialPosture& nominal, const std::array<double, 6>& lengths) {
+Vector6 platform_moved(const Mechanism& m, const test::Solved& nominal, const std::array<double, 6>& lengths) {
   const auto point = [&](const std::string& name) { return place(m, nominal, name); };
   const Vector3d p = point("P");
   Vector6 x = Vector6::Zero();
@@ -165,19 +167,19 @@ TEST(SpatialAccuracy, PlatformFollowsTheLengthsOfItsLegs) {
   for (const Mechanism& m : all) {
     for (int sample = 0; sample < 4; ++sample) {
       const std::vector<double> pose = random_pose(m, random);
-      const SpatialAccuracy accuracy = spatial_accuracy(m, pose);
-      if (accuracy.posture.condition > 1e3) continue;
-      std::array<double, 6> lengths = leg_lengths(m, accuracy.posture);
+      const Accuracy accuracy = test::accuracy_at(m, pose);
+      if (accuracy.reactions.condition > 1e3) continue;
+      std::array<double, 6> lengths = leg_lengths(m, test::solved(m, pose));
       for (std::size_t i = 0; i < 6; ++i) {
         const std::string k = std::to_string(i + 1);
         double clearance = 0;
         for (const char* kind : {"U", "S", "B"}) {
-          const JointClearance& c = accuracy.joints[joint_index(m, kind + k)].clearance;
-          clearance += c.radial + c.angular;
+          const JointClearance& c = accuracy.contacts[joint_index(m, kind + k)].clearance;
+          clearance += c.radial + c.axial;
         }
-        lengths[i] -= std::copysign(clearance, accuracy.posture.reactions[joint_index(m, "S" + k)].actuator);
+        lengths[i] -= std::copysign(clearance, accuracy.of_joints[joint_index(m, "S" + k)].actuator);
       }
-      const Vector6 moved = platform_moved(m, accuracy.posture, lengths), linear = as_vector(accuracy.error);
+      const Vector6 moved = platform_moved(m, test::solved(m, pose), lengths), linear = as_vector(accuracy.error);
       EXPECT_LT((moved - linear).norm(), 20 * linear.norm() * linear.norm() + 1e-12) << m.name;
       EXPECT_GT(linear.norm(), 1e-5);
       ++checked;
@@ -190,17 +192,17 @@ TEST(SpatialAccuracy, PlatformFollowsTheLengthsOfItsLegs) {
 TEST(SpatialAccuracy, OneLegAlone) {
   const Mechanism m = example("gough_stewart_slice");
   const std::vector<double> pose = {-0.3, -0.2};
-  const SpatialAccuracy accuracy = spatial_accuracy(m, pose);
+  const Accuracy accuracy = test::accuracy_at(m, pose);
   for (std::size_t leg = 0; leg < 6; ++leg) {
     const std::string k = std::to_string(leg + 1);
     constexpr double longer = 1e-7;
-    std::array<double, 6> lengths = leg_lengths(m, accuracy.posture);
+    std::array<double, 6> lengths = leg_lengths(m, test::solved(m, pose));
     lengths[leg] += longer;
-    std::vector<SpatialTakeUp> take_up(m.joints.size());
+    std::vector<TakeUp> take_up(m.joints.size());
     const std::size_t joint = joint_index(m, "S" + k);
-    take_up[joint].displacement = longer * accuracy.joints[joint].axis;
-    const Vector6 linear = as_vector(pose_error(accuracy.influence, take_up));
-    EXPECT_LT((platform_moved(m, accuracy.posture, lengths) - linear).norm(), 1e-4 * linear.norm()) << k;
+    take_up[joint].displacement = longer * accuracy.contacts[joint].axis;
+    const Vector6 linear = as_vector(pose_error(joint_influence(m, accuracy.columns, accuracy.influence), take_up));
+    EXPECT_LT((platform_moved(m, test::solved(m, pose), lengths) - linear).norm(), 1e-4 * linear.norm()) << k;
   }
 }
 
@@ -209,16 +211,16 @@ TEST(SpatialAccuracy, TakeUpOfARevoluteAndACylindricalJointLiesAcrossItsAxis) {
   int seen = 0;
   for (int design = 0; design < 6; ++design) {
     const Mechanism m = parsed(test::random_three_leg(random));
-    const SpatialAccuracy accuracy = spatial_accuracy(m, random_pose(m, random));
+    const Accuracy accuracy = test::accuracy_at(m, random_pose(m, random));
     for (std::size_t j = 0; j < m.joints.size(); ++j) {
-      const SpatialJoint& joint = accuracy.joints[j];
+      const JointContact& joint = accuracy.contacts[j];
       const bool about_axis =
           joint.type == mechanism::JointType::revolute || joint.type == mechanism::JointType::cylindrical;
       if (!about_axis || !joint.presses()) continue;
       const Vector3d& d = accuracy.take_up[j].displacement;
       EXPECT_NEAR(d.norm(), joint.clearance.radial, 1e-12);
       EXPECT_NEAR(d.dot(joint.axis), 0, 1e-15);
-      EXPECT_LT(d.dot(accuracy.posture.reactions[j].force), 0);
+      EXPECT_LT(d.dot(accuracy.of_joints[j].force), 0);
       if (joint.plays()) {
         EXPECT_NEAR(accuracy.take_up[j].rotation.norm(), joint.clearance.angular, 1e-15);
       }
@@ -233,23 +235,24 @@ TEST(SpatialAccuracy, NoTakeUpIsWorseThanTheWorstAndSomeAreAsBad) {
   std::normal_distribution<double> normal;
   for (const Mechanism& m : designs(2, random)) {
     SCOPED_TRACE(m.name);
-    const SpatialAccuracy accuracy = spatial_accuracy(m, random_pose(m, random));
-    const SpatialWorstCase& worst = accuracy.worst;
+    const Accuracy accuracy = test::accuracy_at(m, random_pose(m, random));
+    const WorstCase& worst = accuracy.worst;
+    const std::vector<JointInfluence> influence = joint_influence(m, accuracy.columns, accuracy.influence);
     // The take-up that moves the point farthest along n: every clearance along its own influence.
     const auto farthest = [&](const Vector6& n) {
-      std::vector<SpatialTakeUp> take_up(m.joints.size());
+      std::vector<TakeUp> take_up(m.joints.size());
       for (std::size_t j = 0; j < m.joints.size(); ++j) {
-        const SpatialJoint& joint = accuracy.joints[j];
-        const Vector3d force = accuracy.influence[j].force.transpose() * n;
-        const Vector3d couple = accuracy.influence[j].couple.transpose() * n;
+        const JointContact& joint = accuracy.contacts[j];
+        const Vector3d force = influence[j].force.transpose() * n;
+        const Vector3d couple = influence[j].couple.transpose() * n;
         if (joint.presses() && joint.pressing(force).norm() > 0)
           take_up[j].displacement = joint.clearance.radial * joint.pressing(force).normalized();
         if (joint.plays() && joint.type == mechanism::JointType::prismatic)
-          take_up[j].displacement = std::copysign(joint.clearance.angular, force.dot(joint.axis)) * joint.axis;
+          take_up[j].displacement = std::copysign(joint.clearance.axial, force.dot(joint.axis)) * joint.axis;
         if (joint.plays() && joint.type == mechanism::JointType::revolute)
           take_up[j].rotation = std::copysign(joint.clearance.angular, couple.dot(joint.axis)) * joint.axis;
       }
-      return pose_error(accuracy.influence, take_up);
+      return pose_error(influence, take_up);
     };
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(farthest(Vector6::Unit(c)).dp(c), worst.dp(c), 1e-9 * worst.dp(c));
@@ -279,13 +282,13 @@ TEST(SpatialAccuracy, OnALocusTheTakeUpIsUndefined) {
   const Mechanism m = example("three_upu");
   const std::vector<Bounded> on = {{-0.3, 1e-17}, 0.125, {0.6, 1e-16}};
   const std::vector<double> pose = {-0.3, 0.125, 0.6};
-  const std::vector<LostContact> lost = lost_contacts(compile(m), {}, on);
-  const SpatialAccuracy accuracy = spatial_accuracy(m, pose, lost);
+  const std::vector<LostContact> lost = lost_contacts(compile(m), on, {});
+  const Accuracy accuracy = test::accuracy_at(m, pose, lost);
   EXPECT_EQ(accuracy.undefined, (std::vector<std::string>{"U1", "S1", "V1"}));
   EXPECT_TRUE(std::isnan(accuracy.error.dp(0)));
   const std::vector<double> beside = {-0.29, 0.125, 0.6};
   EXPECT_TRUE(
-      spatial_accuracy(m, beside, lost_contacts(compile(m), {}, std::vector<Bounded>(beside.begin(), beside.end())))
+      test::accuracy_at(m, beside, lost_contacts(compile(m), std::vector<Bounded>(beside.begin(), beside.end()), {}))
           .undefined.empty());
 }
 
@@ -304,8 +307,8 @@ TEST(SpatialErrorMap, AgreesWithSinglePoses) {
     ASSERT_EQ(map.fields.size(), 14u);
     for (int j = 0; j < map.ny; ++j) {
       for (int i = 0; i < map.nx; ++i) {
-        const SpatialAccuracy one = spatial_accuracy(m, std::vector<double>{map.x(i), map.y(j)});
-        const double tolerance = 1e-13 * one.posture.condition;
+        const Accuracy one = test::accuracy_at(m, std::vector<double>{map.x(i), map.y(j)});
+        const double tolerance = 1e-13 * one.reactions.condition;
         const Vector6 error = as_vector(one.error);
         Vector6 worst;
         worst << one.worst.dp, one.worst.dalpha;

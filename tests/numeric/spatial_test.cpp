@@ -1,4 +1,4 @@
-// Spatial mechanisms in floating point by two routes: one LU of the orthonormal form (spatial.hpp), and the compiled
+// Spatial mechanisms in floating point by two routes: one LU of the orthonormal form (reactions.hpp), and the compiled
 // Cartesian form with the equations of what joints do not bear (equations.hpp).
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "mechanism/read.hpp"
 #include "numeric/evaluator.hpp"
 #include "numeric/reactions.hpp"
-#include "numeric/spatial.hpp"
+#include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
 
 namespace clearloci::numeric {
@@ -45,7 +45,7 @@ void expect_same_reactions(const Mechanism& m, std::mt19937& random) {
   int held = 0;
   for (int sample = 0; sample < (mode.empty() ? 8 : 40); ++sample) {
     const std::vector<double> pose = random_pose(m, random);
-    const SpatialPosture plain = spatial_posture(m, pose, mode);
+    const test::Solved plain = test::solved(m, pose, mode);
     EXPECT_EQ(plain.unreachable.has_value(), !reachable(model, pose, mode));
     if (plain.unreachable) continue;
     ++held;
@@ -62,7 +62,7 @@ void expect_same_reactions(const Mechanism& m, std::mt19937& random) {
     for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
       const auto& unknown = model.unknowns[k];
       const auto j = static_cast<std::size_t>(unknown.joint);
-      const SpatialReaction& r = plain.reactions[j];
+      const JointReaction& r = plain.reactions[j];
       const double value = compiled.values[k].value / det;
       const auto& axis = model.axes[j];
       Eigen::Vector3d force = r.force, couple = r.couple;

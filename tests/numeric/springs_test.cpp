@@ -13,8 +13,8 @@
 #include "mechanism/read.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/reactions.hpp"
-#include "numeric/spatial.hpp"
 #include "tests/mechanism/five_bar_text.hpp"
+#include "tests/numeric/solved.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -139,7 +139,7 @@ TEST(Springs, DisplacedOnesPullWithTheLengthThatTheyHave) {
   const ActualPose actual = actual_pose(model, at, linear);
   ASSERT_TRUE(actual.converged) << actual.reason;
   // Force on PB2: that of the nominal place, and what the displacement of P along the spring adds.
-  const Point2 P = {places[0][0] + actual.error.dx, places[0][1] + actual.error.dy};
+  const Point2 P = {places[0][0] + actual.error.dp[0], places[0][1] + actual.error.dp[1]};
   const double now = 80000 * (distance(P, {0.1, 0.8}) - 1.5), before = 80000 * (distance(places[0], {0.1, 0.8}) - 1.5);
   EXPECT_GT(std::abs(now - before), 0.1) << "the displacement counts";
   // Balance of the two links that meet in P, with the reactions of the displaced mechanism.
@@ -196,7 +196,7 @@ springs:
   // cross((0, 3, 0), v) = (3 vz, 0, -3 vx), v = T - H; dT = 0.6 (-sin t, 0, cos t).
   const double work =
       3 * (0.6 * std::sin(t) - 0.4) * -0.6 * std::sin(t) - 3 * (0.6 * std::cos(t) - 0.2) * 0.6 * std::cos(t);
-  const SpatialPosture solved = spatial_posture(m, std::array{t});
+  const test::Solved solved = test::solved(m, std::array{t});
   EXPECT_NEAR(solved.reactions[0].actuator, dV - work, 1e-8);
   const NumericModel model = compile(m);
   const BoundedNumerators n = bounded_numerators(model, std::array{t}, {});

@@ -246,7 +246,7 @@ RC_GTEST_PROP(Dynamics, ActuatorsDeliverThePowerThatTheMotionTakes, ()) {
   for (const auto& load : p.loads) {
     if (load.weight) continue;
     const PointSeries where = series(*m.loads[0].at);
-    power -= load.force[0] * where[0].c[1] + load.force[1] * where[1].c[1] + load.couple * turning(load.link).c[0];
+    power -= load.force[0] * where[0].c[1] + load.force[1] * where[1].c[1] + load.couple[2] * turning(load.link).c[0];
   }
   const Eigen::VectorXd w = at.reactions(period);
   double delivered = 0;
@@ -285,7 +285,8 @@ RC_GTEST_PROP(Dynamics, SlowCyclesApproachTheStaticLimit, ()) {
   RC_PRE(first > 1e-9 * scale);
   RC_ASSERT(std::abs(first / second - 4) < 1e-2);
   const PoseError slow = instant_error(motion, at, 1e5).error;
-  RC_ASSERT(std::abs(slow.dx - still.error.dx) + std::abs(slow.dy - still.error.dy) < 1e-6 * still.worst.dp);
+  RC_ASSERT(std::abs(slow.dp[0] - still.error.dp[0]) + std::abs(slow.dp[1] - still.error.dp[1]) <
+            1e-6 * still.worst.distance);
 }
 
 RC_GTEST_PROP(ContactLosses, AreWhereTheReactionsVanish, ()) {
@@ -390,9 +391,9 @@ TEST(PeriodSweep, IsTheErrorAtEveryPeriod) {
     for (const Instant& at : instants) {
       for (std::size_t p = 0; p < 3; ++p) {
         const PoseError e = instant_error(motion, at, sweep.periods[p]).error;
-        EXPECT_NEAR(sweep.dx[sweep.index(p, s)], e.dx, 1e-14);
-        EXPECT_NEAR(sweep.dy[sweep.index(p, s)], e.dy, 1e-14);
-        EXPECT_NEAR(sweep.dalpha[sweep.index(p, s)], e.dalpha, 1e-14);
+        EXPECT_NEAR(sweep.dx[sweep.index(p, s)], e.dp[0], 1e-14);
+        EXPECT_NEAR(sweep.dy[sweep.index(p, s)], e.dp[1], 1e-14);
+        EXPECT_NEAR(sweep.dalpha[sweep.index(p, s)], e.dalpha[2], 1e-14);
       }
       ++s;
     }

@@ -82,7 +82,7 @@ LocusMap unloading_map(const FiveBar& d, int steps = 4000) {
       const auto admitted = [&](const Point2& pose) {
         const auto p = posture(model, pose, mode);
         if (!p.reachable()) return false;
-        const Point2& apex = p.points[static_cast<std::size_t>(leg.apex)];
+        const Vector3d& apex = p.points[static_cast<std::size_t>(leg.apex)];
         // The apex of the other assembly differs by more than rounding unless the leg is stretched.
         return std::hypot(pose[0] - apex[0] - rod[0], pose[1] - apex[1] - rod[1]) < 1e-6;
       };

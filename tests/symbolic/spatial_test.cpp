@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "mechanism/read.hpp"
-#include "numeric/spatial.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/locus_problem.hpp"
+#include "tests/numeric/solved.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -47,7 +47,7 @@ double evaluated(const FactoredPoly& product, const std::vector<double>& at) {
 
 /// The coordinates and the places of constructed points, as the numeric route finds them.
 std::vector<double> ring_values(const Geometry& geometry, const std::vector<double>& pose,
-                                const numeric::SpatialPosture& witness) {
+                                const test::Solved& witness) {
   std::vector<double> values(static_cast<std::size_t>(geometry.ring().size()), 0.0);
   std::copy(pose.begin(), pose.end(), values.begin());
   for (const ConstructedPoint& point : geometry.constructed()) {
@@ -70,7 +70,7 @@ void hold(const Mechanism& m) {
     for (const auto& c : m.coordinates)
       pose.push_back(
           std::uniform_real_distribution<double>(core::to_double(c.lower), core::to_double(c.upper))(random));
-    const numeric::SpatialPosture witness = numeric::spatial_posture(m, pose);
+    const test::Solved witness = test::solved(m, pose);
     if (witness.unreachable) continue;
     ++held;
     EXPECT_LT(witness.residual, 1e-12);
@@ -82,7 +82,7 @@ void hold(const Mechanism& m) {
     for (std::size_t k = 0; k < exact.numerators.size(); ++k) {
       const mechanism::Unknown& unknown = exact.equations.unknowns[k];
       const auto& joint = m.joints[static_cast<std::size_t>(unknown.joint)];
-      const numeric::SpatialReaction& r = witness.reactions[static_cast<std::size_t>(unknown.joint)];
+      const numeric::JointReaction& r = witness.reactions[static_cast<std::size_t>(unknown.joint)];
       const auto axis = [&](std::size_t i) {
         Eigen::Vector3d u;
         const auto components = geometry.vector(joint.axes.at(i));
@@ -160,7 +160,7 @@ TEST(Spatial, ThreeRuuLegsAreUnloadedWhereTheOtherTwoSpanTheLoad) {
     const double s = std::sqrt(3) / 2, R = 0.2, r = 0.05, crank = 0.25, forearm = 0.6;
     const std::array<std::array<double, 2>, 3> turn = {{{1, 0}, {-0.5, s}, {-0.5, -s}}};
     Eigen::Matrix3d arms, couples;
-    numeric::SpatialPosture places;
+    test::Solved places;
     places.points.assign(m.points.size(), Eigen::Vector3d::Zero());
     bool reached = true;
     for (int leg = 0; leg < 3; ++leg) {

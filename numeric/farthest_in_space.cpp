@@ -1,5 +1,3 @@
-#include "numeric/spatial_take_up.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -8,40 +6,16 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanism/joint_traits.hpp"
-#include "numeric/evaluator.hpp"
+#include "numeric/reach.hpp"
 
 namespace clearloci::numeric {
 
 namespace {
 
-using core::Quantity;
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
-bool slides(const SpatialJoint& joint) { return mechanism::traits(joint.type).slides; }
-
-/// One clearance: the end effector moves by `way` times any vector of length up to one.
-using Reach = Eigen::Matrix<double, 6, 3>;
-
-std::vector<Reach> reaches(const std::vector<SpatialJoint>& joints, const std::vector<JointInfluence>& influence) {
-  std::vector<Reach> all;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const SpatialJoint& joint = joints[j];
-    const bool about_axis = mechanism::traits(joint.type).turns_about_axis();
-    const Matrix3d across =
-        Matrix3d::Identity() - (about_axis ? Matrix3d(joint.axis * joint.axis.transpose()) : Matrix3d::Zero());
-    if (joint.presses()) all.emplace_back(joint.clearance.radial * influence[j].force * across);
-    if (!joint.plays()) continue;
-    all.emplace_back(Reach::Zero());
-    all.back().col(0) =
-        joint.clearance.angular * (slides(joint) ? influence[j].force : influence[j].couple) * joint.axis;
-  }
-  return all;
-}
-
-/// Bounds are handed out above what doubles make of their few hundred operations.
-double rounded_up(double bound) { return bound * (1 + 512 * std::numeric_limits<double>::epsilon()); }
+/// Of a bound: a few hundred.
+constexpr double operations = 512;
 
 /// The support function of the places that a sum of reaches leads to; `row`: of the first of its three components.
 class Support {
@@ -121,8 +95,10 @@ constexpr double narrowest_triangle = 1e-7;
 /// More triangles than this are not looked at: the bound is then less tight, and still one.
 constexpr int most_triangles = 20'000;
 
-/// Not less than the largest value of h, and mostly not more than `accuracy` above it.
-double farthest(const Support& support, double accuracy) {
+}  // namespace
+
+double farthest_in_space(const std::vector<Reach>& all, int row, double accuracy) {
+  const Support support(all, row);
   std::vector<Triangle> open;
   double best = 0, everywhere = std::numeric_limits<double>::infinity();
   Vector3d at_best = Vector3d::UnitX();
@@ -168,7 +144,7 @@ double farthest(const Support& support, double accuracy) {
       if ((c[(k + 1) % 3] - c[k]).squaredNorm() > (c[(i + 1) % 3] - c[i]).squaredNorm()) i = k;
     const std::size_t j = (i + 1) % 3;
     if ((c[j] - c[i]).norm() < narrowest_triangle || most <= best * (1 + accuracy) || looked_at >= most_triangles)
-      return rounded_up(most);
+      return rounded_up(most, operations);
     std::pop_heap(open.begin(), open.end());
     open.pop_back();
     const Vector3d middle = (c[i] + c[j]).normalized();
@@ -181,91 +157,6 @@ double farthest(const Support& support, double accuracy) {
       put(half);
     }
   }
-}
-
-}  // namespace
-
-Vector3d SpatialJoint::pressing(const Vector3d& force) const {
-  const bool about_axis = mechanism::traits(type).turns_about_axis();
-  return about_axis ? Vector3d(force - axis.dot(force) * axis) : force;
-}
-
-std::vector<SpatialJoint> spatial_joints(const mechanism::Mechanism& mechanism) {
-  const std::vector<JointClearance> clearances = joint_clearances(mechanism);
-  std::vector<SpatialJoint> joints;
-  for (std::size_t j = 0; j < clearances.size(); ++j)
-    joints.push_back({mechanism.joints[j].type, mechanism.joints[j].actuated, clearances[j], Vector3d::Zero()});
-  return joints;
-}
-
-SpatialTakeUp take_up(const SpatialJoint& joint, const SpatialLoad& load, const LostContact& lost) {
-  SpatialTakeUp result;
-  if (joint.presses()) {
-    const Vector3d force = joint.pressing(load.force);
-    const double size = force.norm();
-    result.force_vanishes = lost.force || !(size > 0) || !std::isfinite(size);
-    if (!result.force_vanishes) result.displacement = -joint.clearance.radial / size * force;
-  }
-  if (joint.plays()) {
-    const double along = (slides(joint) ? load.force : load.couple).dot(joint.axis);
-    result.actuator_vanishes = lost.actuator || along == 0 || !std::isfinite(along);
-    if (!result.actuator_vanishes) result.actuator = -std::copysign(joint.clearance.angular, along);
-    (slides(joint) ? result.displacement : result.rotation) += result.actuator * joint.axis;
-  }
-  return result;
-}
-
-std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<const int> mode,
-                                       std::span<const Bounded> pose) {
-  Evaluator<Bounded, 1> evaluator(model, mode, model.reaction_size);
-  for (std::size_t c = 0; c < pose.size(); ++c) evaluator.input(c, 0) = pose[c];
-  evaluator.run_tape();
-  std::vector<Bounded> numerators(model.unknowns.size() + 1);
-  evaluator.solve(model.elimination, numerators.data());
-  const auto zero = [](const Bounded& b) { return !(std::abs(b.value) > b.error); };
-  const bool singular = zero(numerators.back());
-  const auto part = [&](std::size_t joint, Quantity quantity) {
-    const int column = column_of(model, static_cast<int>(joint), quantity);
-    return column < 0 ? Bounded(0.0) : numerators[static_cast<std::size_t>(column)];
-  };
-  std::vector<SpatialJoint> joints = spatial_joints(model.mechanism);
-  std::vector<LostContact> lost(joints.size(), {singular, singular});
-  for (std::size_t j = 0; j < joints.size() && !singular; ++j) {
-    const SpatialJoint& joint = joints[j];
-    std::array<Bounded, 3> force = {part(j, Quantity::fx), part(j, Quantity::fy), part(j, Quantity::fz)};
-    if (mechanism::traits(joint.type).turns_about_axis()) {
-      std::array<Bounded, 3> u;
-      for (std::size_t c = 0; c < 3; ++c) u[c] = evaluator.value((*model.axes[j])[c], 0);
-      const Bounded along = force[0] * u[0] + force[1] * u[1] + force[2] * u[2];
-      for (std::size_t c = 0; c < 3; ++c) force[c] = force[c] - along * u[c];
-    }
-    lost[j].force = std::all_of(force.begin(), force.end(), zero);
-    lost[j].actuator = joint.actuated && zero(part(j, mechanism::actuator_quantity(model.mechanism.joints[j])));
-  }
-  return lost;
-}
-
-SpatialPoseError pose_error(const std::vector<JointInfluence>& influence, const std::vector<SpatialTakeUp>& take_up) {
-  Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
-  for (std::size_t j = 0; j < take_up.size(); ++j)
-    error += influence[j].force * take_up[j].displacement + influence[j].couple * take_up[j].rotation;
-  return {error.tail<3>(), error.head<3>()};
-}
-
-SpatialWorstCase worst_case(const std::vector<SpatialJoint>& joints, const std::vector<JointInfluence>& influence,
-                            double accuracy, bool rotation) {
-  const std::vector<Reach> all = reaches(joints, influence);
-  SpatialWorstCase worst;
-  Eigen::Matrix<double, 6, 1> most = Eigen::Matrix<double, 6, 1>::Zero();
-  for (const Reach& reach : all) most += reach.rowwise().norm();
-  for (Eigen::Index c = 0; c < 6; ++c) (c < 3 ? worst.dp(c) : worst.dalpha(c - 3)) = rounded_up(most(c));
-  if (!most.allFinite()) {
-    worst.rotation = worst.distance = std::numeric_limits<double>::infinity();
-    return worst;
-  }
-  worst.distance = farthest(Support(all, 0), accuracy);
-  if (rotation) worst.rotation = farthest(Support(all, 3), accuracy);
-  return worst;
 }
 
 }  // namespace clearloci::numeric
