@@ -11,6 +11,7 @@
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
 #include "loci/sheet/multi_interval.hpp"
+#include "loci/work_queue.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -157,6 +158,24 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
   return std::nullopt;
 }
 
+using FactorPair = std::pair<const core::LocusFactor*, const core::LocusFactor*>;
+
+/// Factors of fx and of fy of a joint in the plane; the three equations of one in space have no common zero in general.
+std::vector<FactorPair> components_of(const LocusProblem& problem, const std::string& joint) {
+  std::vector<FactorPair> pairs;
+  if (core::force_components(problem, joint) != std::vector<Quantity>{Quantity::fx, Quantity::fy}) return pairs;
+  const auto only_in = [&](Quantity one, Quantity other) {
+    std::vector<const core::LocusFactor*> list;
+    for (const core::LocusFactor& factor : problem.factors)
+      if (makes_vanish(factor, joint, one) && !makes_vanish(factor, joint, other)) list.push_back(&factor);
+    return list;
+  };
+  const std::vector<const core::LocusFactor*> y = only_in(Quantity::fy, Quantity::fx);
+  for (const core::LocusFactor* fx : only_in(Quantity::fx, Quantity::fy))
+    for (const core::LocusFactor* fy : y) pairs.emplace_back(fx, fy);
+  return pairs;
+}
+
 }  // namespace
 
 void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map,
@@ -166,63 +185,59 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
   const std::vector<sheet::Star> cones = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                core::to_double(problem.upper[1] - problem.lower[1]));
-  std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, sheet::ZeroSet> known;
+  // Joints along one chain bear the same force: every pair of factors is searched once.
+  std::map<FactorPair, sheet::ZeroSet> zeros;
+  for (const std::string& joint : problem.joints)
+    for (const FactorPair& pair : components_of(problem, joint)) zeros.try_emplace(pair);
+  std::vector<std::pair<const FactorPair, sheet::ZeroSet>*> searches;
+  for (auto& search : zeros) searches.push_back(&search);
+  run_in_order(searches.size(), [&](std::size_t i) {
+    auto& [pair, found] = *searches[i];
+    const auto& [fx, fy] = pair;
+    found = sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
+                                  problem.upper, {.most_cells = most_cells, .special = cones, .stop = stop});
+  });
   for (const std::string& joint : problem.joints) {
-    // Two equations in two coordinates; the three of a joint in space have no common zero in general.
-    if (core::force_components(problem, joint) != std::vector<Quantity>{Quantity::fx, Quantity::fy}) continue;
-    std::vector<const core::LocusFactor*> x, y;
-    for (const core::LocusFactor& factor : problem.factors) {
-      const bool in_x = makes_vanish(factor, joint, Quantity::fx), in_y = makes_vanish(factor, joint, Quantity::fy);
-      if (in_x && !in_y) x.push_back(&factor);
-      if (in_y && !in_x) y.push_back(&factor);
-    }
-    for (const core::LocusFactor* fx : x) {
-      for (const core::LocusFactor* fy : y) {
-        // Joints along one chain bear the same force.
-        const auto [place, fresh] = known.try_emplace({fx, fy});
-        if (fresh)
-          place->second =
-              sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
-                                    problem.upper, {.most_cells = most_cells, .special = cones, .stop = stop});
-        const sheet::ZeroSet& found = place->second;
-        const auto add = [&](const core::Point2& at, bool certified) {
-          if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
-          add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
+    for (const FactorPair& pair : components_of(problem, joint)) {
+      const auto& [fx, fy] = pair;
+      const sheet::ZeroSet& found = zeros.at(pair);
+      const auto add = [&](const core::Point2& at, bool certified) {
+        if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
+        add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
+                  1e-9 * size);
+      };
+      // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
+      const auto add_without_limit = [&](const core::Point2& at) {
+        if (!ends_on_singularity(map, mode, at, 1e-7 * size))
+          add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
                     1e-9 * size);
-        };
-        // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
-        const auto add_without_limit = [&](const core::Point2& at) {
-          if (!ends_on_singularity(map, mode, at, 1e-7 * size))
-            add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
-                      1e-9 * size);
-        };
-        for (const sheet::SheetZero& zero : found.zeros) {
-          if (!on_direct_singularity(problem, mode, zero))
-            add({zero.x, zero.y}, true);
-          else
-            add_without_limit({zero.x, zero.y});
-        }
-        if (stop && stop()) {
-          map.complete = false;
-          return;
-        }
-        // What no proof was had for is a point where Newton finds one, and else only worth a note.
-        std::size_t open = 0;
-        for (const sheet::Cell& cell : found.undecided) {
-          const core::Point2 centre{cell.x.middle(), cell.y.middle()};
-          const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
-          const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
-          if (at && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size}))
-            add(*at, false);
-          else
-            ++open;
-        }
-        if (open > 0) {
-          map.notes.push_back(
-              "contact loss of " + joint + ": " + std::to_string(open) +
-              " places where an isolated point is neither proven nor excluded, the first near " +
-              place_words(problem, {found.undecided.front().x.middle(), found.undecided.front().y.middle()}));
-        }
+      };
+      for (const sheet::SheetZero& zero : found.zeros) {
+        if (!on_direct_singularity(problem, mode, zero))
+          add({zero.x, zero.y}, true);
+        else
+          add_without_limit({zero.x, zero.y});
+      }
+      if (stop && stop()) {
+        map.complete = false;
+        return;
+      }
+      // What no proof was had for is a point where Newton finds one, and else only worth a note.
+      std::size_t open = 0;
+      for (const sheet::Cell& cell : found.undecided) {
+        const core::Point2 centre{cell.x.middle(), cell.y.middle()};
+        const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
+        const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
+        if (at && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size}))
+          add(*at, false);
+        else
+          ++open;
+      }
+      if (open > 0) {
+        map.notes.push_back(
+            "contact loss of " + joint + ": " + std::to_string(open) +
+            " places where an isolated point is neither proven nor excluded, the first near " +
+            place_words(problem, {found.undecided.front().x.middle(), found.undecided.front().y.middle()}));
       }
     }
   }

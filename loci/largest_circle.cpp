@@ -34,15 +34,23 @@ Nearest nearest_on(const Polyline& line, std::size_t i, const Point2& from) {
   return {at, distance(at, from), (i == 0 && t == 0) || (i + 2 == line.size() && t == 1)};
 }
 
-/// The point of the curve nearest to `centre`, from one near it: slide along the curve towards the foot.
+/// The point of the curve nearest to `centre`, from one near it: slide along the curve towards the foot, by the secant
+/// method on what is left of the way along the tangent.
 Point2 slid(const CurveProjection& curve, const Point2& start, const Point2& centre) {
+  constexpr double least_slope = 0.1, most_slope = 10;  // of what is left over the way; 1 on a straight line
   CurvePoint now = curve(start);
+  const auto left_at = [&](const CurvePoint& p) {
+    return (centre[0] - p.at[0]) * p.tangent[0] + (centre[1] - p.at[1]) * p.tangent[1];
+  };
+  double slope = 1;
   for (int i = 0; i < 8; ++i) {
-    const auto& [at, tangent] = now;
-    const double along = (centre[0] - at[0]) * tangent[0] + (centre[1] - at[1]) * tangent[1];
-    if (std::abs(along) < rounding * (1 + std::abs(at[0]) + std::abs(at[1]))) break;
-    const CurvePoint next = curve({at[0] + along * tangent[0], at[1] + along * tangent[1]});
-    if (distance(next.at, centre) >= distance(at, centre)) break;
+    const double left = left_at(now), way = left / slope;
+    if (std::abs(left) < rounding * (1 + std::abs(now.at[0]) + std::abs(now.at[1]))) break;
+    CurvePoint next = curve({now.at[0] + way * now.tangent[0], now.at[1] + way * now.tangent[1]});
+    if (distance(next.at, centre) >= distance(now.at, centre)) break;
+    if (next.tangent[0] * now.tangent[0] + next.tangent[1] * now.tangent[1] < 0)
+      next.tangent = {-next.tangent[0], -next.tangent[1]};
+    slope = std::clamp((left - left_at(next)) / way, least_slope, most_slope);
     now = next;
   }
   return now.at;
