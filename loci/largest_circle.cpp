@@ -172,7 +172,7 @@ std::optional<Circle> widest_between(Contact first, Contact second, const Circle
       for (std::size_t c = 0; c < 2; ++c) pull += (z[c] - foot[c]) / radius * along[c];
     return Rolled{{z, radius}, pull};
   };
-  double low = -0.3 * start.radius, high = -low;
+  double low = -farthest_polished * start.radius, high = -low;
   Rolled at_low = rolled(low), at_high = rolled(high);
   if (at_low.pull <= 0 || at_high.pull >= 0)
     return at_low.circle.radius > at_high.circle.radius ? at_low.circle : at_high.circle;
@@ -201,7 +201,7 @@ Circle polished(const Circle& start, const std::vector<Obstacle>& obstacles, con
     const std::vector<Contact> touching = contacts(now, obstacles, points, slack);
     std::optional<Circle> next = largest_between(touching, now.centre);
     if (!next && touching.size() == 2) next = widest_between(touching[0], touching[1], now);
-    if (!next || distance(next->centre, start.centre) > 0.3 * start.radius) break;
+    if (!next || distance(next->centre, start.centre) > farthest_polished * start.radius) break;
     const bool settled = distance(next->centre, now.centre) < settled_at * start.radius;
     now = *next;
     if (settled) break;

@@ -276,6 +276,8 @@ class ModeZones {
     }
     std::optional<Circle> best;
     for (const Circle& candidate : candidates) {
+      // No circle about a place grows by more than one moves it.
+      if (best && (1 + farthest_polished) * candidate.radius < best->radius) continue;
       const Circle circle = sketch_ ? candidate : polished(candidate, borders, points, map_.tolerance);
       if (inside(circle.centre) && (!best || circle.radius > best->radius)) best = circle;
     }
