@@ -15,6 +15,9 @@ constexpr double lift_ratio = 0.25;
 // A range of a root is kept as a coordinate where it is this much narrower than what the cell allows.
 constexpr double worth_keeping = 0.75;
 
+/// What does not depend on a variable has a derivative of exactly zero; a product with it would not be.
+bool is_zero(const Interval& a) { return a.lower() == 0 && a.upper() == 0; }
+
 template <class T>
 T signed_root(int sign, const T& square) {
   return sign > 0 ? square_root(square) : -square_root(square);
@@ -114,9 +117,11 @@ bool SheetCell::enter_local(const std::vector<Interval>& local, const std::vecto
 void SheetCell::reduce(std::vector<Interval>& gradient) const {
   for (int j = program_->roots() - 1; j >= 0; --j) {
     if (is_lifted_[j]) continue;
+    if (is_zero(gradient[2 + j])) continue;
     const Interval factor = gradient[2 + j] * half_inverse_[j];
-    if (factor.lower() == 0 && factor.upper() == 0) continue;
-    for (int v = 0; v < 2 + j; ++v) gradient[v] = gradient[v] + factor * over_.square_partial(j, v);
+    for (int v = 0; v < 2 + j; ++v)
+      if (const Interval& partial = over_.square_partial(j, v); !is_zero(partial))
+        gradient[v] = gradient[v] + factor * partial;
   }
 }
 
