@@ -6,6 +6,7 @@
 #include "core/errors.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/sheet/multi_interval.hpp"
+#include "loci/sheet_roots.hpp"
 #include "loci/tower_algebra.hpp"
 #include "loci/univariate.hpp"
 
@@ -23,12 +24,31 @@ using sheet::MultiInterval;
 
 /// Halvings of an isolating interval before its point is given as a double and before intervals decide signs.
 constexpr int halvings = 120;
+/// The same of a zero on the sheet, whose function may be too small next to it for signs at more: still far below the
+/// spacing of doubles.
+constexpr int least_halvings = 80;
+
+/// The degree from which on zeros are looked for on the sheets: eliminating its roots and isolating those of the
+/// product takes longer than enclosures do, and with the degree more and more of them belong to other modes.
+constexpr double heavy_degree = 48;
+
+/// A sign at a zero that is known by its enclosure alone was not told by intervals.
+struct NotTold {};
 
 /// The configurations of one mode at one value of the coordinate.
 class Place {
  public:
-  Place(const core::RootTower& tower, const core::WorkingMode& mode, RealRoot& root) : tower_(tower), root_(root) {
-    values_.emplace_back(root.lower, root.upper);
+  Place(const core::RootTower& tower, const core::WorkingMode& mode, RealRoot& root)
+      : Place(tower, mode, root.lower, root.upper, &root) {}
+  /// Where no polynomial is known: signs are told by intervals, or throw NotTold.
+  Place(const core::RootTower& tower, const core::WorkingMode& mode, const SheetRoot& root)
+      : Place(tower, mode, root.lower, root.upper, nullptr) {}
+
+ private:
+  Place(const core::RootTower& tower, const core::WorkingMode& mode, const Rational& lower, const Rational& upper,
+        RealRoot* root)
+      : tower_(tower), root_(root) {
+    values_.emplace_back(lower, upper);
     for (std::size_t j = 0; j < tower.roots.size(); ++j) {
       const int square = sign(tower.roots[j].square);
       if (square < 0) {
@@ -41,14 +61,22 @@ class Place {
     }
   }
 
+ public:
   bool reachable() const { return reachable_; }
+  /// One a root; required: reachable().
+  std::vector<bool> vanishing_roots() const {
+    std::vector<bool> list;
+    for (const int own : signs_) list.push_back(own == 0);
+    return list;
+  }
 
   /// Exact: intervals where they decide, else signs of the parts (loci/sheet_sign.hpp).
   int sign(const Polynomial& p) {
     const int quick = evaluate(p, values_).sign();
     if (quick != 0 || p.is_zero()) return quick;
+    if (root_ == nullptr) throw NotTold{};
     const int top = top_root(p, tower_);
-    if (top < 0) return sign_at(univariate_signed(p), root_) * leading_sign(p);
+    if (top < 0) return sign_at(univariate_signed(p), *root_) * leading_sign(p);
     const auto [a, b] = split(p, static_cast<int>(tower_.coordinates.size()) + top);
     const int sign_a = sign(a);
     const int product = sign(b) * signs_[static_cast<std::size_t>(top)];
@@ -63,14 +91,14 @@ class Place {
   static int leading_sign(const Polynomial& p) { return sgn(p.terms.front().coefficient); }
 
   const core::RootTower& tower_;
-  RealRoot& root_;
+  RealRoot* root_;
   std::vector<MultiInterval> values_;  ///< coordinate, then the roots placed so far
   std::vector<int> signs_;
   bool reachable_ = true;
 };
 
-/// Every value of the coordinate where some factor may vanish, ascending.
-std::vector<RealRoot> candidates(const LocusProblem& problem) {
+/// Every value of the coordinate where some factor may vanish, ascending, but for those that are looked for on sheets.
+std::vector<RealRoot> candidates(const LocusProblem& problem, const std::vector<bool>& on_sheets) {
   std::vector<Univariate> polynomials;
   const auto add = [&](const Polynomial& p) {
     if (p.is_zero() || p.is_constant()) return;
@@ -78,8 +106,9 @@ std::vector<RealRoot> candidates(const LocusProblem& problem) {
     if (std::find(polynomials.begin(), polynomials.end(), part) == polynomials.end())
       polynomials.push_back(std::move(part));
   };
-  for (const LocusFactor& factor : problem.factors) {
-    if (factor.role == FactorRole::construction) continue;
+  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+    const LocusFactor& factor = problem.factors[f];
+    if (factor.role == FactorRole::construction || on_sheets[f]) continue;
     for (const Polynomial& p : factor.implicit) add(p);
     if (factor.implicit.empty()) add(norm(factor.sheet, problem.tower));
   }
@@ -116,20 +145,25 @@ CoordinateGerm germs_at(RealRoot& root) {
   };
 }
 
-/// What vanishes at one point of a mode.
-std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::WorkingMode& mode, RealRoot& root,
-                                 Place& place) {
+/// Factors whose zeros are looked for on the sheets.
+std::vector<bool> heavy_factors(const LocusProblem& problem) {
+  std::vector<bool> heavy;
+  for (const LocusFactor& factor : problem.factors)
+    heavy.push_back(factor.implicit.empty() && factor.role != FactorRole::construction &&
+                    factor.role != FactorRole::workspace_boundary &&
+                    norm_degree(factor.sheet, problem.tower) > heavy_degree);
+  return heavy;
+}
+
+bool is_reaction_or_determinant(const LocusFactor& factor) {
+  return factor.role == FactorRole::reaction || factor.role == FactorRole::direct_singularity;
+}
+
+/// `vanishing`: of every factor, whether it does; `margins`: of those that are margins, whether reactions are at
+/// theirs.
+std::vector<EdgeLabel> labels_from(const LocusProblem& problem, const ReactionOrders& orders,
+                                   const std::vector<bool>& vanishing, const std::vector<bool>& margins) {
   std::vector<EdgeLabel> labels;
-  std::vector<int> compared;
-  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
-    const LocusFactor& factor = problem.factors[f];
-    const bool counts = factor.role == FactorRole::reaction || factor.role == FactorRole::direct_singularity;
-    if (counts && place.sign(factor.sheet) == 0) compared.push_back(static_cast<int>(f));
-  }
-  ArcOrders point(problem.tower, mode, germs_at(root), {{root.lower, root.upper}});
-  const ReactionOrders orders = compared.empty() ? ReactionOrders{} : reaction_orders(problem, point, compared);
-  // The end of the range and of the reach at once: no side to come from.
-  core::ensure(compared.empty() || orders.decided || point.sides().empty(), "orders at a point are always decided");
   const auto context = [&](LocusKind kind, const LocusFactor& factor) {
     for (EdgeLabel& label : labels)
       if (label.kind == kind && kind != LocusKind::margin) {
@@ -142,11 +176,10 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::Workin
     const bool excited = kind != LocusKind::direct_singularity || !orders.decided || orders.excited;
     labels.push_back({kind, held, factor.expression, factor.cause, excited});
   };
-  for (const LocusFactor& factor : problem.factors) {
-    const bool looked_at = factor.role == FactorRole::construction || factor.role == FactorRole::reaction;
-    if (looked_at || place.sign(factor.sheet) != 0) continue;
-    if (factor.role == FactorRole::margin && is_margin(factor, point).value_or(true))
-      context(LocusKind::margin, factor);
+  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+    const LocusFactor& factor = problem.factors[f];
+    if (!vanishing[f]) continue;
+    if (factor.role == FactorRole::margin && margins[f]) context(LocusKind::margin, factor);
     if (factor.role == FactorRole::direct_singularity) context(LocusKind::direct_singularity, factor);
     if (factor.role == FactorRole::workspace_boundary) context(LocusKind::workspace_boundary, factor);
   }
@@ -155,7 +188,38 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::Workin
   return labels;
 }
 
-double middle(const RealRoot& root) { return core::to_double((root.lower + root.upper) / 2); }
+/// What vanishes at one point of a mode.
+std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::WorkingMode& mode, RealRoot& root,
+                                 Place& place) {
+  std::vector<int> compared;
+  std::vector<bool> vanishing(problem.factors.size()), margins(problem.factors.size());
+  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+    const LocusFactor& factor = problem.factors[f];
+    vanishing[f] = factor.role != FactorRole::construction && place.sign(factor.sheet) == 0;
+    if (vanishing[f] && is_reaction_or_determinant(factor)) compared.push_back(static_cast<int>(f));
+  }
+  ArcOrders point(problem.tower, mode, germs_at(root), {{root.lower, root.upper}});
+  const ReactionOrders orders = compared.empty() ? ReactionOrders{} : reaction_orders(problem, point, compared);
+  // The end of the range and of the reach at once: no side to come from.
+  core::ensure(compared.empty() || orders.decided || point.sides().empty(), "orders at a point are always decided");
+  for (std::size_t f = 0; f < problem.factors.size(); ++f)
+    margins[f] = vanishing[f] && problem.factors[f].role == FactorRole::margin &&
+                 is_margin(problem.factors[f], point).value_or(true);
+  return labels_from(problem, orders, vanishing, margins);
+}
+
+/// The same at a simple zero of one factor where nothing else vanishes. Throws NotTold where something else may.
+std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor, Place& place) {
+  std::vector<bool> vanishing(problem.factors.size()), margins(problem.factors.size());
+  for (std::size_t f = 0; f < problem.factors.size(); ++f)
+    if (f != factor && problem.factors[f].role != FactorRole::construction) place.sign(problem.factors[f].sheet);
+  for (const auto& [sheet, power] : problem.factors[factor].cleared) place.sign(sheet);
+  vanishing[factor] = true;
+  margins[factor] = problem.factors[factor].role == FactorRole::margin;
+  const bool compared = is_reaction_or_determinant(problem.factors[factor]);
+  return labels_from(problem, compared ? orders_at_simple_zero(problem, static_cast<int>(factor)) : ReactionOrders{},
+                     vanishing, margins);
+}
 
 /// Whether a mode reaches the open interval between two neighbouring candidates.
 bool reaches(const LocusProblem& problem, const core::WorkingMode& mode, const Rational& from, const Rational& to) {
@@ -164,7 +228,75 @@ bool reaches(const LocusProblem& problem, const core::WorkingMode& mode, const R
   return Place(problem.tower, mode, sample).reachable();
 }
 
-void add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::vector<RealRoot>& roots, LocusMap& map) {
+/// A point of a mode before it is one of the map's: an exact one, or a zero of one factor on the sheet.
+struct Event {
+  RealRoot* exact = nullptr;
+  SheetRoot zero;
+  std::size_t factor = 0;
+
+  const Rational& lower() const { return exact != nullptr ? exact->lower : zero.lower; }
+  const Rational& upper() const { return exact != nullptr ? exact->upper : zero.upper; }
+};
+
+/// The zeros on a mode's sheet of the factors that are looked for there; `refused`: the first for which that failed.
+std::optional<std::vector<Event>> zeros_on_sheet(const LocusProblem& problem, const core::WorkingMode& mode,
+                                                 std::vector<RealRoot>& roots, const std::vector<bool>& on_sheets,
+                                                 std::size_t& refused) {
+  std::vector<Event> events;
+  if (std::find(on_sheets.begin(), on_sheets.end(), true) == on_sheets.end()) return events;
+  struct End {
+    StretchEnd place;
+    std::optional<Place> at;
+  };
+  std::vector<RealRoot> box;
+  for (const Rational& side : {problem.lower[0], problem.upper[0]})
+    box.push_back({{-side.get_num(), side.get_den()}, side, side});
+  std::vector<RealRoot*> sides = {&box[0]};
+  for (RealRoot& root : roots)
+    if (root.lower > problem.lower[0] && root.upper < problem.upper[0]) sides.push_back(&root);
+  sides.push_back(&box[1]);
+  std::vector<End> ends;
+  for (RealRoot* side : sides) {
+    End& end = ends.emplace_back(End{{side->lower, side->upper, {}, false}, Place(problem.tower, mode, *side)});
+    if (end.at->reachable()) end.place.vanishing = end.at->vanishing_roots();
+  }
+  const Rational range = problem.upper[0] - problem.lower[0];
+  const Rational width = range / Rational(core::Integer(1) << halvings),
+                 enough = range / Rational(core::Integer(1) << least_halvings);
+  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+    if (!on_sheets[f]) continue;
+    refused = f;
+    SheetRoots search(problem.tower, mode, problem.factors[f]);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      if (!reaches(problem, mode, ends[i].place.upper, ends[i + 1].place.lower)) continue;
+      if (!ends[i].at->reachable() || !ends[i + 1].at->reachable()) return std::nullopt;
+      for (const std::size_t side : {i, i + 1})
+        ends[side].place.function_is_zero = ends[side].at->sign(problem.factors[f].sheet) == 0;
+      // At a side of the box a zero is a point itself.
+      if ((i == 0 && ends[i].place.function_is_zero) || (i + 2 == ends.size() && ends[i + 1].place.function_is_zero))
+        return std::nullopt;
+      std::optional<std::vector<SheetRoot>> found = search.between(ends[i].place, ends[i + 1].place, width, enough);
+      if (!found) return std::nullopt;
+      for (SheetRoot& zero : *found) events.push_back({nullptr, std::move(zero), f});
+    }
+  }
+  return events;
+}
+
+/// Adds the points of a mode. False: they are not all told, and the factor `refused` is to be eliminated.
+bool add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::vector<RealRoot>& roots,
+              const std::vector<bool>& on_sheets, LocusMap& map, std::size_t& refused) {
+  std::optional<std::vector<Event>> events = zeros_on_sheet(problem, mode, roots, on_sheets, refused);
+  if (!events) return false;
+  for (RealRoot& root : roots) events->push_back({&root, {}, 0});
+  std::sort(events->begin(), events->end(), [](const Event& a, const Event& b) { return a.lower() < b.lower(); });
+  for (std::size_t i = 0; i + 1 < events->size(); ++i) {
+    const Event &a = (*events)[i], &b = (*events)[i + 1];
+    if (a.upper() < b.lower() || (a.exact != nullptr && b.exact != nullptr)) continue;
+    refused = a.exact == nullptr ? a.factor : b.factor;  // perhaps one point: only polynomials can tell
+    return false;
+  }
+  std::vector<core::IsolatedPoint> points;
   std::vector<core::ReachableInterval> intervals;
   Rational from = problem.lower[0];
   double start = core::to_double(from);
@@ -178,41 +310,58 @@ void add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::v
     joined = end_reachable && (reached || from >= to);
     start = end;
   };
-  for (RealRoot& root : roots) {
-    Place place(problem.tower, mode, root);
-    cell(root.lower, middle(root), place.reachable());
-    from = root.upper;
-    if (!place.reachable()) continue;
-    const bool undefined = std::any_of(problem.tower.denominators.begin(), problem.tower.denominators.end(),
-                                       [&](const Polynomial& denominator) { return place.sign(denominator) == 0; });
-    if (undefined) continue;
-    for (EdgeLabel& label : labels_at(problem, mode, root, place)) {
+  for (const Event& event : *events) {
+    refused = event.factor;
+    const double at = core::to_double((event.lower() + event.upper()) / 2);
+    std::vector<EdgeLabel> labels;
+    try {
+      Place place =
+          event.exact != nullptr ? Place(problem.tower, mode, *event.exact) : Place(problem.tower, mode, event.zero);
+      cell(event.lower(), at, place.reachable());
+      from = event.upper();
+      if (!place.reachable()) continue;
+      const bool undefined = std::any_of(problem.tower.denominators.begin(), problem.tower.denominators.end(),
+                                         [&](const Polynomial& denominator) { return place.sign(denominator) == 0; });
+      if (undefined) continue;
+      labels = event.exact != nullptr ? labels_at(problem, mode, *event.exact, place)
+                                      : labels_at(problem, event.factor, place);
+    } catch (const NotTold&) {
+      return false;
+    }
+    for (EdgeLabel& label : labels) {
       core::IsolatedPoint point;
       point.kind = label.kind;
       point.vanishing = std::move(label.vanishing);
-      point.at = {middle(root)};
+      point.at = {at};
       point.mode = mode;
       point.certified = true;
       point.factor = std::move(label.factor);
       point.cause = std::move(label.cause);
       point.excited = label.excited;
-      map.isolated_points.push_back(std::move(point));
+      points.push_back(std::move(point));
     }
   }
   cell(problem.upper[0], core::to_double(problem.upper[0]), false);
+  map.isolated_points.insert(map.isolated_points.end(), points.begin(), points.end());
   map.reachable.insert(map.reachable.end(), intervals.begin(), intervals.end());
+  return true;
 }
 
 }  // namespace
 
 void add_points_of_one_coordinate(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
   core::ensure(problem.tower.coordinates.size() == 1, "one free coordinate");
-  std::vector<RealRoot> roots = candidates(problem);
+  std::vector<bool> on_sheets = heavy_factors(problem);
+  std::vector<RealRoot> roots = candidates(problem, on_sheets);
   for (std::size_t m = 0; m < problem.modes.size(); ++m) {
-    if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
-      throw core::LimitReached("the time limit was reached");
     if (options.progress) options.progress(static_cast<double>(m) / static_cast<double>(problem.modes.size()), "roots");
-    add_mode(problem, problem.modes[m], roots, map);
+    for (std::size_t refused = 0;;) {
+      if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
+        throw core::LimitReached("the time limit was reached");
+      if (add_mode(problem, problem.modes[m], roots, on_sheets, map, refused)) break;
+      on_sheets[refused] = false;
+      roots = candidates(problem, on_sheets);
+    }
   }
 }
 

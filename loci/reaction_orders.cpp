@@ -17,6 +17,23 @@ int times(const std::vector<Vanishing>& list, const Vanishing& reaction) {
   return 0;
 }
 
+bool is_singular(const LocusFactor& factor) { return factor.role == FactorRole::direct_singularity; }
+
+/// How often a factor is in w = N / |A|.
+int exponent_in(const LocusFactor& factor, const Vanishing& reaction) {
+  return is_singular(factor) ? times(factor.cancelled, reaction) - factor.multiplicity
+                             : times(factor.vanishing, reaction);
+}
+
+/// The problem's reactions, and what else vanishes with one of the factors.
+std::vector<Vanishing> reactions_with(const LocusProblem& problem, const std::vector<int>& factors) {
+  std::vector<Vanishing> reactions = problem.reactions;
+  for (const int f : factors)
+    for (const Vanishing& v : problem.factors[static_cast<std::size_t>(f)].vanishing)
+      if (times(reactions, {v.joint, v.quantity, 1}) == 0) reactions.push_back({v.joint, v.quantity, 1});
+  return reactions;
+}
+
 /// The order to which a factor vanishes on one side. Zero all along: higher than any that occurs.
 std::optional<Rational> order_of(const core::Polynomial& sheet, ArcOrders& arc, int side) {
   constexpr int everywhere = 1 << 20;
@@ -51,10 +68,7 @@ ReactionOrders reaction_orders(const LocusProblem& problem, ArcOrders& arc, cons
   ReactionOrders result;
   result.decided = arc.decided() && !arc.sides().empty();
   if (!result.decided) return result;
-  std::vector<Vanishing> reactions = problem.reactions;
-  for (const int f : candidates)
-    for (const Vanishing& v : problem.factors[static_cast<std::size_t>(f)].vanishing)
-      if (times(reactions, {v.joint, v.quantity, 1}) == 0) reactions.push_back({v.joint, v.quantity, 1});
+  const std::vector<Vanishing> reactions = reactions_with(problem, candidates);
   std::vector<Rational> least(reactions.size());
   bool first_side = true;
   for (const int side : arc.sides()) {
@@ -69,13 +83,8 @@ ReactionOrders reaction_orders(const LocusProblem& problem, ArcOrders& arc, cons
       if (*order == 0) continue;
       if (std::find(result.vanishes.begin(), result.vanishes.end(), f) == result.vanishes.end())
         result.vanishes.push_back(f);
-      const bool singular = factor.role == FactorRole::direct_singularity;
-      result.singular = result.singular || singular;
-      for (std::size_t k = 0; k < reactions.size(); ++k) {
-        const int own = singular ? times(factor.cancelled, reactions[k]) - factor.multiplicity
-                                 : times(factor.vanishing, reactions[k]);
-        orders[k] += own * *order;
-      }
+      result.singular = result.singular || is_singular(factor);
+      for (std::size_t k = 0; k < reactions.size(); ++k) orders[k] += exponent_in(factor, reactions[k]) * *order;
     }
     for (std::size_t k = 0; k < reactions.size(); ++k) {
       least[k] = first_side ? orders[k] : std::min(least[k], orders[k]);
@@ -89,6 +98,19 @@ ReactionOrders reaction_orders(const LocusProblem& problem, ArcOrders& arc, cons
     const Rational counted = least[k] * arc.ramification();
     result.vanishing.push_back(
         {reactions[k].joint, reactions[k].quantity, static_cast<int>(core::Integer(counted.get_num()).get_si())});
+  }
+  return result;
+}
+
+ReactionOrders orders_at_simple_zero(const LocusProblem& problem, int factor) {
+  const LocusFactor& own = problem.factors[static_cast<std::size_t>(factor)];
+  ReactionOrders result;
+  result.singular = is_singular(own);
+  result.vanishes = {factor};
+  for (const Vanishing& reaction : reactions_with(problem, {factor})) {
+    const int order = exponent_in(own, reaction);
+    if (order > 0) result.vanishing.push_back({reaction.joint, reaction.quantity, order});
+    result.excited = result.excited || (order < 0 && !core::is_guide_end(reaction.quantity));
   }
   return result;
 }

@@ -22,6 +22,9 @@ struct ReactionOrders {
 /// `candidates`: which factors of the problem may vanish along the arc; the others are known not to.
 ReactionOrders reaction_orders(const core::LocusProblem& problem, ArcOrders& arc, const std::vector<int>& candidates);
 
+/// At a simple zero of one factor, a reaction's or |A|'s, at which no other one vanishes and no root is zero.
+ReactionOrders orders_at_simple_zero(const core::LocusProblem& problem, int factor);
+
 /// Factors of the problem that may vanish along an irreducible curve: those that have it among their polynomials, and
 /// those whose polynomials are not known.
 std::vector<int> factors_on(const core::LocusProblem& problem, const core::Polynomial& curve);

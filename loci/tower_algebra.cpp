@@ -1,5 +1,7 @@
 #include "loci/tower_algebra.hpp"
 
+#include <algorithm>
+
 #include "core/errors.hpp"
 
 namespace clearloci::loci {
@@ -56,6 +58,33 @@ Polynomial norm(Polynomial p, const core::RootTower& tower) {
     if (!p.is_zero()) p = core::primitive_part(p);
   }
   return core::with_variables(p, static_cast<int>(tower.coordinates.size()));
+}
+
+double norm_degree(const Polynomial& p, const core::RootTower& tower) {
+  // A root weighs half the degree of its square; weights of nested ones add up from the first on.
+  const std::size_t coordinates = tower.coordinates.size();
+  std::vector<double> weights(coordinates, 1.0);
+  const auto weighted = [&weights](const Polynomial& element) {
+    double degree = 0;
+    for (const core::Term& term : element.terms) {
+      double own = 0;
+      for (std::size_t i = 0; i < weights.size(); ++i) own += weights[i] * term.exponents[i];
+      degree = std::max(degree, own);
+    }
+    return degree;
+  };
+  for (const core::Root& root : tower.roots) weights.push_back(weighted(root.square) / 2);
+  double degree = weighted(p);
+  std::vector<bool> used(tower.roots.size(), false);
+  for (std::size_t j = tower.roots.size(); j-- > 0;) {
+    const int variable = static_cast<int>(coordinates + j);
+    used[j] = core::depends_on(p, variable);
+    // The squares of roots that occur bring in the earlier roots.
+    for (std::size_t k = j + 1; k < tower.roots.size(); ++k)
+      used[j] = used[j] || (used[k] && core::depends_on(tower.roots[k].square, variable));
+    if (used[j]) degree *= 2;
+  }
+  return degree;
 }
 
 }  // namespace clearloci::loci

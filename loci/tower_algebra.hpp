@@ -22,4 +22,7 @@ core::Polynomial conjugate_product(const core::Polynomial& p, int root, const co
 /// Every root eliminated: in the coordinates alone, zero wherever p is.
 core::Polynomial norm(core::Polynomial p, const core::RootTower& tower);
 
+/// A bound on the degree of an element's norm, before anything is divided out.
+double norm_degree(const core::Polynomial& p, const core::RootTower& tower);
+
 }  // namespace clearloci::loci

@@ -53,6 +53,18 @@ Univariate derivative(const Univariate& p) {
   return d;
 }
 
+/// p(x + by), of the same length.
+Univariate shifted(const Univariate& p, const Integer& by) {
+  FlintPoly moved(p);
+  fmpz_t step;
+  fmpz_init_set_readonly(step, by.get_mpz_t());
+  fmpz_poly_taylor_shift(moved.get(), moved.get(), step);
+  fmpz_clear_readonly(step);
+  Univariate result = moved.univariate();
+  result.resize(p.size());
+  return result;
+}
+
 int variations(const Univariate& p) {
   int count = 0, last = 0;
   for (const Integer& c : p) {
@@ -64,34 +76,28 @@ int variations(const Univariate& p) {
   return count;
 }
 
-/// x -> x + 1.
-void shift_by_one(Univariate& p) {
-  for (std::size_t i = 0; i + 1 < p.size(); ++i)
-    for (std::size_t k = p.size() - 1; k > i; --k) p[k - 1] += p[k];
-}
-
 /// Descartes' bound of the number of roots strictly between: exact where it is 0 or 1.
 int descartes_bound(const Univariate& p, const Rational& lower, const Rational& upper) {
-  // p(lower + (upper - lower) x) by Horner, then its roots in (0, 1) moved to the positive numbers.
-  std::vector<Rational> moved;
-  const Rational width = upper - lower;
-  for (auto c = p.rbegin(); c != p.rend(); ++c) {
-    moved.insert(moved.begin(), Rational(0));
-    for (std::size_t i = 0; i + 1 < moved.size(); ++i) moved[i] += lower * moved[i + 1];
-    moved[0] += *c;
-  }
-  Rational power = 1;
-  Integer denominator = 1;
-  for (Rational& c : moved) {
-    c *= power;
-    power *= width;
-    denominator = lcm(denominator, c.get_den());
-  }
-  Univariate scaled;
-  for (const Rational& c : moved) scaled.push_back(c.get_num() * (denominator / c.get_den()));
+  if (p.empty()) return 0;
+  // x = (start + width y) / unit in whole numbers; then the roots in (0, 1) moved to the positive numbers.
+  const Integer unit = lcm(lower.get_den(), upper.get_den());
+  const Integer start = lower.get_num() * (unit / lower.get_den());
+  const Integer width = upper.get_num() * (unit / upper.get_den()) - start;
+  const auto scale_by_powers = [](Univariate& list, const Integer& base) {
+    Integer power = 1;
+    for (Integer& c : list) {
+      c *= power;
+      power *= base;
+    }
+  };
+  Univariate scaled = p;
   std::reverse(scaled.begin(), scaled.end());
-  shift_by_one(scaled);
-  return variations(scaled);
+  scale_by_powers(scaled, unit);
+  std::reverse(scaled.begin(), scaled.end());
+  scaled = shifted(scaled, start);
+  scale_by_powers(scaled, width);
+  std::reverse(scaled.begin(), scaled.end());
+  return variations(shifted(scaled, 1));
 }
 
 Univariate linear_factor(const Rational& root) { return {-root.get_num(), root.get_den()}; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "loci/tower_algebra.hpp"
 #include "loci/trace.hpp"
 #include "loci/univariate.hpp"
 
@@ -187,6 +188,100 @@ TEST(PointsOfOneCoordinate, ReachablePiecesAreKeptApart) {
   EXPECT_EQ(map.reachable[0].to, -1);
   EXPECT_EQ(map.reachable[1].from, 1);
   EXPECT_EQ(map.reachable[1].to, 2);
+}
+
+/// Two roots, the second on the first: s1^2 = 1 - x^2, s2^2 = 3 - (x + s1)^2, which is out of reach for no x; |x| <= 1.
+core::LocusProblem nested_problem() {
+  core::LocusProblem problem = circle_problem();
+  const auto three = [](std::vector<core::Term> terms) { return Polynomial{3, std::move(terms)}; };
+  problem.tower.roots.front().square = three({{{2, 0, 0}, -1}, {{0, 0, 0}, 1}});
+  core::Root second;
+  second.name = "s2";
+  second.point = "C";
+  second.square = three({{{1, 1, 0}, -2}, {{0, 0, 0}, 2}});
+  problem.tower.roots.push_back(second);
+  problem.modes = core::all_working_modes(problem.tower, {1, 1});
+  problem.factors.clear();
+  for (const core::Root& root : problem.tower.roots) {
+    core::LocusFactor boundary;
+    boundary.role = core::FactorRole::workspace_boundary;
+    boundary.expression = root.name;
+    boundary.sheet = root.square;
+    problem.factors.push_back(std::move(boundary));
+  }
+  return problem;
+}
+
+/// Multilinear in the roots, of such a degree that zeros are looked for on the sheets where no norm is given; some
+/// vanish with the first root, at the ends of the reach, or at a rational place.
+Polynomial heavy_element(std::mt19937& random) {
+  std::uniform_int_distribution<int> coefficient(-9, 9), kind(0, 3);
+  Polynomial p;
+  p.variables = 3;
+  for (int power = 14; power >= 0; --power)
+    for (int roots = 3; roots >= 0; --roots)
+      if (const int c = coefficient(random); c != 0) p.terms.push_back({{power, roots / 2, roots % 2}, c});
+  const Polynomial x = core::variable_polynomial(3, 0), s = core::variable_polynomial(3, 1);
+  switch (kind(random)) {
+    case 0:
+      return p * (x - core::constant_polynomial(3, Rational(1, 3)));
+    case 1: {
+      Polynomial rooted = p * s + x * x * x - x;
+      while (core::degree_in(rooted, 1) > 1) {
+        Polynomial low, high;
+        low.variables = high.variables = 3;
+        for (core::Term term : rooted.terms) {
+          Polynomial& part = term.exponents[1] > 1 ? high : low;
+          if (term.exponents[1] > 1) term.exponents[1] -= 2;
+          part.terms.push_back(std::move(term));
+        }
+        rooted = low + high * (core::constant_polynomial(3, 1) - x * x);
+      }
+      return rooted;
+    }
+    default:
+      return p;
+  }
+}
+
+// Two routes to the same points: by the norm of every factor and its exact roots, and on the sheets without it.
+TEST(PointsOfOneCoordinate, SheetsAgreeWithNorms) {
+  std::size_t points = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    core::LocusProblem by_sheets = nested_problem();
+    for (const core::Quantity quantity : {core::Quantity::M, core::Quantity::fx})
+      by_sheets.factors.push_back(reaction(quantity, heavy_element(random)));
+    core::LocusFactor singular = reaction(core::Quantity::M, heavy_element(random));
+    singular.role = core::FactorRole::direct_singularity;
+    singular.vanishing.clear();
+    by_sheets.factors.push_back(singular);
+    by_sheets.quantities = {core::Quantity::M, core::Quantity::fx};
+    core::LocusProblem by_norms = by_sheets;
+    for (core::LocusFactor& factor : by_norms.factors) factor.implicit = {norm(factor.sheet, by_norms.tower)};
+    for (std::size_t f = 2; f < by_sheets.factors.size(); ++f)
+      ASSERT_GT(norm_degree(by_sheets.factors[f].sheet, by_sheets.tower), 48);
+    const core::LocusMap sheets = trace(by_sheets), norms = trace(by_norms);
+    ASSERT_EQ(sheets.isolated_points.size(), norms.isolated_points.size());
+    for (std::size_t i = 0; i < norms.isolated_points.size(); ++i) {
+      const core::IsolatedPoint &a = sheets.isolated_points[i], &b = norms.isolated_points[i];
+      EXPECT_NEAR(a.at[0], b.at[0], 1e-15);
+      EXPECT_EQ(a.kind, b.kind);
+      EXPECT_EQ(a.mode, b.mode);
+      EXPECT_EQ(a.vanishing, b.vanishing);
+      EXPECT_EQ(a.excited, b.excited);
+      EXPECT_EQ(a.factor, b.factor);
+      EXPECT_TRUE(a.certified);
+    }
+    ASSERT_EQ(sheets.reachable.size(), norms.reachable.size());
+    for (std::size_t i = 0; i < norms.reachable.size(); ++i) {
+      EXPECT_EQ(sheets.reachable[i].from, norms.reachable[i].from);
+      EXPECT_EQ(sheets.reachable[i].to, norms.reachable[i].to);
+    }
+    points += norms.isolated_points.size();
+  }
+  EXPECT_GT(points, 100U);
 }
 
 }  // namespace
