@@ -17,6 +17,7 @@
 #include "core/errors.hpp"
 #include "report/coordinate_errors.hpp"
 #include "report/error.hpp"
+#include "report/formats.hpp"
 #include "report/loci_json.hpp"
 
 namespace clearloci::cli {
@@ -31,8 +32,6 @@ struct Arguments {
   bool without_worst_case = false;
   bool zones = false;
 };
-
-const std::vector<std::string> format_names = {"png", "svg", "pdf", "csv", "vtk"};
 
 /// What is printed: the JSON or the table, and where the files are.
 template <class Answer>
@@ -49,9 +48,12 @@ void print(const Arguments& arguments, const Answer& errors, nlohmann::ordered_j
 int run_over_coordinate(const Arguments& arguments, const std::set<std::string>& formats,
                         const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   constexpr const char* usual_steps = "720";
-  if (formats.contains("vtk"))
-    throw core::InputError({.file = "--export"}, "vtk holds maps over two coordinates, and the workspace has one",
-                           "choose from png, svg, pdf, csv");
+  const std::vector<std::string> known = report::format_names(report::Answer::coordinate_errors);
+  for (const std::string& format : formats)
+    if (std::find(known.begin(), known.end(), format) == known.end())
+      throw core::InputError({.file = "--export"},
+                             format + " holds maps over two coordinates, and the workspace has one",
+                             fmt::format("choose from {}", fmt::join(known, ", ")));
   if (arguments.zones)
     throw core::InputError({.file = "--zones"}, "zones are cut from two free coordinates, and the workspace has one",
                            "leave it out: the table lists the jumps between the pieces of the range");
@@ -81,7 +83,7 @@ double memory_of(int nx, int ny, const mechanism::Mechanism& mechanism, std::siz
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats, format_names);
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names(report::Answer::error));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "error.json", incomplete_body(name, "the errors were"));
@@ -120,7 +122,8 @@ Command add_error_command(CLI::App& program) {
                   "Cells along each coordinate (default: 400x400), or steps along a single one (default: 720)")
       ->type_name("NXxNY|N");
   app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides error.json, several after commas: {}", fmt::join(format_names, ", ")))
+                  fmt::format("Files besides error.json, several after commas: {}",
+                              fmt::join(report::format_names(report::Answer::error), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   app->add_flag("--no-loci", arguments->without_loci, "Pictures without the loci drawn over them");

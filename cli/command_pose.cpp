@@ -14,6 +14,7 @@
 #include "core/errors.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/formats.hpp"
 #include "report/pose.hpp"
 
 namespace clearloci::cli {

@@ -16,6 +16,7 @@
 #include "cli/progress.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
+#include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/trajectory.hpp"
 
@@ -29,8 +30,6 @@ struct Arguments {
   int samples = 2000;
   std::string formats = "png,csv";
 };
-
-const std::vector<std::string> format_names = {"png", "svg", "pdf", "csv"};
 
 /// "0.5:3:0.02": first, last, step.
 std::vector<double> parse_periods(const std::string& text, const mechanism::Mechanism& mechanism) {
@@ -73,7 +72,8 @@ TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechan
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats, format_names);
+  const std::set<std::string> formats =
+      parse_formats(arguments.formats, report::format_names(report::Answer::trajectory));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   require_plane_motion(mechanism);
   const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);
@@ -115,7 +115,8 @@ Command add_trajectory_command(CLI::App& program) {
                   "left or right for every dyad, e.g. right,left (default: the file's)")
       ->type_name("SIDES");
   app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides trajectory.json, several after commas: {}", fmt::join(format_names, ", ")))
+                  fmt::format("Files besides trajectory.json, several after commas: {}",
+                              fmt::join(report::format_names(report::Answer::trajectory), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   app->footer(

@@ -12,12 +12,11 @@
 #include "cli/progress.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/validation.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Arguments {
   CommonArguments common;
@@ -27,52 +26,6 @@ struct Arguments {
 
 std::string reaction_name(const numeric::TracedReaction& reaction) {
   return fmt::format("{}_{}", to_string(reaction.quantity), reaction.joint);
-}
-
-Json reaction_json(const numeric::TracedReaction& reaction) {
-  return {{"joint", reaction.joint}, {"quantity", to_string(reaction.quantity)}};
-}
-
-Json report_json(const LociValidation& validation, const numeric::GridSpec& grid) {
-  const numeric::ValidationReport& report = validation.report;
-  Json tallies = Json::array();
-  for (const numeric::ReactionTally& tally : report.tallies)
-    tallies.push_back({{"working_mode", report::mode_object(validation.map.tower, tally.mode)},
-                       {"reaction", reaction_json(tally.reaction)},
-                       {"held", tally.held},
-                       {"disputed", tally.disputed},
-                       {"undecided", tally.undecided},
-                       {"outside", tally.outside},
-                       {"identically_zero", tally.identically_zero}});
-  Json edges = Json::array();
-  for (const numeric::DisputedEdge& edge : report.disputed_edges)
-    edges.push_back({{"from", edge.from},
-                     {"to", edge.to},
-                     {"working_mode", report::mode_object(validation.map.tower, edge.mode)},
-                     {"reaction", reaction_json(edge.reaction)},
-                     {"sign_change", edge.sign_change},
-                     {"crossings", edge.crossings}});
-  Json arcs = Json::array();
-  for (const numeric::DisputedArc& arc : report.disputed_arcs)
-    arcs.push_back({{"curve", arc.curve},
-                    {"at", arc.at},
-                    {"working_mode", report::mode_object(validation.map.tower, arc.mode)},
-                    {"reaction", reaction_json(arc.reaction)},
-                    {"claimed", arc.claimed},
-                    {"unbounded", arc.unbounded}});
-  return {{"format", 1},
-          {"mechanism", validation.map.mechanism},
-          {"grid", {grid.nx, grid.ny}},
-          {"validated", report.disputed == 0},
-          {"held", report.held},
-          {"disputed", report.disputed},
-          {"undecided", report.undecided},
-          {"outside", report.outside},
-          {"reactions", std::move(tallies)},
-          {"disputed_edges", std::move(edges)},
-          {"arcs_held", report.arcs_held},
-          {"arcs_undecided", report.arcs_undecided},
-          {"disputed_arcs", std::move(arcs)}};
 }
 
 void print_table(const LociValidation& validation, const numeric::GridSpec& grid) {
@@ -132,7 +85,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
   const bool write = !arguments.common.output.empty();
   if (write || arguments.common.json) {
-    const std::string text = report::json_text(report_json(validation, grid));
+    const std::string text = report::json_text(report::validation_object(validation, grid.nx, grid.ny));
     if (write) report::write_atomically(output_folder(arguments.common) / "validation.json", text);
     if (arguments.common.json) fmt::print("{}", text);
   }

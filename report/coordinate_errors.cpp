@@ -76,10 +76,6 @@ std::string jumps_text(const core::CoordinateErrors& result, const core::Coordin
 }
 
 /// Of a mode in the names of files; empty where there is one alone.
-std::string which_mode(const core::CoordinateErrors& result, const core::CoordinateModeErrors& mode) {
-  return result.modes.size() > 1 ? "-" + mode_slug(result.loci.tower, mode.mode) : std::string();
-}
-
 }  // namespace
 
 Json coordinate_errors_object(const core::CoordinateErrors& result) {
@@ -117,26 +113,6 @@ std::string coordinate_errors_text(const core::CoordinateErrors& result) {
   }
   for (const std::string& note : result.notes) text += note + "\n";
   return text;
-}
-
-std::vector<std::filesystem::path> write_coordinate_errors(const core::CoordinateErrors& result,
-                                                           const std::filesystem::path& directory,
-                                                           const std::set<std::string>& formats) {
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    write_atomically(directory / name, bytes);
-    files.push_back(directory / name);
-  };
-  write("error.json", json_text(coordinate_errors_object(result)));
-  for (const core::CoordinateModeErrors& one : result.modes)
-    if (formats.contains("csv"))
-      write("error" + which_mode(result, one) + ".csv", table_csv(one.samples.names, one.samples.columns));
-  for (const NamedPlot& one : coordinate_plots(result)) {
-    if (formats.contains("png")) write(one.name + ".png", plot(one.plot, PictureFormat::png));
-    if (formats.contains("svg")) write(one.name + ".svg", plot(one.plot, PictureFormat::svg));
-    if (formats.contains("pdf")) write(one.name + ".pdf", plot(one.plot, PictureFormat::pdf));
-  }
-  return files;
 }
 
 }  // namespace clearloci::report

@@ -131,32 +131,4 @@ std::string error_text(const core::ErrorMap& errors) {
   return text;
 }
 
-std::vector<std::filesystem::path> write_error(const core::ErrorMap& errors, const std::filesystem::path& directory,
-                                               const std::set<std::string>& formats) {
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    write_atomically(directory / name, bytes);
-    files.push_back(directory / name);
-  };
-  write("error.json", json_text(error_object(errors)));
-  for (const core::ModeErrors& one : errors.modes) {
-    const std::string which = errors.modes.size() > 1 ? "-" + mode_slug(errors.loci.tower, one.mode) : "";
-    for (const core::Field& field : one.map.fields) {
-      const auto picture = [&](const char* ending, PictureFormat format) {
-        std::string name = field.name;
-        std::replace(name.begin(), name.end(), '_', '-');
-        write("error-" + name + which + ending, field_picture(errors.loci, one.mode, one.map, field, format));
-      };
-      if (formats.contains("png")) picture(".png", PictureFormat::png);
-      if (formats.contains("svg")) picture(".svg", PictureFormat::svg);
-      if (formats.contains("pdf")) picture(".pdf", PictureFormat::pdf);
-    }
-    if (formats.contains("csv"))
-      write("error" + which + ".csv",
-            field_csv(in_file_units(one.map, errors.loci.units, errors.loci.angles), errors.loci));
-    if (formats.contains("vtk")) write("error" + which + ".vti", vti(one.map));
-  }
-  return files;
-}
-
 }  // namespace clearloci::report

@@ -3,10 +3,18 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "report/coordinate_errors.hpp"
+#include "report/coordinate_plots.hpp"
+#include "report/error.hpp"
 #include "report/exports.hpp"
+#include "report/field_exports.hpp"
+#include "report/file_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
+#include "report/pose.hpp"
+#include "report/trajectory.hpp"
+#include "report/trajectory_plots.hpp"
 #include "report/verification.hpp"
 #include "report/viewer.hpp"
 #include "report/wording.hpp"
@@ -35,6 +43,11 @@ const char* ending_of(PictureFormat format) {
 std::string which(const std::vector<core::WorkingMode>& modes, const core::TowerNames& tower,
                   const core::WorkingMode& mode) {
   return modes.size() > 1 ? "-" + mode_slug(tower, mode) : "";
+}
+
+/// The same of a mode's errors among several.
+std::string which(const auto& errors, const auto& own) {
+  return errors.modes.size() > 1 ? "-" + mode_slug(errors.loci.tower, own.mode) : "";
 }
 
 /// The modes to draw: those of the map, else (nothing was found in any) those of the sketches.
@@ -97,6 +110,70 @@ Files loci_html(const LociSheet& loci) { return {{"loci.html", html_page(loci)}}
 
 constexpr PictureFormat svg = PictureFormat::svg, png = PictureFormat::png, pdf = PictureFormat::pdf;
 
+template <PictureFormat format>
+Files error_pictures(const core::ErrorMap& errors) {
+  Files files;
+  for (const core::ModeErrors& one : errors.modes)
+    for (const core::Field& field : one.map.fields) {
+      std::string name = field.name;
+      std::replace(name.begin(), name.end(), '_', '-');
+      files.push_back({"error-" + name + which(errors, one) + ending_of(format),
+                       field_picture(errors.loci, one.mode, one.map, field, format)});
+    }
+  return files;
+}
+
+Files error_json(const core::ErrorMap& errors) { return {{"error.json", json_text(error_object(errors))}}; }
+Files error_csv(const core::ErrorMap& errors) {
+  Files files;
+  for (const core::ModeErrors& one : errors.modes)
+    files.push_back({"error" + which(errors, one) + ".csv",
+                     field_csv(in_file_units(one.map, errors.loci.units, errors.loci.angles), errors.loci)});
+  return files;
+}
+Files error_vtk(const core::ErrorMap& errors) {
+  Files files;
+  for (const core::ModeErrors& one : errors.modes)
+    files.push_back({"error" + which(errors, one) + ".vti", vti(one.map)});
+  return files;
+}
+
+template <PictureFormat format>
+Files drawn(const std::vector<NamedPlot>& plots) {
+  Files files;
+  for (const NamedPlot& one : plots) files.push_back({one.name + ending_of(format), plot(one.plot, format)});
+  return files;
+}
+
+template <PictureFormat format>
+Files coordinate_pictures(const core::CoordinateErrors& result) {
+  return drawn<format>(coordinate_plots(result));
+}
+Files coordinate_json(const core::CoordinateErrors& result) {
+  return {{"error.json", json_text(coordinate_errors_object(result))}};
+}
+Files coordinate_csv(const core::CoordinateErrors& result) {
+  Files files;
+  for (const core::CoordinateModeErrors& one : result.modes)
+    files.push_back({"error" + which(result, one) + ".csv", table_csv(one.samples.names, one.samples.columns)});
+  return files;
+}
+
+template <PictureFormat format>
+Files trajectory_pictures(const core::TrajectoryResult& result) {
+  return drawn<format>(trajectory_plots(result));
+}
+Files trajectory_json(const core::TrajectoryResult& result) {
+  return {{"trajectory.json", json_text(trajectory_object(result))}};
+}
+Files trajectory_csv(const core::TrajectoryResult& result) {
+  Files files = {{"trajectory.csv", shown_csv(result.samples, result.units)}};
+  if (result.sweep) files.push_back({"periods.csv", shown_csv(sweep_table(result), result.units)});
+  return files;
+}
+
+Files pose_json(const core::Pose& pose) { return {{"pose.json", json_text(pose_object(pose))}}; }
+
 /// Writes what the formats that `wanted` picks make of an answer. `made`: the answer's column of the registry.
 template <class Answer, class Wanted>
 std::vector<std::filesystem::path> write_in(Files (*Format::*made)(const Answer&), const Answer& answer,
@@ -122,18 +199,22 @@ auto named(const std::set<std::string>& names) {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = [] {
     std::vector<Format> list = {
-        {"json", any, loci_json, zones_json, verification_json},
-        {"csv", any, loci_csv, nullptr, nullptr},
-        {"svg", any, loci_pictures<svg>, zone_pictures<svg>, verification_picture<svg>},
-        {"png", any, loci_pictures<png>, zone_pictures<png>, verification_picture<png>},
-        {"pdf", any, loci_pictures<pdf>, zone_pictures<pdf>, verification_picture<pdf>},
-        {"dxf", curves, loci_dxf, nullptr, nullptr},
-        {"dxf-r12", curves, loci_dxf_r12, nullptr, nullptr},
-        {"geojson", curves, loci_geojson, zones_in_geojson, nullptr},
-        {"vtk", any, loci_vtk, nullptr, nullptr},
-        {"stl", surfaces, loci_stl, nullptr, nullptr},
-        {"obj", surfaces, loci_obj, nullptr, nullptr},
-        {"html", any, loci_html, nullptr, nullptr},
+        {"json", any, loci_json, zones_json, verification_json, error_json, coordinate_json, trajectory_json,
+         pose_json},
+        {"csv", any, loci_csv, nullptr, nullptr, error_csv, coordinate_csv, trajectory_csv},
+        {"svg", any, loci_pictures<svg>, zone_pictures<svg>, verification_picture<svg>, error_pictures<svg>,
+         coordinate_pictures<svg>, trajectory_pictures<svg>},
+        {"png", any, loci_pictures<png>, zone_pictures<png>, verification_picture<png>, error_pictures<png>,
+         coordinate_pictures<png>, trajectory_pictures<png>},
+        {"pdf", any, loci_pictures<pdf>, zone_pictures<pdf>, verification_picture<pdf>, error_pictures<pdf>,
+         coordinate_pictures<pdf>, trajectory_pictures<pdf>},
+        {"dxf", curves, loci_dxf},
+        {"dxf-r12", curves, loci_dxf_r12},
+        {"geojson", curves, loci_geojson, zones_in_geojson},
+        {"vtk", any, loci_vtk, nullptr, nullptr, error_vtk},
+        {"stl", surfaces, loci_stl},
+        {"obj", surfaces, loci_obj},
+        {"html", any, loci_html},
     };
     // A build without the workbench has no viewer to put into a page.
     if (viewer_bundle().script.empty()) std::erase_if(list, [](const Format& one) { return one.name == "html"; });
@@ -142,14 +223,34 @@ const std::vector<Format>& formats() {
   return all;
 }
 
+namespace {
+
+bool holds(const Format& format, Answer answer) {
+  switch (answer) {
+    case Answer::loci:
+      return format.loci != nullptr;
+    case Answer::zones:
+      return format.zones != nullptr;
+    case Answer::verification:
+      return format.verification != nullptr;
+    case Answer::error:
+      return format.error != nullptr;
+    case Answer::coordinate_errors:
+      return format.coordinate_errors != nullptr;
+    case Answer::trajectory:
+      return format.trajectory != nullptr;
+    case Answer::pose:
+      break;
+  }
+  return format.pose != nullptr;
+}
+
+}  // namespace
+
 std::vector<std::string> format_names(Answer answer) {
   std::vector<std::string> names;
-  for (const Format& format : formats()) {
-    const bool holds = answer == Answer::loci    ? format.loci != nullptr
-                       : answer == Answer::zones ? format.zones != nullptr
-                                                 : format.verification != nullptr;
-    if (holds) names.emplace_back(format.name);
-  }
+  for (const Format& format : formats())
+    if (holds(format, answer)) names.emplace_back(format.name);
   return names;
 }
 
@@ -177,6 +278,34 @@ std::vector<std::filesystem::path> write_verification(const core::Verification& 
                                                       const std::filesystem::path& directory,
                                                       const std::set<std::string>& names) {
   return write_in(&Format::verification, result, directory, named(names));
+}
+
+std::vector<std::filesystem::path> write_error(const core::ErrorMap& errors, const std::filesystem::path& directory,
+                                               const std::set<std::string>& names) {
+  return write_in(&Format::error, errors, directory, named(names));
+}
+
+std::vector<std::filesystem::path> write_coordinate_errors(const core::CoordinateErrors& result,
+                                                           const std::filesystem::path& directory,
+                                                           const std::set<std::string>& names) {
+  return write_in(&Format::coordinate_errors, result, directory, named(names));
+}
+
+std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult& result,
+                                                    const std::filesystem::path& directory,
+                                                    const std::set<std::string>& names,
+                                                    const std::function<void(double, std::string_view)>& progress) {
+  const auto asked = named(names);
+  std::size_t seen = 0;
+  return write_in(&Format::trajectory, result, directory, [&](const Format& format) {
+    if (progress) progress(0.5 + 0.5 * static_cast<double>(seen++) / static_cast<double>(formats().size()), "files");
+    return asked(format);
+  });
+}
+
+std::vector<std::filesystem::path> write_pose(const core::Pose& pose, const std::filesystem::path& directory,
+                                              const std::set<std::string>& names) {
+  return write_in(&Format::pose, pose, directory, named(names));
 }
 
 }  // namespace clearloci::report

@@ -1,13 +1,17 @@
-// The one registry of export formats: a line a format, a column an answer. What `loci`, `zones` and `verify` offer, and
+// The one registry of export formats: a line a format, a column an answer. What the commands offer, and
 // clearloci/export.hpp, is read off it; a new format is a file that makes its bytes and a line in formats.cpp.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "clearloci/error.hpp"
+#include "clearloci/pose.hpp"
+#include "clearloci/trajectory.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 #include "core/sketch.hpp"
@@ -32,12 +36,16 @@ struct Format {
   Files (*loci)(const LociSheet&) = nullptr;
   Files (*zones)(const core::ZoneMap&) = nullptr;
   Files (*verification)(const core::Verification&) = nullptr;
+  Files (*error)(const core::ErrorMap&) = nullptr;
+  Files (*coordinate_errors)(const core::CoordinateErrors&) = nullptr;
+  Files (*trajectory)(const core::TrajectoryResult&) = nullptr;
+  Files (*pose)(const core::Pose&) = nullptr;
 };
 
 /// In the order in which files are written; json is the first.
 const std::vector<Format>& formats();
 
-enum class Answer { loci, zones, verification };
+enum class Answer { loci, zones, verification, error, coordinate_errors, trajectory, pose };
 
 /// The names of the formats that an answer can be written in.
 std::vector<std::string> format_names(Answer answer);
@@ -57,5 +65,17 @@ std::vector<std::filesystem::path> write_zones(const core::ZoneMap& map, const s
 std::vector<std::filesystem::path> write_verification(const core::Verification& result,
                                                       const std::filesystem::path& directory,
                                                       const std::set<std::string>& names);
+/// Of maps `error.json`, `error.csv`, `error-dx.png`, ...; over a single coordinate also `take-up.png`, ...
+std::vector<std::filesystem::path> write_error(const core::ErrorMap& errors, const std::filesystem::path& directory,
+                                               const std::set<std::string>& names);
+std::vector<std::filesystem::path> write_coordinate_errors(const core::CoordinateErrors& result,
+                                                           const std::filesystem::path& directory,
+                                                           const std::set<std::string>& names);
+/// `progress`: from 0.5 on.
+std::vector<std::filesystem::path> write_trajectory(
+    const core::TrajectoryResult& result, const std::filesystem::path& directory, const std::set<std::string>& names,
+    const std::function<void(double fraction, std::string_view stage)>& progress = {});
+std::vector<std::filesystem::path> write_pose(const core::Pose& pose, const std::filesystem::path& directory,
+                                              const std::set<std::string>& names = {});
 
 }  // namespace clearloci::report

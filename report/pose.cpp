@@ -98,11 +98,4 @@ Json pose_object(const core::Pose& pose) {
   return result;
 }
 
-std::vector<std::filesystem::path> write_pose(const core::Pose& pose, const std::filesystem::path& directory,
-                                              const std::set<std::string>& /*formats*/) {
-  const std::filesystem::path file = directory / "pose.json";
-  write_atomically(file, json_text(pose_object(pose)));
-  return {file};
-}
-
 }  // namespace clearloci::report

@@ -90,15 +90,6 @@ std::string notes_text(const core::TrajectoryResult& result) {
 }
 
 /// In the units of the mechanism file, which the heads name where it declares them.
-std::string shown_csv(const core::Table& table, const core::Units& units) {
-  if (!units.declared) return table_csv(table.names, table.columns);
-  const core::Table shown = in_file_units(table, units);
-  std::vector<std::string> heads;
-  for (std::size_t c = 0; c < shown.names.size(); ++c)
-    heads.push_back(shown.units[c].empty() ? shown.names[c] : shown.names[c] + " (" + shown.units[c] + ")");
-  return table_csv(heads, shown.columns);
-}
-
 }  // namespace
 
 Json trajectory_object(const core::TrajectoryResult& result) {
@@ -165,33 +156,13 @@ std::string trajectory_text(const core::TrajectoryResult& result) {
   return text + notes_text(result);
 }
 
-std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult& result,
-                                                    const std::filesystem::path& directory,
-                                                    const std::set<std::string>& formats,
-                                                    const std::function<void(double, std::string_view)>& progress) {
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    write_atomically(directory / name, bytes);
-    files.push_back(directory / name);
-  };
-  write("trajectory.json", json_text(trajectory_object(result)));
-  if (formats.contains("csv")) {
-    write("trajectory.csv", shown_csv(result.samples, result.units));
-    if (result.sweep) {
-      write("periods.csv", shown_csv(sweep_table(result), result.units));
-    }
-  }
-  const std::vector<NamedPlot> plots = trajectory_plots(result);
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    if (progress) progress(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(plots.size()), "pictures");
-    const auto draw = [&](const char* format, PictureFormat as) {
-      if (formats.contains(format)) write(plots[i].name + "." + format, plot(plots[i].plot, as));
-    };
-    draw("png", PictureFormat::png);
-    draw("svg", PictureFormat::svg);
-    draw("pdf", PictureFormat::pdf);
-  }
-  return files;
+std::string shown_csv(const core::Table& table, const core::Units& units) {
+  if (!units.declared) return table_csv(table.names, table.columns);
+  const core::Table shown = in_file_units(table, units);
+  std::vector<std::string> heads;
+  for (std::size_t c = 0; c < shown.names.size(); ++c)
+    heads.push_back(shown.units[c].empty() ? shown.names[c] : shown.names[c] + " (" + shown.units[c] + ")");
+  return table_csv(heads, shown.columns);
 }
 
 }  // namespace clearloci::report

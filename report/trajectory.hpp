@@ -1,13 +1,8 @@
-// The answer of `clearloci trajectory` as JSON, as a text, as tables and as pictures.
+// The answer of `clearloci trajectory` as JSON and as a text, and its tables.
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
-#include <set>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "clearloci/trajectory.hpp"
 
@@ -22,10 +17,7 @@ std::string trajectory_text(const core::TrajectoryResult& result);
 /// period, distance, dx, dy, dalpha.
 core::Table sweep_table(const core::TrajectoryResult& result);
 
-/// Writes trajectory.json, and what is asked for of csv (trajectory.csv, and periods.csv of a sweep), png, svg, pdf.
-/// Returns the files. `progress` may be empty.
-std::vector<std::filesystem::path> write_trajectory(
-    const core::TrajectoryResult& result, const std::filesystem::path& directory, const std::set<std::string>& formats,
-    const std::function<void(double fraction, std::string_view stage)>& progress = {});
+/// In the units of the mechanism file, which the heads of the columns then say.
+std::string shown_csv(const core::Table& table, const core::Units& units);
 
 }  // namespace clearloci::report

@@ -6,8 +6,10 @@
 
 #include "report/coordinate_errors.hpp"
 #include "report/error.hpp"
+#include "report/formats.hpp"
 #include "report/pose.hpp"
 #include "report/trajectory.hpp"
+#include "report/validation.hpp"
 #include "tests/report/scratch_folder.hpp"
 
 namespace clearloci::report {
@@ -151,6 +153,26 @@ TEST(WriteError, WritesWhatIsAskedForAndNoMore) {
   const nlohmann::ordered_json json = error_object(one_field());
   EXPECT_TRUE(json["modes"][0]["zones"][1]["fields"]["dp"]["median"].is_null());
   EXPECT_EQ(json["modes"][0]["fields"]["dp"]["at"][0], 1.5);
+}
+
+TEST(WriteError, HasNoMapOverOneCoordinate) {
+  const fixture::ScratchFolder folder;
+  core::CoordinateErrors errors;
+  errors.mechanism = "Crank";
+  EXPECT_EQ(write_coordinate_errors(errors, folder.path(), {"vtk"}).size(), 1U) << "json alone";
+}
+
+TEST(ValidationObject, IsValidatedWhereNothingIsDisputed) {
+  LociValidation validation;
+  validation.map.mechanism = "Crank";
+  validation.report.held = 7;
+  EXPECT_TRUE(validation_object(validation, 3, 4)["validated"]);
+  validation.report.disputed = 1;
+  validation.report.disputed_edges.push_back({{0, 1}, {2, 1}, {}, {"A", core::Quantity::M}, 1, false});
+  const nlohmann::ordered_json json = validation_object(validation, 3, 4);
+  EXPECT_FALSE(json["validated"]);
+  EXPECT_EQ(json["grid"], nlohmann::ordered_json({3, 4}));
+  EXPECT_EQ(json["disputed_edges"][0]["reaction"]["quantity"], "M");
 }
 
 }  // namespace

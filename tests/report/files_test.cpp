@@ -120,6 +120,10 @@ TEST(Formats, HoldWhatTheySay) {
   EXPECT_FALSE(can_hold("stl", 2));
   EXPECT_EQ(format_names(Answer::zones), (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson"}));
   EXPECT_EQ(format_names(Answer::verification), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
+  EXPECT_EQ(format_names(Answer::error), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
+  EXPECT_EQ(format_names(Answer::coordinate_errors), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
+  EXPECT_EQ(format_names(Answer::trajectory), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
+  EXPECT_EQ(format_names(Answer::pose), (std::vector<std::string>{"json"}));
 }
 
 }  // namespace
