@@ -189,7 +189,7 @@ LociRequest loci_request(const Fields& fields, const Model& model) {
   if (const DyadSides sides = sides_of(fields); !sides.empty()) request.working_modes = {sides};
   request.all_working_modes = fields.flag("all_modes");
   // Of the box's longest side: what is too small to see in a picture is fine enough.
-  constexpr double finest = 1e-7, coarsest = 1e-1, usual = 5e-6;
+  constexpr double finest = 1e-7, coarsest = 1e-1, usual = 5e-5;
   const double part = fields.number("tolerance", usual, finest, coarsest);
   double extent = 0;
   for (const Model::Coordinate& coordinate : model.coordinates())

@@ -39,6 +39,7 @@ export class Workbench {
   private touched: string | undefined;
   private watchers: ((what: Set<string>) => void)[] = [];
   private news = new Set<string>();
+  private factsStale = false;
   private frame = 0;
   private hashTimer: ReturnType<typeof setTimeout> | undefined;
   private quietTimer: ReturnType<typeof setTimeout> | undefined;
@@ -177,7 +178,9 @@ export class Workbench {
       this.zonesStale = true;
       if (!now.zones) this.zones = undefined;
     }
-    if (changed("text", "mode")) this.lanes.model.want(this.question(), made);
+    // Other values make no other mechanism: what kind it is can wait until the hand rests.
+    if (changed("file", "mode") || !this.facts) this.lanes.model.want(this.question(), made);
+    else if (changed("text")) this.factsStale = true;
     if (changed("text", "mode", "at")) this.askPose(made);
     if (changed("text", "mode", "task")) this.askVerdict();
     if (changed("zones") && now.zones) this.askZones();
@@ -267,6 +270,8 @@ export class Workbench {
     this.quietTimer = setTimeout(() => {
       this.quietTimer = undefined;
       this.lanes.modes.want(this.question());
+      if (this.factsStale) this.lanes.model.want(this.question());
+      this.factsStale = false;
       this.tell("rest");
     }, 300);
   }
