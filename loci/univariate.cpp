@@ -213,7 +213,7 @@ void narrow_by(RealRoot& root, int bits) {
     }
     // A part of the interval about Newton's place, with ends on a grid of it.
     Rational place = slope == 0 ? Rational(-1) : Rational((middle - value / slope - root.lower) / width);
-    if (place <= 0 || place >= 1) {
+    if (sgn(place) <= 0 || place >= 1) {
       halve();
       continue;
     }
