@@ -48,11 +48,12 @@ const Poly& Elimination::over_tower(const Poly& natural) const {
   return over_tower_.emplace_back(natural, std::move(result)).second;
 }
 
-bool Elimination::vanishes_everywhere(const Poly& natural) const {
-  const auto at_one_pose = [this](Poly p) {
-    for (int i = 0; i < geometry_->coordinates(); ++i) p = p.at(i, Rational(37 + 11 * i, 101 + 2 * i));
-    return p;
-  };
+Poly Elimination::at_one_pose(Poly p) const {
+  for (int i = 0; i < geometry_->coordinates(); ++i) p = p.at(i, Rational(37 + 11 * i, 101 + 2 * i));
+  return p;
+}
+
+Poly Elimination::over_tower_at_one_pose(const Poly& natural) const {
   Poly result = at_one_pose(natural);
   for (Substitution pair : geometry_->substitutions()) {
     const int degree = Geometry::degree_in(result, pair);
@@ -61,16 +62,27 @@ bool Elimination::vanishes_everywhere(const Poly& natural) const {
                   at_one_pose(pair.place.w)};
     result = at_one_pose(geometry_->substituted(result, pair, degree));
   }
-  return result.is_zero() && over_tower(natural).is_zero();
+  return result;
+}
+
+bool Elimination::vanishes_everywhere(const Poly& natural) const {
+  return over_tower_at_one_pose(natural).is_zero() && over_tower(natural).is_zero();
 }
 
 std::optional<Rational> Elimination::constant_over_tower(const Poly& natural) const {
   // natural + t: the coefficient of t is the common denominator that homogenising put to both.
   const int t = geometry_->auxiliary();
-  const std::vector<Poly> parts = over_tower(natural + Poly::variable(natural.ring(), t)).coefficients(t);
-  Poly quotient(natural.ring());
-  if (parts.size() != 2 || !parts[0].divides(parts[1], quotient) || !quotient.is_constant()) return std::nullopt;
-  return quotient.constant();
+  const Poly with_t = natural + Poly::variable(natural.ring(), t);
+  const auto constant_in = [&](const Poly& element) -> std::optional<Rational> {
+    const std::vector<Poly> parts = element.coefficients(t);
+    Poly quotient(natural.ring());
+    if (parts.size() != 2 || !parts[0].divides(parts[1], quotient) || !quotient.is_constant()) return std::nullopt;
+    return quotient.constant();
+  };
+  // A number in every pose is one in this, with what is divided by not zero there; most others are none.
+  const Poly here = over_tower_at_one_pose(with_t);
+  if (here.depends_on(t) && !constant_in(here)) return std::nullopt;
+  return constant_in(over_tower(with_t));
 }
 
 bool Elimination::is_denominator(const Poly& irreducible) const {

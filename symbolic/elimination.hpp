@@ -57,6 +57,9 @@ class Elimination {
   Poly norm_on_line(const Poly& sheet) const;
 
  private:
+  /// With numbers for the coordinates: in roots alone.
+  Poly at_one_pose(Poly p) const;
+  Poly over_tower_at_one_pose(const Poly& natural) const;
   void eliminate(Poly p, std::vector<Poly>& found) const;
   /// The factors of a sheet polynomial. Over a tower elements have no unique factors, but where a root depends on
   /// earlier ones numerators and |A| share the element in whose sign it differs, and where a dyad is stretched the root

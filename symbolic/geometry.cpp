@@ -322,6 +322,7 @@ Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int de
   };
   const std::vector<Poly> xs = powers(pair.place.x), ys = powers(pair.place.y), zs = powers(pair.place.z),
                           ws = powers(pair.place.w);
+  // What a term takes is multiplied out and reduced before it meets the term's long coefficient.
   Poly sum(*ring_);
   const std::vector<Poly> by_x = natural.coefficients(pair.x);
   for (std::size_t i = 0; i < by_x.size(); ++i) {
@@ -331,7 +332,8 @@ Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int de
       const std::vector<Poly> by_z = pair.z < 0 ? std::vector<Poly>{by_y[j]} : by_y[j].coefficients(pair.z);
       for (std::size_t k = 0; k < by_z.size(); ++k) {
         if (by_z[k].is_zero()) continue;
-        sum += by_z[k] * xs[i] * ys[j] * zs[k] * ws[static_cast<std::size_t>(degree) - i - j - k];
+        const Poly& w = ws[static_cast<std::size_t>(degree) - i - j - k];
+        sum += by_z[k] * reduce(reduce(xs[i] * ys[j]) * reduce(zs[k] * w));
       }
     }
   }
