@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "numeric/demand_failure.hpp"
 #include "numeric/witness_rounding.hpp"
 
 namespace clearloci::numeric {
@@ -67,12 +68,8 @@ DesignWitness::DesignWitness(std::vector<const NumericModel*> loads, std::vector
       balls_(std::move(balls)),
       mode_(std::move(mode)),
       demands_(std::move(demands)) {
-  for (const std::vector<double>& at : usual) {
-    extent_ = std::max({extent_, std::abs(at[0]), std::abs(at[1])});
-    const BoundedNumerators n = bounded_numerators(*loads_.front(), at, mode_);
-    if (n.reachable && std::isfinite(n.determinant.value))
-      usual_determinant_ = std::max(usual_determinant_, std::abs(n.determinant.value));
-  }
+  for (const std::vector<double>& at : usual) extent_ = std::max({extent_, std::abs(at[0]), std::abs(at[1])});
+  usual_determinant_ = usual_determinant(*loads_.front(), mode_, usual);
 }
 
 std::vector<DesignFailureAt> DesignWitness::failures(std::span<const Bounded> at) const {
@@ -167,9 +164,6 @@ std::optional<DesignFailureAt> DesignWitness::failure_of(const core::TaskDemand&
   // The load at which it vanishes is no double: neither is it known better than to a rounding.
   const auto about = [](double value) { return Bounded(value, spacings * unit_roundoff * std::abs(value)); };
   std::vector<Bounded> w;
-  double usual = 0;
-  for (const BoundedNumerators& own : loads)
-    for (const Bounded& value : own.values) usual = std::max(usual, std::abs(value.value));
   const Bounded along = t > 0 && t < 1 ? about(t) : Bounded(t);
   for (std::size_t k = 0; k < first.size(); ++k) {
     Bounded own = parts.loads.front()[k];
@@ -184,23 +178,9 @@ std::optional<DesignFailureAt> DesignWitness::failure_of(const core::TaskDemand&
     }
     w.push_back(own);
   }
-  const Bounded& determinant = loads.front().determinant;
-  const double least_determinant = std::abs(determinant.value) - determinant.error;
-  double most2 = 0, size2 = 0;
-  for (const Bounded& own : w) {
-    size2 += own.value * own.value;
-    most2 += std::pow(std::abs(own.value) + own.error, 2);
-  }
-  DesignFailureAt found;
-  found.failure = {Kind::too_small, demand, t, std::sqrt(size2) / std::abs(determinant.value)};
-  found.changes = changes;
-  // A few roundings of this very sum, root and quotient.
-  const double most = std::sqrt(most2) / least_determinant * (1 + 16 * unit_roundoff);
-  if (demand.least > 0 && most < core::to_double(demand.least) * (1 - 2 * unit_roundoff)) return found;
-  if (!std::all_of(w.begin(), w.end(), [&](const Bounded& b) { return is_zero(b) && b.error <= known_zero * usual; }))
-    return std::nullopt;
-  found.failure.kind = Kind::vanishing;
-  return found;
+  const auto failure = judged(demand, t, w, w, loads.front().determinant, usual_numerator(loads));
+  if (!failure) return std::nullopt;
+  return DesignFailureAt{*failure, changes};
 }
 
 }  // namespace clearloci::numeric

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numeric/demand_failure.hpp"
 #include "numeric/witness_rounding.hpp"
 
 namespace clearloci::numeric {
@@ -11,12 +12,9 @@ PoseWitness::PoseWitness(std::vector<const NumericModel*> loads, std::vector<int
                          std::vector<core::TaskDemand> demands, const std::vector<std::vector<double>>& usual)
     : loads_(std::move(loads)), mode_(std::move(mode)), demands_(std::move(demands)) {
   extents_.assign(loads_.front()->box.size(), 0.0);
-  for (const std::vector<double>& at : usual) {
+  for (const std::vector<double>& at : usual)
     for (std::size_t c = 0; c < at.size(); ++c) extents_[c] = std::max(extents_[c], std::abs(at[c]));
-    const BoundedNumerators n = bounded_numerators(*loads_.front(), at, mode_);
-    if (n.reachable && std::isfinite(n.determinant.value))
-      usual_determinant_ = std::max(usual_determinant_, std::abs(n.determinant.value));
-  }
+  usual_determinant_ = usual_determinant(*loads_.front(), mode_, usual);
 }
 
 /// Under every load, at the poses within so many spacings of one.
@@ -49,40 +47,7 @@ std::optional<TaskFailure> PoseWitness::failure(std::span<const double> at, int 
     if (determinant.error <= known_zero * usual_determinant_) return TaskFailure{Kind::singular, {}, 0, 0};
     return std::nullopt;
   }
-  return demand < 0 ? std::nullopt : failure_of(demands_[static_cast<std::size_t>(demand)], all);
-}
-
-std::optional<TaskFailure> PoseWitness::failure_of(const core::TaskDemand& demand,
-                                                   const std::vector<BoundedNumerators>& numerators) const {
-  const std::vector<Bounded> first = demanded_parts(*loads_.front(), demand, numerators.front()),
-                             last = demanded_parts(*loads_.front(), demand, numerators.back());
-  double along = 0, length2 = 0;
-  for (std::size_t k = 0; k < first.size(); ++k) {
-    const double way = last[k].value - first[k].value;
-    along -= first[k].value * way;
-    length2 += way * way;
-  }
-  TaskFailure failure{TaskFailure::Kind::too_small, demand, length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0,
-                      0};
-  // The load at which it vanishes is no double: neither is it known better than to a rounding.
-  const bool between = failure.load > 0 && failure.load < 1;
-  const Bounded t(failure.load, between ? spacings * unit_roundoff : 0.0);
-  double usual = 0, size2 = 0, most2 = 0;
-  for (const BoundedNumerators& load : numerators)
-    for (const Bounded& value : load.values) usual = std::max(usual, std::abs(value.value));
-  bool zero = true;
-  for (std::size_t k = 0; k < first.size(); ++k) {
-    const Bounded own = numerators.size() == 1 ? first[k] : first[k] + t * (last[k] - first[k]);
-    size2 += own.value * own.value;
-    most2 += std::pow(std::abs(own.value) + own.error, 2);
-    zero = zero && is_zero(own) && own.error <= known_zero * usual;
-  }
-  const Bounded& determinant = numerators.front().determinant;
-  failure.size = std::sqrt(size2) / std::abs(determinant.value);
-  const double most = std::sqrt(most2) / (std::abs(determinant.value) - determinant.error) * (1 + 16 * unit_roundoff);
-  if (demand.least > 0 && most < core::to_double(demand.least) * (1 - 2 * unit_roundoff)) return failure;
-  failure.kind = TaskFailure::Kind::vanishing;
-  return zero ? std::optional(failure) : std::nullopt;
+  return demand < 0 ? std::nullopt : failure_of(*loads_.front(), demands_[static_cast<std::size_t>(demand)], all);
 }
 
 bool PoseWitness::differs(std::span<const double> a, std::span<const double> b, int demand) const {
@@ -108,8 +73,7 @@ bool PoseWitness::is_never_loaded(int demand, const std::vector<std::vector<doub
     if (!all.front().reachable || is_zero(all.front().determinant)) continue;
     ++seen;
     for (const BoundedNumerators& load : all) {
-      double usual = 0;
-      for (const Bounded& value : load.values) usual = std::max(usual, std::abs(value.value));
+      const double usual = usual_numerator({load});
       for (const Bounded& part : demanded_parts(*loads_.front(), demands_[static_cast<std::size_t>(demand)], load))
         if (!is_zero(part) || part.error > known_zero * usual) return false;
     }

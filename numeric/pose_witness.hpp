@@ -33,8 +33,6 @@ class PoseWitness {
 
  private:
   std::vector<BoundedNumerators> numerators(std::span<const double> at, double many) const;
-  std::optional<TaskFailure> failure_of(const core::TaskDemand& demand,
-                                        const std::vector<BoundedNumerators>& numerators) const;
 
   std::vector<const NumericModel*> loads_;
   std::vector<int> mode_;

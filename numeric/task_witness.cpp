@@ -7,26 +7,20 @@
 #include "core/errors.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "numeric/demand_failure.hpp"
 #include "numeric/take_up.hpp"
 #include "numeric/witness_rounding.hpp"
 
 namespace clearloci::numeric {
-namespace {
-
-/// (1 - t) a + t b.
-Bounded mixed(const Bounded& a, const Bounded& b, const Bounded& t) { return a + t * (b - a); }
-
-}  // namespace
-
 TaskWitness::TaskWitness(std::vector<const NumericModel*> loads, std::vector<int> mode,
                          std::vector<core::TaskDemand> demands, std::span<const Point2> usual)
     : loads_(std::move(loads)), mode_(std::move(mode)), demands_(std::move(demands)) {
+  std::vector<std::vector<double>> poses;
   for (const Point2& at : usual) {
     extent_ = std::max({extent_, std::abs(at[0]), std::abs(at[1])});
-    const BoundedNumerators n = bounded_numerators(*loads_.front(), at, mode_);
-    if (n.reachable && std::isfinite(n.determinant.value))
-      usual_determinant_ = std::max(usual_determinant_, std::abs(n.determinant.value));
+    poses.emplace_back(at.begin(), at.end());
   }
+  usual_determinant_ = usual_determinant(*loads_.front(), mode_, poses);
 }
 
 std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskDemand& demand,
@@ -98,56 +92,10 @@ std::vector<TaskFailure> TaskWitness::some_failures(const Point2& at, bool close
   }
   std::vector<TaskFailure> all;
   for (const core::TaskDemand& demand : demands_) {
-    if (auto found = failure_of(demand, numerators)) all.push_back(std::move(*found));
+    if (auto found = failure_of(*loads_.front(), demand, numerators)) all.push_back(std::move(*found));
     if (all.size() >= most) break;
   }
   return all;
-}
-
-std::optional<TaskFailure> TaskWitness::failure_of(const core::TaskDemand& demand,
-                                                   const std::vector<BoundedNumerators>& numerators) const {
-  const BoundedNumerators& first = numerators.front();
-  const std::vector<Bounded> at_first = demanded_parts(*loads_.front(), demand, first),
-                             at_last = demanded_parts(*loads_.front(), demand, numerators.back());
-  double along = 0, length2 = 0;
-  for (std::size_t k = 0; k < at_first.size(); ++k) {
-    const double a = at_first[k].value;
-    const double way = at_last[k].value - a;
-    along -= a * way;
-    length2 += way * way;
-  }
-  const double nearest = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
-  const auto part = [&](std::size_t k, const Bounded& t) {
-    return numerators.size() == 1 ? at_first[k] : mixed(at_first[k], at_last[k], t);
-  };
-  TaskFailure failure;
-  failure.demand = demand;
-  failure.load = nearest;
-  const double least_determinant = std::abs(first.determinant.value) - first.determinant.error;
-  double most2 = 0, size2 = 0;
-  for (std::size_t k = 0; k < at_first.size(); ++k) {
-    const Bounded own = part(k, Bounded(nearest));
-    size2 += own.value * own.value;
-    most2 += std::pow(std::abs(own.value) + own.error, 2);
-  }
-  failure.size = std::sqrt(size2) / std::abs(first.determinant.value);
-  // A few roundings of this very sum, root and quotient.
-  const double most = std::sqrt(most2) / least_determinant * (1 + 16 * unit_roundoff);
-  if (demand.least > 0 && most < core::to_double(demand.least) * (1 - 2 * unit_roundoff)) {
-    failure.kind = TaskFailure::Kind::too_small;
-    return failure;
-  }
-  // The load at which it vanishes is no double: neither is it known better than to a rounding.
-  const Bounded about(nearest, nearest > 0 && nearest < 1 ? spacings * unit_roundoff : 0.0);
-  double usual = 0;
-  for (const BoundedNumerators& load : numerators)
-    for (const Bounded& value : load.values) usual = std::max(usual, std::abs(value.value));
-  for (std::size_t k = 0; k < at_first.size(); ++k) {
-    const Bounded own = part(k, about);
-    if (!is_zero(own) || own.error > known_zero * usual) return std::nullopt;
-  }
-  failure.kind = TaskFailure::Kind::vanishing;
-  return failure;
 }
 
 }  // namespace clearloci::numeric

@@ -49,8 +49,6 @@ class TaskWitness {
 
  private:
   std::vector<TaskFailure> some_failures(const Point2& at, bool closely, std::size_t most) const;
-  std::optional<TaskFailure> failure_of(const core::TaskDemand& demand,
-                                        const std::vector<BoundedNumerators>& numerators) const;
   bool reachable_at(const Point2& at) const;
 
   std::vector<const NumericModel*> loads_;
