@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mechanism/read_loads_from.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
@@ -151,24 +152,12 @@ void check_inside_box(const Mechanism& mechanism, const core::TaskShape& shape, 
   }
 }
 
-core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) {
+core::LoadRange read_planar_loads_from(const Mechanism& mechanism, const Value& value) {
   if (mechanism.space == Space::spatial)
     throw InputError(value.where, value.what + " are forces of the plane, and " + mechanism.file + " is spatial",
                      "leave it out and verify the task once for every load");
-  const bool one_force = mechanism.loads.size() == 1 && !mechanism.loads.front().force.empty();
-  if (!one_force)
-    throw InputError(value.where,
-                     value.what + " takes the place of a mechanism's one force, but " + mechanism.file + " has " +
-                         std::to_string(mechanism.loads.size()) + " loads",
-                     "give the mechanism a single load with a force");
-  const std::vector<Value> ends = elements(value, 2);
-  core::LoadRange range{read_pair(mechanism, ends[0]), read_pair(mechanism, ends[1])};
-  const auto& [f, g] = std::tie(range.first, range.second);
-  const bool opposite = f[0] * g[1] - f[1] * g[0] == 0 && f[0] * g[0] + f[1] * g[1] <= 0;
-  if (opposite)
-    throw InputError(value.where, value.what + " passes through no load at all: its ends are opposite or zero",
-                     "write two vectors less than half a turn apart");
-  return range;
+  const auto [first, last] = read_loads_from(mechanism, value);
+  return {{first[0], first[1]}, {last[0], last[1]}};
 }
 
 /// {L1: 0.1e-3, d: [-0.2e-3, 0.1e-3]}
@@ -262,7 +251,7 @@ core::Task task_of(const Value& document, const Mechanism& mechanism) {
   if (const auto force = root.find("min_force")) task.min_force = read_number(mechanism, *force, Sign::positive).value;
   if (const auto couple = root.find("min_couple"))
     task.min_couple = read_number(mechanism, *couple, Sign::positive).value;
-  if (const auto loads = root.find("loads_from")) task.loads = read_loads_from(mechanism, *loads);
+  if (const auto loads = root.find("loads_from")) task.loads = read_planar_loads_from(mechanism, *loads);
   if (const auto error = root.find("pose_error")) {
     if (mechanism.space == Space::spatial)
       throw InputError(error->where, error->what + " is proven in the plane, and " + mechanism.file + " is spatial",
