@@ -6,6 +6,7 @@
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/joint_traits.hpp"
 
 namespace clearloci::check {
 namespace {
@@ -337,7 +338,7 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
       if (closure.result.squares[j].below()) return std::nullopt;
   }
   for (const mechanism::Joint& joint : m.joints)
-    if (joint.type == mechanism::JointType::prismatic)
+    if (mechanism::traits(joint).slides)
       closure.result.divisors.push_back(square_of(pose.vector(joint.axes.at(0), closure.result.points)));
   return std::move(closure.result);
 }

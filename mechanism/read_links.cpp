@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
@@ -125,7 +126,7 @@ void fill_inertia(Mechanism& mechanism) {
     if (link.inertia || link.points.size() > 1) continue;
     const auto index = static_cast<LinkIndex>(i);
     const bool guided = std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const Joint& joint) {
-      return joint.type == JointType::prismatic &&
+      return traits(joint).slides &&
              ((joint.from == ground && joint.to == index) || (joint.from == index && joint.to == ground));
     });
     if (!guided)

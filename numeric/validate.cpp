@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/errors.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/arc_witness.hpp"
 #include "numeric/edge_judge.hpp"
 #include "numeric/grid_passages.hpp"
@@ -99,8 +100,7 @@ WitnessColumns columns_of(const NumericModel& model, const TracedReaction& react
 std::vector<Quantity> force_parts(const NumericModel& model, const TracedReaction& reaction) {
   const mechanism::Joint& joint = model.mechanism.joints[static_cast<std::size_t>(joint_of(model, reaction))];
   // A guide whose ends are not known loses its contact where it bears nothing at all.
-  if (model.mechanism.space == mechanism::Space::planar && joint.type == mechanism::JointType::prismatic)
-    return mechanism::reaction_components(model.mechanism, joint);
+  if (mechanism::is_guide(model.mechanism, joint)) return mechanism::reaction_components(model.mechanism, joint);
   return mechanism::force_components(model.mechanism, joint);
 }
 
