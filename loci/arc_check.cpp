@@ -100,6 +100,8 @@ std::optional<std::string> ArcCheck::fault_at(const core::Point2& at, core::ArcE
   return std::nullopt;
 }
 
+bool ArcCheck::holds(const core::Point2& vertex, core::ArcEnd end) { return !fault_at(vertex, end); }
+
 std::optional<ArcFault> ArcCheck::operator()(const core::Arc& arc) {
   if (arc.points.size() < 2) return ArcFault{"an arc without vertices", {}};
   const core::Point2 &first = arc.points.front(), &last = arc.points.back();
@@ -115,7 +117,7 @@ std::optional<ArcFault> ArcCheck::operator()(const core::Arc& arc) {
     core::ArcEnd end = core::ArcEnd::none;
     if (i == 0) end = arc.ends[0];
     if (i + 1 == arc.points.size()) end = arc.ends[1];
-    if (auto what = fault_at(arc.points[i], end)) return ArcFault{std::move(*what), arc.points[i]};
+    if (auto what = fault_at(arc.points[i], end)) return ArcFault{std::move(*what), arc.points[i], true};
   }
   // A chord that strays by the tolerance hides less than twice that of a curve that does not turn back.
   const double hidden = 2 * problem_.tolerance * static_cast<double>(arc.points.size());
@@ -130,13 +132,51 @@ bool owns(const LocusFactor& factor, const core::LocusCurve& curve) {
   return std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
 }
 
+namespace {
+
+std::deque<ArcCheck> checks_of(const core::LocusProblem& problem, const core::LocusCurve& curve) {
+  std::deque<ArcCheck> checks;
+  for (const LocusFactor& factor : problem.factors)
+    if (owns(factor, curve)) checks.emplace_back(problem, factor, curve.mode);
+  return checks;
+}
+
+/// What is left of an arc without the vertices that fail, but for pieces that chords of a curve elsewhere may be.
+std::vector<core::Arc> sound_pieces(const core::Arc& arc, std::deque<ArcCheck>& checks, double tolerance) {
+  constexpr std::size_t fewest = 4;  // vertices that no place with a few wrong ones has by chance
+  std::vector<core::Arc> pieces;
+  core::Arc piece;
+  const auto held = [&](const core::Point2& at, core::ArcEnd end) {
+    return std::any_of(checks.begin(), checks.end(), [&](ArcCheck& check) { return check.holds(at, end); });
+  };
+  const auto finish = [&] {
+    if (piece.points.size() >= fewest && piece.length > 2 * tolerance * static_cast<double>(piece.points.size()))
+      pieces.push_back(piece);
+    piece = {};
+  };
+  for (std::size_t i = 0; i < arc.points.size(); ++i) {
+    const core::Point2& at = arc.points[i];
+    if (!held(at, core::ArcEnd::none)) {
+      finish();
+      continue;
+    }
+    if (!piece.points.empty())
+      piece.length += std::hypot(at[0] - piece.points.back()[0], at[1] - piece.points.back()[1]);
+    piece.points.push_back(at);
+    if (i == 0 && held(at, arc.ends[0])) piece.ends[0] = arc.ends[0];
+    if (i + 1 == arc.points.size() && held(at, arc.ends[1])) piece.ends[1] = arc.ends[1];
+  }
+  finish();
+  return pieces;
+}
+
+}  // namespace
+
 std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::LocusMap& map) {
   std::vector<WrongArc> wrong;
   for (std::size_t c = 0; c < map.curves.size(); ++c) {
     const core::LocusCurve& curve = map.curves[c];
-    std::deque<ArcCheck> checks;
-    for (const LocusFactor& factor : problem.factors)
-      if (owns(factor, curve)) checks.emplace_back(problem, factor, curve.mode);
+    std::deque<ArcCheck> checks = checks_of(problem, curve);
     for (std::size_t a = 0; a < curve.arcs.size() && !checks.empty(); ++a) {
       std::optional<ArcFault> fault;
       const bool held = std::any_of(checks.begin(), checks.end(), [&](ArcCheck& check) {
@@ -160,13 +200,16 @@ bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map)
     const ArcFault& fault = wrong[first].fault;
     map.notes.push_back((next - first == 1 ? "an arc" : std::to_string(next - first) + " arcs") + " of " +
                         (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
-                        " failed the last check and " + (next - first == 1 ? "is" : "are") +
-                        " withheld: " + fault.what + " near (" + std::to_string(fault.at[0]) + ", " +
-                        std::to_string(fault.at[1]) + ")");
+                        " failed the last check, and what failed it is withheld: " + fault.what + " near (" +
+                        std::to_string(fault.at[0]) + ", " + std::to_string(fault.at[1]) + ")");
   }
   for (auto last = wrong.rbegin(); last != wrong.rend(); ++last) {
-    std::vector<core::Arc>& arcs = map.curves[last->curve].arcs;
-    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(last->arc));
+    core::LocusCurve& curve = map.curves[last->curve];
+    std::deque<ArcCheck> checks = checks_of(problem, curve);
+    const auto place = curve.arcs.begin() + static_cast<std::ptrdiff_t>(last->arc);
+    std::vector<core::Arc> pieces;
+    if (last->fault.in_vertices) pieces = sound_pieces(*place, checks, problem.tolerance);
+    curve.arcs.insert(curve.arcs.erase(place), pieces.begin(), pieces.end());
   }
   std::erase_if(map.curves, [](const core::LocusCurve& curve) { return curve.arcs.empty(); });
   return !wrong.empty();

@@ -15,6 +15,7 @@ namespace clearloci::loci {
 struct ArcFault {
   std::string what;  ///< "a vertex outside the box"
   core::Point2 at{};
+  bool in_vertices = false;  ///< some of them are wrong, which says nothing against the others
 };
 
 /// Holds arcs against one factor in one mode.
@@ -27,6 +28,8 @@ class ArcCheck {
   /// What is proven to be wrong with the arc; none: nothing. Vertices may be off by 1e-12 of the box or four spacings
   /// of doubles, whichever is larger.
   std::optional<ArcFault> operator()(const core::Arc& arc);
+  /// Whether one vertex, or an end of this kind, passes.
+  bool holds(const core::Point2& vertex, core::ArcEnd end);
 
  private:
   std::optional<std::string> fault_at(const core::Point2& at, core::ArcEnd end);
@@ -52,8 +55,8 @@ std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::
 /// Whether a curve's arcs are zeros of the factor: it plays the curve's part and owns its polynomial.
 bool owns(const core::LocusFactor& factor, const core::LocusCurve& curve);
 
-/// Withholds arcs of the map that are proven to be wrong: their curves are not certified then, and a note says so.
-/// True: there were some.
+/// Withholds arcs of the map that are proven to be wrong, but for pieces without a wrong vertex: their curves are not
+/// certified then, and a note says so. True: there were some.
 bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map);
 
 }  // namespace clearloci::loci

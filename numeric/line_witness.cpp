@@ -83,7 +83,27 @@ bool LineWitness::cancels(const WitnessColumns& columns, double a, double b) {
     before = here;
     from = to;
   }
-  return odd;
+  return odd || cancels_at_flip(columns, a, b);
+}
+
+bool LineWitness::cancels_at_flip(const WitnessColumns& columns, double a, double b) {
+  const auto sign = [&](double position) { return force(columns, position)[0] > 0; };
+  const bool first = sign(a);
+  if (sign(b) == first) return false;
+  const double least = a, most = b;
+  while (b - a > smallest_ / 1024) {
+    const double middle = (a + b) / 2;
+    if (!decided(columns, middle)) break;
+    (sign(middle) == first ? a : b) = middle;
+  }
+  // |A| is of as little certainty there: out to where both its signs are known, but not as far as its next zero.
+  const double place = (a + b) / 2;
+  for (double radius = b - a; radius <= 64 * smallest_; radius *= 2) {
+    const int before = determinant_sign(std::max(least, place - radius)),
+              after = determinant_sign(std::min(most, place + radius));
+    if (before != 0 && after != 0) return before != after;
+  }
+  return false;
 }
 
 int LineWitness::determinant_sign(double position) {

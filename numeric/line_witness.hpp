@@ -72,6 +72,8 @@ class LineWitness {
   int determinant_sign(double position);  ///< 0: undecided
   /// At the one place between a and b at which |A| changes sign.
   bool cancels_between(const WitnessColumns& columns, double a, double b);
+  /// At the one place between a and b at which the numerator changes sign, if it does.
+  bool cancels_at_flip(const WitnessColumns& columns, double a, double b);
   Parity flips(const WitnessColumns& columns, double a, double b);
 
   const NumericModel& model_;

@@ -36,7 +36,7 @@ enum class LocusKind { contact_loss, backlash, component, margin, direct_singula
 /// "contact-loss", "backlash", ... as written in loci.json.
 std::string to_string(LocusKind kind);
 
-/// Where an arc ends. `none`: the arc is closed.
+/// Where an arc ends. `none`: it is closed, or it is not certified and may go on.
 enum class ArcEnd { none, boundary, direct_singularity, box, crossing };
 
 std::string to_string(ArcEnd end);

@@ -43,6 +43,32 @@ TEST(OnceDisputed, AChordBesideABend) {
   EXPECT_GT(validation.report.held, 10000u);
 }
 
+// Its curve ends in a node on the workspace boundary: the end alone fails the last check, not the arcs that lead there.
+TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
+  LociRequest request;
+  request.joints = {"A2"};
+  request.quantities = {core::Quantity::M};
+  const LociValidation validation = validate_loci(corpus("witness/prrr_r_node_on_the_rim"), request, {100, 100});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  double length = 0;
+  for (const core::LocusCurve& curve : validation.map.curves)
+    if (curve.kind == core::LocusKind::backlash) {
+      EXPECT_FALSE(curve.certified);
+      for (const core::Arc& arc : curve.arcs) length += arc.length;
+    }
+  EXPECT_NEAR(length, 6.71, 0.01);
+}
+
+// A numerator that vanishes with one factor of |A|, a twentieth of an edge beside a zero of the other one.
+TEST(OnceDisputed, SingularitiesWithinOneEdge) {
+  LociRequest request;
+  request.joints = {"A1"};
+  request.quantities = {core::Quantity::fx};
+  const LociValidation validation = validate_loci(corpus("witness/stacked_5r_close_singularities"), request, {60, 60});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.held, 1000u);
+}
+
 // Numerators and |A| vanish together where the parallelogram is flat.
 TEST(OnceDisputed, AParallelogramOnALeg) {
   hold("modes/five_bar_parallelogram", false);
