@@ -13,6 +13,7 @@ namespace clearloci {
 
 /// As the public ones.
 ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& request = {});
+VolumeErrors error_volume(const mechanism::Mechanism& mechanism, const ErrorRequest& request = {});
 CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& request = {});
 
 /// Sizes of some values; `which`: those that count, null: all. Nothing where none is finite.

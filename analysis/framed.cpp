@@ -225,11 +225,14 @@ Verification from_frame(Verification result, const core::Task& task, const mecha
 numeric::ValidationReport from_frame(numeric::ValidationReport report, const mechanism::Mechanism& mechanism,
                                      const Frame& frame) {
   const Outward outward(mechanism, frame);
+  const auto move = [&](std::vector<double>& at) {
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] = outward.value(at[i], i);
+  };
   for (numeric::DisputedEdge& edge : report.disputed_edges) {
-    edge.from = outward.place(edge.from);
-    edge.to = outward.place(edge.to);
+    move(edge.from);
+    move(edge.to);
   }
-  for (numeric::DisputedArc& arc : report.disputed_arcs) arc.at = outward.place(arc.at);
+  for (numeric::DisputedArc& arc : report.disputed_arcs) move(arc.at);
   return report;
 }
 

@@ -343,7 +343,7 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
 
 LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                              const numeric::GridSpec& grid) {
-  require_coordinates(mechanism, 2, 2, "loci are held against a grid");
+  require_coordinates(mechanism, 1, 3, "loci are held against a grid");
   if (const std::optional<Framed> own = framed(mechanism)) {
     LociValidation inside = validate_loci(own->mechanism, in_frame(std::move(request), own->frame), grid);
     return {from_frame(std::move(inside.map), mechanism, own->frame),

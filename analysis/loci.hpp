@@ -80,8 +80,9 @@ struct LociValidation {
   numeric::ValidationReport report;
 };
 
-/// Traces every scalar reaction of the request's joints and holds the arcs against reactions solved numerically.
-/// Throws core::LimitReached where the request's deadline comes before the arcs are complete.
+/// Traces every scalar reaction of the request's joints and holds the arcs, over one coordinate the points, over three
+/// the surfaces, against reactions solved numerically. Throws core::LimitReached where the request's deadline comes
+/// before they are complete.
 LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                              const numeric::GridSpec& grid = {});
 

@@ -7,6 +7,7 @@
 
 #include "analysis/model.hpp"
 #include "analysis/pose_demands.hpp"
+#include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "loci/pose/pose_nearest.hpp"
@@ -90,11 +91,7 @@ class Verifier {
         region_(task.shape, metrics_.asked),
         margin_(core::to_double(task.margin)),
         sides_(requested_modes(mechanism, request_).front()) {
-    if (sides_.size() != mechanism::dyad_points(mechanism).size())
-      throw core::InputError(
-          {.file = "--working-mode"},
-          "the working mode has " + std::to_string(sides_.size()) + " sides, and the mechanism another number of dyads",
-          "give one side for each dyad");
+    side_names(mechanism, sides_);  // there is one for every dyad
     for (const Mechanism& own : loads_) models_.push_back(numeric::compile(own));
     constexpr std::size_t poses = 24;
     std::vector<Pose> samples = region_.samples();
@@ -117,10 +114,7 @@ class Verifier {
       result.coordinates.push_back(c.name);
       result.angles.push_back(c.angle);
     }
-    const std::vector<mechanism::PointIndex> dyads = mechanism::dyad_points(mechanism_);
-    for (std::size_t i = 0; i < dyads.size(); ++i)
-      result.working_mode.emplace_back(mechanism_.points[static_cast<std::size_t>(dyads[i])].name,
-                                       mechanism::side_name(mechanism_, dyads[i], sides_[i]));
+    result.working_mode = side_names(mechanism_, sides_);
     result.notes = mechanism::idle_notes(mechanism_);
     result.notes.insert(result.notes.end(), notes_.begin(), notes_.end());
     progress("search");

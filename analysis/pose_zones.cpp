@@ -7,6 +7,7 @@
 #include "analysis/error.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose_demands.hpp"
+#include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "loci/pose/pose_zones.hpp"
@@ -99,11 +100,7 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
     result.lower.push_back(core::to_double(c.lower));
     result.upper.push_back(core::to_double(c.upper));
   }
-  const std::vector<mechanism::PointIndex> dyads = mechanism::dyad_points(mechanism);
-  core::ensure(dyads.size() == sides.size(), "a side for every dyad");
-  for (std::size_t i = 0; i < dyads.size(); ++i)
-    result.working_mode.emplace_back(mechanism.points[static_cast<std::size_t>(dyads[i])].name,
-                                     mechanism::side_name(mechanism, dyads[i], sides[i]));
+  result.working_mode = side_names(mechanism, sides);
   constexpr std::size_t poses = 24;
   std::vector<numeric::NumericModel> models;
   models.push_back(numeric::compile(mechanism));

@@ -229,6 +229,34 @@ std::pair<int, int> parse_grid(const std::string& text) {
          fmt::format("give the nodes along each coordinate, from 2 to {}, e.g. --grid 400x400", most));
 }
 
+std::array<int, 3> parse_volume_grid(const std::string& text) {
+  constexpr int most = 2000;
+  const std::vector<std::string> words = split(text, 'x');
+  std::array<int, 3> grid{};
+  bool good = words.size() == 3;
+  for (std::size_t c = 0; good && c < 3; ++c) {
+    const std::optional<int> own = whole_number(words[c]);
+    good = own && *own >= 2 && *own <= most;
+    if (good) grid[c] = *own;
+  }
+  if (good) return grid;
+  refuse("--grid", fmt::format("'{}' is not a grid over three coordinates", text),
+         fmt::format("give the nodes along each, from 2 to {}, e.g. --grid 40x40x40", most));
+}
+
+std::pair<std::size_t, double> parse_slice(const std::string& text, const mechanism::Mechanism& mechanism) {
+  const std::size_t equals = text.find('=');
+  for (std::size_t c = 0; equals != std::string::npos && c < mechanism.coordinates.size(); ++c) {
+    const mechanism::Coordinate& own = mechanism.coordinates[c];
+    if (split(text.substr(0, equals)) != std::vector{own.name}) continue;
+    const core::Rational value = parse_number(text.substr(equals + 1), "--slice", mechanism, mechanism::key_of(own));
+    if (value < own.lower || value > own.upper)
+      refuse("--slice", fmt::format("'{}' is out of the range of {}", text, own.name), "give a value within it");
+    return {c, core::to_double(value)};
+  }
+  refuse("--slice", fmt::format("'{}' is no slice", text), "give a free coordinate and its value, such as z=0.3");
+}
+
 int parse_steps(const std::string& text) {
   constexpr int most = 1000000;
   const std::optional<int> steps = whole_number(text);

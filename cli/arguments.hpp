@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <set>
@@ -68,6 +69,12 @@ std::vector<double> parse_rates(const std::string& text, const std::string& opti
 
 /// "400x400": nodes along each coordinate.
 std::pair<int, int> parse_grid(const std::string& text);
+
+/// "40x40x40".
+std::array<int, 3> parse_volume_grid(const std::string& text);
+
+/// "z=0.3": a coordinate by its place, and a value within its range.
+std::pair<std::size_t, double> parse_slice(const std::string& text, const mechanism::Mechanism& mechanism);
 
 /// "720": steps along the only coordinate.
 int parse_steps(const std::string& text);

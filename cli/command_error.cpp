@@ -17,6 +17,7 @@
 #include "core/errors.hpp"
 #include "report/coordinate_errors.hpp"
 #include "report/error.hpp"
+#include "report/error_volume.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 
@@ -31,6 +32,7 @@ struct Arguments {
   bool without_loci = false;
   bool without_worst_case = false;
   bool zones = false;
+  std::vector<std::string> slices;
 };
 
 /// What is printed: the JSON or the table, and where the files are.
@@ -82,6 +84,35 @@ double memory_of(int nx, int ny, const mechanism::Mechanism& mechanism, std::siz
   return cells * (static_cast<double>(modes) * fields * of_number + text + 4 * of_number);
 }
 
+/// Three free coordinates: a volume, and pictures of slices.
+int run_over_volume(const Arguments& arguments, const std::set<std::string>& formats,
+                    const mechanism::Mechanism& mechanism, TimeLimit& limit) {
+  constexpr const char* usual_grid = "40x40x40";
+  if (arguments.zones)
+    throw core::InputError({.file = "--zones"}, "errors zone by zone are those over two lengths", "leave it out");
+  const std::string& words = arguments.grid.empty() ? usual_grid : arguments.grid;
+  const std::array<int, 3> cells = parse_volume_grid(words);
+  Progress progress(arguments.common.quiet);
+  const LociRequest loci = loci_request(arguments.loci, mechanism, progress, limit);
+  require_memory(memory_of(cells[0], cells[1] * cells[2], mechanism, requested_modes(mechanism, loci).size(), formats),
+                 "--grid", words);
+  std::vector<report::VolumeSlice> slices;
+  for (const std::string& word : arguments.slices) {
+    const auto [across, value] = parse_slice(word, mechanism);
+    const double lower = core::to_double(mechanism.coordinates[across].lower),
+                 upper = core::to_double(mechanism.coordinates[across].upper);
+    const int layer = static_cast<int>((value - lower) / (upper - lower) * cells[across]);
+    slices.push_back({across, std::clamp(layer, 0, cells[across] - 1)});
+  }
+  const VolumeErrors errors =
+      error_volume(mechanism, {.cells = cells, .worst_case = !arguments.without_worst_case, .loci = loci});
+  progress.clear();
+  limit.writing();
+  const auto files = report::write_error_volume(errors, output_folder(arguments.common), formats, slices);
+  print(arguments, errors, report::error_volume_object, report::error_volume_text, files);
+  return exit_done;
+}
+
 int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names(report::Answer::error));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
@@ -89,6 +120,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     write_incomplete(common, "error.json", incomplete_body(name, "the errors were"));
   });
   if (mechanism.coordinates.size() == 1) return run_over_coordinate(arguments, formats, mechanism, limit);
+  if (mechanism.coordinates.size() == 3) return run_over_volume(arguments, formats, mechanism, limit);
   constexpr const char* usual_grid = "400x400";
   const auto [nx, ny] = parse_grid(arguments.grid.empty() ? usual_grid : arguments.grid);
   Progress progress(arguments.common.quiet);
@@ -119,8 +151,13 @@ Command add_error_command(CLI::App& program) {
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
   app->add_option("--grid", arguments->grid,
-                  "Cells along each coordinate (default: 400x400), or steps along a single one (default: 720)")
-      ->type_name("NXxNY|N");
+                  "Cells along each coordinate (default: 400x400, over three 40x40x40), or steps along a single one "
+                  "(default: 720)")
+      ->type_name("NXxNY|NXxNYxNZ|N");
+  app->add_option("--slice", arguments->slices,
+                  "Over three coordinates: which layers of cells are drawn, such as z=0.3, once or more (default: the "
+                  "middle of the last coordinate)")
+      ->type_name("NAME=VALUE");
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides error.json, several after commas: {}",
                               fmt::join(report::format_names(report::Answer::error), ", ")))

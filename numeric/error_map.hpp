@@ -1,6 +1,9 @@
 // Pose errors over the workspace, by the compiled elimination: reactions, take-up and H Δ_C of many poses at once.
 #pragma once
 
+#include <array>
+#include <chrono>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,5 +34,22 @@ struct ErrorMap {
 /// `mode`: a sign a dyad. Fields are NaN outside the workspace. Throws core::InputError where the
 /// mechanism has no clearance or not two free coordinates.
 ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid = {});
+
+struct ErrorVolume {
+  core::FieldVolume volume;  ///< fields as of ErrorMap
+  std::size_t reachable = 0, undefined = 0;
+  std::vector<std::string> never_loaded;
+};
+
+struct VolumeGrid {
+  std::array<int, 3> cells = {40, 40, 40};
+  int threads = 0;
+  bool worst_case = true;
+  double worst_case_accuracy = 1e-9;
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};
+};
+
+/// Over three free coordinates; likewise. Throws core::LimitReached where the deadline comes first.
+ErrorVolume error_volume(const NumericModel& model, std::span<const int> mode, const VolumeGrid& grid = {});
 
 }  // namespace clearloci::numeric

@@ -1,5 +1,6 @@
 #include "numeric/line_witness.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -26,12 +27,15 @@ const BoundedNumerators& LineWitness::at(double position) {
 }
 
 bool LineWitness::reachable_around(double position, double radius) {
-  const core::Point2 centre = point(position);
   if (reachable(position)) return true;
-  for (int k = 0; k < 8; ++k) {
-    const double angle = k * std::numbers::pi / 4;
-    const core::Point2 p = {centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)};
-    if (numeric::reachable(model_, p, mode_)) return true;
+  for (std::size_t across = 0; across < std::max<std::size_t>(2, base_.size()); ++across) {
+    if (across == along_) continue;
+    for (int k = 0; k < 8; ++k) {
+      const double angle = k * std::numbers::pi / 4;
+      std::vector<double> p = point(position + radius * std::cos(angle));
+      if (across < p.size()) p[across] += radius * std::sin(angle);
+      if (numeric::reachable(model_, p, mode_)) return true;
+    }
   }
   return false;
 }

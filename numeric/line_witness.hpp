@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "numeric/reactions.hpp"
@@ -38,18 +39,24 @@ enum class Parity { even, odd, unknown };
 /// Whether some numerator of the columns is nonzero beyond its rounding error.
 bool is_decided(const BoundedNumerators& numerators, const WitnessColumns& columns);
 
-/// A horizontal (row) or vertical line of the grid in one working mode. Remembers what it has evaluated.
+/// A line of the grid along one coordinate, in one working mode. Remembers what it has evaluated.
 class LineWitness {
  public:
-  /// `level`: the fixed coordinate; positions run along the other. `smallest`: the distance below which a turn of a
-  /// force's direction counts as a jump, m.
-  LineWitness(const NumericModel& model, std::span<const int> mode, bool row, double level, double smallest)
-      : model_(model), mode_(mode), row_(row), level_(level), smallest_(smallest) {}
+  /// `base`: the other coordinates' values. `smallest`: the distance below which a turn of a force's direction counts
+  /// as a jump, m.
+  LineWitness(const NumericModel& model, std::span<const int> mode, std::vector<double> base, std::size_t along,
+              double smallest)
+      : model_(model), mode_(mode), base_(std::move(base)), along_(along), smallest_(smallest) {}
 
-  core::Point2 point(double at) const { return row_ ? core::Point2{at, level_} : core::Point2{level_, at}; }
+  std::vector<double> point(double at) const {
+    std::vector<double> pose = base_;
+    pose[along_] = at;
+    return pose;
+  }
   const BoundedNumerators& at(double position);
   bool reachable(double position) { return at(position).reachable; }
-  /// Whether any of the position and eight points around it, at distance `radius`, is reachable.
+  /// Whether any of the position and eight points around it in every plane with the line, at distance `radius`, is
+  /// reachable.
   bool reachable_around(double position, double radius);
 
   /// Every one of `samples` positions strictly between a and b is reachable.
@@ -78,8 +85,8 @@ class LineWitness {
 
   const NumericModel& model_;
   std::span<const int> mode_;
-  bool row_;
-  double level_;
+  std::vector<double> base_;
+  std::size_t along_;
   double smallest_;
   std::map<double, BoundedNumerators> known_;
 };

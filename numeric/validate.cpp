@@ -10,12 +10,12 @@
 #include <optional>
 
 #include "core/errors.hpp"
-#include "mechanism/joint_traits.hpp"
 #include "numeric/arc_witness.hpp"
+#include "numeric/checked_reaction.hpp"
 #include "numeric/edge_judge.hpp"
 #include "numeric/grid_passages.hpp"
 #include "numeric/reactions.hpp"
-#include "numeric/take_up.hpp"
+#include "numeric/validate_lines.hpp"
 
 namespace clearloci::numeric {
 
@@ -50,71 +50,10 @@ std::vector<WorkingMode> modes_of(const LocusMap& map) {
   return modes;
 }
 
-/// How often a quantity of a joint vanishes on a curve. `parts`: the components of that joint's f.
-int weight(const LocusCurve& curve, const TracedReaction& reaction, const std::vector<Quantity>& parts) {
-  if (curve.kind == LocusKind::margin) return 0;  // there a reaction equals its least size
-  const auto multiplicity = [&](Quantity quantity) {
-    const auto found = std::find_if(curve.vanishing.begin(), curve.vanishing.end(), [&](const core::Vanishing& v) {
-      return v.joint == reaction.joint && v.quantity == quantity;
-    });
-    return found == curve.vanishing.end() ? 0 : found->multiplicity;
-  };
-  if (const int own = multiplicity(reaction.quantity)) return own;
-  const bool is_part = std::find(parts.begin(), parts.end(), reaction.quantity) != parts.end();
-  if (is_part) return multiplicity(Quantity::f);
-  if (reaction.quantity != Quantity::f || parts.empty()) return 0;
-  int least = multiplicity(parts.front());
-  for (const Quantity part : parts) least = std::min(least, multiplicity(part));
-  return least;
-}
-
-int joint_of(const NumericModel& model, const TracedReaction& reaction) {
-  const auto& joints = model.mechanism.joints;
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (joints[j].name == reaction.joint) return static_cast<int>(j);
-  return -1;
-}
-
-WitnessColumns columns_of(const NumericModel& model, const TracedReaction& reaction) {
-  const int joint = joint_of(model, reaction);
-  const auto column = [&](Quantity quantity) {
-    const int found = joint < 0 ? -1 : column_of(model, joint, quantity);
-    if (found >= 0) return found;
-    throw core::InputError({model.mechanism.file, 0, 0},
-                           "joint " + reaction.joint + " has no reaction " + core::to_string(reaction.quantity),
-                           "name a joint of the mechanism, and M only where it is actuated");
-  };
-  if (core::is_guide_end(reaction.quantity)) {
-    const double h = joint_clearances(model.mechanism)[static_cast<std::size_t>(joint)].half_length;
-    if (!(h > 0))
-      throw core::InputError({model.mechanism.file, 0, 0}, "the ends of the guide " + reaction.joint + " are not known",
-                             "give its clearance a half_length");
-    const double lever = (reaction.quantity == Quantity::end_ahead ? 1 : -1) / h;
-    return {column(Quantity::N), column(Quantity::T), -1, lever};
-  }
-  if (reaction.quantity != Quantity::f) return {column(reaction.quantity)};
-  if (model.mechanism.space == mechanism::Space::planar) return {column(Quantity::fx), column(Quantity::fy)};
-  return {column(Quantity::fx), column(Quantity::fy), column(Quantity::fz)};
-}
-
-std::vector<Quantity> force_parts(const NumericModel& model, const TracedReaction& reaction) {
-  const mechanism::Joint& joint = model.mechanism.joints[static_cast<std::size_t>(joint_of(model, reaction))];
-  // A guide whose ends are not known loses its contact where it bears nothing at all.
-  if (mechanism::is_guide(model.mechanism, joint)) return mechanism::reaction_components(model.mechanism, joint);
-  return mechanism::force_components(model.mechanism, joint);
-}
-
 GridAxis axis(double lower, double upper, int nodes, double shift) {
   const double step = (upper - lower) / nodes;
   return {lower + shift * step, step, nodes};
 }
-
-struct CheckedReaction {
-  TracedReaction reaction;
-  WitnessColumns columns;
-  std::vector<Quantity> force;  ///< components of the joint's f
-  std::vector<int> weights;     ///< a curve of the map each, in the mode at hand
-};
 
 struct LineTally {
   std::vector<std::array<std::size_t, 4>> counts;  ///< by reaction and Verdict
@@ -134,12 +73,11 @@ class ModeValidation {
         reach_(reach),
         diagonal_(diagonal) {
     smallest_ = flip_resolution * diagonal;
-    for (const auto& reaction : traced)
-      reactions_.push_back({reaction, columns_of(model, reaction), force_parts(model, reaction), {}});
+    for (const auto& reaction : traced) reactions_.push_back(checked_reaction(model, reaction));
     for (const auto& curve : map.curves) {
       const bool here = curve.mode == mode;
       boundary_.push_back(here && curve.kind == LocusKind::workspace_boundary ? 1 : 0);
-      for (auto& r : reactions_) r.weights.push_back(here ? weight(curve, r.reaction, r.force) : 0);
+      for (auto& r : reactions_) r.weights.push_back(here ? times_vanishing(curve.kind, curve.vanishing, r) : 0);
     }
     std::vector<int> numbers;
     for (std::size_t c = 0; c < map.curves.size(); ++c) {
@@ -175,9 +113,9 @@ class ModeValidation {
   bool node_reachable(int i, int j) const {
     return fields_[static_cast<std::size_t>(j)].reachable(static_cast<std::size_t>(i));
   }
-  double numerator(int column, int i, int j) const {
-    return column < 0 ? 0.0 : fields_[static_cast<std::size_t>(j)].numerator(column)[static_cast<std::size_t>(i)];
-  }
+  /// A row of nodes.
+  const ReactionField& field_of(int j) const { return fields_[at(j)]; }
+  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
   /// Reactions that are nonzero beyond rounding at no node.
   void find_zeros() {
@@ -206,34 +144,21 @@ class ModeValidation {
     tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t k) { ask(nodes[k]); });
   }
 
-  EdgeNodes edge_nodes(const WitnessColumns& columns, int i, int j, bool row) const {
-    const int i2 = row ? i + 1 : i, j2 = row ? j : j + 1;
-    EdgeNodes nodes{node_reachable(i, j), node_reachable(i2, j2), Parity::unknown};
-    if (!nodes.first_reachable || !nodes.second_reachable) return nodes;
-    // One component: the cosine is a sign. Two: in between, the turn has to be followed.
-    const auto force = [&](int a, int b) {
-      if (columns.lever != 0)
-        return ForceNumerators{numerator(columns.first, a, b) + columns.lever * numerator(columns.second, a, b), 0, 0};
-      return ForceNumerators{numerator(columns.first, a, b), numerator(columns.second, a, b),
-                             numerator(columns.third, a, b)};
-    };
-    const double cosine = turn_cosine(force(i, j), force(i2, j2));
-    if (std::abs(cosine) > least_cosine) nodes.change = cosine > 0 ? Parity::even : Parity::odd;
-    return nodes;
-  }
-
   LineTally judge_line(bool row, int line) const {
-    const GridAxis &along = row ? grid_.x : grid_.y, &across = row ? grid_.y : grid_.x;
+    const GridAxis& along = row ? grid_.x : grid_.y;
     const auto& passages = (row ? passages_.rows : passages_.columns)[static_cast<std::size_t>(line)];
-    EdgeJudge judge(LineWitness(model_, signs_, row, across.at(line), smallest_), along, passages, boundary_, reach_);
-    const LineWitness place(model_, signs_, row, across.at(line), smallest_);
+    const LineWitness place(model_, signs_, {grid_.x.at(row ? 0 : line), grid_.y.at(row ? line : 0)}, row ? 0 : 1,
+                            smallest_);
+    EdgeJudge judge(place, along, passages, boundary_, reach_);
     LineTally tally;
     tally.counts.resize(reactions_.size());
     for (int edge = 0; edge + 1 < along.nodes; ++edge) {
       for (std::size_t r = 0; r < reactions_.size(); ++r) {
         if (zero_[r]) continue;
         const auto& checked = reactions_[r];
-        const EdgeNodes nodes = edge_nodes(checked.columns, row ? edge : line, row ? line : edge, row);
+        const EdgeNodes nodes =
+            row ? edge_nodes(field_of(line), at(edge), field_of(line), at(edge + 1), checked.columns)
+                : edge_nodes(field_of(edge), at(line), field_of(edge + 1), at(line), checked.columns);
         const Finding finding = judge.judge(edge, {checked.columns, checked.weights}, nodes);
         ++tally.counts[r][static_cast<std::size_t>(finding.verdict)];
         if (finding.verdict != Verdict::disputed) continue;
@@ -280,31 +205,17 @@ class ModeValidation {
     }
   }
 
-  struct Tally {
-    std::size_t zero = 0, other = 0, unbounded = 0;
-  };
-  static Tally tally_of(const std::vector<Approach>& ways, const WitnessColumns& columns) {
-    Tally tally;
-    for (const Approach& way : ways) {
-      const std::optional<Tendency> found = tendency(way, columns);
-      if (!found) continue;
-      ++(*found == Tendency::zero ? tally.zero : tally.other);
-      if (*found == Tendency::unbounded) ++tally.unbounded;
-    }
-    return tally;
-  }
-
   /// A claim is disputed where most of the ways say otherwise: some may end near a zero of another curve.
   void judge_arc(std::size_t c, const std::vector<Approach>& ways, const CheckedReaction& checked, bool context,
                  ValidationReport& report) const {
     const bool claimed = checked.weights[c] != 0;
     if (ways.empty() && claimed) ++report.arcs_undecided;
     if (ways.empty() || (!claimed && !context)) return;
-    const Tally tally = tally_of(ways, checked.columns);
+    const TendencyTally tally = tally_of(ways, checked.columns);
     const auto most = [&](std::size_t count) { return 2 * count > ways.size(); };
     const auto dispute = [&](const core::Point2& at) {
       ++report.disputed;
-      report.disputed_arcs.push_back({map_.curves[c].id, at, mode_, checked.reaction, claimed, false});
+      report.disputed_arcs.push_back({map_.curves[c].id, pose_of(at), mode_, checked.reaction, claimed, false});
     };
     if (claimed && most(tally.other)) {
       // Vertices may be off their curve by the map's tolerance.
@@ -327,15 +238,17 @@ class ModeValidation {
   /// A direct singularity at which the map has every reaction stay finite.
   void judge_idle(std::size_t c, const std::vector<Approach>& ways, ValidationReport& report) const {
     for (std::size_t k = 0; k < model_.unknowns.size(); ++k) {
-      const Tally tally = tally_of(ways, {static_cast<int>(k)});
+      const TendencyTally tally = tally_of(ways, {static_cast<int>(k)});
       if (2 * tally.unbounded <= ways.size()) continue;
       const mechanism::Unknown& unknown = model_.unknowns[k];
       const std::string& joint = model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)].name;
       ++report.disputed;
       report.disputed_arcs.push_back(
-          {map_.curves[c].id, ways.front().towards, mode_, {joint, unknown.quantity}, true, true});
+          {map_.curves[c].id, pose_of(ways.front().towards), mode_, {joint, unknown.quantity}, true, true});
     }
   }
+
+  static std::vector<double> pose_of(const core::Point2& at) { return {at[0], at[1]}; }
 
   static bool passes_near(const LocusCurve& curve, const core::Point2& at, double reach) {
     for (const core::Arc& arc : curve.arcs)
@@ -367,12 +280,14 @@ void check_call(const NumericModel& model, const LocusMap& map, const GridSpec& 
   const auto refuse = [](const std::string& problem, const std::string& mend) {
     throw core::InputError({}, problem, mend);
   };
-  if (spec.nx < 2 || spec.ny < 2) refuse("the grid has no cells", "ask for 2x2 nodes at least");
-  if (model.box.size() != 2 || map.lower.size() != 2 || map.upper.size() != 2) {
-    refuse("the loci are not curves", "validate needs two free coordinates");
-  }
+  const std::size_t n = model.box.size();
+  const std::array<int, 3> nodes = {spec.nx, spec.ny, spec.nz};
+  for (std::size_t c = 0; c < std::min<std::size_t>(n, 3); ++c)
+    if (nodes[c] < 2) refuse("the grid has no cells", "ask for two nodes at least along each coordinate");
+  if (n < 1 || n > 3 || map.lower.size() != n || map.upper.size() != n)
+    refuse("the loci are not those of the mechanism's coordinates", "validate takes one to three free coordinates");
   if (map.tower.coordinates.empty()) return;
-  for (std::size_t c = 0; c < 2; ++c) {
+  for (std::size_t c = 0; c < n; ++c) {
     if (map.tower.coordinates.at(c) != model.mechanism.coordinates[c].name) {
       refuse("the loci have other coordinates than the mechanism", "trace the loci of the same mechanism");
     }
@@ -383,13 +298,18 @@ void check_call(const NumericModel& model, const LocusMap& map, const GridSpec& 
 
 std::vector<TracedReaction> named_reactions(const LocusMap& map) {
   std::vector<TracedReaction> named;
-  for (const auto& curve : map.curves) {
-    if (curve.kind == LocusKind::margin) continue;
-    for (const auto& v : curve.vanishing) {
-      const TracedReaction reaction{v.joint, v.quantity};
-      if (std::find(named.begin(), named.end(), reaction) == named.end()) named.push_back(reaction);
+  const auto add = [&](const auto& loci) {
+    for (const auto& locus : loci) {
+      if (locus.kind == LocusKind::margin) continue;
+      for (const auto& v : locus.vanishing) {
+        const TracedReaction reaction{v.joint, v.quantity};
+        if (std::find(named.begin(), named.end(), reaction) == named.end()) named.push_back(reaction);
+      }
     }
-  }
+  };
+  add(map.curves);
+  add(map.surfaces);
+  if (map.tower.coordinates.size() == 1) add(map.isolated_points);
   return named;
 }
 
@@ -397,6 +317,7 @@ ValidationReport validate(const mechanism::Mechanism& mechanism, const LocusMap&
                           const std::vector<TracedReaction>& traced) {
   const NumericModel model = compile(mechanism);
   check_call(model, map, spec);
+  if (model.box.size() != 2) return validate_lines(model, map, spec, traced.empty() ? named_reactions(map) : traced);
   const auto bound = [&](const std::vector<core::Rational>& corner, std::size_t c) {
     return core::to_double(corner[c]);
   };

@@ -15,7 +15,7 @@ Json reaction_json(const auto& reaction) {
 
 }  // namespace
 
-Json validation_object(const LociValidation& validation, int nx, int ny) {
+Json validation_object(const LociValidation& validation, const std::vector<int>& nodes) {
   const auto& report = validation.report;
   Json tallies = Json::array();
   for (const auto& tally : report.tallies)
@@ -44,7 +44,7 @@ Json validation_object(const LociValidation& validation, int nx, int ny) {
                     {"unbounded", arc.unbounded}});
   return {{"format", 1},
           {"mechanism", validation.map.mechanism},
-          {"grid", {nx, ny}},
+          {"grid", nodes},
           {"validated", report.disputed == 0},
           {"held", report.held},
           {"disputed", report.disputed},

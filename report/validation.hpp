@@ -2,12 +2,13 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 #include "analysis/loci.hpp"
 
 namespace clearloci::report {
 
-/// nx, ny: the nodes of the grid that reactions were solved at.
-nlohmann::ordered_json validation_object(const LociValidation& validation, int nx, int ny);
+/// `nodes`: of the grid that reactions were solved at, along each coordinate.
+nlohmann::ordered_json validation_object(const LociValidation& validation, const std::vector<int>& nodes);
 
 }  // namespace clearloci::report

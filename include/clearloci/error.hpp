@@ -1,5 +1,6 @@
 // How far is the end effector from where it should be, all over the workspace? The pose error that the clearances cause
-// (docs/method.md section 6): as a map over two free coordinates, and over a single one with its jumps at the loci.
+// (docs/method.md section 6): as a map over two free coordinates, as a volume over three, and over a single one with
+// its jumps at the loci.
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::ErrorMap errors = clearloci::error_map(model, {.nx = 200, .ny = 300});
@@ -45,6 +46,30 @@ struct FieldMap {
   }
 };
 
+/// Scalars over the box of three free coordinates, likewise.
+struct FieldVolume {
+  std::string mechanism;
+  std::array<std::string, 3> coordinates;
+  std::array<bool, 3> angles{};
+  std::array<double, 3> lower{}, upper{};  ///< m, of angles rad
+  std::array<int, 3> cells{};
+  std::vector<Field> fields;  ///< values along the first coordinate, row after row, layer after layer
+
+  /// The middle of cell `i` along a coordinate.
+  double at(std::size_t coordinate, int i) const {
+    return lower[coordinate] + (i + 0.5) * (upper[coordinate] - lower[coordinate]) / cells[coordinate];
+  }
+  std::size_t index(const std::array<int, 3>& cell) const {
+    const auto [i, j, k] = cell;
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(cells[0]) +
+           static_cast<std::size_t>(i);
+  }
+};
+
+/// A layer of cells across one of the coordinates, as a map over the other two.
+FieldMap slice_of(const FieldVolume& volume, std::size_t across, int layer);
+
 /// Typical absolute values, in the unit of what they are of: near direct singularities errors grow without bound, so
 /// means say nothing.
 struct ErrorSizes {
@@ -78,6 +103,21 @@ struct ErrorMap {
   LocusMap loci;                  ///< without curves where they are not asked for; incomplete where the deadline came
   std::vector<ModeErrors> modes;  ///< the request's, without those in which |A| vanishes everywhere
   std::vector<std::string> notes = {};  ///< such as what a clearance stands for
+};
+
+struct VolumeModeErrors {
+  std::vector<std::pair<std::string, std::string>> mode;  ///< as describe_mode
+  FieldVolume volume;                                     ///< fields as of ModeErrors::map
+  std::vector<std::optional<ErrorSizes>> sizes;           ///< as of ModeErrors, like what follows
+  std::size_t reachable = 0, undefined = 0;
+  std::vector<std::string> never_loaded;
+};
+
+/// Over three free coordinates, without loci.
+struct VolumeErrors {
+  std::vector<VolumeModeErrors> modes;
+  std::vector<std::string> notes;
+  Units units = {};  ///< of the mechanism file
 };
 
 /// Something that happens at one value of the coordinate, and by how much the end effector jumps there.
@@ -123,18 +163,22 @@ struct CoordinateErrors {
 namespace clearloci {
 
 struct ErrorRequest {
-  int nx = 400, ny = 400;   ///< cells along each of two coordinates
-  int steps = 720;          ///< over a single one
-  bool worst_case = true;   ///< also the worst case over all take-ups
-  bool with_loci = true;    ///< also the loci, for pictures and as the places of jumps
-  bool with_zones = false;  ///< also the zones, with the cells in each; over two lengths
-  LociRequest loci = {};    ///< working modes, deadline, progress; and how the loci are traced
+  int nx = 400, ny = 400;                   ///< cells along each of two coordinates
+  int steps = 720;                          ///< over a single one
+  std::array<int, 3> cells = {40, 40, 40};  ///< along each of three
+  bool worst_case = true;                   ///< also the worst case over all take-ups
+  bool with_loci = true;                    ///< also the loci, for pictures and as the places of jumps
+  bool with_zones = false;                  ///< also the zones, with the cells in each; over two lengths
+  LociRequest loci = {};                    ///< working modes, deadline, progress; and how the loci are traced
 };
 
 /// Over two free coordinates. Throws InputError where there are not two, where no joint has a clearance, where the
 /// equations are not square or the determinant vanishes in every pose, where zones are asked for without loci; and as
 /// trace_loci and find_zones, where these are asked for.
 ErrorMap error_map(const Model& model, const ErrorRequest& request = {});
+
+/// Over three free coordinates. Throws likewise; LimitReached where the deadline comes first.
+VolumeErrors error_volume(const Model& model, const ErrorRequest& request = {});
 
 /// Over the one free coordinate of a planar mechanism. Throws likewise.
 CoordinateErrors coordinate_errors(const Model& model, const ErrorRequest& request = {});

@@ -166,10 +166,10 @@ TEST(ValidationObject, IsValidatedWhereNothingIsDisputed) {
   LociValidation validation;
   validation.map.mechanism = "Crank";
   validation.report.held = 7;
-  EXPECT_TRUE(validation_object(validation, 3, 4)["validated"]);
+  EXPECT_TRUE(validation_object(validation, {3, 4})["validated"]);
   validation.report.disputed = 1;
   validation.report.disputed_edges.push_back({{0, 1}, {2, 1}, {}, {"A", core::Quantity::M}, 1, false});
-  const nlohmann::ordered_json json = validation_object(validation, 3, 4);
+  const nlohmann::ordered_json json = validation_object(validation, {3, 4});
   EXPECT_FALSE(json["validated"]);
   EXPECT_EQ(json["grid"], nlohmann::ordered_json({3, 4}));
   EXPECT_EQ(json["disputed_edges"][0]["reaction"]["quantity"], "M");

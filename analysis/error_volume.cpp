@@ -1,0 +1,39 @@
+#include <utility>
+
+#include "analysis/error.hpp"
+#include "analysis/model.hpp"
+#include "analysis/side_names.hpp"
+#include "analysis/singular_modes.hpp"
+#include "mechanism/fits.hpp"
+#include "mechanism/idle.hpp"
+#include "numeric/error_map.hpp"
+
+namespace clearloci {
+
+VolumeErrors error_volume(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  VolumeErrors errors;
+  errors.units = mechanism.units;
+  errors.notes = mechanism::fit_notes(mechanism);
+  for (std::string& note : mechanism::idle_notes(mechanism)) errors.notes.push_back(std::move(note));
+  for (const DyadSides& sides : regular_modes(mechanism, requested_modes(mechanism, request.loci), errors.notes)) {
+    if (request.loci.progress) request.loci.progress(0, "errors");
+    numeric::ErrorVolume found = numeric::error_volume(
+        model, sides, {.cells = request.cells, .worst_case = request.worst_case, .deadline = request.loci.deadline});
+    core::VolumeModeErrors own;
+    own.mode = side_names(mechanism, sides);
+    own.volume = std::move(found.volume);
+    for (const core::Field& field : own.volume.fields) own.sizes.push_back(sizes_of(field.values));
+    own.reachable = found.reachable;
+    own.undefined = found.undefined;
+    own.never_loaded = std::move(found.never_loaded);
+    errors.modes.push_back(std::move(own));
+  }
+  return errors;
+}
+
+VolumeErrors error_volume(const Model& model, const ErrorRequest& request) {
+  return error_volume(model.content().mechanism, request);
+}
+
+}  // namespace clearloci

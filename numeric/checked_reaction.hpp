@@ -1,0 +1,39 @@
+// What the witness holds against the map, reaction by reaction.
+// Private to numeric/.
+#pragma once
+
+#include <vector>
+
+#include "numeric/arc_witness.hpp"
+#include "numeric/edge_judge.hpp"
+#include "numeric/line_witness.hpp"
+#include "numeric/validate.hpp"
+
+namespace clearloci::numeric {
+
+struct CheckedReaction {
+  TracedReaction reaction;
+  WitnessColumns columns;
+  std::vector<core::Quantity> force;  ///< components of the joint's f
+  std::vector<int> weights;           ///< a curve, surface or point of the map each, in the mode at hand
+};
+
+/// Without weights. Throws core::InputError for a reaction that the mechanism does not have.
+CheckedReaction checked_reaction(const NumericModel& model, const TracedReaction& reaction);
+
+/// How often the reaction vanishes on a locus.
+int times_vanishing(core::LocusKind kind, const std::vector<core::Vanishing>& vanishing,
+                    const CheckedReaction& checked);
+
+/// Two neighbouring nodes from the fast route. The turn of a force of several components between nodes that are not
+/// near enough has to be followed: `change` is then unknown.
+EdgeNodes edge_nodes(const ReactionField& of_first, std::size_t first, const ReactionField& of_second,
+                     std::size_t second, const WitnessColumns& columns);
+
+/// What a reaction does along some ways towards a locus.
+struct TendencyTally {
+  std::size_t zero = 0, other = 0, unbounded = 0;
+};
+TendencyTally tally_of(const std::vector<Approach>& ways, const WitnessColumns& columns);
+
+}  // namespace clearloci::numeric

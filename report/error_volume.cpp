@@ -1,0 +1,189 @@
+#include "report/error_volume.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "report/error.hpp"
+#include "report/field_exports.hpp"
+#include "report/file_units.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+#include "report/picture.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using core::FieldVolume;
+
+/// The middle of a cell.
+std::array<double, 3> place(const FieldVolume& volume, std::size_t cell) {
+  const auto nx = static_cast<std::size_t>(volume.cells[0]), ny = static_cast<std::size_t>(volume.cells[1]);
+  return {volume.at(0, static_cast<int>(cell % nx)), volume.at(1, static_cast<int>(cell / nx % ny)),
+          volume.at(2, static_cast<int>(cell / (nx * ny)))};
+}
+
+Json sizes_json(const core::VolumeModeErrors& one) {
+  Json all = Json::object();
+  for (std::size_t f = 0; f < one.volume.fields.size(); ++f) {
+    const core::Field& field = one.volume.fields[f];
+    Json& own = all[field.name] = {{"unit", field.unit}, {"median", nullptr}};
+    if (!one.sizes[f]) continue;
+    own = {{"unit", field.unit},
+           {"median", one.sizes[f]->median},
+           {"percentile_90", one.sizes[f]->percentile_90},
+           {"percentile_99", one.sizes[f]->percentile_99},
+           {"largest", one.sizes[f]->largest},
+           {"at", place(one.volume, one.sizes[f]->at)}};
+  }
+  return all;
+}
+
+/// "z = 300 mm", an angle in degrees.
+std::string coordinate_words(const FieldVolume& volume, std::size_t c, double value, const core::Units& units) {
+  if (volume.angles[c]) return fmt::format("{} = {:.4g} deg", volume.coordinates[c], value * 180 / std::numbers::pi);
+  const ShownUnit length = shown_unit("m", units);
+  return fmt::format("{} = {:.4g} {}", volume.coordinates[c], value * length.per_si, length.name);
+}
+
+std::string mode_text(const core::VolumeModeErrors& one) {
+  std::string words;
+  for (const auto& [point, side] : one.mode) words += (words.empty() ? "" : ", ") + point + " " + side;
+  return words;
+}
+
+std::string slug(const core::VolumeModeErrors& one) {
+  std::string words;
+  for (const auto& [point, side] : one.mode) words += "-" + side;
+  return words;
+}
+
+/// What a picture of a slice has below its colours: no loci, but names, units and the title.
+core::LocusMap plane_of(const FieldVolume& volume, const VolumeSlice& slice, const core::VolumeErrors& errors,
+                        const std::string& mode) {
+  core::LocusMap plane;
+  plane.mechanism = volume.mechanism + ", " +
+                    coordinate_words(volume, slice.across, volume.at(slice.across, slice.layer), errors.units) +
+                    (mode.empty() ? "" : "; " + mode);
+  plane.units = errors.units;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (c == slice.across) continue;
+    plane.tower.coordinates.push_back(volume.coordinates[c]);
+    plane.angles.push_back(volume.angles[c]);
+    plane.lower.emplace_back(volume.lower[c]);
+    plane.upper.emplace_back(volume.upper[c]);
+  }
+  return plane;
+}
+
+FieldVolume in_file_units(FieldVolume volume, const core::Units& units) {
+  if (!units.declared) return volume;
+  for (core::Field& field : volume.fields) {
+    const ShownUnit shown = shown_unit(field.unit, units);
+    field.unit = shown.name;
+    for (double& value : field.values) value *= shown.per_si;
+  }
+  return volume;
+}
+
+}  // namespace
+
+Json error_volume_object(const core::VolumeErrors& errors) {
+  Json all = Json::array();
+  for (const core::VolumeModeErrors& one : errors.modes) {
+    Json mode = Json::object();
+    for (const auto& [point, side] : one.mode) mode[point] = side;
+    all.push_back({{"working_mode", std::move(mode)},
+                   {"reachable", one.reachable},
+                   {"undefined", one.undefined},
+                   {"never_loaded", one.never_loaded},
+                   {"fields", sizes_json(one)}});
+  }
+  const FieldVolume& volume = errors.modes.front().volume;
+  Json box = Json::array();
+  for (std::size_t c = 0; c < 3; ++c) box.push_back({volume.lower[c], volume.upper[c]});
+  Json root = {{"format", 1},
+               {"mechanism", volume.mechanism},
+               {"coordinates", volume.coordinates},
+               {"box", std::move(box)},
+               {"grid", volume.cells},
+               {"complete", true},
+               {"modes", std::move(all)}};
+  if (errors.units.declared) root["units"] = "SI";
+  if (!errors.notes.empty()) root["notes"] = errors.notes;
+  return root;
+}
+
+std::string error_volume_text(const core::VolumeErrors& errors) {
+  std::string text;
+  for (const core::VolumeModeErrors& one : errors.modes) {
+    const FieldVolume& volume = one.volume;
+    const std::string mode = mode_text(one);
+    text += fmt::format("{}: pose error over {} x {} x {} cells{}\n", volume.mechanism, volume.cells[0],
+                        volume.cells[1], volume.cells[2], mode.empty() ? "" : "; " + mode);
+    if (!one.never_loaded.empty()) text += never_loaded_words(one.never_loaded);
+    text += fmt::format("\n{:<60}{:>12}{:>12}{:>12}  at\n", "absolute values", "median", "90 %", "largest");
+    for (std::size_t f = 0; f < volume.fields.size(); ++f) {
+      const core::Field& field = volume.fields[f];
+      if (!one.sizes[f]) continue;
+      const core::ErrorSizes& sizes = *one.sizes[f];
+      const ShownUnit unit = shown_unit(field.unit, errors.units);
+      const std::array<double, 3> at = place(volume, sizes.at);
+      text += fmt::format("{:<60}{:>12.4g}{:>12.4g}{:>12.4g}  ", fmt::format("{} [{}]", field.label, unit.name),
+                          sizes.median * unit.per_si, sizes.percentile_90 * unit.per_si,
+                          std::abs(sizes.largest) * unit.per_si);
+      for (std::size_t c = 0; c < 3; ++c)
+        text += (c == 0 ? "" : ", ") + coordinate_words(volume, c, at[c], errors.units);
+      text += "\n";
+    }
+    text += fmt::format("\n{} cells in the workspace, {} on a locus to the last bit\n\n", one.reachable, one.undefined);
+  }
+  for (const std::string& note : errors.notes) text += note + "\n";
+  return text;
+}
+
+std::vector<std::filesystem::path> write_error_volume(const core::VolumeErrors& errors,
+                                                      const std::filesystem::path& directory,
+                                                      const std::set<std::string>& formats,
+                                                      std::vector<VolumeSlice> slices) {
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    write_atomically(directory / name, bytes);
+    files.push_back(directory / name);
+  };
+  write("error.json", json_text(error_volume_object(errors)));
+  const bool drawn = formats.contains("png") || formats.contains("svg") || formats.contains("pdf");
+  const bool named = !slices.empty();
+  for (const core::VolumeModeErrors& one : errors.modes) {
+    const FieldVolume& volume = one.volume;
+    const std::string which = errors.modes.size() > 1 ? slug(one) : "";
+    if (!named) slices = {{2, volume.cells[2] / 2}};
+    for (const VolumeSlice& slice : slices) {
+      if (!drawn) break;
+      const core::LocusMap plane = plane_of(volume, slice, errors, mode_text(one));
+      const core::FieldMap map = core::slice_of(volume, slice.across, slice.layer);
+      const std::string layer = named ? fmt::format("-{}{}", volume.coordinates[slice.across], slice.layer) : "";
+      for (const core::Field& field : map.fields) {
+        std::string name = field.name;
+        std::replace(name.begin(), name.end(), '_', '-');
+        const auto picture = [&](const char* ending, PictureFormat format) {
+          write("error-" + name + which + layer + ending, field_picture(plane, {}, map, field, format));
+        };
+        if (formats.contains("png")) picture(".png", PictureFormat::png);
+        if (formats.contains("svg")) picture(".svg", PictureFormat::svg);
+        if (formats.contains("pdf")) picture(".pdf", PictureFormat::pdf);
+      }
+    }
+    if (formats.contains("csv"))
+      write("error" + which + ".csv", field_csv(in_file_units(volume, errors.units), errors.units));
+    if (formats.contains("vtk")) write("error" + which + ".vti", vti(volume));
+  }
+  return files;
+}
+
+}  // namespace clearloci::report

@@ -1,0 +1,171 @@
+// The witness along lines over one coordinate and three: it holds maps of the tests' own that are right, and disputes
+// wrong ones.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.hpp"
+#include "mechanism/read.hpp"
+#include "numeric/validate.hpp"
+
+namespace clearloci::numeric {
+namespace {
+
+using core::LocusKind;
+using core::LocusMap;
+using core::Quantity;
+
+/// A slider on the x axis, pressed by (p, 1) N with p = x^2 - 1/4: its motor bears nothing at x = -1/2 and x = 1/2.
+mechanism::Mechanism slider() {
+  return mechanism::parse_mechanism(R"(
+format: 1
+name: Slider
+space: planar
+workspace: {x: [-1, 1]}
+points: {P: [x, 0]}
+links: {block: {points: [P]}}
+joints:
+  S: {prismatic: [ground, block], at: P, axis: [1, 0], actuated: true, clearance: {axial: 1e-5}}
+end_effector: {link: block, at: P}
+loads: [{link: block, at: P, force: [x^2 - 1/4, 1]}]
+)",
+                                    "test.yaml");
+}
+
+LocusMap map_of(const mechanism::Mechanism& mechanism) {
+  LocusMap map;
+  for (const mechanism::Coordinate& own : mechanism.coordinates) {
+    map.tower.coordinates.push_back(own.name);
+    map.lower.push_back(own.lower);
+    map.upper.push_back(own.upper);
+  }
+  return map;
+}
+
+const std::vector<TracedReaction> drive = {{"S", Quantity::F}};
+
+core::IsolatedPoint zero_at(double x) {
+  core::IsolatedPoint point;
+  point.kind = LocusKind::backlash;
+  point.vanishing = {{"S", Quantity::F, 1}};
+  point.at = {x};
+  return point;
+}
+
+TEST(ValidateLines, HoldsPointsOverOneCoordinate) {
+  LocusMap map = map_of(slider());
+  map.isolated_points = {zero_at(-0.5), zero_at(0.5)};
+  const ValidationReport report = validate(slider(), map, {.nx = 500}, drive);
+  EXPECT_EQ(report.disputed, 0U);
+  EXPECT_EQ(report.held, 499U);
+  EXPECT_EQ(report.arcs_held, 2U);
+}
+
+TEST(ValidateLines, DisputesMissingAddedAndShiftedPoints) {
+  LocusMap map = map_of(slider());
+  map.isolated_points = {zero_at(-0.5)};
+  const ValidationReport missing = validate(slider(), map, {.nx = 500}, drive);
+  ASSERT_EQ(missing.disputed_edges.size(), 1U);
+  EXPECT_TRUE(missing.disputed_edges.front().sign_change);
+  EXPECT_NEAR(missing.disputed_edges.front().from.at(0), 0.5, 0.005);
+
+  map.isolated_points = {zero_at(-0.5), zero_at(0.1), zero_at(0.5)};
+  const ValidationReport added = validate(slider(), map, {.nx = 500}, drive);
+  EXPECT_EQ(added.disputed_edges.size(), 1U);
+  ASSERT_EQ(added.disputed_arcs.size(), 1U) << "its motor bears 0.24 N there";
+  EXPECT_TRUE(added.disputed_arcs.front().claimed);
+  EXPECT_EQ(added.disputed_arcs.front().at, std::vector{0.1});
+
+  map.isolated_points = {zero_at(-0.5), zero_at(0.5003)};
+  EXPECT_EQ(validate(slider(), map, {.nx = 500}, drive).disputed_arcs.size(), 1U) << "within the same edge";
+
+  map.isolated_points = {};
+  EXPECT_EQ(validate(slider(), map, {.nx = 500}, drive).disputed, 2U) << "a map without points is a claim";
+}
+
+/// A gantry of three sliders; the load on the first is x^2 + y^2 + z^2 - 1/4, which a sphere makes zero.
+mechanism::Mechanism gantry() {
+  return mechanism::parse_mechanism(R"(
+format: 1
+name: Gantry
+space: spatial
+workspace: {x: [-1, 1], y: [-1, 1], z: [-1, 1]}
+points: {X: [x, 0, 0], Y: [x, y, 0], P: [x, y, z]}
+links: {bridge: {points: [X]}, carriage: {points: [Y]}, quill: {points: [P]}}
+joints:
+  S: {prismatic: [ground, bridge], at: X, axis: [1, 0, 0], actuated: true, clearance: {axial: 1e-5}}
+  T: {prismatic: [bridge, carriage], at: Y, axis: [0, 1, 0], actuated: true}
+  U: {prismatic: [carriage, quill], at: P, axis: [0, 0, 1], actuated: true}
+end_effector: {link: quill, at: P}
+loads: [{link: quill, at: P, force: [x^2 + y^2 + z^2 - 1/4, 3, -5]}]
+)",
+                                    "test.yaml");
+}
+
+/// Triangles of a ball's surface between meridians and circles of latitude.
+core::LocusSurface ball(double radius, double shift, int n) {
+  core::LocusSurface surface;
+  surface.id = "s1";
+  surface.kind = LocusKind::backlash;
+  surface.vanishing = {{"S", Quantity::F, 1}};
+  const auto vertex = [&](int i, int j) {  // latitude, longitude
+    return 1 + (i - 1) * 2 * n + (j % (2 * n));
+  };
+  surface.vertices.push_back({shift, 0, radius});
+  for (int i = 1; i < n; ++i)
+    for (int j = 0; j < 2 * n; ++j) {
+      const double a = std::numbers::pi * i / n, b = std::numbers::pi * j / n;
+      surface.vertices.push_back(
+          {shift + radius * std::sin(a) * std::cos(b), radius * std::sin(a) * std::sin(b), radius * std::cos(a)});
+    }
+  const int last = static_cast<int>(surface.vertices.size());
+  surface.vertices.push_back({shift, 0, -radius});
+  for (int j = 0; j < 2 * n; ++j) {
+    surface.triangles.push_back({0, vertex(1, j), vertex(1, j + 1)});
+    for (int i = 1; i + 1 < n; ++i) {
+      surface.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+      surface.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+    }
+    surface.triangles.push_back({last, vertex(n - 1, j + 1), vertex(n - 1, j)});
+  }
+  surface.deviation = radius * (1 - std::cos(std::numbers::pi / n));
+  return surface;
+}
+
+TEST(ValidateLines, HoldsASurfaceOverThreeCoordinates) {
+  LocusMap map = map_of(gantry());
+  map.surfaces = {ball(0.5, 0, 24)};
+  const ValidationReport report = validate(gantry(), map, {.nx = 21, .ny = 20, .nz = 19}, drive);
+  EXPECT_EQ(report.disputed, 0U);
+  EXPECT_EQ(report.held + report.undecided, 20U * 20U * 19U + 21U * 19U * 19U + 21U * 20U * 18U);
+  EXPECT_LT(report.undecided * 20, report.held);
+  EXPECT_EQ(report.arcs_held, 1U);
+}
+
+TEST(ValidateLines, DisputesSurfacesThatAreMissingShiftedOrHaveHoles) {
+  const GridSpec grid{.nx = 21, .ny = 20, .nz = 19};
+  LocusMap map = map_of(gantry());
+  // Lines through the ball's shadows, in and out: 3 * 2 * pi r^2 over an edge's square.
+  EXPECT_NEAR(validate(gantry(), map, grid, drive).disputed, 6 * std::numbers::pi * 0.25 / 0.01, 25)
+      << "nothing is a claim, too";
+  map.surfaces = {ball(0.5, 0.1, 24)};
+  const ValidationReport shifted = validate(gantry(), map, grid, drive);
+  EXPECT_GT(shifted.disputed_edges.size(), 200U);
+  EXPECT_EQ(shifted.disputed_arcs.size(), 1U);
+  map.surfaces = {ball(0.5, 0.002, 24)};
+  EXPECT_EQ(validate(gantry(), map, grid, drive).disputed_arcs.size(), 1U) << "vertices are to lie on it";
+  map.surfaces = {ball(0.5, 0, 24)};
+  map.surfaces.front().triangles.resize(map.surfaces.front().triangles.size() / 2);
+  const ValidationReport open = validate(gantry(), map, grid, drive);
+  EXPECT_GT(open.disputed_edges.size(), 200U);
+  for (const DisputedEdge& edge : open.disputed_edges) EXPECT_LT(edge.from.at(1), 0.1) << "where triangles are missing";
+}
+
+TEST(ValidateLines, RefusesAGridWithoutCells) {
+  EXPECT_THROW(validate(slider(), map_of(slider()), {.nx = 1}, drive), core::InputError);
+  EXPECT_THROW(validate(gantry(), map_of(gantry()), {.nx = 9, .ny = 9, .nz = 1}, drive), core::InputError);
+}
+
+}  // namespace
+}  // namespace clearloci::numeric
