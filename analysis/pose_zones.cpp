@@ -10,6 +10,7 @@
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
+#include "loci/pose/largest_ball.hpp"
 #include "loci/pose/pose_zones.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/posture_sample.hpp"
@@ -46,13 +47,8 @@ void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& mo
   }
 }
 
-/// Zones that only cells in doubt part, and no sign.
-void add_perhaps(const std::vector<loci::pose::CellZone>& cells, std::vector<PoseZone>& zones) {
-  for (std::size_t z = 0; z < zones.size(); ++z)
-    for (const std::size_t other : cells[z].beside)
-      if (zones[z].assembly_mode == zones[other].assembly_mode && zones[z].signs == zones[other].signs)
-        zones[z].perhaps_one_with.push_back(zones[other].id);
-}
+/// Cells of the grid of labels along each coordinate.
+int raster_of(std::size_t coordinates) { return coordinates == 1 ? 1024 : coordinates == 2 ? 256 : 64; }
 
 /// What ends the zones over one coordinate.
 void add_ends(const mechanism::Mechanism& mechanism, const LociRequest& request, const DyadSides& sides,
@@ -112,11 +108,15 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
   loci::pose::CellZoneEffort effort;
   effort.most_cells = cells;
   effort.deadline = request.deadline;
+  // The ends of intervals are as good as points; of more coordinates, bounds are wanted that are close enough.
+  if (result.lower.size() == 1) effort.enough_doubt = 0;
+  effort.raster.assign(result.lower.size(), raster_of(result.lower.size()));
   loci::pose::CellZones found = loci::pose::cell_zones(statics, result.lower, result.upper, effort);
   result.outside = found.outside;
   result.in_doubt = found.in_doubt;
   result.cells = found.cells;
   result.complete = !found.out_of_time;
+  result.grid = effort.raster;
   PoseCell cell(statics);
   for (std::size_t z = 0; z < found.zones.size(); ++z) {
     loci::pose::CellZone& own = found.zones[z];
@@ -128,12 +128,15 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
     zone.upper = own.upper;
     zone.sample = own.sample;
     zone.at_side = own.at_side;
+    for (const std::size_t other : own.perhaps) zone.perhaps_one_with.push_back("z" + std::to_string(other + 1));
+    if (const auto ball = loci::pose::largest_ball(own, z, found.raster, effort.raster, result.lower, result.upper))
+      zone.ball = core::PoseZoneBall{ball->centre, ball->radius};
     zone.faces = std::move(own.faces);
     for (const auto& [doubt, demand] : own.bounds) zone.bounds.push_back(bound_of(statics, doubt, demand));
     add_signs(statics, models.front(), sides, cell, zone);
     result.zones.push_back(std::move(zone));
   }
-  add_perhaps(found.zones, result.zones);
+  result.labels = std::move(found.raster);
   if (result.coordinates.size() == 1) try {
       add_ends(mechanism, request, sides, result);
     } catch (const core::LimitReached&) {

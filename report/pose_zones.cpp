@@ -44,6 +44,7 @@ Json zone_object(const core::PoseZone& zone) {
           {"sample", zone.sample},
           {"bounds", std::move(bounds)},
           {"ends", std::move(ends)},
+          {"ball", zone.ball ? Json{{"centre", zone.ball->centre}, {"radius", zone.ball->radius}} : Json(nullptr)},
           {"perhaps_one_with", zone.perhaps_one_with}};
 }
 
@@ -96,6 +97,17 @@ class Places {
   ShownUnit length_;
 };
 
+std::string ball_words(const core::PoseZones& map, const Places& places, const core::PoseZoneBall& ball) {
+  const auto angles = std::count(map.angles.begin(), map.angles.end(), true);
+  const bool mixed = angles > 0 && angles < static_cast<std::ptrdiff_t>(map.angles.size());
+  const ShownUnit length = shown_unit("m", map.units);
+  // Where lengths and angles mix, a radian counts as a metre.
+  const std::string radius = mixed        ? fmt::format("{:.4g} (m and rad alike)", ball.radius)
+                             : angles > 0 ? fmt::format("{:.4g} deg", ball.radius * 180 / std::numbers::pi)
+                                          : fmt::format("{:.4g} {}", ball.radius * length.per_si, length.name);
+  return fmt::format("      holds a ball of radius {} around {}\n", radius, places.pose(ball.centre));
+}
+
 }  // namespace
 
 Json pose_zones_object(const core::PoseZones& map) {
@@ -142,6 +154,7 @@ std::string pose_zones_table(const core::PoseZones& map) {
     else
       out += fmt::format("      {:.6g} to {:.6g} {}; a pose of it: {}\n", zone.at_least, zone.at_most, unit,
                          places.pose(zone.sample));
+    if (zone.ball) out += ball_words(map, places, *zone.ball);
     out += fmt::format("      beside it: {}\n", bounds_words(zone));
     for (const core::PoseZoneEnd& own : zone.ends) {
       out += fmt::format("      ends at {}: {}{}{}", places.value(0, own.at), kind_words(own.kind),
@@ -173,8 +186,8 @@ std::string pose_zone_stl(const core::PoseZone& zone) {
   for (const auto& corners : zone.faces) {
     const int first = static_cast<int>(surface.vertices.size());
     surface.vertices.insert(surface.vertices.end(), corners.begin(), corners.end());
-    surface.triangles.push_back({first, first + 1, first + 2});
-    surface.triangles.push_back({first, first + 2, first + 3});
+    for (int i = 2; i < static_cast<int>(corners.size()); ++i)
+      surface.triangles.push_back({first, first + i - 1, first + i});
   }
   return stl(surface);
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,13 +30,18 @@ struct PoseZoneEnd {
   double dx = 0, dy = 0, dalpha = 0;  ///< behind minus before, m and rad
 };
 
+struct PoseZoneBall {
+  std::vector<double> centre;
+  double radius = 0;
+};
+
 /// Sizes are products of the coordinates' units: m or rad over one coordinate, m^3 over three lengths.
 struct PoseZone {
   std::string id;                                ///< "z1": the largest comes first
   int assembly_mode = 0;                         ///< sign of |A|
   std::vector<std::pair<Vanishing, int>> signs;  ///< of every couple, axial or normal force wanted
-  double at_least = 0;                           ///< proven: of cells free of loci that hang together
-  double at_most = 0;                            ///< with every cell in doubt that may belong to it
+  double at_least = 0;                           ///< proven: of cells and parts free of loci that hang together
+  double at_most = 0;                            ///< with all in doubt that may belong to it
   std::vector<double> lower, upper;              ///< the box around what is proven; over one coordinate the zone itself
   std::vector<double> sample;                    ///< a pose inside
   std::vector<PoseZoneBound> bounds;             ///< what may vanish beside it
@@ -43,8 +49,12 @@ struct PoseZone {
   /// Zones that are not proven to be another one: no sign differs, and only cells in doubt lie between.
   std::vector<std::string> perhaps_one_with;
   std::vector<PoseZoneEnd> ends = {};  ///< over one coordinate, at its lower and upper end where a locus is known there
-  /// Over three coordinates the outside of what is proven, as rectangles, counter-clockwise from outside.
-  std::vector<std::array<std::array<double, 3>, 4>> faces = {};
+  /// The outside of what is proven: over three coordinates convex polygons, counter-clockwise from outside, over two
+  /// segments.
+  std::vector<std::vector<std::array<double, 3>>> faces = {};
+  /// Over two and three coordinates the largest ball in what is proven that was found: proven to be inside. Distances
+  /// are of the coordinates as they stand, m and rad alike.
+  std::optional<PoseZoneBall> ball = {};
 };
 
 struct PoseZones {
@@ -57,6 +67,10 @@ struct PoseZones {
   double outside = 0;   ///< proven to be out of reach
   double in_doubt = 0;  ///< neither that nor in a zone
   long cells = 0;
+  /// A grid over the box, for pictures and volumes: the numbers of cells along each coordinate and, the first fastest,
+  /// what is in the middle of each: the zone's place in `zones` from 1 on, 0 what is in doubt, -1 out of reach.
+  std::vector<int> grid = {};
+  std::vector<int> labels = {};
   bool complete = true;  ///< false: a deadline came first
   std::vector<std::string> notes;
   Units units = {};

@@ -1,8 +1,9 @@
-// Enclosures of functions over a box of up to seven coordinates, to first order: with every coordinate of the box a
-// noise e_i in [-1, 1],
-//     f(x) in c + sum a_i e_i + [-r, r]
-// for every x of the box. What is linear in the coordinates stays so through sums and differences; r shrinks with the
-// square of the box. r takes up every rounding:
+// Enclosures of functions over a box of up to seven coordinates, to second order in the first three: with every
+// coordinate of the box a noise e_i in [-1, 1],
+//     f(x) in c + sum a_i e_i + sum b_ij e_i e_j + [-r, r]
+// for every x of the box. What is linear in the coordinates, and quadratic in the first three, stays so through sums
+// and differences: terms cancel before they are bounded. r shrinks with the cube of a box of three coordinates, else
+// with the square. r takes up every rounding:
 //     fl(a op b) = (a op b)(1 + e), |e| <= u = 2^-53
 #pragma once
 
@@ -16,9 +17,12 @@ namespace clearloci::loci::pose {
 struct Affine {
   /// Coordinates of a box: six of a pose and the way along a path; one more makes the number even.
   static constexpr std::size_t noises = 8;
+  /// The first of them have squares and products.
+  static constexpr std::size_t curved = 3, products = 6;
 
   double c = 0, r = 0;
   std::array<double, noises> a{};
+  std::array<double, products> b{};  ///< of e_0^2, e_1^2, e_2^2, e_0 e_1, e_0 e_2, e_1 e_2
 
   Affine() = default;
   explicit Affine(double value) : c(value) {}
@@ -28,17 +32,47 @@ struct Affine {
     for (const double own : a) sum += std::abs(own);
     return sum;
   }
+  double quadratic() const {
+    double sum = 0;
+    for (const double own : b) sum += std::abs(own);
+    return sum;
+  }
   /// Largest difference from c.
-  double radius() const { return (linear() + r) * (1 + 0x1p-48); }
-  double lower() const { return down(c - radius()); }
-  double upper() const { return -down(-c - radius()); }
+  double radius() const { return (linear() + quadratic() + r) * (1 + 0x1p-48); }
+  double lower() const { return down(c - below(1)); }
+  double upper() const { return -down(-c - below(-1)); }
   bool contains_zero() const { return lower() <= 0 && upper() >= 0; }
-  double magnitude() const { return (std::abs(c) + radius()) * (1 + 0x1p-48); }
+  double magnitude() const { return std::fmax(std::abs(lower()), std::abs(upper())) * (1 + 0x1p-48); }
+
+  /// Without products: e_i^2 = 1/2 + [-1/2, 1/2].
+  Affine flattened() const {
+    Affine own = *this;
+    for (std::size_t i = 0; i < products; ++i) {
+      own.b[i] = 0;
+      own.c += i < curved ? 0.5 * b[i] : 0;
+      own.r += i < curved ? 0.5 * std::abs(b[i]) : std::abs(b[i]);
+    }
+    own.r += slack(std::abs(c) + quadratic() + own.r);
+    return own;
+  }
 
   /// Sums of some roundings, one part in 2^50 of what was summed.
   static double slack(double size) { return size * 0x1p-49 + 0x1p-1000; }
   /// Not above the exact result of the operation whose rounded result it is.
   static double down(double rounded) { return rounded - std::abs(rounded) * 0x1p-52 - 0x1p-1000; }
+
+ private:
+  /// How far below c (`sign` 1), or above it (-1), the form may be: a e + b e^2 has its ends at -1, 1 or -a / 2b.
+  double below(double sign) const {
+    double sum = r;
+    for (std::size_t i = 0; i < noises; ++i) {
+      const double size = std::abs(a[i]), square = i < curved ? sign * b[i] : 0;
+      const bool inside = square > 0 && size < 2 * square;
+      sum += inside ? size * size / (4 * square) : size - square;
+    }
+    for (std::size_t i = curved; i < products; ++i) sum += std::abs(b[i]);
+    return sum * (1 + 0x1p-46);
+  }
 };
 
 /// A number known to half a unit in the last place or exactly.
@@ -51,74 +85,114 @@ inline Affine nearest(const core::Rational& value) {
 inline Affine operator+(const Affine& x, const Affine& y) {
   Affine sum(x.c + y.c);
   for (std::size_t i = 0; i < Affine::noises; ++i) sum.a[i] = x.a[i] + y.a[i];
+  for (std::size_t i = 0; i < Affine::products; ++i) sum.b[i] = x.b[i] + y.b[i];
   sum.r = x.r + y.r;
-  sum.r += Affine::slack(std::abs(sum.c) + sum.linear() + sum.r);
+  sum.r += Affine::slack(std::abs(sum.c) + sum.linear() + sum.quadratic() + sum.r);
   return sum;
 }
 
 inline Affine operator-(const Affine& x, const Affine& y) {
   Affine difference(x.c - y.c);
   for (std::size_t i = 0; i < Affine::noises; ++i) difference.a[i] = x.a[i] - y.a[i];
+  for (std::size_t i = 0; i < Affine::products; ++i) difference.b[i] = x.b[i] - y.b[i];
   difference.r = x.r + y.r;
-  difference.r += Affine::slack(std::abs(difference.c) + difference.linear() + difference.r);
+  difference.r += Affine::slack(std::abs(difference.c) + difference.linear() + difference.quadratic() + difference.r);
   return difference;
 }
 
-/// (c + A + r)(c' + A' + r'): of A A' the squares e_i^2 = 1/2 + [-1/2, 1/2] are half known.
+/// The product of two linear parts, times `factor`: among the first three noises exactly; of the others the squares
+/// e_i^2 = 1/2 + [-1/2, 1/2] are half known.
+inline void add_linear_product(Affine& sum, double factor, const std::array<double, Affine::noises>& x,
+                               const std::array<double, Affine::noises>& y) {
+  double of_x = 0, of_y = 0, of_curved_x = 0, of_curved_y = 0, squares = 0, together = 0;
+  for (std::size_t i = 0; i < Affine::noises; ++i) {
+    of_x += std::abs(x[i]);
+    of_y += std::abs(y[i]);
+    const double both = x[i] * y[i];
+    if (i < Affine::curved) {
+      sum.b[i] += factor * both;
+      of_curved_x += std::abs(x[i]);
+      of_curved_y += std::abs(y[i]);
+    } else {
+      together += both;
+      squares += std::abs(both);
+    }
+  }
+  sum.b[3] += factor * (x[0] * y[1] + x[1] * y[0]);
+  sum.b[4] += factor * (x[0] * y[2] + x[2] * y[0]);
+  sum.b[5] += factor * (x[1] * y[2] + x[2] * y[1]);
+  sum.c += 0.5 * factor * together;
+  const double size = std::abs(factor) * of_x * of_y;
+  if (of_x > of_curved_x || of_y > of_curved_y)
+    sum.r += std::abs(factor) * std::fmax(0.0, of_x * of_y - of_curved_x * of_curved_y - 0.5 * squares);
+  sum.r += 8 * Affine::slack(size);
+}
+
 inline Affine operator*(const Affine& x, const Affine& y) {
   Affine product(x.c * y.c);
-  double together = 0, squares = 0, of_x = 0, of_y = 0;
-  for (std::size_t i = 0; i < Affine::noises; ++i) {
-    const double both = x.a[i] * y.a[i];
-    together += both;
-    squares += std::abs(both);
-    of_x += std::abs(x.a[i]);
-    of_y += std::abs(y.a[i]);
-    product.a[i] = x.c * y.a[i] + y.c * x.a[i];
-  }
-  const double size_x = std::abs(x.c), size_y = std::abs(y.c);
-  product.r = (of_x * of_y - 0.5 * squares) + (size_x + of_x) * y.r + (size_y + of_y) * x.r + x.r * y.r;
-  product.r += Affine::slack((size_x + of_x) * (size_y + of_y) + product.r);
-  product.c += 0.5 * together;
+  for (std::size_t i = 0; i < Affine::noises; ++i) product.a[i] = x.c * y.a[i] + y.c * x.a[i];
+  for (std::size_t i = 0; i < Affine::products; ++i) product.b[i] = x.c * y.b[i] + y.c * x.b[i];
+  add_linear_product(product, 1, x.a, y.a);
+  const double linear_x = x.linear(), linear_y = y.linear(), quadratic_x = x.quadratic(), quadratic_y = y.quadratic();
+  const double size_x = std::abs(x.c) + linear_x + quadratic_x, size_y = std::abs(y.c) + linear_y + quadratic_y;
+  product.r += linear_x * quadratic_y + quadratic_x * (linear_y + quadratic_y);
+  product.r += size_x * y.r + size_y * x.r + x.r * y.r;
+  product.r += Affine::slack(size_x * size_y + product.r);
   return product;
 }
 
-/// f(c) + f'(c) t + f''(.) t^2 / 2 with |t| <= radius, where f'' is within [low, high] and the three are known to some
-/// roundings.
-inline Affine by_taylor(const Affine& x, double value, double slope, double low, double high) {
+/// Of a function at x.c: its value and derivatives, the second within [low, high] over x and the third of a size of
+/// `third` at most there, all known to some roundings. With t = x - x.c
+///     f(c) + f' t + f''(c) t^2 / 2 + [-third, third] |t|^3 / 6,  or where that says more  f(c) + f' t + f''(.) t^2 / 2
+struct Derivatives {
+  double value = 0, slope = 0, second = 0, low = 0, high = 0, third = 0;
+};
+inline Affine by_taylor(const Affine& x, const Derivatives& f) {
   const double t = x.radius(), half = 0.5 * t * t;
-  const double least = std::fmin(0.0, low) * half, most = std::fmax(0.0, high) * half;
-  Affine result(value + 0.5 * (least + most));
-  for (std::size_t i = 0; i < Affine::noises; ++i) result.a[i] = slope * x.a[i];
-  result.r = std::abs(slope) * x.r + 0.5 * (most - least);
-  result.r += 16 * Affine::slack(std::abs(value) + std::abs(slope) * t + (most - least) + result.r);
+  Affine result(f.value);
+  for (std::size_t i = 0; i < Affine::noises; ++i) result.a[i] = f.slope * x.a[i];
+  for (std::size_t i = 0; i < Affine::products; ++i) result.b[i] = f.slope * x.b[i];
+  result.r = std::abs(f.slope) * x.r;
+  const double least = std::fmin(0.0, f.low) * half, most = std::fmax(0.0, f.high) * half;
+  const double cubic = f.third * t * half / 3;
+  const double bent = x.quadratic() + x.r, beside = 0.5 * std::abs(f.second) * bent * (2 * x.linear() + bent);
+  if (cubic + beside < 0.5 * (most - least)) {
+    add_linear_product(result, 0.5 * f.second, x.a, x.a);
+    result.r += cubic + beside;
+  } else {
+    result.c += 0.5 * (least + most);
+    result.r += 0.5 * (most - least);
+  }
+  result.r += 16 * Affine::slack(std::abs(f.value) + std::abs(f.slope) * t + std::abs(f.second) * half + result.r);
   return result;
 }
 
-inline Affine squared(const Affine& x) { return by_taylor(x, x.c * x.c, 2 * x.c, 2, 2); }
+inline Affine squared(const Affine& x) { return by_taylor(x, {x.c * x.c, 2 * x.c, 2, 2, 2, 0}); }
 
 /// Required: zero is not in `x`.
 inline Affine inverse(const Affine& x) {
   const double value = 1 / x.c, near = x.c > 0 ? x.lower() : x.upper(), far = x.c > 0 ? x.upper() : x.lower();
   const double at_near = 2 / (near * near * near), at_far = 2 / (far * far * far);
-  return by_taylor(x, value, -value * value, std::fmin(at_near, at_far), std::fmax(at_near, at_far));
+  return by_taylor(x, {value, -value * value, 2 * value * value * value, std::fmin(at_near, at_far),
+                       std::fmax(at_near, at_far), 6 / (near * near * near * near)});
 }
 
 /// Required: x.lower() > 0.
 inline Affine square_root(const Affine& x) {
   const double value = std::sqrt(x.c), low = x.lower(), high = x.upper();
-  return by_taylor(x, value, 0.5 / value, -0.25 / (low * std::sqrt(low)), -0.25 / (high * std::sqrt(high)));
+  return by_taylor(x, {value, 0.5 / value, -0.25 / (x.c * value), -0.25 / (low * std::sqrt(low)),
+                       -0.25 / (high * std::sqrt(high)), 0.375 / (low * low * std::sqrt(low))});
 }
 
 /// -cos over an interval is within t of -cos at its middle, and within [-1, 1].
 inline Affine cosine(const Affine& x) {
   const double value = std::cos(x.c), t = x.radius() + 0x1p-40;
-  return by_taylor(x, value, -std::sin(x.c), std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t));
+  return by_taylor(x, {value, -std::sin(x.c), -value, std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t), 1});
 }
 
 inline Affine sine(const Affine& x) {
   const double value = std::sin(x.c), t = x.radius() + 0x1p-40;
-  return by_taylor(x, value, std::cos(x.c), std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t));
+  return by_taylor(x, {value, std::cos(x.c), -value, std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t), 1});
 }
 
 /// Sums of numbers times enclosures, with the roundings of all added at the end.
@@ -130,6 +204,10 @@ class AffineSum {
     for (std::size_t i = 0; i < Affine::noises; ++i) {
       sum_.a[i] += factor * x.a[i];
       size += std::abs(x.a[i]);
+    }
+    for (std::size_t i = 0; i < Affine::products; ++i) {
+      sum_.b[i] += factor * x.b[i];
+      size += std::abs(x.b[i]);
     }
     sum_.r += std::abs(factor) * x.r;
     size_ += std::abs(factor) * size;

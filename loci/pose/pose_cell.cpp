@@ -60,8 +60,10 @@ PoseCell::PoseCell(const core::PoseStatics& statics)
   inverse_.resize(n_ * n_);
   error_.resize(n_ * n_);
   solution_.assign(statics.loads, std::vector<double>(n_));
-  distance_.assign(statics.loads, std::vector<double>(n_));
+  moved_.assign(statics.loads, std::vector<Affine>(n_));
+  rest_.assign(statics.loads, std::vector<double>(n_));
   least_.resize(statics.demands.size());
+  kept_.resize(statics.demands.size());
 }
 
 PoseCell::State PoseCell::in_doubt(Doubt doubt, const Affine& form, int demand) {
@@ -214,7 +216,7 @@ bool PoseCell::is_regular() {
   return false;
 }
 
-/// w_m under a load, and how far w is from it in any pose of the cell.
+/// w_m under a load, and w - w_m in any pose of the cell: C r and what is added to it at most.
 void PoseCell::solve(std::size_t load) {
   std::vector<double>& w = solution_[load];
   for (std::size_t i = 0; i < n_; ++i) {
@@ -229,19 +231,20 @@ void PoseCell::solve(std::size_t load) {
       sum.add(-w[static_cast<std::size_t>(term.unknown)], step(term.step));
     residual.push_back(sum.result());
   }
-  std::vector<double>& distance = distance_[load];
+  std::vector<Affine>& moved = moved_[load];
+  std::vector<double>& rest = rest_[load];
   double largest = 0;
   for (std::size_t i = 0; i < n_; ++i) {
     AffineSum sum;
     for (std::size_t j = 0; j < n_; ++j) sum.add(inverse_at(i, j), residual[j]);
-    distance[i] = sum.result().magnitude();
-    largest = std::max(largest, distance[i] / weights_[i]);
+    moved[i] = sum.result();
+    largest = std::max(largest, moved[i].magnitude() / weights_[i]);
   }
   largest = rounded_up(largest / (1 - contraction_), 8);
   for (std::size_t i = 0; i < n_; ++i) {
-    double farther = distance[i];
+    double farther = 0;
     for (std::size_t j = 0; j < n_; ++j) farther += error_[i * n_ + j] * weights_[j] * largest;
-    distance[i] = rounded_up(farther, n_);
+    rest[i] = rounded_up(farther, n_);
   }
 }
 
@@ -293,12 +296,16 @@ bool PoseCell::keeps(int index) {
     double beyond = 0;
     for (std::size_t j = 0; j < n_; ++j) {
       sum.add(solution_[load][j], left[j]);
-      beyond += left[j].magnitude() * distance_[load][j];
+      beyond += left[j].magnitude() * rest_[load][j];
     }
+    for (std::size_t j = 0; j < n_; ++j) sum.add(1, left[j] * moved_[load][j]);
     const Affine value = sum.result();
     // n is a unit vector to some roundings.
     const double low = Affine::down(value.lower() - rounded_up(beyond, n_)) * (1 - 0x1p-48);
     kept = std::min(kept, low);
+    Open& own = kept_[static_cast<std::size_t>(index)];
+    own = {value, least, index, n.size() != 1 ? 0 : n[0] > 0 ? 1 : -1};
+    own.form.r = (own.form.r + rounded_up(beyond, n_)) * (1 + 0x1p-40) + Affine::slack(std::abs(value.c));
     if (low > least) {
       const double usual = std::abs(value.c) + 0x1p-1000;
       for (std::size_t p = 0; enough && p < Affine::noises; ++p) spreads_[p] += std::abs(value.a[p]) / usual;
@@ -307,7 +314,8 @@ bool PoseCell::keeps(int index) {
     if (enough) in_doubt(Doubt::demand, value, index);
     enough = false;
     for (std::size_t j = 0; j < n_; ++j)
-      for (std::size_t p = 0; p < Affine::noises; ++p) spreads_[p] += 2 * std::abs(left[j].a[p]) * distance_[load][j];
+      for (std::size_t p = 0; p < Affine::noises; ++p)
+        spreads_[p] += 2 * std::abs(left[j].a[p]) * (moved_[load][j].magnitude() + rest_[load][j]);
   }
   return enough;
 }
@@ -332,19 +340,6 @@ PoseCell::State PoseCell::enter(const PoseChart& chart, const PoseBox& box) {
       return State::in_doubt;
     }
   return State::proven;
-}
-
-std::vector<int> PoseCell::known_signs() {
-  std::vector<int> signs(statics_->demands.size(), 0);
-  if (doubt_ != Doubt::demand) return signs;
-  const int own = demand_;
-  const std::array<double, Affine::noises> spreads = spreads_;
-  for (std::size_t d = 0; d < signs.size(); ++d)
-    if (statics_->demands[d].components.size() == 1 && static_cast<int>(d) != own && keeps(static_cast<int>(d)))
-      signs[d] = component_values(statics_->demands[d], 0).front() > 0 ? 1 : -1;
-  demand_ = own;
-  spreads_ = spreads;
-  return signs;
 }
 
 std::optional<PoseCell::At> PoseCell::at(const std::vector<double>& pose) {

@@ -1,19 +1,28 @@
 // Whether every pose of a cell is good for a task: it can be assembled, |A| does not vanish, and no reaction does or is
 // too small. With A_m the matrix at the cell's middle, C = A_m^-1 to rounding and w_m = C b_m:
 //     E = I - C A,                |E| s <= beta s < s for some s > 0:  A is regular in every pose of the cell
-//     r = b - A w_m,              |w - w_m| <= |C r| + |E| |w - w_m|
+//     r = b - A w_m,              w - w_m = C r + E (w - w_m),  |E (w - w_m)| <= |E| |C r|_s / (1 - beta)
 //     g = c w + d, lambda = C^T c_m:   g = d + lambda b + (c - A^T lambda) w_m + (c - A^T lambda) (w - w_m)
-// The last product is one of two small things, so that what is known of g shrinks with the square of the cell. A vector
+// The last product is one of two small things, so that what is known of g shrinks with the square of the cell; with C r in
+// the place of w - w_m its terms are added up before they are bounded, and what is left shrinks with the cube. A vector
 // f is kept from zero by n . f for one direction n, under all loads between two that it is kept under.
 // Entries are enclosed by affine forms (affine.hpp).
+//
+// Where |A| may vanish, X A Y = [I + E, p; q, m] at no pose far from [I, 0; 0, m], with X, Y regular, splits off what
+// makes it vanish: with z = Y^-1 w, y = X b
+//     |A| = 0  exactly where  s = m - q (I + E)^-1 p  does,   s z_n = N = y_n - q (I + E)^-1 y_1
+//     s g = s d + (c Y)_n N + (c Y)_1 (I + E)^-1 (s y_1 - p N)
+// so that signs of reactions are known on both sides of s = 0 where s g does not vanish (pose_sides.cpp).
 #pragma once
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/pose_statics.hpp"
 #include "loci/pose/affine.hpp"
+#include "loci/pose/half_space.hpp"
 #include "loci/pose/pose_chart.hpp"
 
 namespace clearloci::loci::pose {
@@ -39,9 +48,18 @@ class PoseCell {
   /// Of a proven cell: what every reaction has at least, N or N m, one a demand.
   const std::vector<double>& least_sizes() const { return least_; }
 
-  /// Of a cell in doubt: the signs, +1 or -1, that demands of one component have in all of it; 0 where that is not
-  /// known, and of others. Under one load.
-  std::vector<int> known_signs();
+  /// Signs, +1 or -1, of every demand of one component and, last, of |A|; 0 where they are not known, and of others.
+  using Signs = std::vector<int>;
+  /// What is known of a cell in doubt, under one load.
+  struct Known {
+    bool free = false;                        ///< it is proven after all
+    Signs signs;                              ///< in all of the cell
+    std::vector<std::pair<Doubt, int>> open;  ///< all that may vanish in it
+    /// Parts of the cell that are proven, on the two sides of what may vanish: either may be empty.
+    std::array<HalfSpace, 2> parts;
+    std::array<Signs, 2> of_parts;
+  };
+  Known known();
 
   /// A single pose in floating point; nothing where it cannot be assembled or A cannot be inverted.
   struct At {
@@ -68,6 +86,15 @@ class PoseCell {
   bool keeps(int demand);
   Affine& step(int index) { return registers_[static_cast<std::size_t>(index)]; }
   std::vector<double> component_values(const core::PoseDemand& demand, std::size_t load) const;
+  /// Something that may vanish in the cell, as it is kept: where |form| > least. `demand` < 0: |A|, by s.
+  struct Open {
+    Affine form;
+    double least = 0;
+    int demand = -1;
+    int sign = 0;  ///< of a demand of one component where the form is positive; 0: of others
+  };
+  void sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
+  void know_near_singularity(Known& known);
   double& inverse_at(std::size_t i, std::size_t j) { return inverse_[i * n_ + j]; }
 
   const core::PoseStatics* statics_;
@@ -82,8 +109,11 @@ class PoseCell {
   int determinant_ = 0;
   double logarithm_ = 0;
   std::vector<int> closures_;                             ///< steps whose roots vary with the pose, and limits
-  std::vector<std::vector<double>> solution_, distance_;  ///< load by load: w_m, and how far w is from it
+  std::vector<std::vector<double>> solution_;              ///< load by load: w_m
+  std::vector<std::vector<Affine>> moved_;                 ///< C r
+  std::vector<std::vector<double>> rest_;                  ///< what w - w_m differs from that at most
   std::vector<double> least_;
+  std::vector<Open> kept_;  ///< a demand each, as it was kept from zero last
   Doubt doubt_ = Doubt::none;
   int demand_ = -1, first_ = 0;
   std::array<double, Affine::noises> spreads_{};

@@ -124,8 +124,8 @@ TEST(PoseZones, OfThreeCoordinatesHaveClosedSurfaces) {
     double volume = 0;
     for (const auto& corners : zone.faces) {
       const auto point = [&](std::size_t i) { return Eigen::Vector3d(corners[i][0], corners[i][1], corners[i][2]); };
-      const Eigen::Vector3d area = (point(1) - point(0)).cross(point(3) - point(0));
-      volume += point(0).dot(area) / 3;
+      for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+        volume += point(0).dot((point(i) - point(0)).cross(point(i + 1) - point(0))) / 6;
     }
     EXPECT_NEAR(volume, zone.at_least, 1e-9) << zone.id;
   }

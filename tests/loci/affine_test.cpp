@@ -40,12 +40,15 @@ TEST(Affine, EnclosesWhatItStandsFor) {
     for (int sample = 0; sample < 50; ++sample) {
       Point at{};
       double linear = all.c;
+      Point noise{};
       for (std::size_t c = 0; c < 3; ++c) {
         // Corners are where enclosures are thinnest.
         const double e = sample < 8 ? (sample >> c & 1 ? 1.0 : -1.0) : place(random);
         at[c] = middle[c] + half * e;
-        linear += all.a[c] * e;
+        linear += all.a[c] * e + all.b[c] * e * e;
+        noise[c] = e;
       }
+      linear += all.b[3] * noise[0] * noise[1] + all.b[4] * noise[0] * noise[2] + all.b[5] * noise[1] * noise[2];
       const double value = f(at);
       ASSERT_LE(std::abs(value - linear), all.r + 1e-15) << "trial " << trial;
       ASSERT_LE(all.lower(), value + 1e-15);
@@ -54,10 +57,39 @@ TEST(Affine, EnclosesWhatItStandsFor) {
   }
 }
 
-TEST(Affine, LeavesASquareOfTheBox) {
+TEST(Affine, LeavesACubeOfTheBox) {
   const Point middle = {0.3, -0.2, 0.7};
   const double coarse = f(box(middle, 1e-2)).r, fine = f(box(middle, 1e-3)).r;
-  EXPECT_NEAR(coarse / fine, 100, 20);
+  EXPECT_NEAR(coarse / fine, 1000, 200);
+}
+
+TEST(Affine, LeavesASquareOfTheBoxBeyondThreeCoordinates) {
+  // The same function of the last three noises.
+  const auto last = [](double half) {
+    std::array<Affine, 3> all;
+    const Point middle = {0.3, -0.2, 0.7};
+    for (std::size_t c = 0; c < 3; ++c) {
+      all[c] = Affine(middle[c]);
+      all[c].a[c + 3] = half;
+    }
+    return f(all);
+  };
+  EXPECT_NEAR(last(1e-2).r / last(1e-3).r, 100, 20);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-1, 1);
+  const Affine all = last(0.1);
+  for (int sample = 0; sample < 2000; ++sample) {
+    const Point e = {place(random), place(random), place(random)};
+    const double value = f({0.3 + 0.1 * e[0], -0.2 + 0.1 * e[1], 0.7 + 0.1 * e[2]});
+    ASSERT_LE(std::abs(value - all.c - all.a[3] * e[0] - all.a[4] * e[1] - all.a[5] * e[2]), all.r + 1e-15);
+  }
+}
+
+TEST(Affine, FlattenedEnclosesTheSame) {
+  const Affine all = f(box({0.3, -0.2, 0.7}, 0.1)), flat = all.flattened();
+  EXPECT_LE(flat.lower(), all.lower() + 1e-12);
+  EXPECT_GE(flat.upper(), all.upper() - 1e-12);
+  for (const double own : flat.b) EXPECT_EQ(own, 0);
 }
 
 TEST(Affine, TakesUpRounding) {

@@ -147,7 +147,8 @@ TEST(ValidateLines, DisputesSurfacesThatAreMissingShiftedOrHaveHoles) {
   const GridSpec grid{.nx = 21, .ny = 20, .nz = 19};
   LocusMap map = map_of(gantry());
   // Lines through the ball's shadows, in and out: 3 * 2 * pi r^2 over an edge's square.
-  EXPECT_NEAR(validate(gantry(), map, grid, drive).disputed, 6 * std::numbers::pi * 0.25 / 0.01, 25)
+  EXPECT_NEAR(static_cast<double>(validate(gantry(), map, grid, drive).disputed), 6 * std::numbers::pi * 0.25 / 0.01,
+              25)
       << "nothing is a claim, too";
   map.surfaces = {ball(0.5, 0.1, 24)};
   const ValidationReport shifted = validate(gantry(), map, grid, drive);
