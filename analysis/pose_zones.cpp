@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/error.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/side_names.hpp"
@@ -14,6 +13,7 @@
 #include "loci/pose/pose_zones.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/posture_sample.hpp"
+#include "numeric/error_map.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/pose_statics.hpp"
 
@@ -50,33 +50,96 @@ void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& mo
 /// Cells of the grid of labels along each coordinate.
 int raster_of(std::size_t coordinates) { return coordinates == 1 ? 1024 : coordinates == 2 ? 256 : 64; }
 
-/// What ends the zones over one coordinate.
-void add_ends(const mechanism::Mechanism& mechanism, const LociRequest& request, const DyadSides& sides,
-              PoseZones& map) {
-  std::vector<core::ErrorEvent> events;
-  const bool clearances = std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
-                                      [](const mechanism::Joint& joint) { return joint.clearance.has_value(); });
-  if (mechanism.space == mechanism::Space::planar && clearances) {
-    ErrorRequest asked;
-    asked.steps = 1;
-    asked.worst_case = false;
-    asked.loci = request;
-    const core::CoordinateErrors errors = coordinate_errors(mechanism, asked);
-    for (const core::CoordinateModeErrors& own : errors.modes)
-      if (own.mode == mode_of(sides, errors.loci.tower)) events = own.events;
-  } else {
-    const core::LocusMap loci = trace_loci(mechanism, request);
-    for (const core::IsolatedPoint& point : loci.isolated_points)
-      if (point.mode == mode_of(sides, loci.tower)) events.push_back({point});
-  }
-  const double near = 1e-7 * (map.upper[0] - map.lower[0]);  // cells part loci from zones far closer
-  for (PoseZone& zone : map.zones)
-    for (const double end : {zone.lower[0], zone.upper[0]})
-      for (const core::ErrorEvent& event : events)
-        if (std::abs(event.point.at.front() - end) <= near)
-          zone.ends.push_back({event.point.at.front(), event.point.kind, event.point.vanishing, event.jumps, event.dx,
-                               event.dy, event.dalpha});
+/// Whether what is in doubt at an end changes its sign, or turns round, between two poses.
+bool turns(PoseCell& cell, const std::vector<double>& before, const std::vector<double>& behind, int demand) {
+  const auto one = cell.at(before), other = cell.at(behind);
+  if (!one || !other) return false;
+  const auto d = static_cast<std::size_t>(demand);
+  double together = 0;
+  for (std::size_t k = 0; k < one->components[d].front().size(); ++k)
+    together += one->components[d].front()[k] * other->components[d].front()[k];
+  return together < 0;
 }
+
+/// What ends the zones over one coordinate, and the end effector's jumps there: errors a hair behind less those a hair
+/// before. No loci are traced for it: what is in doubt beside a zone is at its end, to the finest cells.
+class Ends {
+ public:
+  Ends(const mechanism::Mechanism& mechanism, const core::PoseStatics& statics, const numeric::NumericModel& model,
+       const DyadSides& sides, bool all_loaded)
+      : statics_(statics), model_(model), sides_(sides), cell_(statics) {
+    const bool clearances = std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
+                                        [](const mechanism::Joint& joint) { return joint.clearance.has_value(); });
+    jumps_ = mechanism.space == mechanism::Space::planar && clearances && all_loaded;
+  }
+
+  void add(const loci::pose::CellZone& cells, const PoseZones& map, PoseZone& zone) {
+    const double width = map.upper[0] - map.lower[0];
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (cells.at_ends[end].empty()) continue;
+      const double at = end == 0 ? zone.lower[0] : zone.upper[0];
+      if (at <= map.lower[0] || at >= map.upper[0]) continue;
+      zone.ends.push_back(end_at(at, beside * width, cells.at_ends[end]));
+    }
+  }
+
+ private:
+  static constexpr double beside = 1e-8;  ///< of the range: more than the finest cells
+
+  core::PoseZoneEnd end_at(double at, double apart, const std::set<std::pair<Doubt, int>>& open) {
+    core::PoseZoneEnd own;
+    own.at = at;
+    const std::vector<double> before = {at - apart}, behind = {at + apart};
+    const auto holds = [&](Doubt doubt) {
+      return std::any_of(open.begin(), open.end(), [&](const auto& one) { return one.first == doubt; });
+    };
+    if (holds(Doubt::workspace)) {
+      own.kind = core::LocusKind::workspace_boundary;
+      return own;
+    }
+    if (holds(Doubt::singularity)) {
+      own.kind = core::LocusKind::direct_singularity;
+      return own;
+    }
+    bool first = true;
+    for (const bool turning : {true, false}) {
+      if (!own.reactions.empty()) break;
+      // Of those that only may vanish none is told where others do.
+      for (const auto& [doubt, demand] : open) {
+        if (turning && !turns(cell_, before, behind, demand)) continue;
+        const core::PoseZoneBound bound = bound_of(statics_, doubt, demand);
+        own.reactions.push_back(bound.reactions.front());
+        own.kind = first ? bound.kind : std::min(own.kind, bound.kind);
+        first = false;
+      }
+    }
+    add_jump(own, before.front(), behind.front());
+    return own;
+  }
+
+  void add_jump(core::PoseZoneEnd& own, double before, double behind) const {
+    if (!jumps_ || (own.kind != core::LocusKind::contact_loss && own.kind != core::LocusKind::backlash)) return;
+    const std::array<double, 2> poses = {before, behind};
+    const numeric::ErrorSamples errors = numeric::error_samples(model_, poses, sides_, true, false);
+    // A difference this much smaller than the errors is no jump, but rounding and the way between the two poses.
+    constexpr double least_jump = 1e-6;
+    const double size = std::hypot(errors.dx[0], errors.dy[0]), turned = std::abs(errors.dalpha[0]);
+    const auto jump = [&](const std::vector<double>& error, double scale) {
+      const double across = error[1] - error[0];
+      return std::abs(across) < least_jump * scale ? 0.0 : across;
+    };
+    own.dx = jump(errors.dx, size);
+    own.dy = jump(errors.dy, size);
+    own.dalpha = jump(errors.dalpha, turned);
+    own.jumps = std::isfinite(own.dx + own.dy + own.dalpha);
+  }
+
+  const core::PoseStatics& statics_;
+  const numeric::NumericModel& model_;
+  const DyadSides& sides_;
+  PoseCell cell_;
+  bool jumps_ = false;
+};
 
 }  // namespace
 
@@ -100,10 +163,10 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
   constexpr std::size_t poses = 24;
   std::vector<numeric::NumericModel> models;
   models.push_back(numeric::compile(mechanism));
-  const core::PoseStatics statics =
-      symbolic::pose_statics({&mechanism}, sides,
-                             loaded_demands(models, sides, demands_of(mechanism, request),
-                                            mechanism::spread_poses(mechanism, poses), result.notes));
+  const std::vector<core::TaskDemand> wanted = demands_of(mechanism, request);
+  const core::PoseStatics statics = symbolic::pose_statics(
+      {&mechanism}, sides,
+      loaded_demands(models, sides, wanted, mechanism::spread_poses(mechanism, poses), result.notes));
   if (request.progress) request.progress(0, "cells");
   loci::pose::CellZoneEffort effort;
   effort.most_cells = cells;
@@ -118,6 +181,7 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
   result.complete = !found.out_of_time;
   result.grid = effort.raster;
   PoseCell cell(statics);
+  Ends ends(mechanism, statics, models.front(), sides, statics.demands.size() == wanted.size());
   for (std::size_t z = 0; z < found.zones.size(); ++z) {
     loci::pose::CellZone& own = found.zones[z];
     PoseZone zone;
@@ -134,14 +198,10 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
     zone.faces = std::move(own.faces);
     for (const auto& [doubt, demand] : own.bounds) zone.bounds.push_back(bound_of(statics, doubt, demand));
     add_signs(statics, models.front(), sides, cell, zone);
+    if (result.coordinates.size() == 1) ends.add(own, result, zone);
     result.zones.push_back(std::move(zone));
   }
   result.labels = std::move(found.raster);
-  if (result.coordinates.size() == 1) try {
-      add_ends(mechanism, request, sides, result);
-    } catch (const core::LimitReached&) {
-      result.notes.emplace_back("the loci that end the zones could not be named within the time limit");
-    }
   return result;
 }
 

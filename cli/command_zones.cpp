@@ -35,28 +35,17 @@ struct Arguments {
 
 /// Over one to three coordinates, not two lengths: by cells.
 int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
-  std::vector<std::string> known = report::format_names(report::Answer::zones);
-  known.emplace_back("stl");
-  const std::set<std::string> formats = parse_formats(arguments.formats, known);
-  if (formats.contains("stl") && mechanism.coordinates.size() != 3)
-    throw core::InputError({.file = "--export"}, "zones are bounded by surfaces over three free coordinates alone",
-                           "leave out stl");
+  const std::set<std::string> formats =
+      parse_formats(arguments.formats, report::pose_zone_formats(mechanism.coordinates.size()));
   Progress progress(arguments.common.quiet);
   const core::PoseZones map =
       find_pose_zones(mechanism, loci_request(arguments.loci, mechanism, progress, limit), arguments.cells);
   progress.clear();
   limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
-  std::vector<std::filesystem::path> files = {folder / "zones.json"};
-  const std::string json = report::json_text(report::pose_zones_object(map));
-  report::write_atomically(files.front(), json);
-  for (const core::PoseZone& zone : map.zones) {
-    if (!formats.contains("stl")) break;
-    files.push_back(folder / ("zones-" + zone.id + ".stl"));
-    report::write_atomically(files.back(), report::pose_zone_stl(zone));
-  }
+  const std::vector<std::filesystem::path> files = report::write_pose_zones(map, folder, formats);
   if (arguments.common.json)
-    fmt::print("{}", json);
+    fmt::print("{}", report::json_text(report::pose_zones_object(map)));
   else if (!arguments.common.quiet)
     fmt::print("{}\n{}", report::pose_zones_table(map), written_words(folder, files));
   return map.complete ? exit_done : exit_limit_reached;
@@ -103,7 +92,7 @@ Command add_zones_command(CLI::App& program) {
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
   app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides zones.json, several after commas: {}",
+                  fmt::format("Files besides zones.json, several after commas: {}; by cells svg, png, pdf, vtk, stl",
                               fmt::join(report::format_names(report::Answer::zones), ", ")))
       ->type_name("LIST")
       ->capture_default_str();

@@ -8,8 +8,11 @@
 #include <numbers>
 
 #include "report/exports.hpp"
+#include "report/field_exports.hpp"
 #include "report/file_units.hpp"
+#include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/pose_zone_picture.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -179,7 +182,10 @@ std::string pose_zones_table(const core::PoseZones& map) {
   return out;
 }
 
-std::string pose_zone_stl(const core::PoseZone& zone) {
+namespace {
+
+/// The outside of what is proven of a zone.
+core::LocusSurface surface_of(const core::PoseZone& zone) {
   core::LocusSurface surface;
   surface.id = zone.id;
   surface.kind = core::LocusKind::workspace_boundary;
@@ -189,7 +195,64 @@ std::string pose_zone_stl(const core::PoseZone& zone) {
     for (int i = 2; i < static_cast<int>(corners.size()); ++i)
       surface.triangles.push_back({first, first + i - 1, first + i});
   }
-  return stl(surface);
+  return surface;
+}
+
+/// The grid of labels as a field.
+std::string label_vti(const core::PoseZones& map) {
+  core::Field zone{"zone", "zone", "", true, {map.labels.begin(), map.labels.end()}};
+  if (map.grid.size() == 2)
+    return vti(core::FieldMap{map.mechanism,
+                              {map.coordinates[0], map.coordinates[1]},
+                              {map.lower[0], map.lower[1]},
+                              {map.upper[0], map.upper[1]},
+                              map.grid[0],
+                              map.grid[1],
+                              {std::move(zone)}});
+  core::FieldVolume volume;
+  for (std::size_t c = 0; c < 3; ++c) {
+    volume.coordinates[c] = map.coordinates[c];
+    volume.lower[c] = map.lower[c];
+    volume.upper[c] = map.upper[c];
+    volume.cells[c] = map.grid[c];
+  }
+  volume.fields.push_back(std::move(zone));
+  return vti(volume);
+}
+
+}  // namespace
+
+std::vector<std::string> pose_zone_formats(std::size_t coordinates) {
+  std::vector<std::string> names = {"json", "svg", "png", "pdf"};
+  if (coordinates > 1) names.emplace_back("vtk");
+  if (coordinates > 2) names.emplace_back("stl");
+  return names;
+}
+
+std::vector<std::filesystem::path> write_pose_zones(const core::PoseZones& map, const std::filesystem::path& directory,
+                                                    const std::set<std::string>& formats) {
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    write_atomically(directory / name, bytes);
+    files.push_back(directory / name);
+  };
+  write("zones.json", json_text(pose_zones_object(map)));
+  if (formats.contains("svg")) write("zones.svg", pose_zone_picture(map, PictureFormat::svg));
+  if (formats.contains("png")) write("zones.png", pose_zone_picture(map, PictureFormat::png));
+  if (formats.contains("pdf")) write("zones.pdf", pose_zone_picture(map, PictureFormat::pdf));
+  if (formats.contains("vtk") && map.grid.size() > 1) write("zones.vti", label_vti(map));
+  for (const core::PoseZone& zone : map.zones) {
+    if (map.grid.size() < 3) break;
+    const core::LocusSurface surface = surface_of(zone);
+    if (formats.contains("vtk")) {
+      core::LocusMap alone;
+      alone.mechanism = map.mechanism;
+      alone.surfaces.push_back(surface);
+      write("zones-" + zone.id + ".vtp", vtp(alone));
+    }
+    if (formats.contains("stl")) write("zones-" + zone.id + ".stl", stl(surface));
+  }
+  return files;
 }
 
 }  // namespace clearloci::report

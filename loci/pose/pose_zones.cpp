@@ -160,6 +160,7 @@ class Zones {
     }
     if (cell.kind == Kind::in_doubt) {
       zone.bounds.insert(cell.open.begin(), cell.open.end());
+      if (around.size() == 1) zone.at_ends[half.way[0] > 0 ? 0 : 1].insert(cell.open.begin(), cell.open.end());
       if (around.size() > 1)
         if (Polygon cut = cut_of(half, cell.box); !cut.empty()) zone.faces.push_back(std::move(cut));
     }
@@ -201,6 +202,9 @@ class Zones {
           CellZone& zone_here = result_.zones[static_cast<std::size_t>(z)];
           if (cells_[other].kind == Kind::in_doubt && cells_[own].kind == Kind::free)
             zone_here.bounds.insert(cells_[other].open.begin(), cells_[other].open.end());
+          if (cells_[a].box.size() == 1 && cells_[other].kind == Kind::in_doubt && zone(other, 0) != z &&
+              zone(other, 1) != z)
+            zone_here.at_ends[first == 0 ? 1 : 0].insert(cells_[other].open.begin(), cells_[other].open.end());
           if (cells_[a].box.size() < 2) continue;
           if (cells_[own].kind == Kind::free && cells_[other].kind == Kind::free && zone(other, 0) == z) continue;
           const PoseBox common = common_face(a, b, axis);

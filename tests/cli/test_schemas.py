@@ -102,12 +102,15 @@ class Results(InOwnFolder):
     def test_error(self):
         self.holds("error", "error", FIVE_BAR, "--grid", "20x20")
         self.holds("error", "error", EXAMPLES / "gripper.yaml", "--grid", "40")
+        self.holds("error", "error", EXAMPLES / "three_upu.yaml", "--grid", "4x5x6")
 
     def test_trajectory(self):
         self.holds("trajectory", "trajectory", *PICK_AND_PLACE)
 
     def test_validate(self):
         self.holds("validate", "validate", FIVE_BAR, "--grid", "20x20")
+        self.holds("validate", "validate", FOUR_BAR, "--grid", "200")
+        self.holds("validate", "validate", EXAMPLES / "three_upu.yaml", "--grid", "8x8x8")
         self.holds("validate", "validate", EXAMPLES / "minitaur_leg.yaml", "--grid", "20x20")
         self.holds("validate", "validate", EXAMPLES / "hexapod.yaml", "--grid", "20x20", "--joint", "S1")
 

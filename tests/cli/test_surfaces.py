@@ -86,6 +86,46 @@ class Surfaces(InOwnFolder):
                 x, y, z = vertices[face[0]]
                 self.assertAlmostEqual(eval(polynomial, {}, {"x": x, "y": y, "z": z}), 0, 9)
 
+    def test_zones_of_three_coordinates(self):
+        out = self.folder / "out"
+        self.run_program("zones", SOURCE / "examples" / "three_upu.yaml", "--quiet", "--cells", "8000", "-o", out,
+                         "--export", "svg,png,vtk,stl")
+        result = json.loads((out / "zones.json").read_text(encoding="utf-8"))
+        self.assertTrue((out / "zones.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertIn("z1 |A|+", (out / "zones.svg").read_text(encoding="utf-8"))
+        for zone in result["zones"]:
+            # By Gauss: what the surface of a zone holds is what is proven of it.
+            for kind in ("stl", "vtp"):
+                self.assertTrue((out / f"zones-{zone['id']}.{kind}").exists())
+            triangles = read_stl((out / f"zones-{zone['id']}.stl").read_bytes())
+            volume = sum(math.sumprod(a, cross(b, c)) if hasattr(math, "sumprod")
+                         else sum(p * q for p, q in zip(a, cross(b, c))) for _, a, b, c in triangles) / 6
+            self.assertAlmostEqual(volume, zone["at_least"], 5)
+        data = (out / "zones.vti").read_bytes()
+        self.assertIn(b'WholeExtent="0 63 0 63 0 63"', data)
+        start = data.index(b"\n_") + 2
+        (size,) = struct.unpack_from("<Q", data, start)
+        labels = struct.unpack_from(f"<{size // 8}d", data, start + 8)
+        cell = (0.8 / 64) ** 2 * 0.6 / 64
+        for number, zone in enumerate(result["zones"], 1):
+            self.assertAlmostEqual(labels.count(number) * cell, zone["at_least"], delta=0.01)
+        self.assertEqual(len(labels), 64**3)
+
+    def test_errors_of_three_coordinates(self):
+        out = self.folder / "out"
+        self.run_program("error", SOURCE / "examples" / "three_upu.yaml", "--quiet", "--grid", "4x5x6", "-o", out,
+                         "--export", "vtk,csv,svg", "--slice", "z=0.45", "--no-worst-case")
+        data = (out / "error.vti").read_bytes()
+        self.assertIn(b'WholeExtent="0 3 0 4 0 5"', data)
+        rows = (out / "error.csv").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(rows[0], "x,y,z,dx,dy,dz,dalpha_x,dalpha_y,dalpha_z,dp")
+        self.assertEqual(len(rows), 1 + 4 * 5 * 6)
+        start = data.index(b"\n_") + 2
+        first = struct.unpack_from("<120d", data, start + 8)
+        for row, value in zip(rows[1:], first):
+            self.assertEqual(float(row.split(",")[3]), value)
+        self.assertIn("z = 0.45 m", (out / "error-dx-z1.svg").read_text(encoding="utf-8"))
+
     def test_vtk(self):
         result = self.trace("three_upu", "--export", "vtk")
         piece = ElementTree.parse(self.folder / "out" / "loci.vtp").getroot().find("PolyData/Piece")

@@ -1,0 +1,230 @@
+#include "report/pose_zone_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "report/axis.hpp"
+#include "report/file_units.hpp"
+#include "report/surface.hpp"
+#include "report/theme.hpp"
+#include "report/typesetting.hpp"
+#include "report/wording.hpp"
+#include "report/wrap.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using Context = Cairo::RefPtr<Cairo::Context>;
+
+constexpr double margin = 16, gap = 46, legend_width = 190, line_height = 11;  // pt
+constexpr Font title_font{13, true}, text_font{9.5}, small_font{8.5}, number_font{9, true};
+constexpr Colour doubtful{0.45, 0.45, 0.45};
+constexpr std::size_t layers_drawn = 6, columns_of_layers = 3;
+/// A zone gets its number where a run of it is at least this wide, pt.
+constexpr double least_run = 12;
+
+struct Scale {
+  std::string label;
+  double lower = 0, upper = 1;  ///< as shown
+  bool angle = false;
+
+  std::vector<Tick> ticks_at_least(double least) const {
+    return angle ? angle_ticks(lower, upper, least) : ticks(lower, upper, least);
+  }
+};
+
+Scale scale_of(const core::PoseZones& map, std::size_t c) {
+  const bool angle = map.angles[c];
+  const ShownUnit length = shown_unit("m", map.units);
+  const double factor = angle ? 180 / std::numbers::pi : length.per_si;
+  return {printable(map.coordinates[c]) + (angle ? " (deg)" : " (" + length.name + ")"), map.lower[c] * factor,
+          map.upper[c] * factor, angle};
+}
+
+const Colour& colour_of(int zone) {
+  return light_theme.zones[static_cast<std::size_t>(zone - 1) % light_theme.zones.size()];
+}
+
+void set_colour(const Context& context, const Colour& colour) {
+  context->set_source_rgb(colour.red, colour.green, colour.blue);
+}
+
+/// Labels row after row, the first coordinate to the right.
+struct Layer {
+  std::string title;
+  int columns = 0, rows = 0;
+  std::vector<int> labels;
+};
+
+std::vector<Layer> layers_of(const core::PoseZones& map) {
+  const int columns = map.grid.front(), rows = map.grid.size() > 1 ? map.grid[1] : 1;
+  const auto size = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  const std::size_t all = map.labels.size() / size, drawn = std::min(all, layers_drawn);
+  std::vector<Layer> layers;
+  for (std::size_t k = 0; k < drawn; ++k) {
+    const std::size_t layer = (2 * k + 1) * all / (2 * drawn);
+    const auto first = map.labels.begin() + static_cast<std::ptrdiff_t>(layer * size);
+    Layer own{"", columns, rows, {first, first + static_cast<std::ptrdiff_t>(size)}};
+    if (map.grid.size() > 2) {
+      const Scale third = scale_of(map, 2);
+      const double at =
+          third.lower + (static_cast<double>(layer) + 0.5) / static_cast<double>(all) * (third.upper - third.lower);
+      own.title = fmt::format("{} = {:.4g}", printable(map.coordinates[2]), at) +
+                  (third.angle ? " deg" : " " + shown_unit("m", map.units).name);
+    }
+    layers.push_back(std::move(own));
+  }
+  return layers;
+}
+
+/// Runs of one label in a row.
+template <class Use>
+void for_runs(const Layer& layer, const Use& use) {
+  for (int row = 0; row < layer.rows; ++row)
+    for (int from = 0, to = 0; from < layer.columns; from = to) {
+      const auto label = [&](int column) {
+        return layer.labels[static_cast<std::size_t>(row * layer.columns + column)];
+      };
+      for (to = from; to < layer.columns && label(to) == label(from);) ++to;
+      use(row, from, to, label(from));
+    }
+}
+
+void draw_layer(const Context& context, const Layer& layer, const Box& box) {
+  const double width = box.width / layer.columns, height = box.height / layer.rows;
+  const auto top = [&](int row) { return box.bottom() - (row + 1) * height; };
+  struct Run {
+    double x = 0, y = 0, length = 0;
+  };
+  std::map<int, Run> longest;
+  context->save();
+  context->set_antialias(Cairo::ANTIALIAS_NONE);  // neighbours meet without a seam
+  for_runs(layer, [&](int row, int from, int to, int label) {
+    if (label < 0) return;
+    set_colour(context, label == 0 ? doubtful : colour_of(label));
+    context->rectangle(box.x + from * width, top(row), (to - from) * width, height);
+    context->fill();
+    Run& own = longest[label];
+    if ((to - from) * width > own.length)
+      own = {box.x + 0.5 * (from + to) * width, top(row) + 0.5 * height, (to - from) * width};
+  });
+  context->restore();
+  set_colour(context, light_theme.ink);
+  for (const auto& [label, run] : longest)
+    if (label > 0 && run.length >= least_run)
+      write_text(context, std::to_string(label), run.x, run.y + 3, number_font, Align::centre);
+}
+
+void draw_axes(const Context& context, const Box& box, const Scale& x, const Scale* y) {
+  set_colour(context, light_theme.frame);
+  context->set_line_width(0.8);
+  context->rectangle(box.x, box.y, box.width, box.height);
+  context->stroke();
+  constexpr double least_gap = 42;  // pt between ticks
+  const auto at_x = [&](double value) { return box.x + (value - x.lower) / (x.upper - x.lower) * box.width; };
+  for (const Tick& tick : x.ticks_at_least(least_gap / box.width * (x.upper - x.lower))) {
+    context->move_to(at_x(tick.at), box.bottom());
+    context->line_to(at_x(tick.at), box.bottom() + 3);
+    context->stroke();
+    write_text(context, tick.label, at_x(tick.at), box.bottom() + 12, tick_font, Align::centre);
+  }
+  write_text(context, x.label, box.x + 0.5 * box.width, box.bottom() + 24, label_font, Align::centre);
+  if (y == nullptr) return;
+  const auto at_y = [&](double value) {
+    return box.bottom() - (value - y->lower) / (y->upper - y->lower) * box.height;
+  };
+  for (const Tick& tick : y->ticks_at_least(0.6 * least_gap / box.height * (y->upper - y->lower))) {
+    context->move_to(box.x - 3, at_y(tick.at));
+    context->line_to(box.x, at_y(tick.at));
+    context->stroke();
+    write_text(context, tick.label, box.x - 5, at_y(tick.at) + 3, tick_font, Align::right);
+  }
+  write_text(context, y->label, box.x - 4, box.y - 5, label_font, Align::right);
+}
+
+struct LegendRow {
+  const Colour* colour = nullptr;
+  std::vector<std::string> lines;
+};
+
+std::vector<LegendRow> legend_of(const core::PoseZones& map) {
+  std::vector<LegendRow> rows;
+  const auto add = [&](const Colour& colour, const std::string& text) {
+    rows.push_back({&colour, wrap(text, legend_width - 16, measure_in(small_font))});
+  };
+  constexpr std::size_t most = 24;
+  for (std::size_t z = 0; z < map.zones.size() && z < most; ++z) {
+    const core::PoseZone& zone = map.zones[z];
+    std::string signs;
+    for (const auto& [reaction, sign] : zone.signs)
+      signs += " " + reaction_name(reaction) + (sign > 0 ? "+" : sign < 0 ? "\u2212" : "?");
+    add(colour_of(static_cast<int>(z) + 1),
+        fmt::format("{} |A|{}{}", zone.id, zone.assembly_mode > 0 ? "+" : "\u2212", signs));
+  }
+  if (map.zones.size() > most) rows.push_back({nullptr, {fmt::format("and {} more", map.zones.size() - most)}});
+  add(doubtful, "in doubt");
+  return rows;
+}
+
+}  // namespace
+
+std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) {
+  const std::vector<Layer> layers = layers_of(map);
+  const Scale x = scale_of(map, 0);
+  std::optional<Scale> y;
+  if (map.grid.size() > 1) y = scale_of(map, 1);
+  const bool many = layers.size() > 1;
+  const double width = many ? 190 : 420, height = !y ? 40 : many ? 190 : 420;
+  const std::size_t columns = std::min(columns_of_layers, layers.size());
+  const std::size_t rows = (layers.size() + columns - 1) / columns;
+  const double head = margin + 44, left = margin + 36;
+  const double legend_x = left + static_cast<double>(columns) * (width + gap) - gap + 24;
+  const std::vector<LegendRow> legend = legend_of(map);
+  double legend_height = 0;
+  for (const LegendRow& row : legend) legend_height += line_height * static_cast<double>(row.lines.size()) + 4;
+  const double bottom = head + std::max(static_cast<double>(rows) * (height + gap), legend_height);
+  std::string mode, description;
+  for (const auto& [point, side] : map.working_mode) mode += (mode.empty() ? "" : ", ") + point + " " + side;
+  for (const LegendRow& row : legend)
+    for (const std::string& line : row.lines) description += line + "\n";
+  const std::string title = printable(map.mechanism);
+
+  const auto draw = [&](const Context& context) {
+    context->set_source_rgb(1, 1, 1);
+    context->paint();
+    set_colour(context, light_theme.ink);
+    write_text(context, title, margin, margin + 10, title_font);
+    set_colour(context, light_theme.faded_ink);
+    write_text(context, "Discontinuity-free zones" + (mode.empty() ? "" : "; " + printable(mode)), margin, margin + 24,
+               text_font);
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      const Box box{left + static_cast<double>(k % columns) * (width + gap),
+                    head + static_cast<double>(k / columns) * (height + gap), width, height};
+      draw_layer(context, layers[k], box);
+      draw_axes(context, box, x, y ? &*y : nullptr);
+      set_colour(context, light_theme.ink);
+      write_text(context, layers[k].title, box.x + 0.5 * box.width, box.y - 5, small_font, Align::centre);
+    }
+    double at = head + 8;
+    for (const LegendRow& row : legend) {
+      if (row.colour != nullptr) {
+        set_colour(context, *row.colour);
+        context->rectangle(legend_x, at - 8, 10, 9);
+        context->fill();
+      }
+      set_colour(context, light_theme.ink);
+      for (const std::string& line : row.lines) {
+        write_text(context, line, legend_x + 16, at, small_font);
+        at += line_height;
+      }
+      at += 4;
+    }
+  };
+  return render({legend_x + legend_width + margin, std::ceil(bottom + margin), title, description}, format, draw);
+}
+
+}  // namespace clearloci::report
