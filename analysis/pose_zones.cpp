@@ -13,7 +13,7 @@
 #include "loci/pose/pose_zones.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/posture_sample.hpp"
-#include "numeric/error_map.hpp"
+#include "numeric/error_samples.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/pose_statics.hpp"
 
@@ -123,14 +123,13 @@ class Ends {
     const numeric::ErrorSamples errors = numeric::error_samples(model_, poses, sides_, true, false);
     // A difference this much smaller than the errors is no jump, but rounding and the way between the two poses.
     constexpr double least_jump = 1e-6;
-    const double size = std::hypot(errors.dx[0], errors.dy[0]), turned = std::abs(errors.dalpha[0]);
-    const auto jump = [&](const std::vector<double>& error, double scale) {
-      const double across = error[1] - error[0];
+    const numeric::PoseError &first = errors.error[0], &second = errors.error[1];
+    const auto jump = [&](double across, double scale) {
       return std::abs(across) < least_jump * scale ? 0.0 : across;
     };
-    own.dx = jump(errors.dx, size);
-    own.dy = jump(errors.dy, size);
-    own.dalpha = jump(errors.dalpha, turned);
+    own.dx = jump(second.dp.x() - first.dp.x(), first.dp.norm());
+    own.dy = jump(second.dp.y() - first.dp.y(), first.dp.norm());
+    own.dalpha = jump(second.dalpha.z() - first.dalpha.z(), first.dalpha.norm());
     own.jumps = std::isfinite(own.dx + own.dy + own.dalpha);
   }
 
