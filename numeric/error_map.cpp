@@ -128,8 +128,8 @@ class FieldRows {
     ErrorVolume result;
     result.never_loaded = joints_never_loaded(model_, mode_, samples());
     const bool under_load = result.never_loaded.empty();
-    const auto [columns, rows, layers] = grid_.cells;
-    const std::size_t lines = static_cast<std::size_t>(rows) * static_cast<std::size_t>(layers);
+    const int columns = grid_.cells[0];
+    const std::size_t lines = static_cast<std::size_t>(grid_.cells[1]) * static_cast<std::size_t>(grid_.cells[2]);
     std::vector<core::Field>& fields = result.volume.fields;
     fields = fields_of(spatial_, under_load, grid_.worst_case, lines * static_cast<std::size_t>(columns));
     std::vector<std::array<std::size_t, 2>> counts(lines);  // reachable, undefined

@@ -24,7 +24,6 @@ namespace {
 using core::LocusCurve;
 using core::LocusKind;
 using core::LocusMap;
-using core::Quantity;
 using core::WorkingMode;
 
 /// Off every centre and every symmetry (validate.hpp).

@@ -87,7 +87,8 @@ void for_runs(const Layer& layer, const Use& use) {
   for (int row = 0; row < layer.rows; ++row)
     for (int from = 0, to = 0; from < layer.columns; from = to) {
       const auto label = [&](int column) {
-        return layer.labels[static_cast<std::size_t>(row * layer.columns + column)];
+        return layer.labels[static_cast<std::size_t>(row) * static_cast<std::size_t>(layer.columns) +
+                            static_cast<std::size_t>(column)];
       };
       for (to = from; to < layer.columns && label(to) == label(from);) ++to;
       use(row, from, to, label(from));
@@ -202,8 +203,9 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
     write_text(context, "Discontinuity-free zones" + (mode.empty() ? "" : "; " + printable(mode)), margin, margin + 24,
                text_font);
     for (std::size_t k = 0; k < layers.size(); ++k) {
+      const std::size_t row = k / columns;
       const Box box{left + static_cast<double>(k % columns) * (width + gap),
-                    head + static_cast<double>(k / columns) * (height + gap), width, height};
+                    head + static_cast<double>(row) * (height + gap), width, height};
       draw_layer(context, layers[k], box);
       draw_axes(context, box, x, y ? &*y : nullptr);
       set_colour(context, light_theme.ink);
