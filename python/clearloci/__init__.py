@@ -16,6 +16,7 @@ from .answers import Curve, Loci, Surface, Verification, Zone, Zones
 from .design import Designs, design
 from .model import Model, parse, read
 from .motion import CoordinateErrors, ErrorMap, Pose, Trajectory
+from .poses import PoseVerification, PoseZone, PoseZones
 
 __all__ = [
     "CoordinateErrors",
@@ -27,6 +28,9 @@ __all__ = [
     "Loci",
     "Model",
     "Pose",
+    "PoseVerification",
+    "PoseZone",
+    "PoseZones",
     "Surface",
     "Trajectory",
     "Verification",

@@ -11,6 +11,7 @@ import numpy as np
 from . import _clearloci
 from .answers import Loci, Verification, Zones
 from .motion import CoordinateErrors, ErrorMap, Pose, Trajectory
+from .poses import PoseVerification, PoseZone, PoseZones
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -88,6 +89,21 @@ class Model:
         """
         return Verification(self, task, fit, options)
 
+    def verify_poses(self, task: Task, **options: Any) -> PoseVerification:
+        """Whether a task over one to six coordinates, other than two lengths, keeps clear of every locus: a task file,
+        its content as a dictionary, or an array (n, coordinates) of poses, which is a path.
+        """
+        if isinstance(task, (str, os.PathLike)):
+            text, file = "", os.fspath(task)
+        else:
+            text, file = text_of(task), "task"
+        return PoseVerification(**_clearloci.verify_poses(self._handle, text, file, **options))
+
+    def pose_zones(self, cells: int = 300_000, **options: Any) -> PoseZones:
+        """The discontinuity-free zones over one to three coordinates, angles among them, by so many cells."""
+        answer = _clearloci.find_pose_zones(self._handle, cells, **options)
+        return PoseZones(**{**answer, "zones": [PoseZone(**own) for own in answer["zones"]]})
+
     def pose(self, at: Sequence[float], iterate: bool = False, **options: Any) -> Pose:
         """Posture, reactions, take-up and pose error at one pose: a value a free coordinate, m or, of an angle, rad.
         A float stands for the shortest decimal that reads back as it.
@@ -148,9 +164,14 @@ def task_of(model: Model, task: Task) -> _clearloci.Task:
     """A task file, a dictionary or an array, read."""
     if isinstance(task, (str, os.PathLike)):
         return _clearloci.read_task(os.fspath(task), model._handle)
+    return _clearloci.parse_task(text_of(task), model._handle)
+
+
+def text_of(task: Mapping[str, Any] | np.ndarray) -> str:
+    """A dictionary or an array as the text of a task file."""
     content = dict(task) if isinstance(task, Mapping) else {"path": np.asarray(task, dtype=float)}
     content.setdefault("format", 1)
-    return _clearloci.parse_task(json.dumps(content, default=lambda value: np.asarray(value).tolist()), model._handle)
+    return json.dumps(content, default=lambda value: np.asarray(value).tolist())
 
 
 def read(path: str | os.PathLike[str]) -> Model:
