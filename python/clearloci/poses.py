@@ -59,8 +59,8 @@ class PoseZones:
     working_mode: dict[str, str]
     outside: float  #: proven to be out of reach
     in_doubt: float
-    #: In the middles of a grid over the box, the last coordinate first: 1 for the first zone, 2, ..., 0 in doubt, -1 out
-    #: of reach.
+    #: In the middles of a grid over the box, the last coordinate first: 1 for the first zone, 2, ..., 0 in doubt,
+    #: -1 out of reach.
     labels: np.ndarray = field(repr=False)
     cells: int
     complete: bool
