@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "numeric/evaluator.hpp"
@@ -33,26 +34,33 @@ class Batch {
   void turn_to(int lane) {
     lane_ = lane;
     factorised_ = nullptr;
+    bool turned = columns_.empty();  // revolute joints in the plane never are
+    const auto follow = [&](const std::optional<Triple>& at, Vector3d& axis) {
+      if (!at) return;
+      const Vector3d now = vector(*at);
+      turned = turned || now != axis;
+      axis = now;
+    };
     for (std::size_t j = 0; j < axes_.size(); ++j) {
-      if (model_.axes[j]) axes_[j] = vector(*model_.axes[j]);
-      if (model_.couple_axes[j]) couple_axes_[j] = vector(*model_.couple_axes[j]);
+      follow(model_.axes[j], axes_[j]);
+      follow(model_.couple_axes[j], couple_axes_[j]);
       contacts_[j].axis = axes_[j];
     }
-    columns_ = unknown_columns(model_, axes_, couple_axes_);
+    if (turned) columns_ = unknown_columns(model_, axes_, couple_axes_);
     for (std::size_t row = 0; row < model_.unit_wrenches.size(); ++row)
       H_.row(static_cast<Eigen::Index>(row)) = solve(model_.unit_wrenches[row]).transpose();
-    influence_ = joint_influence(model_.mechanism, columns_, H_);
   }
 
   PoseError under_load() {
     const std::vector<JointReaction> reactions = joint_reactions(contacts_.size(), columns_, solve(model_.elimination));
     const std::vector<TakeUp> all = take_up(contacts_, reactions);
-    if (!lost_reactions(model_.mechanism, contacts_, all).empty())
-      return {Vector3d::Constant(nan), Vector3d::Constant(nan)};
-    return pose_error(influence_, all);
+    if (any_lost(contacts_, all)) return {Vector3d::Constant(nan), Vector3d::Constant(nan)};
+    return pose_error(model_.mechanism.space, H_, clearance_displacements(columns_, all));
   }
 
-  WorstCase worst(double accuracy) const { return worst_case(contacts_, influence_, accuracy, false); }
+  WorstCase worst(double accuracy) const {
+    return worst_case(contacts_, joint_influence(model_.mechanism, columns_, H_), accuracy, false);
+  }
 
  private:
   Vector3d vector(const Triple& v) const {
@@ -103,7 +111,6 @@ class Batch {
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   Eigen::VectorXd values_;
   Influence H_;
-  std::vector<JointInfluence> influence_;
 };
 
 }  // namespace
