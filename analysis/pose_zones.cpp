@@ -124,9 +124,7 @@ class Ends {
     // A difference this much smaller than the errors is no jump, but rounding and the way between the two poses.
     constexpr double least_jump = 1e-6;
     const numeric::PoseError &first = errors.error[0], &second = errors.error[1];
-    const auto jump = [&](double across, double scale) {
-      return std::abs(across) < least_jump * scale ? 0.0 : across;
-    };
+    const auto jump = [&](double across, double scale) { return std::abs(across) < least_jump * scale ? 0.0 : across; };
     own.dx = jump(second.dp.x() - first.dp.x(), first.dp.norm());
     own.dy = jump(second.dp.y() - first.dp.y(), first.dp.norm());
     own.dalpha = jump(second.dalpha.z() - first.dalpha.z(), first.dalpha.norm());

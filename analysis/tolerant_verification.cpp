@@ -223,8 +223,8 @@ class Tolerant {
       told.design.emplace_back(task_.design().varied[p], failure.parameters[p]);
     for (const core::LoadWithin& within : task_.task().loads_within)
       if (within.force > 0 || within.couple > 0)
-        told.loads.push_back({within.load, numeric::in_plane(posture.loads[within.load].force),
-                              posture.loads[within.load].couple[2]});
+        told.loads.push_back(
+            {within.load, numeric::in_plane(posture.loads[within.load].force), posture.loads[within.load].couple[2]});
     return told;
   }
 

@@ -13,8 +13,8 @@
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
 #include "report/files.hpp"
-#include "report/loci_json.hpp"
 #include "report/formats.hpp"
+#include "report/loci_json.hpp"
 #include "report/pose.hpp"
 
 namespace clearloci::cli {

@@ -88,10 +88,10 @@ class ArcOrders {
   const core::RootTower& tower_;
   core::WorkingMode mode_;
   std::shared_ptr<CurveAlgebra> algebra_;
-  CoordinateGerm rule_;                       ///< instead of the curve's own; may be empty
-  std::vector<sheet::MultiInterval> at_;      ///< coordinates, then the roots placed so far
+  CoordinateGerm rule_;                                ///< instead of the curve's own; may be empty
+  std::vector<sheet::MultiInterval> at_;               ///< coordinates, then the roots placed so far
   std::list<std::pair<core::Polynomial, int>> signs_;  ///< at the point; of the one side as of the other
-  std::map<int, std::vector<Germ>> squares_;  ///< of every side: of the squares placed so far
+  std::map<int, std::vector<Germ>> squares_;           ///< of every side: of the squares placed so far
   std::vector<int> sides_;
   int ramification_ = 1;
   bool decided_ = true;

@@ -3,10 +3,10 @@
 //     E = I - C A,                |E| s <= beta s < s for some s > 0:  A is regular in every pose of the cell
 //     r = b - A w_m,              w - w_m = C r + E (w - w_m),  |E (w - w_m)| <= |E| |C r|_s / (1 - beta)
 //     g = c w + d, lambda = C^T c_m:   g = d + lambda b + (c - A^T lambda) w_m + (c - A^T lambda) (w - w_m)
-// The last product is one of two small things, so that what is known of g shrinks with the square of the cell; with C r in
-// the place of w - w_m its terms are added up before they are bounded, and what is left shrinks with the cube. A vector
-// f is kept from zero by n . f for one direction n, under all loads between two that it is kept under.
-// Entries are enclosed by affine forms (affine.hpp).
+// The last product is one of two small things, so that what is known of g shrinks with the square of the cell; with C r
+// in the place of w - w_m its terms are added up before they are bounded, and what is left shrinks with the cube. A
+// vector f is kept from zero by n . f for one direction n, under all loads between two that it is kept under. Entries
+// are enclosed by affine forms (affine.hpp).
 //
 // Where |A| may vanish, X A Y = [I + E, p; q, m] at no pose far from [I, 0; 0, m], with X, Y regular, splits off what
 // makes it vanish: with z = Y^-1 w, y = X b
@@ -41,6 +41,8 @@ class PoseCell {
   State enter(const PoseChart& chart, const PoseBox& box);
 
   /// Of a cell in doubt.
+  /// Tries no demand first because it failed last: where the same cells follow, the same is found on every thread.
+  void forget() { first_ = 0; }
   Doubt doubt() const { return doubt_; }
   int demand() const { return demand_; }
   /// How far each parameter of the box moves what is in doubt: a cut helps most along the largest.
@@ -108,10 +110,10 @@ class PoseCell {
   double contraction_ = 0;       ///< beta
   int determinant_ = 0;
   double logarithm_ = 0;
-  std::vector<int> closures_;                             ///< steps whose roots vary with the pose, and limits
-  std::vector<std::vector<double>> solution_;              ///< load by load: w_m
-  std::vector<std::vector<Affine>> moved_;                 ///< C r
-  std::vector<std::vector<double>> rest_;                  ///< what w - w_m differs from that at most
+  std::vector<int> closures_;                  ///< steps whose roots vary with the pose, and limits
+  std::vector<std::vector<double>> solution_;  ///< load by load: w_m
+  std::vector<std::vector<Affine>> moved_;     ///< C r
+  std::vector<std::vector<double>> rest_;      ///< what w - w_m differs from that at most
   std::vector<double> least_;
   std::vector<Open> kept_;  ///< a demand each, as it was kept from zero last
   Doubt doubt_ = Doubt::none;

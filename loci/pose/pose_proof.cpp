@@ -137,6 +137,7 @@ class Search {
     tbb::enumerable_thread_specific<PoseCell> cells([&] { return PoseCell(statics_); });
     run_in_order(parts.size(), [&](std::size_t i) {
       PoseCell& own = cells.local();
+      own.forget();
       std::vector<Part> stack = {parts[i]};
       while (!stack.empty()) {
         const Part part = std::move(stack.back());
@@ -272,7 +273,7 @@ class BestFirst {
   /// `look(cell, item, out)`: what is to be looked at further.
   template <class Look>
   void step(const Look& look) {
-    constexpr std::size_t at_once = 64;
+    constexpr std::size_t at_once = 64, at_a_time = 8;
     std::vector<Item> items;
     while (!queue_.empty() && items.size() < at_once) {
       items.push_back(queue_.top());
@@ -280,7 +281,12 @@ class BestFirst {
     }
     looked_at_ += static_cast<long>(items.size());
     std::vector<std::vector<Item>> found(items.size());
-    run_in_order(items.size(), [&](std::size_t i) { look(cells_.local(), items[i], found[i]); });
+    run_in_order((items.size() + at_a_time - 1) / at_a_time, [&](std::size_t part) {
+      PoseCell& cell = cells_.local();
+      cell.forget();
+      for (std::size_t i = part * at_a_time; i < std::min(items.size(), (part + 1) * at_a_time); ++i)
+        look(cell, items[i], found[i]);
+    });
     for (std::vector<Item>& own : found)
       for (Item& item : own) queue_.push(std::move(item));
   }

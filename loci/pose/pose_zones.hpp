@@ -25,7 +25,7 @@ struct CellZone {
   bool at_side = false;                    ///< it touches the side of the box
   /// Over one coordinate, what is in doubt at its lower and its upper end.
   std::array<std::set<std::pair<Doubt, int>>, 2> at_ends;
-  std::set<std::size_t> perhaps;           ///< other zones of its signs that only what is in doubt parts from it
+  std::set<std::size_t> perhaps;  ///< other zones of its signs that only what is in doubt parts from it
   /// The outside of its cells and parts: over three coordinates convex polygons, counter-clockwise from outside, over
   /// two segments.
   std::vector<Polygon> faces;

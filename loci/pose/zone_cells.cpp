@@ -84,6 +84,7 @@ void ZoneCells::enter(const std::vector<std::size_t>& list) {
   std::vector<ZoneCell> looked_at(list.size());
   run_in_order((list.size() + at_a_time - 1) / at_a_time, [&](std::size_t part) {
     PoseCell& cell = workers_.local();
+    cell.forget();
     for (std::size_t i = part * at_a_time; i < std::min(list.size(), (part + 1) * at_a_time); ++i)
       looked_at[i] = looked(cell, std::move(cells_[list[i]].box));
   });
