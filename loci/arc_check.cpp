@@ -202,14 +202,13 @@ bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map)
                         (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
                         " failed the last check, and what failed it is withheld: " + fault.what + " near (" +
                         std::to_string(fault.at[0]) + ", " + std::to_string(fault.at[1]) + ")");
-  }
-  for (auto last = wrong.rbegin(); last != wrong.rend(); ++last) {
-    core::LocusCurve& curve = map.curves[last->curve];
     std::deque<ArcCheck> checks = checks_of(problem, curve);
-    const auto place = curve.arcs.begin() + static_cast<std::ptrdiff_t>(last->arc);
-    std::vector<core::Arc> pieces;
-    if (last->fault.in_vertices) pieces = sound_pieces(*place, checks, problem.tolerance);
-    curve.arcs.insert(curve.arcs.erase(place), pieces.begin(), pieces.end());
+    for (std::size_t last = next; last-- > first;) {
+      const auto place = curve.arcs.begin() + static_cast<std::ptrdiff_t>(wrong[last].arc);
+      std::vector<core::Arc> pieces;
+      if (wrong[last].fault.in_vertices) pieces = sound_pieces(*place, checks, problem.tolerance);
+      curve.arcs.insert(curve.arcs.erase(place), pieces.begin(), pieces.end());
+    }
   }
   std::erase_if(map.curves, [](const core::LocusCurve& curve) { return curve.arcs.empty(); });
   return !wrong.empty();

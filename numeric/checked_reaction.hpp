@@ -2,6 +2,7 @@
 // Private to numeric/.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "numeric/arc_witness.hpp"
@@ -29,6 +30,10 @@ int times_vanishing(core::LocusKind kind, const std::vector<core::Vanishing>& va
 /// near enough has to be followed: `change` is then unknown.
 EdgeNodes edge_nodes(const ReactionField& of_first, std::size_t first, const ReactionField& of_second,
                      std::size_t second, const WitnessColumns& columns);
+
+/// Adds what became of a reaction's edges to the report: `counts` by Verdict.
+void add_tally(ValidationReport& report, const core::WorkingMode& mode, const TracedReaction& reaction,
+               const std::array<std::size_t, 4>& counts, bool identically_zero);
 
 /// What a reaction does along some ways towards a locus.
 struct TendencyTally {

@@ -174,13 +174,7 @@ class ModeValidation {
       for (const auto& line : lines) {
         for (std::size_t v = 0; v < sum.size(); ++v) sum[v] += line.counts[r][v];
       }
-      const auto count = [&](Verdict v) { return sum[static_cast<std::size_t>(v)]; };
-      report.tallies.push_back({mode_, reactions_[r].reaction, count(Verdict::held), count(Verdict::disputed),
-                                count(Verdict::undecided), count(Verdict::outside), zero_[r]});
-      report.held += count(Verdict::held);
-      report.disputed += count(Verdict::disputed);
-      report.undecided += count(Verdict::undecided);
-      report.outside += count(Verdict::outside);
+      add_tally(report, mode_, reactions_[r].reaction, sum, zero_[r]);
     }
     for (const auto& line : lines) {
       for (const auto& edge : line.disputed) {

@@ -120,15 +120,8 @@ class LinesOfMode {
     find_zeros();
     std::vector<std::array<std::size_t, 4>> counts(reactions_.size());
     for (std::size_t along = 0; along < n_; ++along) judge_lines(along, counts, report, listed);
-    for (std::size_t r = 0; r < reactions_.size(); ++r) {
-      const auto count = [&](Verdict v) { return counts[r][static_cast<std::size_t>(v)]; };
-      report.tallies.push_back({mode_, reactions_[r].reaction, count(Verdict::held), count(Verdict::disputed),
-                                count(Verdict::undecided), count(Verdict::outside), zero_[r]});
-      report.held += count(Verdict::held);
-      report.disputed += count(Verdict::disputed);
-      report.undecided += count(Verdict::undecided);
-      report.outside += count(Verdict::outside);
-    }
+    for (std::size_t r = 0; r < reactions_.size(); ++r)
+      add_tally(report, mode_, reactions_[r].reaction, counts[r], zero_[r]);
     for (std::size_t l = 0; l < loci_.size(); ++l)
       if (loci_[l].second && loci_[l].first.kind != LocusKind::margin) judge_locus(l, report);
   }

@@ -1,7 +1,6 @@
 #include "loci/sheet/boundary_curves.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "loci/sheet/star.hpp"
 
@@ -126,6 +125,15 @@ std::vector<std::array<Rational, 2>> BoundaryMeeting::rational_points() const {
   return points;
 }
 
+std::optional<BoundaryMeeting> meeting_of(const BoundaryCurve& a, const BoundaryCurve& b) {
+  std::optional<BoundaryMeeting> meeting = a.is_line && b.is_line ? meeting_of_lines(a, b)
+                                           : a.is_line            ? meeting_with_line(a, b)
+                                           : b.is_line            ? meeting_with_line(b, a)
+                                                                  : meeting_of_circles(a, b);
+  if (meeting && meeting->rise < 0) meeting.reset();
+  return meeting;
+}
+
 std::vector<BoundaryMeeting> boundary_meetings(const core::RootTower& tower) {
   std::vector<BoundaryCurve> curves;
   for (int root = 0; root < static_cast<int>(tower.roots.size()); ++root)
@@ -136,11 +144,7 @@ std::vector<BoundaryMeeting> boundary_meetings(const core::RootTower& tower) {
     for (std::size_t k = i + 1; k < curves.size(); ++k) {
       const BoundaryCurve &a = curves[i], &b = curves[k];
       if (a.root == b.root) continue;
-      std::optional<BoundaryMeeting> meeting = a.is_line && b.is_line ? meeting_of_lines(a, b)
-                                               : a.is_line            ? meeting_with_line(a, b)
-                                               : b.is_line            ? meeting_with_line(b, a)
-                                                                      : meeting_of_circles(a, b);
-      if (meeting && meeting->rise >= 0) meetings.push_back(std::move(*meeting));
+      if (std::optional<BoundaryMeeting> meeting = meeting_of(a, b)) meetings.push_back(std::move(*meeting));
     }
   return meetings;
 }

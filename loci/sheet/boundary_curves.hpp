@@ -1,7 +1,9 @@
-// Where a root's square vanishes: of dyads on fixed points circles, of blocks on fixed rails lines.
+// Where a root's square vanishes: of dyads on fixed points circles, of blocks on fixed rails lines. Where lines and
+// circles meet, exactly.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/root_tower.hpp"
@@ -20,7 +22,7 @@ struct BoundaryCurve {
   std::array<core::Rational, 2> normal_at(const std::array<core::Rational, 2>& at) const;
 };
 
-/// Two such curves of different roots that meet at foot +- sqrt(rise) way.
+/// Two such curves that meet at foot +- sqrt(rise) way.
 struct BoundaryMeeting {
   BoundaryCurve first, second;
   std::array<core::Rational, 2> foot, way;
@@ -30,6 +32,9 @@ struct BoundaryMeeting {
   /// Those with rational coordinates: one or two or none.
   std::vector<std::array<core::Rational, 2>> rational_points() const;
 };
+
+/// Where two lines or circles meet; nothing where they do not, or are concentric or parallel.
+std::optional<BoundaryMeeting> meeting_of(const BoundaryCurve& a, const BoundaryCurve& b);
 
 std::vector<BoundaryMeeting> boundary_meetings(const core::RootTower& tower);
 
