@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "mechanism/evaluate.hpp"
@@ -14,6 +16,13 @@ using mechanism::Mechanism;
 
 void require_finite(const core::Rational& value, const std::string& what) {
   require(std::isfinite(core::to_double(value)), what + " is finite in double precision");
+}
+
+/// Whether no coordinate of the pose stands in it: loads may change over the workspace.
+bool is_constant(const core::Expression& expression, const Mechanism& mechanism) {
+  const std::set<std::string> names = core::symbols(expression);
+  return std::ranges::none_of(
+      mechanism.coordinates, [&](const mechanism::Coordinate& coordinate) { return names.contains(coordinate.name); });
 }
 
 /// Every index names something, every number is finite, and as many unknowns as equations.
@@ -42,7 +51,7 @@ void check_accepted(const Mechanism& mechanism) {
     require(is_link(load.link), "a load acts on a link");
     require(!load.at || is_point(*load.at), "a load acts at a point");
     for (const core::Expression& component : load.force)
-      require_finite(mechanism::value_of(component, mechanism), "a force");
+      if (is_constant(component, mechanism)) require_finite(mechanism::value_of(component, mechanism), "a force");
   }
   require(unknowns(mechanism).size() == equations_per_link(mechanism) * mechanism.links.size(),
           "as many unknowns as equations");
