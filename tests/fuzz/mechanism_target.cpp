@@ -21,8 +21,8 @@ void require_finite(const core::Rational& value, const std::string& what) {
 /// Whether no coordinate of the pose stands in it: loads may change over the workspace.
 bool is_constant(const core::Expression& expression, const Mechanism& mechanism) {
   const std::set<std::string> names = core::symbols(expression);
-  return std::ranges::none_of(
-      mechanism.coordinates, [&](const mechanism::Coordinate& coordinate) { return names.contains(coordinate.name); });
+  return std::ranges::none_of(mechanism.coordinates,
+                              [&](const mechanism::Coordinate& coordinate) { return names.contains(coordinate.name); });
 }
 
 /// Every index names something, every number is finite, and as many unknowns as equations.
