@@ -59,3 +59,15 @@ function(clearloci_warnings target)
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
     $<$<BOOL:${CLEARLOCI_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
+
+# clearloci_program(<target>): an executable with an allocator for many small pieces, where mimalloc is found: every new
+# design is tens of thousands of numbers and terms, and takes a fifth less time by it. Libraries leave that choice to the
+# program that uses them, and the sanitizers bring their own.
+if(NOT CLEARLOCI_SANITIZE)
+  find_package(mimalloc QUIET)
+endif()
+function(clearloci_program target)
+  if(TARGET mimalloc)
+    target_link_options(${target} PRIVATE LINKER:--push-state,--no-as-needed $<TARGET_FILE:mimalloc> LINKER:--pop-state)
+  endif()
+endfunction()
