@@ -95,13 +95,13 @@ class Builder {
   }
 
   ZoneGraph build() {
+    result_.certified = !sketch_;
     collect_strands();
     for (const Strand& strand : strands_) {
       if (strand.closed) continue;
       node_at(strand.points.front());
       node_at(strand.points.back());
     }
-    result_.certified = !sketch_;
     if (sketch_)
       add_drawn_crossings();
     else

@@ -135,7 +135,11 @@ bool LineWitness::cancels_between(const WitnessColumns& columns, double a, doubl
     const double before = std::max(least, place - radius), after = std::min(most, place + radius);
     if (determinant_sign(before) * determinant_sign(after) >= 0) continue;
     if (!decided(columns, before) || !decided(columns, after)) continue;
-    return (force(columns, before)[0] > 0) != (force(columns, after)[0] > 0) || !decided(columns, place);
+    const double n = force(columns, before)[0], m = force(columns, after)[0];
+    // An even zero is hidden by rounding, or is told by how small the numerator is there beside its neighbours.
+    constexpr double part = 0.25;
+    return (n > 0) != (m > 0) || !decided(columns, place) ||
+           std::abs(force(columns, place)[0]) < part * std::min(std::abs(n), std::abs(m));
   }
   return !decided(columns, place);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "analysis/loci.hpp"
+#include "analysis/zones.hpp"
 
 namespace clearloci {
 namespace {
@@ -57,6 +58,22 @@ TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
       for (const core::Arc& arc : curve.arcs) length += arc.length;
     }
   EXPECT_NEAR(length, 6.71, 0.01);
+  // Zones are no more certain than the curves that cut them.
+  const core::ZoneMap map = find_zones(corpus("witness/prrr_r_node_on_the_rim"), request);
+  EXPECT_FALSE(map.zones.empty());
+  for (const core::Zone& zone : map.zones) EXPECT_FALSE(zone.certified) << zone.id;
+  EXPECT_GE(map.areas.front().in_doubt, map.areas.front().workspace);
+}
+
+// The normal force of a guide has the factor x twice, |A| once, exactly: no rounding hides its even zero.
+TEST(OnceDisputed, AnEvenZeroBesideASingularity) {
+  LociRequest request;
+  request.all_working_modes = true;
+  request.joints = {"G1"};
+  request.quantities = {core::Quantity::N};
+  const LociValidation validation = validate_loci(corpus("witness/one_rail_double_zero"), request, {60, 60});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.held, 1000u);
 }
 
 // A numerator that vanishes with one factor of |A|, a twentieth of an edge beside a zero of the other one.
