@@ -16,6 +16,9 @@ inline double rounded_up(double bound, double operations) {
   return bound * (1 + operations * std::numeric_limits<double>::epsilon());
 }
 
+/// As worst_case of the clearances that lead there.
+WorstCase worst_case(const std::vector<Reach>& all, double accuracy, bool rotation);
+
 /// Not less than the largest distance that the reaches lead to, all together, and mostly not more than `accuracy` above
 /// it. Of the three components from `row` on; in the plane of the first two of them, where all reaches lie there.
 double farthest_in_space(const std::vector<Reach>& all, int row, double accuracy);

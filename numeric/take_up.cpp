@@ -97,8 +97,7 @@ void take_up_guide(const JointContact& joint, const JointReaction& reaction, con
   const double h = joint.clearance.half_length, g = joint.clearance.gap;
   const double N = reaction.force.dot(joint.normal()), T = reaction.couple.z();
   const std::array<double, 2> ends = guide_ends(N, T, h);
-  // Beyond what rounding leaves of a sum that is zero.
-  const double noise = 1e-12 * (std::abs(N) + std::abs(T) / h);
+  const double noise = guide_noise * (std::abs(N) + std::abs(T) / h);
   for (const std::size_t end : {0u, 1u}) result.end_vanishes[end] = lost.guide || !(std::abs(ends[end]) > noise);
   if (result.guide_vanishes()) return;
   const double far = -std::copysign(g, ends[0]), near = -std::copysign(g, ends[1]);

@@ -48,6 +48,9 @@ struct JointColumns {
 
 std::vector<JointColumns> joint_columns(const NumericModel& model);
 
+/// What rounding leaves of a guide's end that bears nothing, to |N| + |T|/h.
+constexpr double guide_noise = 1e-12;
+
 /// (N + T/h, N - T/h): twice what the two ends of a guide bear.
 inline std::array<double, 2> guide_ends(double normal, double couple, double half_length) {
   return {normal + couple / half_length, normal - couple / half_length};

@@ -47,6 +47,10 @@ WorstCase worst_case(const std::vector<JointContact>& joints, const std::vector<
                      double accuracy, bool rotation) {
   std::vector<Reach> all;
   for (std::size_t j = 0; j < joints.size(); ++j) add_reaches(joints[j], influence[j], all);
+  return worst_case(all, accuracy, rotation);
+}
+
+WorstCase worst_case(const std::vector<Reach>& all, double accuracy, bool rotation) {
   WorstCase worst;
   Eigen::Matrix<double, 6, 1> most = Eigen::Matrix<double, 6, 1>::Zero();
   for (const Reach& reach : all) most += reach.rowwise().norm();
