@@ -219,7 +219,7 @@ class ExactTrace {
     const std::vector<EdgeInMode> edges = label_edges(problem_, mode, arrangement_, list_.of_factor, signs_, sheets_);
     VertexMarks marks = mark_vertices(edges);
     const std::size_t known = map_.isolated_points.size();
-    add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, map_);
+    add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, cones_, map_);
     // Where the sheet ends in a point that is a direct singularity too, that is the graver of the two.
     for (std::size_t i = known; i < map_.isolated_points.size(); ++i) {
       const core::IsolatedPoint& point = map_.isolated_points[i];

@@ -11,6 +11,7 @@
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
 #include "loci/sheet/multi_interval.hpp"
+#include "loci/sheet/trace_sheet.hpp"
 #include "loci/work_queue.hpp"
 
 namespace clearloci::loci {
@@ -275,10 +276,17 @@ void add_touching_points(const LocusProblem& problem, const WorkingMode& mode, L
 
 void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& mode,
                                const CurveArrangement& arrangement,
-                               const std::vector<std::vector<int>>& curves_of_factor, LocusMap& map) {
+                               const std::vector<std::vector<int>>& curves_of_factor,
+                               const std::vector<sheet::Star>& stars, LocusMap& map) {
+  const std::array<double, 4> box = {core::to_double(problem.lower[0]), core::to_double(problem.upper[0]),
+                                     core::to_double(problem.lower[1]), core::to_double(problem.upper[1])};
   for (const ArrangementPoint& point : arrangement.isolated_points()) {
     const std::vector<MultiInterval> at = on_sheet(problem.tower, mode, point.enclosure);
     if (at.empty()) continue;
+    const auto star = std::find_if(stars.begin(), stars.end(), [&](const sheet::Star& own) {
+      return point.enclosure.lower[0] <= own.x && own.x <= point.enclosure.upper[0] &&
+             point.enclosure.lower[1] <= own.y && own.y <= point.enclosure.upper[1];
+    });
     std::vector<core::Vanishing> components;
     LocusKind kind = LocusKind::workspace_boundary;
     for (std::size_t f = 0; f < problem.factors.size(); ++f) {
@@ -286,6 +294,8 @@ void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& m
       const auto& own = curves_of_factor[f];
       if (std::find(own.begin(), own.end(), point.curve) == own.end()) continue;
       if (evaluate(factor.sheet, at).sign() != 0) continue;
+      if (star != stars.end() && !sheet::reaches(problem.tower, mode, {factor.sheet, factor.line}, *star, box))
+        continue;
       if (factor.role == FactorRole::reaction) {
         components.insert(components.end(), factor.vanishing.begin(), factor.vanishing.end());
       }

@@ -6,6 +6,7 @@
 
 #include "core/locus_map.hpp"
 #include "loci/curve_arrangement.hpp"
+#include "loci/sheet/star.hpp"
 
 namespace clearloci::loci {
 
@@ -20,9 +21,11 @@ void add_contact_loss_points(const core::LocusProblem& problem, const core::Work
 /// this mode: both legs are in line with each other there.
 void add_touching_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
 
-/// The isolated real points of the arrangement's curves that lie on the mode's sheet.
+/// The isolated real points of the arrangement's curves that lie on the mode's sheet. At a star, where a construction
+/// is undefined, numerators vanish whatever the reaction does: there those count that vanish in a direction from it.
 void add_isolated_curve_points(const core::LocusProblem& problem, const core::WorkingMode& mode,
                                const CurveArrangement& arrangement,
-                               const std::vector<std::vector<int>>& curves_of_factor, core::LocusMap& map);
+                               const std::vector<std::vector<int>>& curves_of_factor,
+                               const std::vector<sheet::Star>& stars, core::LocusMap& map);
 
 }  // namespace clearloci::loci

@@ -83,7 +83,8 @@ bool LineWitness::cancels(const WitnessColumns& columns, double a, double b) {
     const double to = k == pieces ? b : a + (b - a) * k / pieces;
     const int here = determinant_sign(to);
     if (here == 0) continue;  // the next piece begins before it
-    if (before * here < 0 && cancels_between(columns, from, to)) odd = !odd;
+    // Two zeros of |A| within one piece leave its sign; the numerator changes its own at one of them.
+    if (before * here < 0 ? cancels_between(columns, from, to) : cancels_at_flip(columns, from, to)) odd = !odd;
     before = here;
     from = to;
   }

@@ -9,7 +9,7 @@
 // and its enclosures are tighter. One program serves double, Batch, Interval and MultiInterval.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -19,6 +19,7 @@
 #include "loci/sheet/interval.hpp"
 #include "loci/sheet/jet.hpp"
 #include "loci/sheet/multi_interval.hpp"
+#include "loci/sheet/sheet_code.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -65,7 +66,7 @@ class SheetProgram {
   int coordinates() const { return static_cast<int>(tower_.coordinates.size()); }
   int roots() const { return static_cast<int>(tower_.roots.size()); }
   int variables() const { return coordinates() + roots(); }
-  int functions() const { return static_cast<int>(values_.size()); }
+  int functions() const { return static_cast<int>(code_->values.size()); }
   const core::RootTower& tower() const { return tower_; }
   /// One of those given.
   SheetFunction function(int index) const { return {functions_[index], lines_[index]}; }
@@ -76,10 +77,10 @@ class SheetProgram {
    public:
     void set(int variable, const T& value) { values_[variable] = value; }
     const T& root(int j) const { return values_[program_->coordinates() + j]; }
-    const T& square(int root) const { return values_[program_->squares_[root]]; }
-    const T& value(int function) const { return values_[program_->values_[function]]; }
-    const T& partial(int function, int v) const { return values_[program_->partials_[function][v]]; }
-    const T& square_partial(int root, int v) const { return values_[program_->square_partials_[root][v]]; }
+    const T& square(int root) const { return values_[program_->code_->squares[root]]; }
+    const T& value(int function) const { return values_[program_->code_->values[function]]; }
+    const T& partial(int function, int v) const { return values_[program_->code_->partials[function][v]]; }
+    const T& square_partial(int root, int v) const { return values_[program_->code_->square_partials[root][v]]; }
 
     void run_square(int root) { run(root); }
     void run_values() { run(program_->roots()); }
@@ -100,41 +101,27 @@ class SheetProgram {
   }
 
   /// False where the derivative is zero identically.
-  bool depends(int function, int v) const { return partials_[function][v] != zero_; }
+  bool depends(int function, int v) const { return code_->partials[function][v] != code_->zero; }
   /// A root's square holds another root: a dyad stands on a dyad.
   bool is_nested() const;
-  int instructions() const { return static_cast<int>(instructions_.size()); }
+  int instructions() const { return static_cast<int>(code_->instructions.size()); }
 
  private:
-  enum class Operation : std::uint8_t { add, subtract, multiply, square, inverse };
-  struct Instruction {
-    Operation operation;
-    std::int32_t first, second;
-  };
-  class Builder;
-
   SheetProgram() = default;
   void compile(bool tangency = false);
 
   core::RootTower tower_;
   std::vector<core::Polynomial> functions_;
   std::vector<core::StraightLine> lines_;
-  struct Constant {
-    core::Rational value, radius;
-  };
-  std::vector<Constant> constants_;  // registers variables()...
+  std::shared_ptr<const SheetCode> code_;
+  std::vector<SheetNumber> constants_;  // as code_ counts them
   std::vector<double> nearest_constants_;
   std::vector<Interval> enclosed_constants_;
-  std::vector<Instruction> instructions_;  // registers after the constants
-  std::vector<int> stage_end_;             // roots() + 2 entries
-  std::vector<int> squares_, values_;
-  std::vector<std::vector<int>> partials_, square_partials_;
-  int zero_ = 0;
 };
 
 template <class T>
 SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&program) {
-  values_.resize(program.variables() + program.constants_.size() + program.instructions_.size());
+  values_.resize(program.variables() + program.constants_.size() + program.code_->instructions.size());
   for (std::size_t i = 0; i < program.constants_.size(); ++i) {
     T& own = values_[program.variables() + i];
     if constexpr (std::is_same_v<T, Interval> || std::is_same_v<T, Jet>)
@@ -148,12 +135,14 @@ SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&p
 
 template <class T>
 void SheetProgram::Registers<T>::run(int stage) {
-  const int begin = stage == 0 ? 0 : program_->stage_end_[stage - 1];
-  const int end = program_->stage_end_[stage];
-  const int offset = program_->variables() + static_cast<int>(program_->constants_.size());
+  using Operation = SheetCode::Operation;
+  const SheetCode& code = *program_->code_;
+  const int begin = stage == 0 ? 0 : code.stage_end[stage - 1];
+  const int end = code.stage_end[stage];
+  const int offset = program_->variables() + static_cast<int>(code.constants.size());
   T* const values = values_.data();
   for (int i = begin; i < end; ++i) {
-    const Instruction& instruction = program_->instructions_[i];
+    const SheetCode::Instruction& instruction = code.instructions[i];
     const T& a = values[instruction.first];
     const T& b = values[instruction.second];
     switch (instruction.operation) {

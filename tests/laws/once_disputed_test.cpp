@@ -86,6 +86,26 @@ TEST(OnceDisputed, SingularitiesWithinOneEdge) {
   EXPECT_GT(validation.report.held, 1000u);
 }
 
+// |A| vanishes twice within a sixteenth of an edge; the force flips at one of the two places and vanishes nowhere near.
+TEST(OnceDisputed, TwoSingularitiesThatHideTheirSigns) {
+  LociRequest request;
+  request.joints = {"B2"};
+  request.quantities = {core::Quantity::fy};
+  const LociValidation validation = validate_loci(corpus("witness/stacked_5r_hidden_singularities"), request, {60, 60});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.held, 1000u);
+}
+
+// Where P is on A2 its dyad has no elbow, and numerators multiplied by what it divides by are zero: that is no point of
+// a locus, and was one to the exact engine.
+TEST(OnceDisputed, AnElbowThatIsNowhere) {
+  LociRequest request;
+  request.joints = {"A3"};
+  request.quantities = {core::Quantity::M};
+  request.engine = loci::Engine::exact;
+  EXPECT_TRUE(trace_loci(corpus("witness/stacked_5r_on_a_base"), request).isolated_points.empty());
+}
+
 // Numerators and |A| vanish together where the parallelogram is flat.
 TEST(OnceDisputed, AParallelogramOnALeg) {
   hold("modes/five_bar_parallelogram", false);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -283,6 +284,27 @@ TEST(IntervalDeterminant, IsTheSumOverPermutations) {
     EXPECT_GE(found.upper(), static_cast<double>(expected)) << n;
     EXPECT_LE(found.width(), 1e-6) << n;
   }
+}
+
+// Programs of one shape share their instructions, and have numbers of their own; where numbers become equal, 0 or 1
+// they are of another shape.
+TEST(SheetProgram, SharesCodeButNoNumbers) {
+  const auto value = [](int a, int b, int c) {
+    const core::Polynomial x = core::variable_polynomial(2, 0), y = core::variable_polynomial(2, 1);
+    const auto number = [](int n) { return core::constant_polynomial(2, n); };
+    core::RootTower plane;
+    plane.coordinates = {"x", "y"};
+    const SheetProgram program(plane, std::vector<SheetFunction>{{number(a) * x * x + number(b) * x * y + number(c)}});
+    auto at = program.registers<double>();
+    at.set(0, 3.0);
+    at.set(1, 5.0);
+    at.run_values();
+    at.run_gradients();
+    return std::array{at.value(0), at.partial(0, 0), at.partial(0, 1)};
+  };
+  for (const std::array<int, 3>& n : {std::array{7, 11, 13}, {13, 7, 11}, {7, 7, 7}, {1, 7, 2}, {2, 2, 1}, {7, 11, 13}})
+    EXPECT_EQ(value(n[0], n[1], n[2]),
+              (std::array{9.0 * n[0] + 15.0 * n[1] + n[2], 6.0 * n[0] + 5.0 * n[1], 3.0 * n[1]}));
 }
 
 }  // namespace
