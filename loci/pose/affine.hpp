@@ -1,5 +1,5 @@
-// Enclosures of functions over a box of up to seven coordinates, to second order in the first three: with every
-// coordinate of the box a noise e_i in [-1, 1],
+// Enclosures of functions over a box of up to seven coordinates, to first order or, in the first three, to second: with
+// every coordinate of the box a noise e_i in [-1, 1],
 //     f(x) in c + sum a_i e_i + sum b_ij e_i e_j + [-r, r]
 // for every x of the box. What is linear in the coordinates, and quadratic in the first three, stays so through sums
 // and differences: terms cancel before they are bounded. r shrinks with the cube of a box of three coordinates, else
@@ -14,23 +14,29 @@
 
 namespace clearloci::loci::pose {
 
-struct Affine {
+/// `second_order`: with products of the first three noises. They cost more than half as much again as what is linear.
+template <bool second_order>
+struct AffineForm {
   /// Coordinates of a box: six of a pose and the way along a path; one more makes the number even.
   static constexpr std::size_t noises = 8;
   /// The first of them have squares and products.
-  static constexpr std::size_t curved = 3, products = 6;
+  static constexpr std::size_t curved = second_order ? 3 : 0, products = second_order ? 6 : 0;
 
   double c = 0, r = 0;
   std::array<double, noises> a{};
   std::array<double, products> b{};  ///< of e_0^2, e_1^2, e_2^2, e_0 e_1, e_0 e_2, e_1 e_2
 
-  Affine() = default;
-  explicit Affine(double value) : c(value) {}
+  AffineForm() = default;
+  explicit AffineForm(double value) : c(value) {}
 
   double linear() const {
-    double sum = 0;
-    for (const double own : a) sum += std::abs(own);
-    return sum;
+    // In pairs, which go through registers together: compilers keep the order of a plain sum.
+    std::array<double, 2> sums{};
+    for (std::size_t i = 0; i < noises; i += 2) {
+      sums[0] += std::abs(a[i]);
+      sums[1] += std::abs(a[i + 1]);
+    }
+    return sums[0] + sums[1];
   }
   double quadratic() const {
     double sum = 0;
@@ -42,11 +48,14 @@ struct Affine {
   double lower() const { return down(c - below(1)); }
   double upper() const { return -down(-c - below(-1)); }
   bool contains_zero() const { return lower() <= 0 && upper() >= 0; }
-  double magnitude() const { return std::fmax(std::abs(lower()), std::abs(upper())) * (1 + 0x1p-48); }
+  double magnitude() const {
+    if constexpr (!second_order) return (std::abs(c) + radius()) * (1 + 0x1p-48);
+    return std::fmax(std::abs(lower()), std::abs(upper())) * (1 + 0x1p-48);
+  }
 
   /// Without products: e_i^2 = 1/2 + [-1/2, 1/2].
-  Affine flattened() const {
-    Affine own = *this;
+  AffineForm flattened() const {
+    AffineForm own = *this;
     for (std::size_t i = 0; i < products; ++i) {
       own.b[i] = 0;
       own.c += i < curved ? 0.5 * b[i] : 0;
@@ -64,6 +73,7 @@ struct Affine {
  private:
   /// How far below c (`sign` 1), or above it (-1), the form may be: a e + b e^2 has its ends at -1, 1 or -a / 2b.
   double below(double sign) const {
+    if constexpr (!second_order) return radius();
     double sum = r;
     for (std::size_t i = 0; i < noises; ++i) {
       const double size = std::abs(a[i]), square = i < curved ? sign * b[i] : 0;
@@ -75,41 +85,50 @@ struct Affine {
   }
 };
 
+using Affine = AffineForm<true>;
+using FlatAffine = AffineForm<false>;
+
 /// A number known to half a unit in the last place or exactly.
-inline Affine nearest(const core::Rational& value) {
-  Affine own(core::to_double(value));
+template <class Form = Affine>
+Form nearest(const core::Rational& value) {
+  Form own(core::to_double(value));
   if (core::Rational(own.c) != value) own.r = std::abs(own.c) * 0x1p-52 + 0x1p-1000;
   return own;
 }
 
-inline Affine operator+(const Affine& x, const Affine& y) {
-  Affine sum(x.c + y.c);
-  for (std::size_t i = 0; i < Affine::noises; ++i) sum.a[i] = x.a[i] + y.a[i];
-  for (std::size_t i = 0; i < Affine::products; ++i) sum.b[i] = x.b[i] + y.b[i];
+template <bool k>
+AffineForm<k> operator+(const AffineForm<k>& x, const AffineForm<k>& y) {
+  AffineForm<k> sum(x.c + y.c);
+  for (std::size_t i = 0; i < AffineForm<k>::noises; ++i) sum.a[i] = x.a[i] + y.a[i];
+  for (std::size_t i = 0; i < AffineForm<k>::products; ++i) sum.b[i] = x.b[i] + y.b[i];
   sum.r = x.r + y.r;
-  sum.r += Affine::slack(std::abs(sum.c) + sum.linear() + sum.quadratic() + sum.r);
+  sum.r += AffineForm<k>::slack(std::abs(sum.c) + sum.linear() + sum.quadratic() + sum.r);
   return sum;
 }
 
-inline Affine operator-(const Affine& x, const Affine& y) {
-  Affine difference(x.c - y.c);
-  for (std::size_t i = 0; i < Affine::noises; ++i) difference.a[i] = x.a[i] - y.a[i];
-  for (std::size_t i = 0; i < Affine::products; ++i) difference.b[i] = x.b[i] - y.b[i];
+template <bool k>
+AffineForm<k> operator-(const AffineForm<k>& x, const AffineForm<k>& y) {
+  AffineForm<k> difference(x.c - y.c);
+  for (std::size_t i = 0; i < AffineForm<k>::noises; ++i) difference.a[i] = x.a[i] - y.a[i];
+  for (std::size_t i = 0; i < AffineForm<k>::products; ++i) difference.b[i] = x.b[i] - y.b[i];
   difference.r = x.r + y.r;
-  difference.r += Affine::slack(std::abs(difference.c) + difference.linear() + difference.quadratic() + difference.r);
+  difference.r +=
+      AffineForm<k>::slack(std::abs(difference.c) + difference.linear() + difference.quadratic() + difference.r);
   return difference;
 }
 
 /// The product of two linear parts, times `factor`: among the first three noises exactly; of the others the squares
 /// e_i^2 = 1/2 + [-1/2, 1/2] are half known.
-inline void add_linear_product(Affine& sum, double factor, const std::array<double, Affine::noises>& x,
-                               const std::array<double, Affine::noises>& y) {
+template <bool k>
+void add_linear_product(AffineForm<k>& sum, double factor, const std::array<double, AffineForm<k>::noises>& x,
+                        const std::array<double, AffineForm<k>::noises>& y) {
+  using Form = AffineForm<k>;
   double of_x = 0, of_y = 0, of_curved_x = 0, of_curved_y = 0, squares = 0, together = 0;
-  for (std::size_t i = 0; i < Affine::noises; ++i) {
+  for (std::size_t i = 0; i < Form::noises; ++i) {
     of_x += std::abs(x[i]);
     of_y += std::abs(y[i]);
     const double both = x[i] * y[i];
-    if (i < Affine::curved) {
+    if (i < Form::curved) {
       sum.b[i] += factor * both;
       of_curved_x += std::abs(x[i]);
       of_curved_y += std::abs(y[i]);
@@ -118,26 +137,29 @@ inline void add_linear_product(Affine& sum, double factor, const std::array<doub
       squares += std::abs(both);
     }
   }
-  sum.b[3] += factor * (x[0] * y[1] + x[1] * y[0]);
-  sum.b[4] += factor * (x[0] * y[2] + x[2] * y[0]);
-  sum.b[5] += factor * (x[1] * y[2] + x[2] * y[1]);
+  if constexpr (k) {
+    sum.b[3] += factor * (x[0] * y[1] + x[1] * y[0]);
+    sum.b[4] += factor * (x[0] * y[2] + x[2] * y[0]);
+    sum.b[5] += factor * (x[1] * y[2] + x[2] * y[1]);
+  }
   sum.c += 0.5 * factor * together;
   const double size = std::abs(factor) * of_x * of_y;
   if (of_x > of_curved_x || of_y > of_curved_y)
     sum.r += std::abs(factor) * std::fmax(0.0, of_x * of_y - of_curved_x * of_curved_y - 0.5 * squares);
-  sum.r += 8 * Affine::slack(size);
+  sum.r += 8 * Form::slack(size);
 }
 
-inline Affine operator*(const Affine& x, const Affine& y) {
-  Affine product(x.c * y.c);
-  for (std::size_t i = 0; i < Affine::noises; ++i) product.a[i] = x.c * y.a[i] + y.c * x.a[i];
-  for (std::size_t i = 0; i < Affine::products; ++i) product.b[i] = x.c * y.b[i] + y.c * x.b[i];
+template <bool k>
+AffineForm<k> operator*(const AffineForm<k>& x, const AffineForm<k>& y) {
+  AffineForm<k> product(x.c * y.c);
+  for (std::size_t i = 0; i < AffineForm<k>::noises; ++i) product.a[i] = x.c * y.a[i] + y.c * x.a[i];
+  for (std::size_t i = 0; i < AffineForm<k>::products; ++i) product.b[i] = x.c * y.b[i] + y.c * x.b[i];
   add_linear_product(product, 1, x.a, y.a);
   const double linear_x = x.linear(), linear_y = y.linear(), quadratic_x = x.quadratic(), quadratic_y = y.quadratic();
   const double size_x = std::abs(x.c) + linear_x + quadratic_x, size_y = std::abs(y.c) + linear_y + quadratic_y;
   product.r += linear_x * quadratic_y + quadratic_x * (linear_y + quadratic_y);
   product.r += size_x * y.r + size_y * x.r + x.r * y.r;
-  product.r += Affine::slack(size_x * size_y + product.r);
+  product.r += AffineForm<k>::slack(size_x * size_y + product.r);
   return product;
 }
 
@@ -147,82 +169,97 @@ inline Affine operator*(const Affine& x, const Affine& y) {
 struct Derivatives {
   double value = 0, slope = 0, second = 0, low = 0, high = 0, third = 0;
 };
-inline Affine by_taylor(const Affine& x, const Derivatives& f) {
+template <bool k>
+AffineForm<k> by_taylor(const AffineForm<k>& x, const Derivatives& f) {
+  using Form = AffineForm<k>;
   const double t = x.radius(), half = 0.5 * t * t;
-  Affine result(f.value);
-  for (std::size_t i = 0; i < Affine::noises; ++i) result.a[i] = f.slope * x.a[i];
-  for (std::size_t i = 0; i < Affine::products; ++i) result.b[i] = f.slope * x.b[i];
+  Form result(f.value);
+  for (std::size_t i = 0; i < Form::noises; ++i) result.a[i] = f.slope * x.a[i];
+  for (std::size_t i = 0; i < Form::products; ++i) result.b[i] = f.slope * x.b[i];
   result.r = std::abs(f.slope) * x.r;
   const double least = std::fmin(0.0, f.low) * half, most = std::fmax(0.0, f.high) * half;
   const double cubic = f.third * t * half / 3;
   const double bent = x.quadratic() + x.r, beside = 0.5 * std::abs(f.second) * bent * (2 * x.linear() + bent);
-  if (cubic + beside < 0.5 * (most - least)) {
+  if (k && cubic + beside < 0.5 * (most - least)) {
     add_linear_product(result, 0.5 * f.second, x.a, x.a);
     result.r += cubic + beside;
   } else {
     result.c += 0.5 * (least + most);
     result.r += 0.5 * (most - least);
   }
-  result.r += 16 * Affine::slack(std::abs(f.value) + std::abs(f.slope) * t + std::abs(f.second) * half + result.r);
+  result.r += 16 * Form::slack(std::abs(f.value) + std::abs(f.slope) * t + std::abs(f.second) * half + result.r);
   return result;
 }
 
-inline Affine squared(const Affine& x) { return by_taylor(x, {x.c * x.c, 2 * x.c, 2, 2, 2, 0}); }
+template <bool k>
+AffineForm<k> squared(const AffineForm<k>& x) {
+  return by_taylor(x, Derivatives{x.c * x.c, 2 * x.c, 2, 2, 2, 0});
+}
 
 /// Required: zero is not in `x`.
-inline Affine inverse(const Affine& x) {
+template <bool k>
+AffineForm<k> inverse(const AffineForm<k>& x) {
   const double value = 1 / x.c, near = x.c > 0 ? x.lower() : x.upper(), far = x.c > 0 ? x.upper() : x.lower();
   const double at_near = 2 / (near * near * near), at_far = 2 / (far * far * far);
-  return by_taylor(x, {value, -value * value, 2 * value * value * value, std::fmin(at_near, at_far),
-                       std::fmax(at_near, at_far), 6 / (near * near * near * near)});
+  return by_taylor(x, Derivatives{value, -value * value, 2 * value * value * value, std::fmin(at_near, at_far),
+                                  std::fmax(at_near, at_far), 6 / (near * near * near * near)});
 }
 
 /// Required: x.lower() > 0.
-inline Affine square_root(const Affine& x) {
+template <bool k>
+AffineForm<k> square_root(const AffineForm<k>& x) {
   const double value = std::sqrt(x.c), low = x.lower(), high = x.upper();
-  return by_taylor(x, {value, 0.5 / value, -0.25 / (x.c * value), -0.25 / (low * std::sqrt(low)),
-                       -0.25 / (high * std::sqrt(high)), 0.375 / (low * low * std::sqrt(low))});
+  return by_taylor(x, Derivatives{value, 0.5 / value, -0.25 / (x.c * value), -0.25 / (low * std::sqrt(low)),
+                                  -0.25 / (high * std::sqrt(high)), 0.375 / (low * low * std::sqrt(low))});
 }
 
 /// -cos over an interval is within t of -cos at its middle, and within [-1, 1].
-inline Affine cosine(const Affine& x) {
+template <bool k>
+AffineForm<k> cosine(const AffineForm<k>& x) {
   const double value = std::cos(x.c), t = x.radius() + 0x1p-40;
-  return by_taylor(x, {value, -std::sin(x.c), -value, std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t), 1});
+  return by_taylor(
+      x, Derivatives{value, -std::sin(x.c), -value, std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t), 1});
 }
 
-inline Affine sine(const Affine& x) {
+template <bool k>
+AffineForm<k> sine(const AffineForm<k>& x) {
   const double value = std::sin(x.c), t = x.radius() + 0x1p-40;
-  return by_taylor(x, {value, std::cos(x.c), -value, std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t), 1});
+  return by_taylor(
+      x, Derivatives{value, std::cos(x.c), -value, std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t), 1});
 }
 
 /// Sums of numbers times enclosures, with the roundings of all added at the end.
-class AffineSum {
+template <class Form>
+class SumOf {
  public:
-  void add(double factor, const Affine& x) {
+  void add(double factor, const Form& x) {
     sum_.c += factor * x.c;
-    double size = std::abs(x.c);
-    for (std::size_t i = 0; i < Affine::noises; ++i) {
-      sum_.a[i] += factor * x.a[i];
-      size += std::abs(x.a[i]);
-    }
-    for (std::size_t i = 0; i < Affine::products; ++i) {
-      sum_.b[i] += factor * x.b[i];
-      size += std::abs(x.b[i]);
-    }
+    for (std::size_t i = 0; i < Form::noises; ++i) sum_.a[i] += factor * x.a[i];
+    for (std::size_t i = 0; i < Form::products; ++i) sum_.b[i] += factor * x.b[i];
+    const double size = std::abs(x.c) + x.linear() + x.quadratic();
     sum_.r += std::abs(factor) * x.r;
     size_ += std::abs(factor) * size;
     ++terms_;
   }
-  Affine result() const {
-    Affine own = sum_;
-    own.r += (terms_ + 4) * Affine::slack(size_ + own.r);
+  /// Where x is a number, known to its r.
+  void add_number(double factor, const Form& x) {
+    sum_.c += factor * x.c;
+    sum_.r += std::abs(factor) * x.r;
+    size_ += std::abs(factor) * std::abs(x.c);
+    ++terms_;
+  }
+  Form result() const {
+    Form own = sum_;
+    own.r += (terms_ + 4) * Form::slack(size_ + own.r);
     return own;
   }
 
  private:
-  Affine sum_;
+  Form sum_;
   double size_ = 0;
   int terms_ = 0;
 };
+
+using AffineSum = SumOf<Affine>;
 
 }  // namespace clearloci::loci::pose

@@ -12,8 +12,9 @@ namespace {
 using Operation = core::PoseProgram::Operation;
 
 /// pi to half a unit in the last place.
-Affine enclosed_pi() {
-  Affine own(3.14159265358979312);
+template <class Form>
+Form enclosed_pi() {
+  Form own(3.14159265358979312);
   own.r = 0x1p-52;
   return own;
 }
@@ -42,7 +43,8 @@ double length_of(const std::vector<double>& v) {
 
 }  // namespace
 
-PoseCell::PoseCell(const core::PoseStatics& statics)
+template <class Form>
+PoseCellOf<Form>::PoseCellOf(const core::PoseStatics& statics)
     : statics_(&statics), n_(static_cast<std::size_t>(statics.unknowns)), columns_(n_) {
   for (std::size_t row = 0; row < n_; ++row)
     for (const core::LinearRow::Term& term : statics.equations[row].terms)
@@ -52,46 +54,49 @@ PoseCell::PoseCell(const core::PoseStatics& statics)
   registers_.resize(statics.program.steps.size());
   for (std::size_t i = 0; i < registers_.size(); ++i) {
     const core::PoseProgram::Step& own = statics.program.steps[i];
-    if (own.operation == Operation::constant) registers_[i] = nearest(own.value);
-    if (own.operation == Operation::pi) registers_[i] = enclosed_pi();
+    if (own.operation == Operation::constant) registers_[i] = nearest<Form>(own.value);
+    if (own.operation == Operation::pi) registers_[i] = enclosed_pi<Form>();
+    varies_.push_back(own.varies ? 1 : 0);
     if (own.operation == Operation::square_root && own.varies) closures_.push_back(own.first);
   }
   closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
   inverse_.resize(n_ * n_);
   error_.resize(n_ * n_);
   solution_.assign(statics.loads, std::vector<double>(n_));
-  moved_.assign(statics.loads, std::vector<Affine>(n_));
+  moved_.assign(statics.loads, std::vector<Form>(n_));
   rest_.assign(statics.loads, std::vector<double>(n_));
   least_.resize(statics.demands.size());
   kept_.resize(statics.demands.size());
 }
 
-PoseCell::State PoseCell::in_doubt(Doubt doubt, const Affine& form, int demand) {
+template <class Form>
+CellAnswers::State PoseCellOf<Form>::in_doubt(Doubt doubt, const Form& form, int demand) {
   doubt_ = doubt;
   demand_ = demand;
-  for (std::size_t p = 0; p < Affine::noises; ++p) spreads_[p] = std::abs(form.a[p]);
+  for (std::size_t p = 0; p < Form::noises; ++p) spreads_[p] = std::abs(form.a[p]);
   return State::in_doubt;
 }
 
-PoseCell::State PoseCell::run(const PoseChart& chart, const PoseBox& box) {
+template <class Form>
+CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& box) {
   for (std::size_t i = 0; i < registers_.size(); ++i) {
     const core::PoseProgram::Step& own = statics_->program.steps[i];
-    const Affine& x = registers_[static_cast<std::size_t>(own.first)];
-    const Affine& y = registers_[static_cast<std::size_t>(own.second)];
+    const Form& x = registers_[static_cast<std::size_t>(own.first)];
+    const Form& y = registers_[static_cast<std::size_t>(own.second)];
     switch (own.operation) {
       case Operation::constant:
       case Operation::pi:
         break;
       case Operation::coordinate: {
         const auto q = static_cast<std::size_t>(own.first);
-        AffineSum sum;
-        sum.add(1, Affine(chart.base[q]));
+        Sum sum;
+        sum.add(1, Form(chart.base[q]));
         for (std::size_t p = 0; p < box.size(); ++p) {
           if (chart.ways[p][q] == 0) continue;
           const auto& [low, high] = box[p];
-          Affine parameter(low + 0.5 * (high - low));
+          Form parameter(low + 0.5 * (high - low));
           parameter.a[p] = std::max(high - parameter.c, parameter.c - low);
-          if (parameter.a[p] > 0) parameter.r = Affine::slack(std::abs(high) + std::abs(low));
+          if (parameter.a[p] > 0) parameter.r = Form::slack(std::abs(high) + std::abs(low));
           sum.add(chart.ways[p][q], parameter);
         }
         registers_[i] = sum.result();
@@ -134,7 +139,8 @@ PoseCell::State PoseCell::run(const PoseChart& chart, const PoseBox& box) {
 }
 
 /// Gauss and Jordan with partial pivoting of A at the cell's middle.
-bool PoseCell::invert() {
+template <class Form>
+bool PoseCellOf<Form>::invert() {
   std::vector<double> a(n_ * n_, 0.0);
   for (std::size_t column = 0; column < n_; ++column)
     for (const Entry& entry : columns_[column])
@@ -174,19 +180,20 @@ bool PoseCell::invert() {
   return std::all_of(inverse_.begin(), inverse_.end(), [](double x) { return std::isfinite(x); });
 }
 
-bool PoseCell::is_regular() {
+template <class Form>
+bool PoseCellOf<Form>::is_regular() {
   if (n_ == 0) return true;  // every pivot was a number
-  std::array<double, Affine::noises> moves{};
+  std::array<double, Form::noises> moves{};
   for (std::size_t i = 0; i < n_; ++i)
     for (std::size_t j = 0; j < n_; ++j) {
-      AffineSum sum;
-      if (i == j) sum.add(1, Affine(1.0));
+      Sum sum;
+      if (i == j) sum.add(1, Form(1.0));
       for (const Entry& entry : columns_[j])
         if (const double own = inverse_at(i, static_cast<std::size_t>(entry.row)); own != 0)
-          sum.add(-own, step(entry.step));
-      const Affine e = sum.result();
+          add_step(sum, -own, entry.step);
+      const Form e = sum.result();
       error_[i * n_ + j] = e.magnitude();
-      for (std::size_t p = 0; p < Affine::noises; ++p) moves[p] += std::abs(e.a[p]);
+      for (std::size_t p = 0; p < Form::noises; ++p) moves[p] += std::abs(e.a[p]);
     }
   // Towards the vector that |E| stretches most, kept off zero.
   std::vector<double> weights(n_, 1.0), stretched(n_);
@@ -217,25 +224,26 @@ bool PoseCell::is_regular() {
 }
 
 /// w_m under a load, and w - w_m in any pose of the cell: C r and what is added to it at most.
-void PoseCell::solve(std::size_t load) {
+template <class Form>
+void PoseCellOf<Form>::solve(std::size_t load) {
   std::vector<double>& w = solution_[load];
   for (std::size_t i = 0; i < n_; ++i) {
     w[i] = 0;
     for (std::size_t j = 0; j < n_; ++j) w[i] += inverse_at(i, j) * step(statics_->equations[j].free[load]).c;
   }
-  std::vector<Affine> residual;
+  std::vector<Form> residual;
   for (const core::LinearRow& row : statics_->equations) {
-    AffineSum sum;
-    sum.add(1, step(row.free[load]));
+    Sum sum;
+    add_step(sum, 1, row.free[load]);
     for (const core::LinearRow::Term& term : row.terms)
-      sum.add(-w[static_cast<std::size_t>(term.unknown)], step(term.step));
+      add_step(sum, -w[static_cast<std::size_t>(term.unknown)], term.step);
     residual.push_back(sum.result());
   }
-  std::vector<Affine>& moved = moved_[load];
+  std::vector<Form>& moved = moved_[load];
   std::vector<double>& rest = rest_[load];
   double largest = 0;
   for (std::size_t i = 0; i < n_; ++i) {
-    AffineSum sum;
+    Sum sum;
     for (std::size_t j = 0; j < n_; ++j) sum.add(inverse_at(i, j), residual[j]);
     moved[i] = sum.result();
     largest = std::max(largest, moved[i].magnitude() / weights_[i]);
@@ -248,7 +256,8 @@ void PoseCell::solve(std::size_t load) {
   }
 }
 
-std::vector<double> PoseCell::component_values(const core::PoseDemand& demand, std::size_t load) const {
+template <class Form>
+std::vector<double> PoseCellOf<Form>::component_values(const core::PoseDemand& demand, std::size_t load) const {
   std::vector<double> values;
   for (const core::LinearRow& row : demand.components) {
     double value = registers_[static_cast<std::size_t>(row.free[load])].c;
@@ -260,28 +269,30 @@ std::vector<double> PoseCell::component_values(const core::PoseDemand& demand, s
   return values;
 }
 
-bool PoseCell::keeps(int index) {
+template <class Form>
+bool PoseCellOf<Form>::keeps(int index) {
   const core::PoseDemand& demand = statics_->demands[static_cast<std::size_t>(index)];
   const std::vector<double> first = component_values(demand, 0), last = component_values(demand, statics_->loads - 1);
   std::vector<double> n = nearest_to_origin(first, last);
   const double size = length_of(n);
   // Without a direction of its own any one does.
   for (std::size_t k = 0; k < n.size(); ++k) n[k] = size > 0 ? n[k] / size : (k == 0 ? 1.0 : 0.0);
-  std::vector<AffineSum> sums(n_);
+  std::vector<Sum> sums(n_);
   std::vector<double> at_middle(n_, 0.0), multipliers(n_, 0.0);
   for (std::size_t k = 0; k < n.size(); ++k)
     for (const core::LinearRow::Term& term : demand.components[k].terms) {
       const auto j = static_cast<std::size_t>(term.unknown);
-      sums[j].add(n[k], step(term.step));
+      add_step(sums[j], n[k], term.step);
       at_middle[j] += n[k] * step(term.step).c;
     }
   for (std::size_t j = 0; j < n_; ++j)
     if (at_middle[j] != 0)
       for (std::size_t i = 0; i < n_; ++i) multipliers[i] += inverse_at(j, i) * at_middle[j];
-  std::vector<Affine> left;
+  std::vector<Form> left;
   for (std::size_t j = 0; j < n_; ++j) {
     for (const Entry& entry : columns_[j])
-      sums[j].add(-multipliers[static_cast<std::size_t>(entry.row)], step(entry.step));
+      if (const double own = multipliers[static_cast<std::size_t>(entry.row)]; own != 0)
+        add_step(sums[j], -own, entry.step);
     left.push_back(sums[j].result());
   }
   double& kept = least_[static_cast<std::size_t>(index)];
@@ -289,39 +300,40 @@ bool PoseCell::keeps(int index) {
   const double least = leasts_[static_cast<std::size_t>(index)];
   bool enough = true;
   for (std::size_t load = 0; load < statics_->loads; ++load) {
-    AffineSum sum;
-    for (std::size_t k = 0; k < n.size(); ++k) sum.add(n[k], step(demand.components[k].free[load]));
+    Sum sum;
+    for (std::size_t k = 0; k < n.size(); ++k) add_step(sum, n[k], demand.components[k].free[load]);
     for (std::size_t i = 0; i < n_; ++i)
-      if (multipliers[i] != 0) sum.add(multipliers[i], step(statics_->equations[i].free[load]));
+      if (multipliers[i] != 0) add_step(sum, multipliers[i], statics_->equations[i].free[load]);
     double beyond = 0;
     for (std::size_t j = 0; j < n_; ++j) {
       sum.add(solution_[load][j], left[j]);
       beyond += left[j].magnitude() * rest_[load][j];
     }
     for (std::size_t j = 0; j < n_; ++j) sum.add(1, left[j] * moved_[load][j]);
-    const Affine value = sum.result();
+    const Form value = sum.result();
     // n is a unit vector to some roundings.
-    const double low = Affine::down(value.lower() - rounded_up(beyond, n_)) * (1 - 0x1p-48);
+    const double low = Form::down(value.lower() - rounded_up(beyond, n_)) * (1 - 0x1p-48);
     kept = std::min(kept, low);
     Open& own = kept_[static_cast<std::size_t>(index)];
     own = {value, least, index, n.size() != 1 ? 0 : n[0] > 0 ? 1 : -1};
-    own.form.r = (own.form.r + rounded_up(beyond, n_)) * (1 + 0x1p-40) + Affine::slack(std::abs(value.c));
+    own.form.r = (own.form.r + rounded_up(beyond, n_)) * (1 + 0x1p-40) + Form::slack(std::abs(value.c));
     if (low > least) {
       const double usual = std::abs(value.c) + 0x1p-1000;
-      for (std::size_t p = 0; enough && p < Affine::noises; ++p) spreads_[p] += std::abs(value.a[p]) / usual;
+      for (std::size_t p = 0; enough && p < Form::noises; ++p) spreads_[p] += std::abs(value.a[p]) / usual;
       continue;
     }
     if (enough) in_doubt(Doubt::demand, value, index);
     enough = false;
     for (std::size_t j = 0; j < n_; ++j)
-      for (std::size_t p = 0; p < Affine::noises; ++p)
+      for (std::size_t p = 0; p < Form::noises; ++p)
         spreads_[p] += 2 * std::abs(left[j].a[p]) * (moved_[load][j].magnitude() + rest_[load][j]);
   }
   return enough;
 }
 
-PoseCell::State PoseCell::enter(const PoseChart& chart, const PoseBox& box) {
-  core::ensure(box.size() < Affine::noises, "a cell has seven parameters at most");
+template <class Form>
+CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox& box) {
+  core::ensure(box.size() < Form::noises, "a cell has seven parameters at most");
   doubt_ = Doubt::none;
   spreads_.fill(0);
   if (const State state = run(chart, box); state != State::proven) return state;
@@ -342,7 +354,8 @@ PoseCell::State PoseCell::enter(const PoseChart& chart, const PoseBox& box) {
   return State::proven;
 }
 
-std::optional<PoseCell::At> PoseCell::at(const std::vector<double>& pose) {
+template <class Form>
+std::optional<CellAnswers::At> PoseCellOf<Form>::at(const std::vector<double>& pose) {
   if (run({pose, {}}, {}) != State::proven || !invert()) return std::nullopt;
   At result;
   result.determinant = determinant_;
@@ -362,8 +375,11 @@ std::optional<PoseCell::At> PoseCell::at(const std::vector<double>& pose) {
   return result;
 }
 
-double PoseCell::size_of(const std::vector<std::vector<double>>& by_load) {
+double CellAnswers::size_of(const std::vector<std::vector<double>>& by_load) {
   return length_of(nearest_to_origin(by_load.front(), by_load.back()));
 }
+
+template class PoseCellOf<Affine>;
+template class PoseCellOf<FlatAffine>;
 
 }  // namespace clearloci::loci::pose

@@ -30,26 +30,9 @@ namespace clearloci::loci::pose {
 /// What keeps a pose from being good: `demand` is that of core::PoseStatics, with `Doubt::demand`.
 enum class Doubt { none, workspace, singularity, demand };
 
-class PoseCell {
- public:
+/// What a cell says of itself, whatever its forms.
+struct CellAnswers {
   enum class State { proven, in_doubt, outside };
-
-  /// `statics` must outlive the cell. One a thread.
-  explicit PoseCell(const core::PoseStatics& statics);
-
-  /// `outside`: no pose of the cell can be assembled.
-  State enter(const PoseChart& chart, const PoseBox& box);
-
-  /// Of a cell in doubt.
-  /// Tries no demand first because it failed last: where the same cells follow, the same is found on every thread.
-  void forget() { first_ = 0; }
-  Doubt doubt() const { return doubt_; }
-  int demand() const { return demand_; }
-  /// How far each parameter of the box moves what is in doubt: a cut helps most along the largest.
-  const std::array<double, Affine::noises>& spreads() const { return spreads_; }
-  /// Of a proven cell: what every reaction has at least, N or N m, one a demand.
-  const std::vector<double>& least_sizes() const { return least_; }
-
   /// Signs, +1 or -1, of every demand of one component and, last, of |A|; 0 where they are not known, and of others.
   using Signs = std::vector<int>;
   /// What is known of a cell in doubt, under one load.
@@ -61,36 +44,68 @@ class PoseCell {
     std::array<HalfSpace, 2> parts;
     std::array<Signs, 2> of_parts;
   };
-  Known known();
-
-  /// A single pose in floating point; nothing where it cannot be assembled or A cannot be inverted.
+  /// A single pose in floating point.
   struct At {
     int determinant = 0;                                       ///< its sign
     double logarithm = 0;                                      ///< of its size
     std::vector<double> closures;                              ///< positive within the workspace, zero on its boundary
     std::vector<std::vector<std::vector<double>>> components;  ///< demand, load, component: N, N m
   };
-  std::optional<At> at(const std::vector<double>& pose);
   /// The smallest size under loads between the first and the last.
   static double size_of(const std::vector<std::vector<double>>& by_load);
+};
 
+/// `Form`: of second order where products of coordinates are worth their price, else of first (affine.hpp).
+template <class Form>
+class PoseCellOf : public CellAnswers {
+ public:
+  /// `statics` must outlive the cell. One a thread.
+  explicit PoseCellOf(const core::PoseStatics& statics);
+
+  /// `outside`: no pose of the cell can be assembled.
+  State enter(const PoseChart& chart, const PoseBox& box);
+
+  /// Of a cell in doubt.
+  /// Tries no demand first because it failed last: where the same cells follow, the same is found on every thread.
+  void forget() { first_ = 0; }
+  Doubt doubt() const { return doubt_; }
+  int demand() const { return demand_; }
+  /// How far each parameter of the box moves what is in doubt: a cut helps most along the largest.
+  const std::array<double, Form::noises>& spreads() const { return spreads_; }
+  /// Of a proven cell: what every reaction has at least, N or N m, one a demand.
+  const std::vector<double>& least_sizes() const { return least_; }
+
+  /// Of a cell in doubt; of forms of second order only.
+  Known known();
+
+  /// Nothing where it cannot be assembled or A cannot be inverted.
+  std::optional<At> at(const std::vector<double>& pose);
   const core::PoseStatics& statics() const { return *statics_; }
 
  private:
+  using Sum = SumOf<Form>;
   struct Entry {
     int row = 0, step = 0;
   };
   State run(const PoseChart& chart, const PoseBox& box);
-  State in_doubt(Doubt doubt, const Affine& form, int demand = -1);
+  State in_doubt(Doubt doubt, const Form& form, int demand = -1);
   bool invert();
   bool is_regular();
   void solve(std::size_t load);
   bool keeps(int demand);
-  Affine& step(int index) { return registers_[static_cast<std::size_t>(index)]; }
+  /// Most entries of A are numbers, which move with no coordinate.
+  void add_step(Sum& sum, double factor, int index) const {
+    const auto i = static_cast<std::size_t>(index);
+    if (varies_[i] != 0)
+      sum.add(factor, registers_[i]);
+    else
+      sum.add_number(factor, registers_[i]);
+  }
+  Form& step(int index) { return registers_[static_cast<std::size_t>(index)]; }
   std::vector<double> component_values(const core::PoseDemand& demand, std::size_t load) const;
   /// Something that may vanish in the cell, as it is kept: where |form| > least. `demand` < 0: |A|, by s.
   struct Open {
-    Affine form;
+    Form form;
     double least = 0;
     int demand = -1;
     int sign = 0;  ///< of a demand of one component where the form is positive; 0: of others
@@ -103,7 +118,8 @@ class PoseCell {
   std::size_t n_;
   std::vector<std::vector<Entry>> columns_;  ///< of A
   std::vector<double> leasts_;               ///< asked of every demand, rounded up
-  std::vector<Affine> registers_;
+  std::vector<Form> registers_;
+  std::vector<char> varies_;     ///< registers that do with the pose; the others are numbers
   std::vector<double> inverse_;  ///< C
   std::vector<double> error_;    ///< |E|
   std::vector<double> weights_;  ///< s
@@ -112,13 +128,23 @@ class PoseCell {
   double logarithm_ = 0;
   std::vector<int> closures_;                  ///< steps whose roots vary with the pose, and limits
   std::vector<std::vector<double>> solution_;  ///< load by load: w_m
-  std::vector<std::vector<Affine>> moved_;     ///< C r
+  std::vector<std::vector<Form>> moved_;       ///< C r
   std::vector<std::vector<double>> rest_;      ///< what w - w_m differs from that at most
   std::vector<double> least_;
   std::vector<Open> kept_;  ///< a demand each, as it was kept from zero last
   Doubt doubt_ = Doubt::none;
   int demand_ = -1, first_ = 0;
-  std::array<double, Affine::noises> spreads_{};
+  std::array<double, Form::noises> spreads_{};
 };
+
+using PoseCell = PoseCellOf<Affine>;
+template <>
+CellAnswers::Known PoseCell::known();
+template <>
+void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
+template <>
+void PoseCell::know_near_singularity(Known& known);
+extern template class PoseCellOf<Affine>;
+extern template class PoseCellOf<FlatAffine>;
 
 }  // namespace clearloci::loci::pose

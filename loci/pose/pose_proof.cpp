@@ -35,7 +35,8 @@ Pose pose_of(const Part& part) { return part.piece->chart.at(middle_of(part.box)
 
 /// The parameter along which a cut helps most; -1: all are too fine. One that is left far behind the others is cut
 /// sometimes, since what is in doubt may depend on it in another cell.
-int chosen(const PoseCell& cell, const Part& part) {
+template <class Cell>
+int chosen(const Cell& cell, const Part& part) {
   constexpr double share_of_width = 1e-3;
   int best = -1;
   double most = -1, total = 0;
@@ -73,8 +74,9 @@ class Signs {
   explicit Signs(const core::PoseStatics& statics) : statics_(statics) {}
 
   /// Suspects at a pose, against the first pose that was seen.
-  std::vector<PoseSuspect> seen(PoseCell& cell, const Pose& pose) {
-    const std::optional<PoseCell::At> now = cell.at(pose);
+  template <class Cell>
+  std::vector<PoseSuspect> seen(Cell& cell, const Pose& pose) {
+    const std::optional<CellAnswers::At> now = cell.at(pose);
     if (!now) return {{Doubt::workspace, -1, pose}};
     const std::lock_guard lock(mutex_);
     if (!first_) {
@@ -86,7 +88,7 @@ class Signs {
     for (std::size_t d = 0; d < statics_.demands.size(); ++d) {
       const double least = core::to_double(statics_.demands[d].demand.least);
       const auto& own = now->components[d];
-      if (least > 0 && PoseCell::size_of(own) < least) all.push_back({Doubt::demand, static_cast<int>(d), pose});
+      if (least > 0 && CellAnswers::size_of(own) < least) all.push_back({Doubt::demand, static_cast<int>(d), pose});
       // Between two loads it may point the other way at one of them.
       const bool turned = own.size() > 1 && own.front().size() == 1 && own.front()[0] * own.back()[0] < 0;
       bool opposite = turned;
@@ -105,9 +107,10 @@ class Signs {
  private:
   const core::PoseStatics& statics_;
   std::mutex mutex_;
-  std::optional<std::pair<Pose, PoseCell::At>> first_;
+  std::optional<std::pair<Pose, CellAnswers::At>> first_;
 };
 
+template <class Cell>
 class Search {
  public:
   Search(const core::PoseStatics& statics, const PoseRegion& region, double margin, const PoseRefuted& refuted,
@@ -122,7 +125,7 @@ class Search {
         pieces_(region.pieces(margin)) {}
 
   PoseProof run() {
-    PoseCell cell(statics_);
+    Cell cell(statics_);
     for (const Pose& pose : region_.samples())
       if (look(cell, pose)) return finished();
     std::deque<Part> parts;
@@ -134,9 +137,9 @@ class Search {
       visit(cell, part, left);
       for (Part& own : left) parts.push_back(std::move(own));
     }
-    tbb::enumerable_thread_specific<PoseCell> cells([&] { return PoseCell(statics_); });
+    tbb::enumerable_thread_specific<Cell> cells([&] { return Cell(statics_); });
     run_in_order(parts.size(), [&](std::size_t i) {
-      PoseCell& own = cells.local();
+      Cell& own = cells.local();
       own.forget();
       std::vector<Part> stack = {parts[i]};
       while (!stack.empty()) {
@@ -153,14 +156,14 @@ class Search {
   }
 
  private:
-  void visit(PoseCell& cell, const Part& part, std::vector<Part>& left) {
+  void visit(Cell& cell, const Part& part, std::vector<Part>& left) {
     if (region_.distance(*part.piece, part.box) > reach_) return;
     if (out_of_effort()) return leave_open(part);
-    const PoseCell::State state = cell.enter(part.piece->chart, part.box);
-    if (state == PoseCell::State::proven) return;
+    const CellAnswers::State state = cell.enter(part.piece->chart, part.box);
+    if (state == CellAnswers::State::proven) return;
     const int along = chosen(cell, part);
     const bool fine = along < 0;
-    if (fine || state == PoseCell::State::outside || ++doubts_ % between_looks == 0) {
+    if (fine || state == CellAnswers::State::outside || ++doubts_ % between_looks == 0) {
       // The cell is entered again at its middle: what it said is known by now.
       const Pose pose = pose_of(part);
       if (region_.distance(pose) <= margin_ * (1 - 1e-9) + region_.hair() && look(cell, pose)) return;
@@ -208,7 +211,7 @@ class Search {
   }
 
   /// Whether the task is refuted by what a pose looks like.
-  bool look(PoseCell& cell, const Pose& pose) {
+  bool look(Cell& cell, const Pose& pose) {
     for (const PoseSuspect& suspect : signs_.seen(cell, pose)) {
       const std::lock_guard lock(mutex_);
       if (refuted_found_) return true;
@@ -256,14 +259,14 @@ class Search {
 };
 
 /// Parts by a number, the least first, looked at some at a time on all cores until `done`.
-template <class Better>
+template <class Cell, class Better>
 class BestFirst {
  public:
   struct Item {
     double key = 0;
     Part part;
   };
-  explicit BestFirst(const core::PoseStatics& statics) : cells_([&statics] { return PoseCell(statics); }) {}
+  explicit BestFirst(const core::PoseStatics& statics) : cells_([&statics] { return Cell(statics); }) {}
 
   void push(double key, Part part) { queue_.push({key, std::move(part)}); }
   bool empty() const { return queue_.empty(); }
@@ -282,7 +285,7 @@ class BestFirst {
     looked_at_ += static_cast<long>(items.size());
     std::vector<std::vector<Item>> found(items.size());
     run_in_order((items.size() + at_a_time - 1) / at_a_time, [&](std::size_t part) {
-      PoseCell& cell = cells_.local();
+      Cell& cell = cells_.local();
       cell.forget();
       for (std::size_t i = part * at_a_time; i < std::min(items.size(), (part + 1) * at_a_time); ++i)
         look(cell, items[i], found[i]);
@@ -293,7 +296,7 @@ class BestFirst {
 
  private:
   std::priority_queue<Item, std::vector<Item>, Better> queue_;
-  tbb::enumerable_thread_specific<PoseCell> cells_;
+  tbb::enumerable_thread_specific<Cell> cells_;
   long looked_at_ = 0;
 };
 
@@ -303,17 +306,64 @@ struct LargerKey {
     return a.key > b.key;
   }
 };
-using Queue = BestFirst<LargerKey>;
 
 bool over(const PoseEffort& effort, long cells) {
   return cells >= effort.most_cells || (effort.deadline && std::chrono::steady_clock::now() >= *effort.deadline);
+}
+
+/// Whether products of coordinates pay: where every coordinate has them. Of six they are but a few, take as many cells
+/// and half as long again.
+bool with_products(const PoseRegion& region) { return region.coordinates() <= Affine::curved; }
+
+template <class Cell>
+std::vector<double> least_by(const core::PoseStatics& statics, const PoseRegion& region, const std::vector<double>& met,
+                             double accuracy, const PoseEffort& effort) {
+  const std::vector<PosePiece> pieces = region.pieces(0);
+  const std::size_t demands = statics.demands.size();
+  std::vector<double> proven = met;
+  // A cell is cut until every reaction in it has nearly the least that was met anywhere.
+  using Queue = BestFirst<Cell, LargerKey>;
+  Queue queue(statics);
+  const auto share = [&](const std::vector<double>& least) {
+    double worst = 1;
+    for (std::size_t d = 0; d < demands; ++d)
+      if (met[d] > 0) worst = std::min(worst, least[d] / met[d]);
+    return worst;
+  };
+  std::mutex mutex;
+  std::vector<double> done = met;  // of the cells that are not looked at further
+  for (const PosePiece& piece : pieces) queue.push(0, {&piece, piece.box});
+  const auto keep = [&](const std::vector<double>& least) {
+    const std::lock_guard lock(mutex);
+    for (std::size_t d = 0; d < demands; ++d) done[d] = std::min(done[d], least[d]);
+  };
+  while (!queue.empty()) {
+    const bool last = over(effort, queue.looked_at());
+    queue.step([&](Cell& cell, const typename Queue::Item& item, std::vector<typename Queue::Item>& found) {
+      const Part& part = item.part;
+      if (region.distance(*part.piece, part.box) > region.hair()) return;
+      const bool good = cell.enter(part.piece->chart, part.box) == CellAnswers::State::proven;
+      const std::vector<double> least = good ? cell.least_sizes() : std::vector<double>(demands, 0.0);
+      const double own = share(least);
+      const int along = last || own >= 1 - accuracy ? -1 : chosen(cell, part);
+      if (along < 0) return keep(least);
+      const auto parameter = static_cast<std::size_t>(along);
+      const double at = 0.5 * (part.box[parameter][0] + part.box[parameter][1]);
+      auto [low, high] = halves(part, parameter, at);
+      found.push_back({own, std::move(low)});
+      found.push_back({own, std::move(high)});
+    });
+  }
+  for (std::size_t d = 0; d < demands; ++d) proven[d] = std::max(0.0, std::min(proven[d], done[d]));
+  return proven;
 }
 
 }  // namespace
 
 PoseProof prove_poses(const core::PoseStatics& statics, const PoseRegion& region, double margin,
                       const PoseRefuted& refuted, const PoseEffort& effort) {
-  return Search(statics, region, margin, refuted, effort).run();
+  return with_products(region) ? Search<PoseCell>(statics, region, margin, refuted, effort).run()
+                               : Search<PoseCellOf<FlatAffine>>(statics, region, margin, refuted, effort).run();
 }
 
 double pose_clearance(const core::PoseStatics& statics, const PoseRegion& region, double from, double limit,
@@ -339,43 +389,8 @@ double pose_clearance(const core::PoseStatics& statics, const PoseRegion& region
 
 std::vector<double> least_sizes(const core::PoseStatics& statics, const PoseRegion& region,
                                 const std::vector<double>& met, double accuracy, const PoseEffort& effort) {
-  const std::vector<PosePiece> pieces = region.pieces(0);
-  const std::size_t demands = statics.demands.size();
-  std::vector<double> proven = met;
-  // A cell is cut until every reaction in it has nearly the least that was met anywhere.
-  Queue queue(statics);
-  const auto share = [&](const std::vector<double>& least) {
-    double worst = 1;
-    for (std::size_t d = 0; d < demands; ++d)
-      if (met[d] > 0) worst = std::min(worst, least[d] / met[d]);
-    return worst;
-  };
-  std::mutex mutex;
-  std::vector<double> done = met;  // of the cells that are not looked at further
-  for (const PosePiece& piece : pieces) queue.push(0, {&piece, piece.box});
-  const auto keep = [&](const std::vector<double>& least) {
-    const std::lock_guard lock(mutex);
-    for (std::size_t d = 0; d < demands; ++d) done[d] = std::min(done[d], least[d]);
-  };
-  while (!queue.empty()) {
-    const bool last = over(effort, queue.looked_at());
-    queue.step([&](PoseCell& cell, const Queue::Item& item, std::vector<Queue::Item>& found) {
-      const Part& part = item.part;
-      if (region.distance(*part.piece, part.box) > region.hair()) return;
-      const bool good = cell.enter(part.piece->chart, part.box) == PoseCell::State::proven;
-      const std::vector<double> least = good ? cell.least_sizes() : std::vector<double>(demands, 0.0);
-      const double own = share(least);
-      const int along = last || own >= 1 - accuracy ? -1 : chosen(cell, part);
-      if (along < 0) return keep(least);
-      const auto parameter = static_cast<std::size_t>(along);
-      const double at = 0.5 * (part.box[parameter][0] + part.box[parameter][1]);
-      auto [low, high] = halves(part, parameter, at);
-      found.push_back({own, std::move(low)});
-      found.push_back({own, std::move(high)});
-    });
-  }
-  for (std::size_t d = 0; d < demands; ++d) proven[d] = std::max(0.0, std::min(proven[d], done[d]));
-  return proven;
+  return with_products(region) ? least_by<PoseCell>(statics, region, met, accuracy, effort)
+                               : least_by<PoseCellOf<FlatAffine>>(statics, region, met, accuracy, effort);
 }
 
 }  // namespace clearloci::loci::pose

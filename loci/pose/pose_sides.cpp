@@ -95,6 +95,7 @@ int sign_of(const Affine& x) { return x.contains_zero() ? 0 : x.c > 0 ? 1 : -1; 
 ///     way . e > (least_i + r_i - c_i + |d_i|) / l_i   makes form_i > least_i,
 /// and likewise on the other side. Forms that vanish on one surface have nearly one direction; of others little is
 /// left. `turned`: what the sign of a demand is multiplied by where |A|'s form is positive (0: it is not open).
+template <>
 void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const {
   if (open.empty()) return;
   const Affine first = open.front().form.flattened();
@@ -142,6 +143,7 @@ void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& t
   }
 }
 
+template <>
 PoseCell::Known PoseCell::known() {
   Known known;
   const std::size_t demands = statics_->demands.size();
@@ -175,6 +177,7 @@ PoseCell::Known PoseCell::known() {
   return share(other) > share(known) ? other : known;
 }
 
+template <>
 void PoseCell::know_near_singularity(Known& known) {
   constexpr std::size_t most = 40;  // unknowns: beyond, a cell costs more than its halves
   known.open.emplace_back(Doubt::singularity, -1);

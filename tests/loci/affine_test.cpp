@@ -16,15 +16,17 @@ double f(const Point& p) {
   return std::sqrt(x * x + y + 3) * std::cos(x * y) / (2 + std::sin(z)) - (x - z) * (x - z);
 }
 
-Affine f(const std::array<Affine, 3>& p) {
+template <class Form>
+Form f(const std::array<Form, 3>& p) {
   const auto& [x, y, z] = p;
-  return square_root(squared(x) + y + Affine(3)) * cosine(x * y) * inverse(Affine(2) + sine(z)) - squared(x - z);
+  return square_root(squared(x) + y + Form(3)) * cosine(x * y) * inverse(Form(2) + sine(z)) - squared(x - z);
 }
 
-std::array<Affine, 3> box(const Point& middle, double half) {
-  std::array<Affine, 3> all;
+template <class Form = Affine>
+std::array<Form, 3> box(const Point& middle, double half) {
+  std::array<Form, 3> all;
   for (std::size_t c = 0; c < 3; ++c) {
-    all[c] = Affine(middle[c]);
+    all[c] = Form(middle[c]);
     all[c].a[c] = half;
   }
   return all;
@@ -55,6 +57,43 @@ TEST(Affine, EnclosesWhatItStandsFor) {
       ASSERT_GE(all.upper(), value - 1e-15);
     }
   }
+}
+
+TEST(Affine, OfFirstOrderEnclosesTooAndLeavesASquareOfTheBox) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> place(-1, 1);
+  for (int trial = 0; trial < 500; ++trial) {
+    const Point middle = {place(random), place(random), place(random)};
+    const double half = std::pow(10.0, -6 * std::abs(place(random)) - 0.5);
+    const FlatAffine all = f(box<FlatAffine>(middle, half));
+    ASSERT_LE(all.r, 40 * half * half + 1e-13);
+    for (int sample = 0; sample < 50; ++sample) {
+      Point at{};
+      double linear = all.c;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double e = sample < 8 ? (sample >> c & 1 ? 1.0 : -1.0) : place(random);
+        at[c] = middle[c] + half * e;
+        linear += all.a[c] * e;
+      }
+      const double value = f(at);
+      ASSERT_LE(std::abs(value - linear), all.r + 1e-15) << "trial " << trial;
+      ASSERT_LE(all.lower(), value + 1e-15);
+      ASSERT_GE(all.upper(), value - 1e-15);
+      ASSERT_GE(all.magnitude(), std::abs(value) - 1e-15);
+    }
+  }
+}
+
+TEST(Affine, SumsOfNumbersAreThoseOfForms) {
+  AffineSum as_numbers, as_forms;
+  for (const double factor : {0.1, -3.0, 1e-9}) {
+    Affine third(1.0 / 3);
+    third.r = 1e-17;
+    as_numbers.add_number(factor, third);
+    as_forms.add(factor, third);
+  }
+  EXPECT_EQ(as_numbers.result().c, as_forms.result().c);
+  EXPECT_EQ(as_numbers.result().r, as_forms.result().r);
 }
 
 TEST(Affine, LeavesACubeOfTheBox) {
