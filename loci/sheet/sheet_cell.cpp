@@ -1,6 +1,7 @@
 #include "loci/sheet/sheet_cell.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "core/errors.hpp"
@@ -23,33 +24,40 @@ T signed_root(int sign, const T& square) {
   return sign > 0 ? square_root(square) : -square_root(square);
 }
 
-}  // namespace
-
-Interval determinant(const std::vector<std::vector<Interval>>& matrix) {
-  // Every minor of the last rows once, by its set of columns: smaller sets are smaller numbers.
-  const std::size_t n = matrix.size();
-  std::vector<Interval> minors(std::size_t{1} << n, Interval(0.0));
-  for (std::size_t columns = 1; columns < minors.size(); ++columns) {
-    const std::vector<Interval>& row = matrix[n - static_cast<std::size_t>(std::popcount(columns))];
+/// Without one column of each row; `skipped` beyond the last: of a square matrix. By Laplace's expansion: every minor
+/// of the last rows once, by its set of columns, smaller sets being smaller numbers. Cells ask for it all the time.
+Interval determinant_of(const Interval* const* rows, std::size_t n, std::size_t skipped) {
+  constexpr std::size_t most_at_hand = 5;  // rows: a cell's function and four lifted roots
+  std::array<Interval, std::size_t{1} << most_at_hand> at_hand;
+  std::vector<Interval> more(n > most_at_hand ? std::size_t{1} << n : 0);
+  Interval* const minors = more.empty() ? at_hand.data() : more.data();
+  for (std::size_t columns = 1; columns < std::size_t{1} << n; ++columns) {
+    const Interval* const row = rows[n - static_cast<std::size_t>(std::popcount(columns))];
+    const auto entry = [&](std::size_t bit) { return row[bit < skipped ? bit : bit + 1]; };
     const auto first = static_cast<std::size_t>(std::countr_zero(columns));
     const std::size_t rest = columns & (columns - 1);
     if (rest == 0) {
-      minors[columns] = row[first];
-    } else if ((rest & (rest - 1)) == 0) {
-      const auto second = static_cast<std::size_t>(std::countr_zero(rest));
-      minors[columns] = row[first] * minors[rest] - row[second] * minors[columns ^ rest];
-    } else {
-      Interval sum = 0;
-      bool add = true;
-      for (std::size_t left = columns; left != 0; left &= left - 1, add = !add) {
-        const auto column = static_cast<std::size_t>(std::countr_zero(left));
-        const Interval term = row[column] * minors[columns ^ (std::size_t{1} << column)];
-        sum = add ? sum + term : sum - term;
-      }
-      minors[columns] = sum;
+      minors[columns] = entry(first);
+      continue;
     }
+    Interval sum = entry(first) * minors[rest];
+    bool add = false;
+    for (std::size_t left = rest; left != 0; left &= left - 1, add = !add) {
+      const auto column = static_cast<std::size_t>(std::countr_zero(left));
+      const Interval term = entry(column) * minors[columns ^ (std::size_t{1} << column)];
+      sum = add ? sum + term : sum - term;
+    }
+    minors[columns] = sum;
   }
-  return minors.back();
+  return minors[(std::size_t{1} << n) - 1];
+}
+
+}  // namespace
+
+Interval determinant(const std::vector<std::vector<Interval>>& matrix) {
+  std::vector<const Interval*> rows;
+  for (const std::vector<Interval>& row : matrix) rows.push_back(row.data());
+  return determinant_of(rows.data(), rows.size(), rows.size());
 }
 
 SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode)
@@ -210,13 +218,10 @@ Interval SheetCell::tangent(int function, int c) const {
     const int first = (c + 1) % 3, second = (c + 2) % 3;
     return a[first] * b[second] - a[second] * b[first];
   }
-  std::vector<std::vector<Interval>> minor(n - 1);
-  for (int row = 0; row + 1 < n; ++row) {
-    const std::vector<Interval>& slopes = row == 0 ? slopes_[function] : bond_slopes_[row - 1];
-    for (int column = 0; column < n; ++column)
-      if (column != c) minor[row].push_back(slopes[column]);
-  }
-  const Interval value = determinant(minor);
+  std::array<const Interval*, 33> rows{};  // roots are the bits of a number
+  rows[0] = slopes_[function].data();
+  for (std::size_t l = 0; l < lifted_.size(); ++l) rows[l + 1] = bond_slopes_[l].data();
+  const Interval value = determinant_of(rows.data(), static_cast<std::size_t>(n - 1), static_cast<std::size_t>(c));
   return c % 2 == 0 ? value : -value;
 }
 
