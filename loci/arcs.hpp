@@ -8,6 +8,9 @@
 
 namespace clearloci::loci {
 
+/// Relative to the box: an arc that is shorter is none, to either engine.
+inline constexpr double shortest_arc = 1e-10;
+
 /// What happens at the vertices in one mode.
 struct VertexMarks {
   std::vector<bool> boundary, direct_singularity, box;

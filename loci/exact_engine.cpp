@@ -26,9 +26,6 @@ using core::Point2;
 using core::Polyline;
 using core::WorkingMode;
 
-// An arc shorter than this, relative to the box, is none, as with the adaptive engine.
-constexpr double same_place = 1e-10;
-
 /// The distinct irreducible curves of a problem, and which of them each factor owns.
 struct CurveList {
   std::vector<core::Polynomial> curves;
@@ -265,7 +262,7 @@ class ExactTrace {
       const VertexMarks own = without_boundary_of(group.curve, marks, edges);
       for (const EdgeWalk& walk : join_edges(arrangement_, group.edges, own, ends_on_singularities)) {
         Traced traced = polyline(walk, curve.closed_form);
-        if (traced.length <= same_place * scale()) continue;
+        if (traced.length <= shortest_arc * scale()) continue;
         curve.arcs.push_back({walk.closed, walk.ends, traced.length, std::move(traced.points)});
       }
       if (!curve.arcs.empty()) map_.curves.push_back(std::move(curve));

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "loci/arc_stretches.hpp"
+#include "loci/arcs.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/plane_curve.hpp"
 #include "loci/sheet/apex.hpp"
@@ -401,7 +402,13 @@ class Gathering {
     return label;
   }
 
+  double box_size() const {
+    return std::max(core::to_double(problem_.upper[0] - problem_.lower[0]),
+                    core::to_double(problem_.upper[1] - problem_.lower[1]));
+  }
+
   void take(const SheetShare& share, const TracedArc& traced) {
+    if (!traced.arc.closed && traced.arc.length <= shortest_arc * box_size()) return;
     const LocusFactor& own = factor(share);
     const core::Polynomial implicit =
         own.implicit.empty() ? core::Polynomial{2, {}} : own.implicit[static_cast<std::size_t>(traced.colour)];

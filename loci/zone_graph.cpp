@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "loci/segment_crossings.hpp"
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
+#include "loci/sheet/sheet_cell.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -24,6 +26,11 @@ using core::Polyline;
 
 // Relative to the box. Ends of arcs are known to 1e-12; what lies closer than the first is one place.
 constexpr double same_place = 1e-8;
+// Of a curve that touches a side; of a chord that is longer, both ends of which are there, the curve runs along the
+// side.
+constexpr double on_side = 1e-12, along_side = 1e-4;
+// How far from a touch the parts beside it are looked at.
+constexpr double beside_a_touch = 1e-5;
 // The order of edges around a node is read off circles of these radii, from the largest that fits.
 constexpr double largest_circle = 0.02, smallest_circle = 3e-8;
 constexpr int agreeing_circles = 1;
@@ -102,6 +109,11 @@ class Builder {
       node_at(strand.points.front());
       node_at(strand.points.back());
     }
+    for (const Strand& strand : strands_) {
+      if (strand.owner == box_owner) continue;
+      for (const std::size_t axis : {0u, 1u})
+        for (const double side : {low_[axis], high_[axis]}) add_touches(strand, axis, side);
+    }
     if (sketch_)
       add_drawn_crossings();
     else
@@ -150,6 +162,60 @@ class Builder {
     }
     nodes.push_back(at);
     return static_cast<int>(nodes.size()) - 1;
+  }
+
+  /// Where a curve touches a side of the box nothing crosses, yet what lies between them is pinched: the place is a
+  /// node.
+  void add_touches(const Strand& strand, std::size_t axis, double side) {
+    const Polyline& points = strand.points;
+    const auto off = [&](const Point2& p) { return std::abs(p[axis] - side); };
+    for (std::size_t i = strand.closed ? 0 : 1; i + 1 < points.size(); ++i) {
+      const Point2 &at = points[i], &before = points[i == 0 ? points.size() - 2 : i - 1], &after = points[i + 1];
+      if (off(at) > chords_apart * map_.tolerance + same_place * size_) continue;
+      if (off(before) < off(at) || off(after) <= off(at)) continue;
+      if (off(before) <= on_side * size_ && distance(before, at) > along_side * size_) continue;
+      const Point2 nearest = nearest_to_side(strand.owner, axis, before, after);
+      Point2 node = off(at) < off(nearest) ? at : nearest;
+      const double gap = off(node);
+      node[axis] = side;
+      if (gap > on_side * size_ && gap <= same_place * size_)
+        doubt_for_good("curve " + curve(strand.owner).id + " comes closer to a side of the box than can be told");
+      if (gap <= on_side * size_ && differ_beside(node, axis)) node_at(node);
+    }
+  }
+
+  /// Whether some factor has another sign on the one side of a touch than on the other, or one that is not decided.
+  bool differ_beside(const Point2& touch, std::size_t axis) {
+    if (!factors_) {
+      std::vector<sheet::SheetFunction> functions;
+      for (const core::LocusFactor& factor : problem_.factors) functions.push_back({factor.sheet, factor.line});
+      factors_ = std::make_unique<sheet::SheetProgram>(problem_.tower, functions);
+    }
+    sheet::PointSign sign(*factors_, mode_);
+    Point2 before = touch, after = touch;
+    before[1 - axis] -= beside_a_touch * size_;
+    after[1 - axis] += beside_a_touch * size_;
+    for (int f = 0; f < factors_->functions(); ++f) {
+      const int one = sign(before[0], before[1], f).value_or(0), other = sign(after[0], after[1], f).value_or(0);
+      if (one * other <= 0) return true;
+    }
+    return false;
+  }
+
+  /// The point of a curve beside a chord at which its tangent is along the side.
+  Point2 nearest_to_side(int owner, std::size_t axis, const Point2& from, const Point2& to) {
+    const CurveProjection& curve = projections_.of(owner);
+    const Point2 way = {to[0] - from[0], to[1] - from[1]};
+    const auto at = [&](double part) { return curve({from[0] + part * way[0], from[1] + part * way[1]}); };
+    const auto rises = [&](const CurvePoint& point) {
+      const double along = point.tangent[0] * way[0] + point.tangent[1] * way[1];
+      return point.tangent[axis] * along > 0;
+    };
+    double a = 0, b = 1;
+    const bool first = rises(at(a));
+    constexpr int halvings = 52;
+    for (int k = 0; k < halvings; ++k) (rises(at((a + b) / 2)) == first ? a : b) = (a + b) / 2;
+    return at((a + b) / 2).at;
   }
 
   /// Arcs end on the boundary and on direct singularities; among each other they may cross.
@@ -542,6 +608,7 @@ class Builder {
   std::vector<Strand> strands_;
   std::map<const Strand*, BoxedPolyline> boxed_;
   CurveProjections& projections_;
+  std::unique_ptr<sheet::SheetProgram> factors_;  // made where a curve touches a side
   ZoneGraph result_;
 };
 

@@ -65,6 +65,20 @@ TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
   EXPECT_GE(map.areas.front().in_doubt, map.areas.front().workspace);
 }
 
+// Two zones that meet in one point, where a side of the box touches the boundary, were one with a wrong sign.
+TEST(OnceDisputed, ZonesThatASideOfTheBoxTellsApart) {
+  const core::ZoneMap map = find_zones(corpus("witness/prrr_r_pinched_by_a_side"), {});
+  EXPECT_EQ(map.zones.size(), 7u);
+  for (const core::Zone& zone : map.zones) EXPECT_TRUE(zone.certified) << zone.id;
+  // Left and right of (0, -1/4).
+  const auto area_about = [&](double area) {
+    return std::any_of(map.zones.begin(), map.zones.end(),
+                       [&](const core::Zone& zone) { return std::abs(zone.area - area) < 1e-6; });
+  };
+  EXPECT_TRUE(area_about(0.134880093));
+  EXPECT_TRUE(area_about(0.014809826));
+}
+
 // The normal force of a guide has the factor x twice, |A| once, exactly: no rounding hides its even zero.
 TEST(OnceDisputed, AnEvenZeroBesideASingularity) {
   LociRequest request;
