@@ -17,7 +17,6 @@ using Lane = PoseBatch::Lane;
 using Lanes3 = PoseBatch::Lanes3;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class F>
 void over_lanes(const F& of) {
