@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "analysis/enclosure.hpp"
 #include "analysis/take_ups.hpp"
 #include "analysis/task_demands.hpp"
+#include "core/enclosure.hpp"
 #include "core/errors.hpp"
 #include "symbolic/task_conditions.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "analysis/enclosure.hpp"
+#include "core/enclosure.hpp"
 #include "core/errors.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -86,7 +86,7 @@ loci::DesignClearances design_clearances(const mechanism::OpenDesign& open, cons
   own.enclosure = [&open, meanings = std::move(meanings)](std::size_t k, const loci::DesignBox& values) {
     Ranges ranges;
     for (std::size_t p = 0; p < open.varied.size(); ++p) ranges[open.varied[p]] = values[p];
-    loci::sheet::Interval sum = 0.0;
+    core::Interval sum = 0.0;
     for (const Expression& meaning : meanings[k]) sum = sum + enclosure(meaning, ranges);
     return sum;
   };

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/design_task.hpp"
-#include "analysis/enclosure.hpp"
+#include "core/enclosure.hpp"
 #include "core/errors.hpp"
 #include "numeric/design_witness.hpp"
 #include "numeric/pose_error.hpp"
@@ -182,7 +182,7 @@ class Tolerant {
 
   std::vector<Bounded> bounded(const Point2& pose, const std::vector<double>& parameters) const {
     std::vector<Bounded> at;
-    for (const loci::sheet::Interval& own : judge_->coordinates(pose, parameters))
+    for (const core::Interval& own : judge_->coordinates(pose, parameters))
       at.emplace_back(own.middle(), 0.5 * own.width());
     return at;
   }
@@ -252,7 +252,7 @@ class Tolerant {
   mechanism::Mechanism with_clearances(mechanism::Mechanism open, const std::vector<double>& parameters) const {
     Ranges ranges;
     for (std::size_t p = 0; p < parameters.size(); ++p)
-      ranges[task_.design().varied[p]] = loci::sheet::Interval(parameters[p]);
+      ranges[task_.design().varied[p]] = core::Interval(parameters[p]);
     const auto number = [&](const core::Expression& e) {
       return core::Expression::number(core::Rational(enclosure(e, ranges).middle()));
     };

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/errors.hpp"
+#include "core/interpret.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -30,37 +32,34 @@ class Pose {
 
   Interval number(double value) const { return {value, bits_}; }
 
-  Interval value(const Expression& e) const {
-    using Kind = Expression::Kind;
-    bool free = false;
-    for (const std::string& name : core::symbols(e))
-      free = free || name == m_.coordinates[0].name || name == m_.coordinates[1].name;
-    if (!free) return {mechanism::value_of(e, m_), bits_};
-    const auto argument = [&](std::size_t i) { return value(e.arguments()[i]); };
-    switch (e.kind()) {
-      case Kind::symbol:
-        return e.name() == m_.coordinates[0].name ? x_ : y_;
-      case Kind::add:
-        return argument(0) + argument(1);
-      case Kind::multiply:
-        return argument(0) * argument(1);
-      case Kind::divide:
-        return argument(0) / argument(1);
-      case Kind::negate:
-        return -argument(0);
-      case Kind::power: {
-        const core::Rational exponent = mechanism::value_of(e.arguments()[1], m_);
-        if (exponent.get_den() != 1 || exponent < 0 || exponent > 64)
-          throw core::InputError({m_.file}, "a power that check does not know", "");
-        const Interval base = argument(0);
-        Interval result = number(1);
-        for (long i = 0; i < exponent.get_num().get_si(); ++i) result = result * base;
-        return result;
-      }
-      default:
-        throw core::InputError({m_.file}, "a function of a coordinate that check does not know", "");
-    }
+  Interval value(const Expression& e) const { return core::interpret(e, *this); }
+
+  // Expressions in the free coordinates (core/interpret.hpp): polynomials over constants.
+  using Value = Interval;
+  std::optional<Interval> known(const Expression& e) const {
+    const std::set<std::string> names = core::symbols(e);
+    const bool free = std::any_of(m_.coordinates.begin(), m_.coordinates.end(),
+                                  [&](const mechanism::Coordinate& own) { return names.contains(own.name); });
+    return free ? std::nullopt : std::optional(Interval(mechanism::value_of(e, m_), bits_));
   }
+  Interval number(const core::Rational& own) const { return {own, bits_}; }
+  Interval symbol(const std::string& name) const { return name == m_.coordinates[0].name ? x_ : y_; }
+  Interval negate(const Interval& a) const { return -a; }
+  Interval add(const Interval& a, const Interval& b) const { return a + b; }
+  Interval multiply(const Interval& a, const Interval& b) const { return a * b; }
+  Interval divide(const Interval& a, const Interval& b, const Expression&) const { return a / b; }
+  Interval power(const Interval& base, const Expression& e) const {
+    const core::Rational exponent = mechanism::value_of(e.arguments()[1], m_);
+    if (exponent.get_den() != 1 || exponent < 0 || exponent > 64)
+      throw core::InputError({m_.file}, "a power that check does not know", "");
+    Interval result = number(1.0);
+    for (long i = 0; i < exponent.get_num().get_si(); ++i) result = result * base;
+    return result;
+  }
+  Interval pi() const { return refuse_function(); }
+  Interval sqrt(const Interval&, const Expression&) const { return refuse_function(); }
+  Interval cos(const Interval&, const Expression&) const { return refuse_function(); }
+  Interval sin(const Interval&, const Expression&) const { return refuse_function(); }
 
   Vector vector(const mechanism::VectorExpression& v, const std::vector<Vector>& points) const {
     using Kind = mechanism::VectorExpression::Kind;
@@ -73,7 +72,7 @@ class Pose {
       case Kind::add:
         return argument(0) + argument(1);
       case Kind::negate:
-        return number(-1) * argument(0);
+        return number(-1.0) * argument(0);
       case Kind::scale:
         return value(v.numbers.at(0)) * argument(0);
       case Kind::cross:
@@ -83,6 +82,10 @@ class Pose {
   }
 
  private:
+  [[noreturn]] Interval refuse_function() const {
+    throw core::InputError({m_.file}, "a function of a coordinate that check does not know", "");
+  }
+
   const Mechanism& m_;
   const Interval &x_, &y_;
   mpfr_prec_t bits_;
@@ -132,7 +135,7 @@ class Closure {
     const Interval d = square_of(way);
     const Interval a2 = squared(pose_.value(form.from_length)), b2 = squared(pose_.value(form.to_length));
     const Interval k = a2 - b2 + d;
-    const std::optional<Interval> s = branch(pose_.number(4) * a2 * d - squared(k));
+    const std::optional<Interval> s = branch(pose_.number(4.0) * a2 * d - squared(k));
     if (!s || !divides(d)) return false;
     const Interval half = pose_.number(0.5) / d;
     return put(at(form.from) + (k * half) * way + (*s * half) * left_of(way));
@@ -165,7 +168,7 @@ class Equations {
   Equations(const Mechanism& m, const Posture& posture, const Interval& x, const Interval& y)
       : m_(m), posture_(posture), pose_(m, x, y), unknowns_(mechanism::unknowns(m)) {
     rows.assign(3 * m.links.size(), std::vector<Interval>(unknowns_.size() + 1, Interval(x.bits())));
-    if (rows.size() != unknowns_.size()) throw core::InputError({m_.file}, "the equations are not square", "");
+    core::ensure(rows.size() == unknowns_.size(), "mechanisms whose equations are not square are not read");
     for (std::size_t k = 0; k < unknowns_.size(); ++k) write_unknown(k);
     write_loads();
   }
@@ -182,7 +185,7 @@ class Equations {
   Wrench force_at(mechanism::PointIndex point, const Vector& force) const {
     return {force[0], force[1], cross(arm(point), force)};
   }
-  Wrench couple(const Interval& moment) const { return {pose_.number(0), pose_.number(0), moment}; }
+  Wrench couple(const Interval& moment) const { return {pose_.number(0.0), pose_.number(0.0), moment}; }
 
   void add(mechanism::LinkIndex link, std::size_t column, const Wrench& wrench, int sign) {
     if (link == mechanism::ground) return;
@@ -195,12 +198,12 @@ class Equations {
   Wrench unit(const mechanism::Joint& joint, Quantity quantity) const {
     switch (quantity) {
       case Quantity::fx:
-        return force_at(joint.at, {pose_.number(1), pose_.number(0)});
+        return force_at(joint.at, {pose_.number(1.0), pose_.number(0.0)});
       case Quantity::fy:
-        return force_at(joint.at, {pose_.number(0), pose_.number(1)});
+        return force_at(joint.at, {pose_.number(0.0), pose_.number(1.0)});
       case Quantity::M:
       case Quantity::T:
-        return couple(pose_.number(1));
+        return couple(pose_.number(1.0));
       case Quantity::N:
         return force_at(joint.at, left_of(pose_.vector(joint.axes.at(0), posture_.points)));
       case Quantity::F:
@@ -282,7 +285,7 @@ void add_guide_ends(const Mechanism& m, const Posture& posture, const Interval& 
     if (!mechanism::has_guide_ends(m, joint)) continue;
     const Interval length = root_of(square_of(pose.vector(joint.axes.at(0), posture.points)));
     const Interval h = pose.value(joint.clearance->half_length);
-    Interval normal = pose.number(0), tilt = pose.number(0);
+    Interval normal = pose.number(0.0), tilt = pose.number(0.0);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       if (unknowns[k].joint != static_cast<int>(j)) continue;
       if (unknowns[k].quantity == Quantity::N) normal = solution.reactions[k] * length;

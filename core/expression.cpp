@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/interpret.hpp"
 
 namespace clearloci::inline core {
 namespace {
@@ -40,11 +41,10 @@ enum Binding { sum, product, exponentiation, atom };
 struct Printed {
   std::string text;
   Binding binding = atom;
+  bool is_negation = false;  ///< its text after the minus is what a sum subtracts
 
   bool begins_with_minus() const { return text.front() == '-'; }
 };
-
-Printed print(const Expression& expression);
 
 /// The text where at least `needed` binding is required.
 std::string enclosed(const Printed& printed, Binding needed) {
@@ -56,50 +56,42 @@ std::string enclosed_right(const Printed& printed, Binding needed) {
   return printed.begins_with_minus() ? "(" + printed.text + ")" : enclosed(printed, needed);
 }
 
-Printed print_number(const Rational& value) {
-  if (value.get_den() != 1) return {to_string(value), product};
-  return {to_string(value), sgn(value) < 0 ? product : atom};
-}
+/// Texts as an algebra (core/interpret.hpp).
+struct Printing {
+  using Value = Printed;
 
-Printed print_sum(const Expression& left, const Expression& right) {
-  const std::string first = enclosed(print(left), sum);
-  if (right.kind() == Kind::negate) return {first + " - " + enclosed_right(print(right.arguments()[0]), product), sum};
-  const Printed second = print(right);
-  // -2*x as a second summand: subtract 2*x. The minus of a sum belongs to its first summand only: a + (-b + c). What
-  // begins with two of them stays whole: a - (-b)*c would be read as a - ((-b)*c), and printed so.
-  const bool subtracts = second.begins_with_minus() && second.binding >= product && second.text.substr(1, 2) != "(-";
-  if (subtracts) return {first + " - " + second.text.substr(1), sum};
-  return {first + " + " + enclosed_right(second, sum), sum};
-}
-
-Printed print(const Expression& expression) {
-  const auto operand = [&expression](std::size_t index) { return print(expression.arguments()[index]); };
-  switch (expression.kind()) {
-    case Kind::number:
-      return print_number(expression.value());
-    case Kind::symbol:
-      return {expression.name(), atom};
-    case Kind::pi:
-      return {"pi", atom};
-    case Kind::add:
-      return print_sum(expression.arguments()[0], expression.arguments()[1]);
-    case Kind::multiply:
-      return {enclosed(operand(0), product) + "*" + enclosed_right(operand(1), product), product};
-    case Kind::divide:
-      return {enclosed(operand(0), product) + "/" + enclosed_right(operand(1), exponentiation), product};
-    case Kind::power:
-      return {enclosed(operand(0), atom) + "^" + enclosed_right(operand(1), exponentiation), exponentiation};
-    case Kind::negate:
-      return {"-" + enclosed_right(operand(0), product), product};
-    case Kind::sqrt:
-      return {"sqrt(" + operand(0).text + ")", atom};
-    case Kind::cos:
-      return {"cos(" + operand(0).text + ")", atom};
-    case Kind::sin:
-      return {"sin(" + operand(0).text + ")", atom};
+  Printed number(const Rational& value) const {
+    if (value.get_den() != 1) return {to_string(value), product};
+    return {to_string(value), sgn(value) < 0 ? product : atom};
   }
-  return {};
-}
+  Printed symbol(const std::string& name) const { return {name, atom}; }
+  Printed pi() const { return {"pi", atom}; }
+  Printed negate(const Printed& a) const { return {"-" + enclosed_right(a, product), product, true}; }
+
+  Printed add(const Printed& a, const Printed& b) const {
+    const std::string first = enclosed(a, sum);
+    if (b.is_negation) return {first + " - " + b.text.substr(1), sum};
+    // -2*x as a second summand: subtract 2*x. The minus of a sum belongs to its first summand only: a + (-b + c). What
+    // begins with two of them stays whole: a - (-b)*c would be read as a - ((-b)*c), and printed so.
+    const bool subtracts = b.begins_with_minus() && b.binding >= product && b.text.substr(1, 2) != "(-";
+    if (subtracts) return {first + " - " + b.text.substr(1), sum};
+    return {first + " + " + enclosed_right(b, sum), sum};
+  }
+
+  Printed multiply(const Printed& a, const Printed& b) const {
+    return {enclosed(a, product) + "*" + enclosed_right(b, product), product};
+  }
+  Printed divide(const Printed& a, const Printed& b, const Expression&) const {
+    return {enclosed(a, product) + "/" + enclosed_right(b, exponentiation), product};
+  }
+  Printed power(const Printed& a, const Expression& e) const {
+    const Printed exponent = interpret(e.arguments()[1], *this);
+    return {enclosed(a, atom) + "^" + enclosed_right(exponent, exponentiation), exponentiation};
+  }
+  Printed sqrt(const Printed& a, const Expression&) const { return {"sqrt(" + a.text + ")", atom}; }
+  Printed cos(const Printed& a, const Expression&) const { return {"cos(" + a.text + ")", atom}; }
+  Printed sin(const Printed& a, const Expression&) const { return {"sin(" + a.text + ")", atom}; }
+};
 
 }  // namespace
 
@@ -141,6 +133,6 @@ std::set<std::string> symbols(const Expression& expression) {
   return found;
 }
 
-std::string to_string(const Expression& expression) { return print(expression).text; }
+std::string to_string(const Expression& expression) { return interpret(expression, Printing{}).text; }
 
 }  // namespace clearloci::inline core

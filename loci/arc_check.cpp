@@ -9,9 +9,9 @@ namespace clearloci::loci {
 namespace {
 
 using core::FactorRole;
+using core::Interval;
 using core::LocusFactor;
 using core::LocusKind;
-using sheet::Interval;
 
 // What vertices are held to, relative to the box, and in spacings of the doubles that say where they are.
 constexpr double vertex_accuracy = 1e-12;

@@ -37,7 +37,7 @@ class ArcCheck {
   const core::LocusProblem& problem_;
   core::WorkingMode mode_;
   sheet::SheetProgram program_;
-  sheet::SheetProgram::Registers<sheet::Interval> registers_;
+  sheet::SheetProgram::Registers<core::Interval> registers_;
   std::array<double, 2> lower_{}, upper_{};
   double reach_ = 0;
   std::vector<int> singularities_, undefined_;  ///< functions of the program: every |A|, every denominator

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
-#include "loci/sheet/interval.hpp"
+#include "core/interval.hpp"
 #include "loci/sheet/star.hpp"
 #include "loci/tower_algebra.hpp"
 #include "loci/univariate.hpp"
@@ -14,9 +14,9 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::Polynomial;
 using core::Rational;
-using sheet::Interval;
 using sheet::MultiInterval;
 
 /// Halvings of a point's interval: below what MultiInterval resolves.

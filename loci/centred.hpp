@@ -9,22 +9,22 @@
 
 #include <vector>
 
-#include "loci/sheet/interval.hpp"
+#include "core/interval.hpp"
 
 namespace clearloci::loci {
 
 struct Centred {
-  sheet::Interval over, middle;
-  std::vector<sheet::Interval> slopes;
+  core::Interval over, middle;
+  std::vector<core::Interval> slopes;
   bool smooth = true;  ///< false: nothing is known but `over`
 
   /// box_c - m_c.
-  using Offsets = std::vector<sheet::Interval>;
+  using Offsets = std::vector<core::Interval>;
 
-  static Centred constant(const sheet::Interval& value, std::size_t coordinates) {
-    return {value, value, std::vector<sheet::Interval>(coordinates, sheet::Interval(0.0))};
+  static Centred constant(const core::Interval& value, std::size_t coordinates) {
+    return {value, value, std::vector<core::Interval>(coordinates, core::Interval(0.0))};
   }
-  static Centred rough(const sheet::Interval& over, std::size_t coordinates) {
+  static Centred rough(const core::Interval& over, std::size_t coordinates) {
     Centred own = constant(over, coordinates);
     own.smooth = false;
     return own;
@@ -32,7 +32,7 @@ struct Centred {
 
   Centred& tighten(const Offsets& offsets) {
     if (!smooth) return *this;
-    sheet::Interval centred = middle;
+    core::Interval centred = middle;
     for (std::size_t c = 0; c < slopes.size(); ++c)
       if (offsets[c].lower() != 0 || offsets[c].upper() != 0) centred = centred + slopes[c] * offsets[c];
     over = meet(over, centred);
@@ -44,7 +44,7 @@ struct Centred {
 namespace centred {
 
 template <class Slope>
-Centred combined(const Centred& a, const Centred& b, const sheet::Interval& over, const sheet::Interval& middle,
+Centred combined(const Centred& a, const Centred& b, const core::Interval& over, const core::Interval& middle,
                  const Slope& slope) {
   Centred result{over, middle, a.slopes, a.smooth && b.smooth};
   if (result.smooth)
@@ -61,29 +61,29 @@ inline Centred product(const Centred& a, const Centred& b) {
                   [&](const auto& x, const auto& y) { return x * b.over + y * a.over; });
 }
 
-inline Centred scaled(const sheet::Interval& by, Centred a) {
+inline Centred scaled(const core::Interval& by, Centred a) {
   a.over = by * a.over;
   a.middle = by * a.middle;
-  for (sheet::Interval& slope : a.slopes) slope = by * slope;
+  for (core::Interval& slope : a.slopes) slope = by * slope;
   return a;
 }
 
 inline Centred square(const Centred& a) {
   return combined(a, a, squared(a.over), squared(a.middle),
-                  [&](const auto& x, const auto&) { return sheet::Interval(2.0) * x * a.over; });
+                  [&](const auto& x, const auto&) { return core::Interval(2.0) * x * a.over; });
 }
 
 /// 1 / a. Required: 0 is not in a.over.
 inline Centred reciprocal(const Centred& a) {
-  const sheet::Interval over = inverse(a.over);
-  const sheet::Interval by = -squared(over);
+  const core::Interval over = inverse(a.over);
+  const core::Interval by = -squared(over);
   return combined(a, a, over, inverse(a.middle), [&](const auto& x, const auto&) { return by * x; });
 }
 
 /// Required: a.over > 0.
 inline Centred root(const Centred& a) {
-  const sheet::Interval over = square_root(a.over);
-  const sheet::Interval by = inverse(sheet::Interval(2.0) * over);
+  const core::Interval over = square_root(a.over);
+  const core::Interval by = inverse(core::Interval(2.0) * over);
   return combined(a, a, over, square_root(a.middle), [&](const auto& x, const auto&) { return by * x; });
 }
 

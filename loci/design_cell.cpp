@@ -9,9 +9,9 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::TaskCondition;
 using core::TaskConditions;
-using sheet::Interval;
 
 Interval size_of_vector(const std::vector<Interval>& parts) {
   Interval square = 0;

@@ -40,8 +40,8 @@ class DesignCell {
 
   /// As TaskCell::State: `outside` for certain in no pose and no design of the box; the others are not proven.
   enum class State { proven, outside, boundary, singular, unmet };
-  /// `clearances`: of each of the conditions' take-ups the clearances of its joints together, m or rad.
-  State enter(std::span<const sheet::Interval> box, std::vector<sheet::Interval> clearances = {});
+  /// `clearances`: of each of the conditions' take-ups the clearances of its joints together: m, and rad of what turns.
+  State enter(std::span<const core::Interval> box, std::vector<core::Interval> clearances = {});
   /// Where the state is `unmet`: the first condition that was not proven; -1: the end effector is displaced too far.
   int unmet() const { return unmet_; }
 
@@ -62,8 +62,8 @@ class DesignCell {
   int failed() const;
   /// Some of a task's loads: the part t of the range, and a factor of every direction.
   struct Loads {
-    sheet::Interval t;
-    std::vector<sheet::Interval> factors;
+    core::Interval t;
+    std::vector<core::Interval> factors;
   };
   /// A load, if one is found, under which all designs of the box are displaced farther than they may in all its poses.
   std::optional<Loads> displaced_too_far();
@@ -80,11 +80,11 @@ class DesignCell {
 
   /// The least, or the greatest, that a condition's reactions bear under any load, N or N m: an enclosure of it over
   /// the box. Required: |A| has a sign.
-  sheet::Interval size_of(int condition, bool least);
+  core::Interval size_of(int condition, bool least);
 
   /// How far the end effector is displaced at most under any load, m: an enclosure of it over the box. Required:
   /// take-ups with their clearances, and |A| has a sign.
-  sheet::Interval displacement();
+  core::Interval displacement();
   /// spreads() are of the displacement from now on, whatever else is in doubt.
   void doubt_displacement() { displacement_in_doubt_ = true; }
   bool doubts_displacement() const { return displacement_in_doubt_; }
@@ -93,16 +93,16 @@ class DesignCell {
   struct Watched {
     int function = -1, condition = -1, group = 0;
   };
-  const sheet::Interval& value(int function) const { return over_.value(function); }
+  const core::Interval& value(int function) const { return over_.value(function); }
   /// Whether some load of the balls makes a vector too small, or nothing, for certain.
   bool brought_down(const core::TaskCondition& condition, const std::vector<int>& parts,
-                    const sheet::Interval& asked) const;
+                    const core::Interval& asked) const;
   bool nonzero(int function);
   bool holds(int condition);
-  bool holds(const core::TaskCondition& condition, const sheet::Interval& least, bool with_slopes);
-  sheet::Interval combined(const std::vector<std::pair<sheet::Interval, int>>& sum, bool with_slopes);
+  bool holds(const core::TaskCondition& condition, const core::Interval& least, bool with_slopes);
+  core::Interval combined(const std::vector<std::pair<core::Interval, int>>& sum, bool with_slopes);
   /// What the balls take away from n.N at most, at least.
-  sheet::Interval reach_of_balls(const core::TaskCondition& condition, const std::vector<double>& n, bool with_slopes);
+  core::Interval reach_of_balls(const core::TaskCondition& condition, const std::vector<double>& n, bool with_slopes);
   const Centred& centred(int function);
   Centred loaded(const core::TaskCondition& take_up, std::size_t part, const Loads& loads);
   std::vector<Centred> directions_taken(const core::TaskCondition& take_up, const Loads& loads);
@@ -110,7 +110,7 @@ class DesignCell {
   Loads all_loads() const;
   static Loads middle_of(const Loads& loads);
   std::vector<Loads> halves_of(const Loads& loads) const;
-  std::optional<sheet::Interval> displacement_under(const Loads& loads);
+  std::optional<core::Interval> displacement_under(const Loads& loads);
   bool displaced_within(double most);
   /// A load that makes a reaction's size least: the part t of the range, what it comes to at the box's middle, and the
   /// factor of every direction.
@@ -119,10 +119,10 @@ class DesignCell {
     std::vector<double> reaction, factors;
   };
   WorstLoad worst_load(const core::TaskCondition& condition) const;
-  sheet::Interval least_size_of(const core::TaskCondition& condition, const sheet::Interval& share);
-  sheet::Interval greatest_size_of(const core::TaskCondition& condition, const sheet::Interval& share);
+  core::Interval least_size_of(const core::TaskCondition& condition, const core::Interval& share);
+  core::Interval greatest_size_of(const core::TaskCondition& condition, const core::Interval& share);
   void differentiate();
-  const std::vector<sheet::Interval>& slopes(int function);
+  const std::vector<core::Interval>& slopes(int function);
   double middle_value(int function) const;
   void doubt(int function);
 
@@ -130,15 +130,15 @@ class DesignCell {
   std::vector<core::LoadBall> balls_;
   sheet::SheetProgram program_;
   core::WorkingMode mode_;
-  sheet::SheetProgram::Registers<sheet::Interval> over_, at_middle_;
-  std::vector<sheet::Interval> box_;
-  std::vector<sheet::Interval> least_;  ///< of every condition
+  sheet::SheetProgram::Registers<core::Interval> over_, at_middle_;
+  std::vector<core::Interval> box_;
+  std::vector<core::Interval> least_;  ///< of every condition
   std::vector<Watched> watched_;
   int groups_ = 0;
   bool differentiated_ = false;
   std::vector<double> middle_;
-  std::vector<sheet::Interval> half_inverse_, gradient_;
-  std::vector<std::vector<sheet::Interval>> slopes_;
+  std::vector<core::Interval> half_inverse_, gradient_;
+  std::vector<std::vector<core::Interval>> slopes_;
   std::vector<bool> has_slopes_;
   std::vector<int> in_doubt_;  ///< functions; a root's square as -1 - j
   std::vector<double> spreads_;
@@ -148,10 +148,10 @@ class DesignCell {
   double most_displaced_;
   bool displacement_in_doubt_ = false;
   int parts_of_loads_ = 0;
-  std::vector<sheet::Interval> clearances_, offsets_;
+  std::vector<core::Interval> clearances_, offsets_;
   std::vector<std::optional<Centred>> centred_;  ///< of the functions, as far as they are known
   Centred squared_;                              ///< of the displacement in doubt
-  std::vector<sheet::Interval> per_clearance_;   ///< its derivatives
+  std::vector<core::Interval> per_clearance_;    ///< its derivatives
   std::vector<double> clearance_spreads_;
   std::vector<int> clearances_downhill_;
 };

@@ -12,8 +12,8 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::TaskCondition;
-using sheet::Interval;
 
 /// Parts of the loads that a cell may be looked at under, to be proven, and to be measured.
 constexpr int most_parts = 200, most_parts_of_a_bound = 24;

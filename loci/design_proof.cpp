@@ -10,8 +10,8 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::Point2;
-using sheet::Interval;
 
 /// The finest cells, as a part of the task and of the designs: some hundred spacings of doubles.
 constexpr double finest = 0x1p-44;

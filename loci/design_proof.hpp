@@ -54,18 +54,18 @@ struct DesignEffort {
 enum class Refuting { all, one };
 
 /// The range of every parameter that designs differ in.
-using DesignBox = std::vector<sheet::Interval>;
+using DesignBox = std::vector<core::Interval>;
 
 /// From parameters to the tower's coordinates behind x and y.
 struct DesignVariables {
   std::vector<std::vector<std::size_t>> parameters;  ///< of each variable: those that it depends on
-  std::function<sheet::Interval(std::size_t variable, const DesignBox& parameters)> enclosure;
+  std::function<core::Interval(std::size_t variable, const DesignBox& parameters)> enclosure;
 };
 
 /// The clearances that the conditions' take-ups take up, and what they may come to.
 struct DesignClearances {
   std::vector<std::vector<std::size_t>> parameters = {};  ///< of each take-up: those that its clearances depend on
-  std::function<sheet::Interval(std::size_t take_up, const DesignBox& parameters)> enclosure = {};
+  std::function<core::Interval(std::size_t take_up, const DesignBox& parameters)> enclosure = {};
   double most_displaced = std::numeric_limits<double>::infinity();  ///< m, of the end effector
 };
 
@@ -83,14 +83,14 @@ class DesignJudge {
 
   /// An enclosure of the least size that some conditions' reactions have over the task, N or N m, to `accuracy` of
   /// itself. Requires that the designs are verified.
-  sheet::Interval least_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                             const DesignEffort& effort);
+  core::Interval least_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
+                            const DesignEffort& effort);
   /// Likewise the greatest.
-  sheet::Interval greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                                const DesignEffort& effort);
+  core::Interval greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
+                               const DesignEffort& effort);
 
   /// Likewise how far the end effector is displaced at most, m. Requires clearances.
-  sheet::Interval greatest_displacement(const DesignBox& designs, double accuracy, const DesignEffort& effort);
+  core::Interval greatest_displacement(const DesignBox& designs, double accuracy, const DesignEffort& effort);
 
   /// The share of some poses of the task at which one of the designs fails, or has another sign than at most others.
   double violation(const DesignBox& designs);
@@ -98,17 +98,17 @@ class DesignJudge {
   /// The sign of a watched function at a pose of one design; 0: not decided, or not in reach.
   int sign_at(std::size_t watched, const core::Point2& pose, const std::vector<double>& parameters);
   /// What the tower's coordinates are there.
-  std::vector<sheet::Interval> coordinates(const core::Point2& pose, const std::vector<double>& parameters) const;
+  std::vector<core::Interval> coordinates(const core::Point2& pose, const std::vector<double>& parameters) const;
 
  private:
-  using Box = std::vector<sheet::Interval>;  ///< x, y, then the parameters
+  using Box = std::vector<core::Interval>;  ///< x, y, then the parameters
   struct Seen {
     core::Point2 at{};
     std::vector<double> parameters;
     int sign = 0;
   };
   DesignCell::State enter(const Box& box);
-  std::vector<sheet::Interval> clearances_of(const DesignBox& parameters) const;
+  std::vector<core::Interval> clearances_of(const DesignBox& parameters) const;
   /// The coordinate of the box along which a cut helps most; -1: none is worth it.
   int cut(const Box& box);
   /// Looks at one pose of all the designs, or of one in their middle, then of one that is nearer to failing.
@@ -118,8 +118,8 @@ class DesignJudge {
   DesignBox corner_of(const core::Point2& pose, const DesignBox& designs);
   std::optional<core::Point2> pose_of(const Box& box, double margin) const;
   /// `size`: of what was entered last. To `accuracy` of itself.
-  sheet::Interval extreme(const DesignBox& designs, const std::function<sheet::Interval()>& size, double accuracy,
-                          const DesignEffort& effort, bool least);
+  core::Interval extreme(const DesignBox& designs, const std::function<core::Interval()>& size, double accuracy,
+                         const DesignEffort& effort, bool least);
 
   DesignCell cell_;
   const TaskRegion& region_;

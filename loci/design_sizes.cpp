@@ -10,8 +10,8 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::TaskCondition;
-using sheet::Interval;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;

@@ -6,8 +6,8 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using sheet::Cell;
-using sheet::Interval;
 
 /// Pairs of pieces near each other. Two arcs that cross have a few.
 constexpr std::size_t most_pairs = 512;

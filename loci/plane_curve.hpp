@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
+#include "core/interval.hpp"
 #include "core/locus_map.hpp"
 #include "core/polynomial.hpp"
-#include "loci/sheet/interval.hpp"
 
 namespace clearloci::loci {
 
@@ -37,7 +37,7 @@ class PlaneCurve {
   bool joined(const core::Point2& a, const core::Point2& b) const;
 
  private:
-  using Interval = sheet::Interval;
+  using Interval = core::Interval;
 
   template <typename Number>
   Derivatives<Number> derivatives(const Number& x, const Number& y) const;

@@ -8,8 +8,8 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::Rational;
-using sheet::Interval;
 using sheet::Jet;
 using sheet::MultiInterval;
 

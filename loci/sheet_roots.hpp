@@ -51,7 +51,7 @@ class SheetRoots {
   core::WorkingMode mode_;
   sheet::SheetProgram program_;
   sheet::SheetProgram::Registers<sheet::Jet> jets_;
-  sheet::SheetProgram::Registers<sheet::Interval> intervals_;
+  sheet::SheetProgram::Registers<core::Interval> intervals_;
   sheet::SheetProgram::Registers<sheet::MultiInterval> exact_;
 };
 

@@ -8,8 +8,8 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::Polynomial;
-using sheet::Interval;
 using sheet::MultiInterval;
 
 constexpr signed char unknown = 2;

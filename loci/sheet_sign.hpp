@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/interval.hpp"
 #include "core/root_tower.hpp"
 #include "loci/curve_arrangement.hpp"
-#include "loci/sheet/interval.hpp"
 #include "loci/sheet/multi_interval.hpp"
 
 namespace clearloci::loci {
@@ -36,7 +36,7 @@ class SheetSigns {
  private:
   struct Leaf {
     core::Polynomial polynomial;  ///< in (x, y)
-    std::vector<sheet::Interval> coefficients;
+    std::vector<core::Interval> coefficients;
     std::map<int, bool> vanishes_on;  ///< curve to whether it is a factor
     std::vector<signed char> known;   ///< sign at the first sample of every edge; `unknown`
   };
@@ -46,7 +46,7 @@ class SheetSigns {
     int a = -1, b = -1, norm = -1;
   };
   struct Sample {
-    std::array<sheet::Interval, 2> coarse;
+    std::array<core::Interval, 2> coarse;
     std::array<sheet::MultiInterval, 2> fine;
   };
 

@@ -8,10 +8,10 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::Point2;
 using core::TaskCondition;
 using core::TaskConditions;
-using sheet::Interval;
 
 }  // namespace
 

@@ -21,7 +21,7 @@ class TaskCell {
 
   /// `outside`: no pose of the cell is within reach, for certain. The others: not proven, for what is named was not
   /// excluded.
-  State enter(const sheet::Interval& x, const sheet::Interval& y);
+  State enter(const core::Interval& x, const core::Interval& y);
 
   /// Where the state is `unmet`: the first condition that was not proven.
   int unmet() const { return unmet_; }
@@ -30,14 +30,14 @@ class TaskCell {
   bool nonzero(int function);
   bool holds(const core::TaskCondition& condition);
   /// A lower bound of sum weight_i f_i over the cell is positive.
-  bool positive(const std::vector<std::pair<sheet::Interval, int>>& sum, bool with_slopes);
+  bool positive(const std::vector<std::pair<core::Interval, int>>& sum, bool with_slopes);
   void differentiate();
   std::vector<double> values(const std::vector<int>& functions) const;
 
   const core::TaskConditions& conditions_;
   sheet::SheetProgram program_;
   sheet::SheetCell cell_;
-  std::vector<sheet::Interval> least_;  ///< of every condition
+  std::vector<core::Interval> least_;  ///< of every condition
   bool differentiated_ = false;
   int unmet_ = -1;
 };

@@ -12,8 +12,8 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::Point2;
-using sheet::Interval;
 
 struct Cell {
   Interval x, y;

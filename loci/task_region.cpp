@@ -8,9 +8,9 @@
 namespace clearloci::loci {
 namespace {
 
+using core::Interval;
 using core::Point2;
 using core::Polyline;
-using sheet::Interval;
 
 Point2 rounded(const core::RationalPoint& p) { return {core::to_double(p[0]), core::to_double(p[1])}; }
 

@@ -1,8 +1,8 @@
 // A task's shape in doubles: how far points, cells and arcs are from it.
 #pragma once
 
+#include "core/interval.hpp"
 #include "core/task.hpp"
-#include "loci/sheet/interval.hpp"
 
 namespace clearloci::loci {
 
@@ -14,7 +14,7 @@ class TaskRegion {
   double signed_distance(const core::Point2& at) const;
 
   /// Not more than the least distance of a cell from the shape; 0 where they meet.
-  double distance(const sheet::Interval& x, const sheet::Interval& y) const;
+  double distance(const core::Interval& x, const core::Interval& y) const;
 
   /// The point of the shape nearest to a place; of a place inside the place itself.
   core::Point2 closest(const core::Point2& to) const;

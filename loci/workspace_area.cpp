@@ -38,7 +38,7 @@ bool ModeWorkspace::holds_one_of(const core::Polyline& points) {
 }
 
 AreaBounds workspace_area(const core::LocusProblem& problem, const core::WorkingMode& mode) {
-  using sheet::Cell, sheet::Interval;
+  using sheet::Cell, core::Interval;
   const sheet::SheetProgram program(problem.tower, std::vector<core::Polynomial>{});
   auto registers = program.registers<Interval>();
   // +1: all of the cell is reached, -1: none of it.

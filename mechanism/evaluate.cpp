@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/interpret.hpp"
 #include "mechanism/radical_sum.hpp"
 
 namespace clearloci::mechanism {
@@ -24,47 +25,39 @@ class Evaluator {
       needed.merge(core::symbols(p->expression));
       used.push_back(&*p);
     }
-    for (auto p = used.rbegin(); p != used.rend(); ++p) values_[(*p)->name] = (*this)((*p)->expression);
+    for (auto p = used.rbegin(); p != used.rend(); ++p) values_[(*p)->name] = core::interpret((*p)->expression, *this);
   }
 
-  RadicalSum operator()(const Expression& expression) {
-    using Kind = Expression::Kind;
-    const auto argument = [&](std::size_t index) { return (*this)(expression.arguments()[index]); };
-    switch (expression.kind()) {
-      case Kind::number:
-        return radical_sum(expression.value());
-      case Kind::symbol:
-        return parameter(expression.name());
-      case Kind::pi:
-        return pi_multiple(1);
-      case Kind::add:
-        return argument(0) + argument(1);
-      case Kind::multiply:
-        return argument(0) * argument(1);
-      case Kind::divide:
-        return argument(0) / argument(1);
-      case Kind::power:
-        return power(argument(0), argument(1));
-      case Kind::negate:
-        return -argument(0);
-      case Kind::sqrt:
-        return square_root(argument(0));
-      case Kind::cos:
-      case Kind::sin: {
-        const CirclePoint point = circle_point(argument(0));
-        RadicalSum result = radical_sum(expression.kind() == Kind::cos ? point.cosine : point.sine);
-        result.exact = point.exact;
-        return result;
-      }
-    }
-    throw std::logic_error("an expression of unknown kind");
-  }
-
- private:
-  RadicalSum parameter(const std::string& name) {
+  using Value = RadicalSum;
+  RadicalSum number(const Rational& value) const { return radical_sum(value); }
+  RadicalSum symbol(const std::string& name) const {
     const auto known = values_.find(name);
     if (known != values_.end()) return known->second;
     throw std::out_of_range("'" + name + "' is not a parameter");
+  }
+  RadicalSum pi() const { return pi_multiple(1); }
+  RadicalSum negate(const RadicalSum& a) const { return -a; }
+  RadicalSum add(const RadicalSum& a, const RadicalSum& b) const { return a + b; }
+  RadicalSum multiply(const RadicalSum& a, const RadicalSum& b) const { return a * b; }
+  RadicalSum divide(const RadicalSum& a, const RadicalSum& b, const Expression&) const { return a / b; }
+  RadicalSum power(const RadicalSum& a, const Expression& e) const {
+    return mechanism::power(a, core::interpret(e.arguments()[1], *this));
+  }
+  RadicalSum sqrt(const RadicalSum& a, const Expression&) const { return square_root(a); }
+  RadicalSum cos(const RadicalSum& a, const Expression&) const {
+    const CirclePoint point = circle_point(a);
+    return coordinate(point, point.cosine);
+  }
+  RadicalSum sin(const RadicalSum& a, const Expression&) const {
+    const CirclePoint point = circle_point(a);
+    return coordinate(point, point.sine);
+  }
+
+ private:
+  static RadicalSum coordinate(const CirclePoint& point, const Rational& value) {
+    RadicalSum result = radical_sum(value);
+    result.exact = point.exact;
+    return result;
   }
 
   const std::vector<Parameter>& parameters_;
@@ -76,7 +69,7 @@ class Evaluator {
 ExactValue evaluate(const Expression& expression, const std::vector<Parameter>& parameters) {
   Evaluator evaluator(parameters);
   evaluator.prepare(expression);
-  const RadicalSum sum = evaluator(expression);
+  const RadicalSum sum = core::interpret(expression, evaluator);
   return {rational_value(sum), sum.exact && sum.is_rational()};
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "core/interpret.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/posture_sample.hpp"
@@ -128,45 +129,51 @@ class Change {
                        [&](const Coordinate& coordinate) { return names.contains(coordinate.name); });
   }
 
-  Sum sum(const Expression& e) const {
-    using Kind = Expression::Kind;
-    if (!is_free(e)) return Sum(value_of(e, mechanism_));
-    const auto argument = [&](std::size_t i) { return sum(e.arguments()[i]); };
-    switch (e.kind()) {
-      case Kind::symbol: {
-        const auto own = std::find_if(mechanism_.coordinates.begin(), mechanism_.coordinates.end(),
-                                      [&](const Coordinate& coordinate) { return coordinate.name == e.name(); });
-        if (own->angle) throw NotPolynomial{};
-        const Rational& from = frame_.from[static_cast<std::size_t>(own - mechanism_.coordinates.begin())];
-        return Sum(from) + Sum(frame_.scale) * Sum::atom(e);
-      }
-      case Kind::add:
-        return argument(0) + argument(1);
-      case Kind::multiply:
-        return argument(0) * argument(1);
-      case Kind::negate:
-        return Sum(-1) * argument(0);
-      case Kind::divide:
-        if (is_free(e.arguments()[1])) throw NotPolynomial{};
-        return argument(0) * Sum(1 / value_of(e.arguments()[1], mechanism_));
-      case Kind::power: {
-        constexpr int most = 24;
-        if (is_free(e.arguments()[1])) throw NotPolynomial{};
-        const Rational exponent = value_of(e.arguments()[1], mechanism_);
-        if (exponent.get_den() != 1 || exponent < 0 || exponent > most) throw NotPolynomial{};
-        Sum result(1);
-        for (Rational i = 0; i < exponent; ++i) result = result * argument(0);
-        return result;
-      }
-      case Kind::cos:
-      case Kind::sin:
-        for (const auto& coordinate : mechanism_.coordinates)
-          if (!coordinate.angle && core::symbols(e).contains(coordinate.name)) throw NotPolynomial{};
-        return Sum::atom(e);
-      default:
-        throw NotPolynomial{};
+  Sum sum(const Expression& e) const { return core::interpret(e, Polynomials{*this}); }
+
+  /// Expressions as polynomials in the new coordinates (core/interpret.hpp).
+  struct Polynomials {
+    using Value = Sum;
+    const Change& change;
+
+    std::optional<Sum> known(const Expression& e) const {
+      using Kind = Expression::Kind;
+      if (!change.is_free(e)) return Sum(value_of(e, change.mechanism_));
+      if (e.kind() != Kind::cos && e.kind() != Kind::sin) return std::nullopt;
+      for (const auto& coordinate : change.mechanism_.coordinates)
+        if (!coordinate.angle && core::symbols(e).contains(coordinate.name)) throw NotPolynomial{};
+      return Sum::atom(e);
     }
-  }
+    Sum number(const Rational& value) const { return Sum(value); }
+    Sum symbol(const std::string& name) const {
+      const auto& all = change.mechanism_.coordinates;
+      const auto own =
+          std::find_if(all.begin(), all.end(), [&](const Coordinate& coordinate) { return coordinate.name == name; });
+      if (own->angle) throw NotPolynomial{};
+      const Rational& from = change.frame_.from[static_cast<std::size_t>(own - all.begin())];
+      return Sum(from) + Sum(change.frame_.scale) * Sum::atom(Expression::symbol(name));
+    }
+    Sum negate(const Sum& a) const { return Sum(-1) * a; }
+    Sum add(const Sum& a, const Sum& b) const { return a + b; }
+    Sum multiply(const Sum& a, const Sum& b) const { return a * b; }
+    Sum divide(const Sum& a, const Sum&, const Expression& e) const {
+      if (change.is_free(e.arguments()[1])) throw NotPolynomial{};
+      return a * Sum(1 / value_of(e.arguments()[1], change.mechanism_));
+    }
+    Sum power(const Sum& a, const Expression& e) const {
+      constexpr int most = 24;
+      if (change.is_free(e.arguments()[1])) throw NotPolynomial{};
+      const Rational exponent = value_of(e.arguments()[1], change.mechanism_);
+      if (exponent.get_den() != 1 || exponent < 0 || exponent > most) throw NotPolynomial{};
+      Sum result(1);
+      for (Rational i = 0; i < exponent; ++i) result = result * a;
+      return result;
+    }
+    Sum pi() const { throw NotPolynomial{}; }
+    Sum sqrt(const Sum&, const Expression&) const { throw NotPolynomial{}; }
+    Sum cos(const Sum&, const Expression&) const { throw NotPolynomial{}; }
+    Sum sin(const Sum&, const Expression&) const { throw NotPolynomial{}; }
+  };
 
   /// Over the scale's power.
   Expression scaled(const Expression& e, int power) const {

@@ -189,7 +189,7 @@ struct Spring {
 /// (0 to 180 deg), within two numbers: what is beyond is no part of the workspace.
 struct Limit {
   std::vector<PointIndex> points;  ///< two of a distance, three of an angle
-  Expression lower, upper;         ///< m or rad
+  Expression lower, upper;         ///< rad of an angle (is_angle), else m
   Rational lower_value, upper_value;
   core::SourcePosition where;
 

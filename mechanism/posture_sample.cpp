@@ -1,8 +1,11 @@
 #include "mechanism/posture_sample.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+
+#include "mechanism/placement.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -11,149 +14,33 @@ using Vector = std::array<double, 3>;
 using Values = std::map<std::string, double>;
 using MaybePoints = std::vector<std::optional<Vector>>;
 
-double value_at(const Expression& expression, const Values& values) {
-  using Kind = Expression::Kind;
-  const auto argument = [&](std::size_t index) { return value_at(expression.arguments()[index], values); };
-  switch (expression.kind()) {
-    case Kind::number:
-      return core::to_double(expression.value());
-    case Kind::symbol:
-      return values.at(expression.name());
-    case Kind::pi:
-      return std::numbers::pi;
-    case Kind::add:
-      return argument(0) + argument(1);
-    case Kind::multiply:
-      return argument(0) * argument(1);
-    case Kind::divide:
-      return argument(0) / argument(1);
-    case Kind::power:
-      return std::pow(argument(0), argument(1));
-    case Kind::negate:
-      return -argument(0);
-    case Kind::sqrt:
-      return std::sqrt(argument(0));
-    case Kind::cos:
-      return std::cos(argument(0));
-    case Kind::sin:
-      return std::sin(argument(0));
-  }
-  return 0;
-}
+/// Doubles as an algebra (mechanism/placement.hpp): no number where a root or a quotient has no value.
+struct Doubles {
+  using Value = double;
+  const Values& values;
 
-Vector difference(const Vector& p, const Vector& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-Vector cross(const Vector& p, const Vector& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-double dot(const Vector& p, const Vector& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-Vector operator*(double a, const Vector& p) { return {a * p[0], a * p[1], a * p[2]}; }
-Vector operator+(const Vector& p, const Vector& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
-/// p + a q + b J q, J turning the plane a quarter to the left.
-Vector moved(const Vector& p, const Vector& q, double a, double b) {
-  return {p[0] + a * q[0] - b * q[1], p[1] + a * q[1] + b * q[0], p[2] + a * q[2]};
-}
-
-std::optional<Vector> value_at(const VectorExpression& vector, const MaybePoints& points, const Values& values) {
-  using Kind = VectorExpression::Kind;
-  std::vector<Vector> arguments;
-  for (const VectorExpression& argument : vector.arguments) {
-    const auto value = value_at(argument, points, values);
-    if (!value) return std::nullopt;
-    arguments.push_back(*value);
-  }
-  const Vector zero{};
-  switch (vector.kind) {
-    case Kind::components: {
-      Vector result{};
-      for (std::size_t i = 0; i < vector.numbers.size(); ++i) result[i] = value_at(vector.numbers[i], values);
-      return result;
-    }
-    case Kind::point:
-      return points[static_cast<std::size_t>(vector.point)];
-    case Kind::add:
-      return moved(arguments[0], arguments[1], 1, 0);
-    case Kind::negate:
-      return moved(zero, arguments[0], -1, 0);
-    case Kind::scale:
-      return moved(zero, arguments[0], value_at(vector.numbers[0], values), 0);
-    case Kind::cross:
-      return cross(arguments[0], arguments[1]);
-  }
-  return std::nullopt;
-}
-
-class Placement {
- public:
-  Placement(const MaybePoints& points, const Values& values) : points_(points), values_(values) {}
-
-  std::optional<Vector> operator()(const ExplicitPoint& point) const {
-    Vector place{};
-    for (std::size_t i = 0; i < point.coordinates.size(); ++i) place[i] = value_at(point.coordinates[i], values_);
-    return place;
-  }
-
-  /// method.md section 1: B = A + (k (P - A) +- s J (P - A)) / (2 D); in space P is brought into the plane across the
-  /// axis first.
-  std::optional<Vector> operator()(const DyadPoint& point) const {
-    const auto bases = frame(point.from, point.to);
-    const std::optional<Vector> axis =
-        point.axis ? value_at(*point.axis, points_, values_) : std::optional<Vector>({0, 0, 1});
-    if (!bases || !axis || !(dot(*axis, *axis) > 0)) return std::nullopt;
-    const auto& [base, way] = *bases;
-    const Vector n = 1 / std::sqrt(dot(*axis, *axis)) * *axis;
-    const double h = dot(n, way);
-    const Vector along = difference(way, h * n);
-    const double a = value_at(point.from_length, values_);
-    const double b = value_at(point.to_length, values_);
-    const double d = dot(along, along);
-    const double k = a * a - b * b + h * h + d;
-    const double q = 4 * a * a * d - k * k;
-    if (!(q > 0)) return std::nullopt;
-    const double s = point.side == Side::left ? std::sqrt(q) : -std::sqrt(q);
-    return base + k / (2 * d) * along + s / (2 * d) * cross(n, along);
-  }
-
-  std::optional<Vector> operator()(const OffsetPoint& point) const {
-    const auto bases = frame(point.first, point.second);
-    if (!bases) return std::nullopt;
-    const auto& [base, along] = *bases;
-    const double length = std::sqrt(dot(along, along));
-    if (!(length > 0)) return std::nullopt;
-    return moved(base, along, value_at(point.along, values_) / length, value_at(point.left, values_) / length);
-  }
-
-  std::optional<Vector> operator()(const MeanPoint& point) const {
-    const auto bases = frame(point.first, point.second);
-    if (!bases) return std::nullopt;
-    return moved(bases->first, bases->second, 0.5, 0);
-  }
-
-  /// S = Q + (p +- s) u / U,  p = u . (C - Q), U = u . u, s^2 = l^2 U - (u x (C - Q))^2.
-  std::optional<Vector> operator()(const SliderPoint& point) const {
-    const auto bases = frame(point.base, point.from);
-    const auto along = value_at(point.along, points_, values_);
-    if (!bases || !along) return std::nullopt;
-    const double u = dot(*along, *along);
-    const double l = value_at(point.length, values_);
-    const Vector across = cross(*along, bases->second);
-    const double q = l * l * u - dot(across, across);
-    if (!(u > 0) || !(q > 0)) return std::nullopt;
-    const double s = point.ahead ? std::sqrt(q) : -std::sqrt(q);
-    return moved(bases->first, *along, (dot(*along, bases->second) + s) / u, 0);
-  }
-
- private:
-  /// The first point and the vector to the second.
-  std::optional<std::pair<Vector, Vector>> frame(PointIndex first, PointIndex second) const {
-    const auto& p = points_[static_cast<std::size_t>(first)];
-    const auto& q = points_[static_cast<std::size_t>(second)];
-    if (!p || !q) return std::nullopt;
-    return std::pair{*p, difference(*q, *p)};
-  }
-
-  const MaybePoints& points_;
-  const Values& values_;
+  double number(const Rational& value) const { return core::to_double(value); }
+  double symbol(const std::string& name) const { return values.at(name); }
+  double pi() const { return std::numbers::pi; }
+  double negate(double a) const { return -a; }
+  double add(double a, double b) const { return a + b; }
+  double subtract(double a, double b) const { return a - b; }
+  double multiply(double a, double b) const { return a * b; }
+  double square(double a) const { return a * a; }
+  double inverse(double a) const { return a == 0 ? NAN : 1 / a; }
+  /// The end of the reach is no posture to take samples of.
+  double square_root(double a) const { return a > 0 ? std::sqrt(a) : NAN; }
+  double divide(double a, double b, const Expression&) const { return a / b; }
+  double power(double a, const Expression& e) const { return std::pow(a, core::interpret(e.arguments()[1], *this)); }
+  double sqrt(double a, const Expression&) const { return std::sqrt(a); }
+  double cos(double a, const Expression&) const { return std::cos(a); }
+  double sin(double a, const Expression&) const { return std::sin(a); }
 };
+
+std::optional<Vector> if_finite(const Vector& v) {
+  const bool finite = std::all_of(v.begin(), v.end(), [](double c) { return std::isfinite(c); });
+  return finite ? std::optional(v) : std::nullopt;
+}
 
 /// The i-th number of van der Corput's sequence: the digits of i mirrored at the point, spread evenly over (0, 1).
 double van_der_corput(unsigned i, unsigned base) {
@@ -191,13 +78,15 @@ Values values_of(const Mechanism& mechanism, const std::vector<double>& pose) {
 
 std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, const VectorExpression& vector,
                                                    const std::vector<double>& pose) {
-  return value_at(vector, sample_points(mechanism, pose), values_of(mechanism, pose));
+  const Values values = values_of(mechanism, pose);
+  return if_finite(Placement<Doubles>(mechanism, working_mode(mechanism), {values}).vector(vector));
 }
 
 MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
   const Values values = values_of(mechanism, pose);
+  const Placement<Doubles> placed(mechanism, working_mode(mechanism), {values});
   MaybePoints points;
-  for (const Point& point : mechanism.points) points.push_back(std::visit(Placement(points, values), point.form));
+  for (const Vector& point : placed.points()) points.push_back(if_finite(point));
   return points;
 }
 

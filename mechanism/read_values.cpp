@@ -3,6 +3,7 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "core/interpret.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/units.hpp"
@@ -69,40 +70,38 @@ bool is_free(const Expression& expression, const Mechanism& mechanism) {
                      [&](const Coordinate& coordinate) { return names.contains(coordinate.name); });
 }
 
-/// Bound of the degree in the free coordinates. Every constant part is evaluated on the way, so that none is unusable.
-long degree_in_coordinates(const Expression& expression, const Mechanism& mechanism, const Value& value) {
-  using Kind = Expression::Kind;
-  if (!is_free(expression, mechanism)) {
-    (void)evaluate_at(expression, mechanism, value);
+/// Bounds of the degree in the free coordinates. Every constant part is evaluated on the way, so that none is unusable.
+struct Degrees {
+  using Value = long;
+  const Mechanism& mechanism;
+  const mechanism::Value& value;
+  static constexpr long beyond = 1'000'000;  // larger degrees are not told apart
+
+  std::optional<long> known(const Expression& e) const {
+    if (is_free(e, mechanism)) return std::nullopt;
+    (void)evaluate_at(e, mechanism, value);
     return 0;
   }
-  constexpr long beyond = 1'000'000;  // larger degrees are not told apart
-  const auto degree = [&](std::size_t i) { return degree_in_coordinates(expression.arguments()[i], mechanism, value); };
-  switch (expression.kind()) {
-    case Kind::add:
-      return std::max(degree(0), degree(1));
-    case Kind::multiply:
-    case Kind::divide:
-      return std::min(degree(0) + degree(1), beyond);
-    case Kind::power: {
-      const long base = degree(0);
-      if (is_free(expression.arguments()[1], mechanism)) return base;  // refused for that elsewhere
-      const Rational exponent = abs(evaluate_at(expression.arguments()[1], mechanism, value).value);
-      return exponent > beyond ? beyond : std::min(base * std::max(1L, exponent.get_num().get_si()), beyond);
-    }
-    case Kind::negate:
-    case Kind::sqrt:
-    case Kind::cos:
-    case Kind::sin:
-      return degree(0);
-    default:
-      return 1;
+  long number(const Rational&) const { return 0; }
+  long symbol(const std::string&) const { return 1; }
+  long pi() const { return 0; }
+  long negate(long a) const { return a; }
+  long add(long a, long b) const { return std::max(a, b); }
+  long multiply(long a, long b) const { return std::min(a + b, beyond); }
+  long divide(long a, long b, const Expression&) const { return multiply(a, b); }
+  long power(long base, const Expression& e) const {
+    if (is_free(e.arguments()[1], mechanism)) return base;  // refused for that elsewhere
+    const Rational exponent = abs(evaluate_at(e.arguments()[1], mechanism, value).value);
+    return exponent > beyond ? beyond : std::min(base * std::max(1L, exponent.get_num().get_si()), beyond);
   }
-}
+  long sqrt(long a, const Expression&) const { return a; }
+  long cos(long a, const Expression&) const { return a; }
+  long sin(long a, const Expression&) const { return a; }
+};
 
 void check_degree(const Expression& expression, const Mechanism& mechanism, const Value& value) {
   constexpr long highest = 32;  // a place of a mechanism is of degree 1 or 2; powers of sums grow out of all memory
-  if (degree_in_coordinates(expression, mechanism, value) > highest)
+  if (core::interpret(expression, Degrees{mechanism, value}) > highest)
     throw InputError(value.where, value.what + " is of a degree above 32 in the free coordinates",
                      "write it with lower powers");
 }

@@ -11,7 +11,7 @@ namespace clearloci::mechanism {
 
 struct Waypoint {
   std::string name;          ///< may be empty
-  std::vector<Rational> at;  ///< one value a free coordinate, m or rad
+  std::vector<Rational> at;  ///< one value a free coordinate: rad of an angle (Coordinate::angle), else m
   Rational corner = 0;       ///< radius of the arc that rounds the corner here; 0: none
   bool stop = false;         ///< at rest here; the first waypoint always is, and the last of an open path
   Rational dwell = 0;        ///< at a stop: part of the period for which it lasts
@@ -37,7 +37,7 @@ struct MotionLaw {
 struct TimedMotion {
   std::vector<Expression> coordinates;      ///< in t, s; empty: the table
   std::vector<Rational> times;              ///< s, ascending
-  std::vector<std::vector<Rational>> rows;  ///< of each time one value a coordinate, m or rad
+  std::vector<std::vector<Rational>> rows;  ///< of each time one value a coordinate, likewise
 };
 
 /// A body that a link carries from one stop to another.

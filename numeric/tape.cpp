@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/errors.hpp"
+#include "core/interpret.hpp"
 
 namespace clearloci::numeric {
 
@@ -102,48 +103,41 @@ Register TapeBuilder::power(Register base, int exponent) {
   return exponent % 2 == 0 ? even : multiply(even, base);
 }
 
+namespace {
+
+/// Expressions as instructions (core/interpret.hpp).
+struct Compiling {
+  using Value = Register;
+  TapeBuilder& tape;
+  const std::function<Register(const std::string&)>& name;
+
+  Register number(const core::Rational& value) const { return tape.constant(from_rational(value)); }
+  Register symbol(const std::string& own) const { return name(own); }
+  Register pi() const { return tape.constant({std::numbers::pi, unit_roundoff * std::numbers::pi}); }
+  Register negate(Register a) const { return tape.negate(a); }
+  Register add(Register a, Register b) const { return tape.add(a, b); }
+  Register multiply(Register a, Register b) const { return tape.multiply(a, b); }
+  Register divide(Register a, Register b, const core::Expression&) const { return tape.divide(a, b); }
+  Register sqrt(Register a, const core::Expression&) const { return tape.sqrt(a); }
+  Register cos(Register a, const core::Expression&) const { return tape.cos(a); }
+  Register sin(Register a, const core::Expression&) const { return tape.sin(a); }
+
+  Register power(Register base, const core::Expression& e) const {
+    const Register exponent = core::interpret(e.arguments()[1], *this);
+    const auto doubled = tape.is_constant(exponent) ? doubled_exponent(tape.constant_value(exponent)) : std::nullopt;
+    if (!doubled) {
+      throw core::InputError({}, "the exponent in `" + core::to_string(e) + "` is no integer or half of one",
+                             "write a constant integer exponent");
+    }
+    return *doubled % 2 == 0 ? tape.power(base, *doubled / 2) : tape.power(tape.sqrt(base), *doubled);
+  }
+};
+
+}  // namespace
+
 Register TapeBuilder::compile(const core::Expression& expression,
                               const std::function<Register(const std::string&)>& symbol) {
-  using Kind = core::Expression::Kind;
-  const auto argument = [&](std::size_t i) { return compile(expression.arguments()[i], symbol); };
-  switch (expression.kind()) {
-    case Kind::number:
-      return constant(from_rational(expression.value()));
-    case Kind::symbol:
-      return symbol(expression.name());
-    case Kind::pi:
-      return constant({std::numbers::pi, unit_roundoff * std::numbers::pi});
-    case Kind::add: {
-      const Register a = argument(0);
-      return add(a, argument(1));
-    }
-    case Kind::multiply: {
-      const Register a = argument(0);
-      return multiply(a, argument(1));
-    }
-    case Kind::divide: {
-      const Register a = argument(0);
-      return divide(a, argument(1));
-    }
-    case Kind::negate:
-      return negate(argument(0));
-    case Kind::sqrt:
-      return sqrt(argument(0));
-    case Kind::cos:
-      return cos(argument(0));
-    case Kind::sin:
-      return sin(argument(0));
-    case Kind::power:
-      break;
-  }
-  const Register base = argument(0);
-  const Register exponent = argument(1);
-  const auto doubled = is_constant(exponent) ? doubled_exponent(constant_value(exponent)) : std::nullopt;
-  if (!doubled) {
-    throw core::InputError({}, "the exponent in `" + core::to_string(expression) + "` is no integer or half of one",
-                           "write a constant integer exponent");
-  }
-  return *doubled % 2 == 0 ? power(base, *doubled / 2) : power(sqrt(base), *doubled);
+  return core::interpret(expression, Compiling{*this, symbol});
 }
 
 }  // namespace clearloci::numeric

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/enclosure.hpp"
 #include "analysis/model.hpp"
 #include "analysis/zones.hpp"
 #include "clearloci/zones.hpp"
+#include "core/enclosure.hpp"
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/read.hpp"
@@ -16,8 +16,8 @@ namespace clearloci {
 namespace {
 
 using core::Figure;
+using core::Interval;
 using core::Rational;
-using loci::sheet::Interval;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 

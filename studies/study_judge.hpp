@@ -57,7 +57,7 @@ class StudyJudge {
   void measure(core::StudyDesign& design, const std::vector<core::Rational>& values,
                const std::vector<loci::DesignBox>& boxes);
   /// Where the figure lies; nothing where it is not known.
-  std::optional<loci::sheet::Interval> measured(core::Figure figure, std::size_t task, const loci::DesignBox& box);
+  std::optional<core::Interval> measured(core::Figure figure, std::size_t task, const loci::DesignBox& box);
   void measure_zones(core::StudyDesign& design, const std::vector<core::Rational>& values);
   void require(core::StudyDesign& design) const;
 

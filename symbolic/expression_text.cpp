@@ -1,12 +1,12 @@
 #include "symbolic/expression_text.hpp"
 
+#include "core/interpret.hpp"
 #include "symbolic/formula.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
 using core::Expression;
-using Kind = Expression::Kind;
 
 /// How tightly a text holds together.
 enum Binding { sum, product, power, atom };
@@ -14,6 +14,7 @@ enum Binding { sum, product, power, atom };
 struct Printed {
   std::string text;
   Binding binding = atom;
+  bool is_negation = false;  ///< its text after the minus is what a sum subtracts
 };
 
 class Printer {
@@ -21,48 +22,38 @@ class Printer {
   Printer(Language language, const std::function<std::string(const std::string&)>& name)
       : language_(language), name_(name) {}
 
-  Printed operator()(const Expression& e) const {
-    const auto argument = [&](std::size_t i) { return (*this)(e.arguments()[i]); };
-    const bool latex = language_ == Language::latex;
-    switch (e.kind()) {
-      case Kind::number: {
-        const std::string text = number_text(e.value(), language_);
-        if (sgn(e.value()) < 0) return {text, sum};
-        return {text, e.value().get_den() == 1 ? atom : product};
-      }
-      case Kind::symbol:
-        return {name_(e.name()), atom};
-      case Kind::pi:
-        return {latex ? "\\pi" : "pi", atom};
-      case Kind::add: {
-        const Expression& right = e.arguments()[1];
-        if (right.kind() == Kind::negate)
-          return {argument(0).text + " - " + enclosed((*this)(right.arguments()[0]), product), sum};
-        return {argument(0).text + " + " + enclosed(argument(1), product), sum};
-      }
-      case Kind::multiply:
-        return {enclosed(argument(0), product) + (latex ? " " : "*") + enclosed(argument(1), power), product};
-      case Kind::divide:
-        if (latex) return {"\\frac{" + argument(0).text + "}{" + argument(1).text + "}", product};
-        return {enclosed(argument(0), product) + "/" + enclosed(argument(1), power), product};
-      case Kind::negate:
-        return {"-" + enclosed(argument(0), product), sum};
-      case Kind::power:
-        if (language_ == Language::c) return {"pow(" + argument(0).text + ", " + argument(1).text + ")", atom};
-        if (latex) return {enclosed(argument(0), atom) + "^{" + argument(1).text + "}", power};
-        return {
-            enclosed(argument(0), atom) + (language_ == Language::python ? "**" : "^") + enclosed(argument(1), atom),
-            power};
-      case Kind::sqrt:
-        if (latex) return {"\\sqrt{" + argument(0).text + "}", atom};
-        return call("sqrt", argument(0));
-      case Kind::cos:
-        return call("cos", argument(0));
-      case Kind::sin:
-        return call("sin", argument(0));
-    }
-    return {};
+  using Value = Printed;
+  Printed number(const core::Rational& value) const {
+    const std::string text = number_text(value, language_);
+    if (sgn(value) < 0) return {text, sum};
+    return {text, value.get_den() == 1 ? atom : product};
   }
+  Printed symbol(const std::string& name) const { return {name_(name), atom}; }
+  Printed pi() const { return {is_latex() ? "\\pi" : "pi", atom}; }
+  Printed negate(const Printed& a) const { return {"-" + enclosed(a, product), sum, true}; }
+  Printed add(const Printed& a, const Printed& b) const {
+    if (b.is_negation) return {a.text + " - " + b.text.substr(1), sum};
+    return {a.text + " + " + enclosed(b, product), sum};
+  }
+  Printed multiply(const Printed& a, const Printed& b) const {
+    return {enclosed(a, product) + (is_latex() ? " " : "*") + enclosed(b, Binding::power), product};
+  }
+  Printed divide(const Printed& a, const Printed& b, const Expression&) const {
+    if (is_latex()) return {"\\frac{" + a.text + "}{" + b.text + "}", product};
+    return {enclosed(a, product) + "/" + enclosed(b, Binding::power), product};
+  }
+  Printed power(const Printed& a, const Expression& e) const {
+    const Printed exponent = core::interpret(e.arguments()[1], *this);
+    if (language_ == Language::c) return {"pow(" + a.text + ", " + exponent.text + ")", atom};
+    if (is_latex()) return {enclosed(a, atom) + "^{" + exponent.text + "}", Binding::power};
+    return {enclosed(a, atom) + (language_ == Language::python ? "**" : "^") + enclosed(exponent, atom),
+            Binding::power};
+  }
+  Printed sqrt(const Printed& a, const Expression&) const {
+    return is_latex() ? Printed{"\\sqrt{" + a.text + "}", atom} : call("sqrt", a);
+  }
+  Printed cos(const Printed& a, const Expression&) const { return call("cos", a); }
+  Printed sin(const Printed& a, const Expression&) const { return call("sin", a); }
 
   std::string enclosed(const Printed& printed, Binding needed) const {
     if (printed.binding >= needed) return printed.text;
@@ -70,6 +61,8 @@ class Printer {
   }
 
  private:
+  bool is_latex() const { return language_ == Language::latex; }
+
   Printed call(const std::string& function, const Printed& argument) const {
     if (language_ == Language::latex) return {"\\" + function + "\\left(" + argument.text + "\\right)", atom};
     return {function + "(" + argument.text + ")", atom};
@@ -83,13 +76,13 @@ class Printer {
 
 std::string expression_text(const Expression& expression, Language language,
                             const std::function<std::string(const std::string&)>& name) {
-  return Printer(language, name)(expression).text;
+  return core::interpret(expression, Printer(language, name)).text;
 }
 
 std::string enclosed_expression_text(const Expression& expression, Language language,
                                      const std::function<std::string(const std::string&)>& name) {
   const Printer printer(language, name);
-  return printer.enclosed(printer(expression), atom);
+  return printer.enclosed(core::interpret(expression, printer), atom);
 }
 
 }  // namespace clearloci::symbolic

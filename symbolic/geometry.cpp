@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/interpret.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/posture_sample.hpp"
@@ -122,57 +123,64 @@ GiNaC::symbol Geometry::symbol(const std::string& name) const {
   return symbols_.try_emplace(name, GiNaC::symbol(name)).first->second;
 }
 
-GiNaC::ex Geometry::expression(const Expression& e) const {
+struct Geometry::Naturals {
+  using Value = GiNaC::ex;
+  using RightFirst = void;  // symbols are known, and printed, in the order in which they are met
   using Kind = Expression::Kind;
-  const bool free = is_free(e);
-  if (!free && !keep_parameters_) return number(mechanism::value_of(e, *mechanism_));
-  if (core::symbols(e).empty() && mechanism::evaluate(e, mechanism_->parameters).exact) {
-    return number(mechanism::value_of(e, *mechanism_));
+  const Geometry& geometry;
+
+  std::optional<GiNaC::ex> known(const Expression& e) const {
+    const mechanism::Mechanism& m = geometry.mechanism();
+    const bool free = geometry.is_free(e);
+    const bool stays = free || geometry.keep_parameters_;
+    const bool is_number = !stays || (core::symbols(e).empty() && mechanism::evaluate(e, m.parameters).exact);
+    if (is_number) return clearloci::symbolic::number(mechanism::value_of(e, m));
+    const bool turns = e.kind() == Kind::cos || e.kind() == Kind::sin;
+    if (turns && free) return geometry.circle(e.arguments()[0])[e.kind() == Kind::cos ? 0 : 1];
+    if (turns || e.kind() == Kind::pi || e.kind() == Kind::sqrt) return kept(core::to_string(e), e, e);
+    if (e.kind() == Kind::power && !is_whole(core::interpret(e.arguments()[1], *this)))
+      return kept("(" + core::to_string(e) + ")", e, e);
+    return std::nullopt;
   }
-  const auto kept_as = [&](const std::string& name, const Expression& meaning) {
-    if (free) throw NotPolynomial{core::to_string(e)};
-    if (std::find(kept_.begin(), kept_.end(), name) == kept_.end()) kept_.push_back(name);
-    kept_expressions_.emplace(name, meaning);
-    return GiNaC::ex(symbol(name));
-  };
-  const auto kept = [&](const std::string& name) { return kept_as(name, e); };
-  const auto argument = [&](std::size_t i) { return expression(e.arguments()[i]); };
-  switch (e.kind()) {
-    case Kind::number:
-      return number(e.value());
-    case Kind::symbol: {
-      const auto coordinate = std::find_if(mechanism_->coordinates.begin(), mechanism_->coordinates.end(),
-                                           [&](const auto& c) { return c.name == e.name(); });
-      if (coordinate == mechanism_->coordinates.end() || coordinate->angle) return kept(e.name());
-      return GiNaC::ex(symbol(e.name()));
-    }
-    case Kind::add:
-      return argument(0) + argument(1);
-    case Kind::multiply:
-      return argument(0) * argument(1);
-    case Kind::negate:
-      return -argument(0);
-    case Kind::divide: {
-      const GiNaC::ex divisor = argument(1);
-      if (GiNaC::is_a<GiNaC::numeric>(divisor)) return argument(0) / divisor;
-      return argument(0) * kept_as("1/(" + core::to_string(e.arguments()[1]) + ")",
-                                   Expression::apply(Kind::divide, {Expression::number(1), e.arguments()[1]}));
-    }
-    case Kind::power: {
-      const GiNaC::ex exponent = argument(1);
-      if (exponent.info(GiNaC::info_flags::nonnegint)) return GiNaC::pow(argument(0), exponent);
-      return kept("(" + core::to_string(e) + ")");
-    }
-    case Kind::cos:
-    case Kind::sin:
-      if (free) return circle(e.arguments()[0])[e.kind() == Kind::cos ? 0 : 1];
-      return kept(core::to_string(e));
-    case Kind::pi:
-    case Kind::sqrt:
-      return kept(core::to_string(e));
+
+  GiNaC::ex number(const Rational& value) const { return clearloci::symbolic::number(value); }
+  GiNaC::ex symbol(const std::string& name) const {
+    const auto& all = geometry.mechanism().coordinates;
+    const auto coordinate = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
+    const Expression own = Expression::symbol(name);
+    if (coordinate == all.end() || coordinate->angle) return kept(name, own, own);
+    return geometry.symbol(name);
   }
-  return 0;
-}
+  GiNaC::ex negate(const GiNaC::ex& a) const { return -a; }
+  GiNaC::ex add(const GiNaC::ex& a, const GiNaC::ex& b) const { return a + b; }
+  GiNaC::ex multiply(const GiNaC::ex& a, const GiNaC::ex& b) const { return a * b; }
+  GiNaC::ex divide(const GiNaC::ex& a, const GiNaC::ex& b, const Expression& e) const {
+    if (GiNaC::is_a<GiNaC::numeric>(b)) return a / b;
+    return a * kept("1/(" + core::to_string(e.arguments()[1]) + ")", e,
+                    Expression::apply(Kind::divide, {Expression::number(1), e.arguments()[1]}));
+  }
+  GiNaC::ex power(const GiNaC::ex& a, const Expression& e) const {
+    return GiNaC::pow(a, core::interpret(e.arguments()[1], *this));
+  }
+  GiNaC::ex pi() const { return 0; }  // known, as what follows
+  GiNaC::ex sqrt(const GiNaC::ex& a, const Expression&) const { return a; }
+  GiNaC::ex cos(const GiNaC::ex& a, const Expression&) const { return a; }
+  GiNaC::ex sin(const GiNaC::ex& a, const Expression&) const { return a; }
+
+ private:
+  static bool is_whole(const GiNaC::ex& exponent) { return exponent.info(GiNaC::info_flags::nonnegint); }
+
+  /// A symbol for something that parameters alone make; `within` is what it was met in.
+  GiNaC::ex kept(const std::string& name, const Expression& within, const Expression& meaning) const {
+    if (geometry.is_free(within)) throw NotPolynomial{core::to_string(within)};
+    std::vector<std::string>& all = geometry.kept_;
+    if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+    geometry.kept_expressions_.emplace(name, meaning);
+    return geometry.symbol(name);
+  }
+};
+
+GiNaC::ex Geometry::expression(const Expression& e) const { return core::interpret(e, Naturals{*this}); }
 
 bool Geometry::is_free(const Expression& e) const {
   const std::set<std::string> names = core::symbols(e);

@@ -172,6 +172,8 @@ class Geometry {
   void place_length(InverseLength& length);
   void place_angles();
   void take_samples();
+  /// Expressions of the file as GiNaC's, an algebra of core/interpret.hpp.
+  struct Naturals;
   /// cos and sin of a sum of whole multiples of angles and constants.
   std::array<GiNaC::ex, 2> circle(const core::Expression& angle) const;
   bool is_free(const core::Expression& expression) const;

@@ -31,7 +31,7 @@ struct NewtonEulerEquations {
   std::vector<ColumnDivisor> divisors;
 };
 
-/// Throws core::InputError where A is not square.
+/// Required: A is square; others are not read (mechanism::check_square).
 NewtonEulerEquations newton_euler_equations(const Geometry& geometry);
 
 }  // namespace clearloci::symbolic

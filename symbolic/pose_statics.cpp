@@ -28,7 +28,7 @@ constexpr std::size_t most_fill = 40;
 class StaticsBuilder {
  public:
   StaticsBuilder(const std::vector<const Mechanism*>& loads, const std::vector<int>& sides)
-      : loads_(loads), m_(*loads.front()), points_(m_, sides), b_(points_.builder()) {
+      : loads_(loads), m_(*loads.front()), points_(m_, sides, PoseSteps(m_)), b_(points_.algebra().builder()) {
     if (m_.space == mechanism::Space::planar)
       components_ = {0, 1, 5};
     else

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "loci/sheet/interval.hpp"
+#include "core/interval.hpp"
 
 namespace clearloci::loci::sheet {
 

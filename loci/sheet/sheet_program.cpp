@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "core/enclosure.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci::loci::sheet {
@@ -44,14 +45,7 @@ core::Polynomial shifted(const core::Polynomial& p, int variable, const core::Ra
 
 double constant_as(const core::Rational& value, double*) { return core::to_double(value); }
 
-Interval constant_as(const core::Rational& value, Interval*) {
-  const double nearest = core::to_double(value);
-  // Products with an infinite end are no numbers, of which comparisons prove nothing.
-  if (!std::isfinite(nearest)) throw core::LimitReached("the equations hold numbers beyond the range of doubles");
-  if (core::Rational(nearest) == value) return nearest;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {std::nextafter(nearest, -infinity), std::nextafter(nearest, infinity)};
-}
+Interval constant_as(const core::Rational& value, Interval*) { return core::enclosed(value); }
 
 MultiInterval constant_as(const core::Rational& value, MultiInterval*) { return MultiInterval(value); }
 

@@ -13,10 +13,10 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/interval.hpp"
 #include "core/polynomial.hpp"
 #include "core/root_tower.hpp"
 #include "loci/sheet/batch.hpp"
-#include "loci/sheet/interval.hpp"
 #include "loci/sheet/jet.hpp"
 #include "loci/sheet/multi_interval.hpp"
 #include "loci/sheet/sheet_code.hpp"

@@ -8,8 +8,8 @@
 namespace clearloci::loci::surface {
 namespace {
 
+using core::Interval;
 using core::LocusProblem;
-using sheet::Interval;
 
 /// Beyond rounding of tan and of multiples of pi.
 constexpr double angle_rounding = 1e-14;
@@ -255,7 +255,7 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
     const Interval& square = chart.over.square(j);
     if (square.upper() < 0) return {.outside = true, .zero_free = true};
     rising_[own] = square.lower() <= 0;
-    roots_[own] = mode_[own] > 0 ? sheet::square_root(square) : -sheet::square_root(square);
+    roots_[own] = mode_[own] > 0 ? square_root(square) : -square_root(square);
     chart.over.set(3 + j, roots_[own]);
   }
   chart.over.run_values();
@@ -267,7 +267,7 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
   Interval product = 0, away = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     Interval scaled = enclosed_[i] * Interval(frame_.width(i));
-    if (frame_.angle[i]) scaled = scaled * (Interval(1.0) + sheet::squared(variables[i])) * Interval(0.5);
+    if (frame_.angle[i]) scaled = scaled * (Interval(1.0) + squared(variables[i])) * Interval(0.5);
     product = product + scaled * scaled;
     const double middle = variables[i].middle();
     away = away + enclosed_[i] * (variables[i] - Interval(middle));
@@ -283,7 +283,7 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
       away = away + enclosed_[3 + own] * (roots_[own] - Interval(middle));
       chart.over.set(3 + j, Interval(middle));
     } else {
-      const Interval root = square.upper() < 0 ? Interval(0.0) : sheet::square_root(square);
+      const Interval root = square.upper() < 0 ? Interval(0.0) : square_root(square);
       chart.over.set(3 + j, mode_[own] > 0 ? root : -root);
     }
   }
@@ -307,7 +307,7 @@ void Field::differentiate(Chart& chart, Proof& proof) {
       proof.rim = true;
       continue;
     }
-    const Interval factor = own * sheet::inverse(Interval(2.0) * chart.over.root(j));
+    const Interval factor = own * inverse(Interval(2.0) * chart.over.root(j));
     for (int v = 0; v < 3 + j; ++v)
       enclosed_[static_cast<std::size_t>(v)] =
           enclosed_[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);

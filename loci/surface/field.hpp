@@ -18,7 +18,7 @@
 namespace clearloci::loci::surface {
 
 using Point = std::array<double, 3>;
-using Box = std::array<sheet::Interval, 3>;
+using Box = std::array<core::Interval, 3>;
 
 /// The unit cube's image: of lengths in m, of angles in rad.
 struct Frame {
@@ -85,7 +85,7 @@ class Field {
     const core::LocusProblem* problem;
     sheet::SheetProgram program;
     sheet::SheetProgram::Registers<double> at;
-    sheet::SheetProgram::Registers<sheet::Interval> over;
+    sheet::SheetProgram::Registers<core::Interval> over;
     Point lower{}, upper{};  ///< of the coordinates: m, rad
     int sign;
   };
@@ -98,11 +98,11 @@ class Field {
   Frame frame_;
   core::WorkingMode mode_;
   std::vector<std::unique_ptr<Chart>> charts_;
-  std::vector<double> gradient_;           ///< of variables, being reduced to the coordinates
-  std::vector<sheet::Interval> roots_;     ///< over the cell being examined
-  std::vector<bool> rising_;               ///< which of them may be 0 in it
-  std::vector<sheet::Interval> enclosed_;  ///< likewise
-  Point scale_{};                          ///< of the last point entered: d variable / d unit coordinate
+  std::vector<double> gradient_;          ///< of variables, being reduced to the coordinates
+  std::vector<core::Interval> roots_;     ///< over the cell being examined
+  std::vector<bool> rising_;              ///< which of them may be 0 in it
+  std::vector<core::Interval> enclosed_;  ///< likewise
+  Point scale_{};                         ///< of the last point entered: d variable / d unit coordinate
 };
 
 }  // namespace clearloci::loci::surface

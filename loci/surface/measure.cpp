@@ -25,7 +25,7 @@ bool is_free(Field& field, const Box& box, int cuts, int& budget) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double middle = box[i].middle();
       smaller[i] =
-          (part >> i & 1) != 0 ? sheet::Interval(middle, box[i].upper()) : sheet::Interval(box[i].lower(), middle);
+          (part >> i & 1) != 0 ? core::Interval(middle, box[i].upper()) : core::Interval(box[i].lower(), middle);
     }
     if (!is_free(field, smaller, cuts - 1, budget)) return false;
   }

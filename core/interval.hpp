@@ -11,7 +11,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace clearloci::loci::sheet {
+namespace clearloci::inline core {
 
 /// [-negated_lower, upper]: with the lower bound negated both ends are rounded upwards, in one vector register.
 class Interval {
@@ -144,4 +144,4 @@ inline Interval square_root(const Interval& a) {
   return {std::max(0.0, lower - lower * 0x1p-52), upper + upper * 0x1p-52 + 0x1p-1000};
 }
 
-}  // namespace clearloci::loci::sheet
+}  // namespace clearloci::inline core
