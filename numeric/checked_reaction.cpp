@@ -91,13 +91,13 @@ EdgeNodes edge_nodes(const ReactionField& of_first, std::size_t first, const Rea
 
 void add_tally(ValidationReport& report, const core::WorkingMode& mode, const TracedReaction& reaction,
                const std::array<std::size_t, 4>& counts, bool identically_zero) {
-  const auto count = [&](Verdict v) { return counts[static_cast<std::size_t>(v)]; };
-  report.tallies.push_back({mode, reaction, count(Verdict::held), count(Verdict::disputed), count(Verdict::undecided),
-                            count(Verdict::outside), identically_zero});
-  report.held += count(Verdict::held);
-  report.disputed += count(Verdict::disputed);
-  report.undecided += count(Verdict::undecided);
-  report.outside += count(Verdict::outside);
+  const auto count = [&](Outcome v) { return counts[static_cast<std::size_t>(v)]; };
+  report.tallies.push_back({mode, reaction, count(Outcome::held), count(Outcome::disputed), count(Outcome::undecided),
+                            count(Outcome::outside), identically_zero});
+  report.held += count(Outcome::held);
+  report.disputed += count(Outcome::disputed);
+  report.undecided += count(Outcome::undecided);
+  report.outside += count(Outcome::outside);
 }
 
 TendencyTally tally_of(const std::vector<Approach>& ways, const WitnessColumns& columns) {

@@ -31,7 +31,7 @@ int times_vanishing(core::LocusKind kind, const std::vector<core::Vanishing>& va
 EdgeNodes edge_nodes(const ReactionField& of_first, std::size_t first, const ReactionField& of_second,
                      std::size_t second, const WitnessColumns& columns);
 
-/// Adds what became of a reaction's edges to the report: `counts` by Verdict.
+/// Adds what became of a reaction's edges to the report: `counts` by Outcome.
 void add_tally(ValidationReport& report, const core::WorkingMode& mode, const TracedReaction& reaction,
                const std::array<std::size_t, 4>& counts, bool identically_zero);
 

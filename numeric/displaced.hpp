@@ -19,7 +19,7 @@ struct ActualPose {
   bool converged = false;
   std::string reason;  ///< why not, as a clause: "the determinant changes sign ..."
   int iterations = 0;
-  double residual = 0;                           ///< greatest violation of the displaced closure, m or rad
+  double residual = 0;                           ///< of the closure: the largest of all distances in m and turns in rad
   PoseError error;                               ///< of the end effector
   PoseError beyond_linear;                       ///< error minus that of the linear step
   std::vector<TakeUp> take_up;                   ///< a joint each, in the displaced geometry

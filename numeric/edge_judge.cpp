@@ -78,12 +78,12 @@ std::optional<double> EdgeJudge::clear_position(const LineReaction& reaction, do
 Finding EdgeJudge::compare(const LineReaction& reaction, double a, double b) {
   const Parity change = witness_.sign_changes(reaction.columns, a, b);
   const int crossings = crossings_between(reaction, a, b);
-  const auto finding = [&](Verdict verdict) { return Finding{verdict, crossings, change == Parity::odd}; };
-  if (agrees(change, crossings)) return finding(Verdict::held);
-  if (change != Parity::unknown && witness_.cancels(reaction.columns, a, b)) return finding(Verdict::held);
+  const auto finding = [&](Outcome outcome) { return Finding{outcome, crossings, change == Parity::odd}; };
+  if (agrees(change, crossings)) return finding(Outcome::held);
+  if (change != Parity::unknown && witness_.cancels(reaction.columns, a, b)) return finding(Outcome::held);
   const bool sure =
       change != Parity::unknown && !boundary_between(a, b) && witness_.reachable_between(a, b, dense_samples);
-  return finding(sure ? Verdict::disputed : Verdict::undecided);
+  return finding(sure ? Outcome::disputed : Outcome::undecided);
 }
 
 Finding EdgeJudge::refine(const LineReaction& reaction) {
@@ -103,11 +103,11 @@ Finding EdgeJudge::judge_outside(const LineReaction& reaction) {
     arcs = true;
     const double doubt = 2 * reach_;
     if (boundary_between(p.at - doubt, p.at + doubt) || witness_.reachable_around(p.at, doubt)) {
-      return {Verdict::undecided, crossings, false};
+      return {Outcome::undecided, crossings, false};
     }
   }
-  if (arcs) return {Verdict::disputed, crossings, false};
-  return {meets_boundary_ ? Verdict::undecided : Verdict::outside, 0, false};
+  if (arcs) return {Outcome::disputed, crossings, false};
+  return {meets_boundary_ ? Outcome::undecided : Outcome::outside, 0, false};
 }
 
 std::optional<EdgeJudge::Stretch> EdgeJudge::stretch_from(double node, double other) {
@@ -134,7 +134,7 @@ Finding EdgeJudge::judge_boundary(const LineReaction& reaction, const EdgeNodes&
     const auto b = clear_position(reaction, (*known)->to, std::array{-inward}, length);
     if (!a || !b || (*b - *a) * inward <= 0) continue;
     const Finding part = compare(reaction, std::min(*a, *b), std::max(*a, *b));
-    if (part.verdict == Verdict::disputed) return part;
+    if (part.outcome == Outcome::disputed) return part;
   }
   return {};
 }
@@ -144,7 +144,7 @@ Finding EdgeJudge::judge(int edge, const LineReaction& reaction, const EdgeNodes
   if (!nodes.first_reachable && !nodes.second_reachable) return judge_outside(reaction);
   if (!nodes.first_reachable || !nodes.second_reachable || meets_boundary_) return judge_boundary(reaction, nodes);
   const int crossings = crossings_between(reaction, low_, high_);
-  if (agrees(nodes.change, crossings)) return {Verdict::held, crossings, nodes.change == Parity::odd};
+  if (agrees(nodes.change, crossings)) return {Outcome::held, crossings, nodes.change == Parity::odd};
   return refine(reaction);
 }
 

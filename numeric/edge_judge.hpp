@@ -12,10 +12,10 @@
 
 namespace clearloci::numeric {
 
-enum class Verdict { held, disputed, undecided, outside };
+enum class Outcome { held, disputed, undecided, outside };
 
 struct Finding {
-  Verdict verdict = Verdict::undecided;
+  Outcome outcome = Outcome::undecided;
   int crossings = 0;  ///< of the edge (where refined: of the stretch compared) by the reaction's polylines
   bool sign_change = false;
 };

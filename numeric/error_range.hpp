@@ -9,7 +9,7 @@
 namespace clearloci::numeric {
 
 struct RangePose {
-  double at = 0;  ///< the coordinate, m or rad
+  double at = 0;  ///< the coordinate: rad of an angle (Coordinate::angle), else m
   bool reachable = false;
   Accuracy accuracy;  ///< where reachable
 };

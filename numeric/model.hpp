@@ -38,7 +38,7 @@ struct NumericModel {
   mechanism::Mechanism mechanism;
   std::vector<mechanism::Unknown> unknowns;  ///< columns of A; in space: of equations.hpp
   std::vector<mechanism::PointIndex> dyads;  ///< dyads and sliders: the working mode has a sign for each
-  std::vector<std::array<double, 2>> box;    ///< lower, upper of each free coordinate, m or rad
+  std::vector<std::array<double, 2>> box;    ///< lower, upper of each free coordinate: rad of an angle, else m
   Tape tape;                                 ///< inputs: free coordinates, then the signs of the working mode
   int posture_size = 0;                      ///< instructions that compute points and loads
   int reaction_size = 0;                     ///< and with them the reactions; the rest serves the unit wrenches

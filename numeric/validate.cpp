@@ -55,7 +55,7 @@ GridAxis axis(double lower, double upper, int nodes, double shift) {
 }
 
 struct LineTally {
-  std::vector<std::array<std::size_t, 4>> counts;  ///< by reaction and Verdict
+  std::vector<std::array<std::size_t, 4>> counts;  ///< by reaction and Outcome
   std::vector<DisputedEdge> disputed;
 };
 
@@ -159,8 +159,8 @@ class ModeValidation {
             row ? edge_nodes(field_of(line), at(edge), field_of(line), at(edge + 1), checked.columns)
                 : edge_nodes(field_of(edge), at(line), field_of(edge + 1), at(line), checked.columns);
         const Finding finding = judge.judge(edge, {checked.columns, checked.weights}, nodes);
-        ++tally.counts[r][static_cast<std::size_t>(finding.verdict)];
-        if (finding.verdict != Verdict::disputed) continue;
+        ++tally.counts[r][static_cast<std::size_t>(finding.outcome)];
+        if (finding.outcome != Outcome::disputed) continue;
         tally.disputed.push_back({place.point(along.at(edge)), place.point(along.at(edge + 1)), mode_, checked.reaction,
                                   finding.crossings, finding.sign_change});
       }

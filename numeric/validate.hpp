@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "clearloci/validate.hpp"
 #include "core/locus_map.hpp"
 #include "mechanism/mechanism.hpp"
 
@@ -27,50 +28,11 @@ struct GridSpec {
   int nz = 40;
 };
 
-/// A reaction whose zero set the map claims to hold completely.
-struct TracedReaction {
-  std::string joint;
-  core::Quantity quantity = core::Quantity::f;
-
-  bool operator==(const TracedReaction&) const = default;
-};
-
-/// What became of the edges, for one reaction in one mode.
-struct ReactionTally {
-  core::WorkingMode mode;  ///< as in the map
-  TracedReaction reaction;
-  std::size_t held = 0;
-  std::size_t disputed = 0;
-  std::size_t undecided = 0;      ///< the edge meets the boundary, or nothing was decided above rounding errors
-  std::size_t outside = 0;        ///< both nodes unreachable and no arc there: no reaction, no claim
-  bool identically_zero = false;  ///< the numerator is zero to rounding at every node: nothing to cross, not counted
-};
-
-struct DisputedEdge {
-  std::vector<double> from, to;  ///< one value a coordinate
-  core::WorkingMode mode;
-  TracedReaction reaction;
-  int crossings = 0;  ///< of arcs, with multiplicity
-  bool sign_change = false;
-};
-
-/// An arc, point or surface of which the map says another thing than the reactions beside it do.
-struct DisputedArc {
-  std::string curve;       ///< its id; of a point over one coordinate its number, "p1"
-  std::vector<double> at;  ///< one of the arc's points that were approached
-  core::WorkingMode mode;
-  TracedReaction reaction;
-  bool claimed = false;    ///< the map has the reaction vanish there; or, with `unbounded`, says that none is unbounded
-  bool unbounded = false;  ///< the reaction grows without bound there
-};
-
-struct ValidationReport {
-  std::vector<ReactionTally> tallies;  ///< by mode, then reaction
-  std::size_t held = 0, disputed = 0, undecided = 0, outside = 0;
-  std::vector<DisputedEdge> disputed_edges;
-  std::size_t arcs_held = 0, arcs_undecided = 0;  ///< claims of a reaction's vanishing along an arc, one by one
-  std::vector<DisputedArc> disputed_arcs;         ///< all of them; counted in `disputed` too
-};
+using core::DisputedArc;
+using core::DisputedEdge;
+using core::ReactionTally;
+using core::TracedReaction;
+using core::ValidationReport;
 
 /// The reactions that some contact-loss, backlash or component curve of the map names, in order of first appearance.
 std::vector<TracedReaction> named_reactions(const core::LocusMap& map);

@@ -223,8 +223,8 @@ class LinesOfMode {
         const auto a = static_cast<std::size_t>(edge), b = a + 1;
         const EdgeNodes nodes = edge_nodes(field, a, field, b, checked.columns);
         const Finding finding = judge.judge(edge, {checked.columns, checked.weights}, nodes);
-        ++tally.counts[r][static_cast<std::size_t>(finding.verdict)];
-        if (finding.verdict == Verdict::disputed)
+        ++tally.counts[r][static_cast<std::size_t>(finding.outcome)];
+        if (finding.outcome == Outcome::disputed)
           tally.disputed.push_back({place.point(axis.at(edge)), place.point(axis.at(edge + 1)), mode_, checked.reaction,
                                     finding.crossings, finding.sign_change});
       }

@@ -54,7 +54,7 @@ struct TitleLine {
 struct Layout {
   double width = 0, height = 0;
   Box plot;
-  core::Point2 low{}, high{};                ///< what the plot shows, m or rad
+  core::Point2 low{}, high{};                ///< what the plot shows: of an angle (LocusMap::angles) rad, else m
   core::Point2 search_low{}, search_high{};  ///< the box that was searched, likewise
   core::Point2 scale = {1, 1};               ///< pt/m, pt/rad
   std::vector<Tick> x_ticks, y_ticks;
