@@ -1,0 +1,129 @@
+// Zones between curves whose topology is known by construction: no mechanism, the whole box is workspace.
+#include "loci/zones.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+
+#include "loci/edge_area.hpp"
+#include "loci/inscribed_circle.hpp"
+#include "loci/trace.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::LocusFactor;
+using core::LocusProblem;
+using core::Polynomial;
+using core::Rational;
+
+const Polynomial x = core::variable_polynomial(2, 0), y = core::variable_polynomial(2, 1);
+Polynomial number(const Rational& value) { return core::constant_polynomial(2, value); }
+Polynomial circle(const Rational& a, const Rational& b, const Rational& squared_radius) {
+  return (x - number(a)) * (x - number(a)) + (y - number(b)) * (y - number(b)) - number(squared_radius);
+}
+
+core::ZoneMap zones_between(const std::vector<Polynomial>& curves) {
+  LocusProblem problem;
+  problem.tower.coordinates = {"x", "y"};
+  problem.lower = {-2, -2};
+  problem.upper = {2, 2};
+  problem.modes = {{}};
+  problem.quantities = {core::Quantity::M};
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const std::string joint = "A" + std::to_string(i + 1);
+    problem.joints.push_back(joint);
+    LocusFactor factor;
+    factor.vanishing = {{joint, core::Quantity::M, 1}};
+    factor.sheet = core::primitive_part(curves[i]);
+    factor.implicit = {factor.sheet};
+    problem.factors.push_back(factor);
+  }
+  problem.joint_order = problem.joints;
+  return zones(problem, trace(problem)).map;
+}
+
+double whole_area(const core::ZoneMap& map) {
+  return std::accumulate(map.zones.begin(), map.zones.end(), 0.0,
+                         [](double sum, const core::Zone& zone) { return sum + zone.area; });
+}
+
+/// Largest first, as the map sorts them.
+void expect_areas(const core::ZoneMap& map, std::vector<double> areas) {
+  constexpr double accuracy = 1e-6;  // what zones promise, of a box of 16 m^2
+  std::sort(areas.begin(), areas.end(), std::greater<>());
+  ASSERT_EQ(map.zones.size(), areas.size());
+  for (std::size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(map.zones[i].area, areas[i], 16 * accuracy) << i;
+  EXPECT_NEAR(whole_area(map), 16, 16 * accuracy);
+  for (const core::Zone& zone : map.zones) EXPECT_TRUE(zone.certified) << zone.id;
+}
+
+TEST(ZonesBetween, ACircle) {
+  const core::ZoneMap map = zones_between({circle(0, 0, 1)});
+  expect_areas(map, {16 - std::numbers::pi, std::numbers::pi});
+  EXPECT_EQ(map.zones[0].holes.size(), 1U);
+  EXPECT_NEAR(map.zones[1].inscribed.radius, 1, 1e-6);
+  // In a corner between two sides and the circle: r (1 + sqrt 2) + 1 = 2 sqrt 2.
+  EXPECT_NEAR(map.zones[0].inscribed.radius, (2 * std::sqrt(2) - 1) / (1 + std::sqrt(2)), 1e-5);
+}
+
+TEST(ZonesBetween, TwoCirclesThatCross) {
+  // Unit circles half a radius apart on either side of 0.
+  const double lens = 2 * std::acos(0.5) - 0.5 * std::sqrt(3), moon = std::numbers::pi - lens;
+  expect_areas(zones_between({circle(Rational(-1, 2), 0, 1), circle(Rational(1, 2), 0, 1)}),
+               {16 - 2 * std::numbers::pi + lens, moon, moon, lens});
+}
+
+TEST(ZonesBetween, CirclesThatTouch) {
+  const Rational half(1, 2), quarter(1, 4);
+  expect_areas(zones_between({circle(-half, 0, quarter), circle(half, 0, quarter)}),
+               {16 - std::numbers::pi / 2, std::numbers::pi / 4, std::numbers::pi / 4});
+}
+
+TEST(ZonesBetween, ANodeAndTheSides) {
+  // x y = 0: four squares with a node in the middle.
+  expect_areas(zones_between({x * y}), {4, 4, 4, 4});
+}
+
+TEST(ZonesBetween, AFigureOfEight) {
+  // Gerono's: y^2 = x^2 - x^4, two lobes of 2/3 each that meet in a node.
+  expect_areas(zones_between({y * y - x * x + x * x * x * x}), {16 - 4.0 / 3, 2.0 / 3, 2.0 / 3});
+}
+
+TEST(ZonesBetween, ThreeLinesThroughOnePoint) {
+  const std::vector<Polynomial> lines = {x - y, x + y, y};
+  const core::ZoneMap map = zones_between(lines);
+  expect_areas(map, {4, 4, 2, 2, 2, 2});
+}
+
+TEST(ZonesBetween, AnOvalBesideABranch) {
+  const core::ZoneMap map = zones_between({y * y - x * x * x + x});
+  ASSERT_EQ(map.zones.size(), 3U);
+  EXPECT_NEAR(whole_area(map), 16, 1e-5);
+}
+
+TEST(EdgeArea, OfAnArcOfACircleIsItsSegment) {
+  core::Polyline arc;
+  constexpr int chords = 6;
+  for (int i = 0; i <= chords; ++i) arc.push_back({std::cos(i * 0.1), std::sin(i * 0.1)});
+  const EdgeArea area = area_beside_chords(arc, core::CircleForm{{0, 0}, 1, 1});
+  EXPECT_NEAR(area.area, chords * (0.1 - std::sin(0.1)) / 2, 1e-14);
+  EXPECT_EQ(area_beside_chords({{0, 0}, {1, 2}, {2, 4}}, core::LineForm{}).area, 0);
+}
+
+TEST(VoronoiCircles, HoldNoPoint) {
+  const core::Polyline corners = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
+  const std::vector<core::Circle> circles = voronoi_circles(corners);
+  ASSERT_FALSE(circles.empty());
+  EXPECT_NEAR(circles.front().radius, 2.5, 1e-12);
+  for (const core::Circle& own : circles)
+    for (const core::Point2& p : corners)
+      EXPECT_GE(std::hypot(p[0] - own.centre[0], p[1] - own.centre[1]), own.radius - 1e-12);
+}
+
+}  // namespace
+}  // namespace clearloci::loci
