@@ -341,12 +341,12 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
   return reactions;
 }
 
-LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
-                             const numeric::GridSpec& grid) {
+core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
+                               const numeric::GridSpec& grid) {
   require_coordinates(mechanism, 1, 3, "loci are held against a grid");
   if (const std::optional<Framed> own = framed(mechanism)) {
-    LociValidation inside = validate_loci(own->mechanism, in_frame(std::move(request), own->frame), grid);
-    return {from_frame(std::move(inside.map), mechanism, own->frame),
+    core::Validation inside = validate_loci(own->mechanism, in_frame(std::move(request), own->frame), grid);
+    return {from_frame(std::move(inside.map), mechanism, own->frame), std::move(inside.nodes),
             from_frame(std::move(inside.report), mechanism, own->frame)};
   }
   const std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request);
@@ -358,7 +358,26 @@ LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest 
   if (!map.complete)
     throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
   numeric::ValidationReport report = numeric::validate(mechanism, map, grid, reactions);
-  return {std::move(map), std::move(report)};
+  std::vector<int> nodes = {grid.nx, grid.ny, grid.nz};
+  nodes.resize(mechanism.coordinates.size());
+  return {std::move(map), std::move(nodes), std::move(report)};
+}
+
+core::Validation validate_loci(const Model& model, const ValidationRequest& request) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  const std::size_t coordinates = mechanism.coordinates.size();
+  numeric::GridSpec grid;
+  if (coordinates == 1) grid.nx = 4000;
+  if (coordinates == 3) grid.nx = grid.ny = grid.nz = 40;
+  if (!request.nodes.empty()) {
+    const bool grid_like = std::all_of(request.nodes.begin(), request.nodes.end(), [](int n) { return n > 1; });
+    if (request.nodes.size() != coordinates || !grid_like)
+      throw core::InputError({mechanism.file}, "the nodes are those of no grid over the free coordinates",
+                             "give a number above 1 for each of them");
+    for (std::size_t c = 0; c < std::min<std::size_t>(coordinates, 3); ++c)
+      (c == 0 ? grid.nx : c == 1 ? grid.ny : grid.nz) = request.nodes[c];
+  }
+  return validate_loci(mechanism, request.loci, grid);
 }
 
 bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {

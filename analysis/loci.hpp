@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clearloci/loci.hpp"
+#include "clearloci/validate.hpp"
 #include "core/certificate.hpp"
 #include "core/locus_map.hpp"
 #include "core/sketch.hpp"
@@ -75,16 +76,11 @@ core::LocusMap unfinished_map(const mechanism::Mechanism& mechanism, const std::
 std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,
                                                         const LociRequest& request);
 
-struct LociValidation {
-  core::LocusMap map;
-  numeric::ValidationReport report;
-};
-
 /// Traces every scalar reaction of the request's joints and holds the arcs, over one coordinate the points, over three
 /// the surfaces, against reactions solved numerically. Throws core::LimitReached where the request's deadline comes
 /// before they are complete.
-LociValidation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
-                             const numeric::GridSpec& grid = {});
+core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
+                               const numeric::GridSpec& grid = {});
 
 /// Whether the free coordinates are x and y of the end effector's point: a picture over them then shows the mechanism.
 bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism);

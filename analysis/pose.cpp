@@ -1,5 +1,7 @@
 #include "analysis/pose.hpp"
 
+#include "analysis/loci.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -339,10 +341,54 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   return pose;
 }
 
+namespace {
+
+ModePose solve_in(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                  const PoseRequest& request) {
+  ModePose own{named_mode(mechanism, request.working_mode), {}};
+  try {
+    Pose pose = solve_pose(mechanism, at, request);
+    if (!pose.unreachable.empty())
+      own.why_not = "point " + pose.unreachable + " cannot be placed";
+    else if (!pose.beyond_limit.empty())
+      own.why_not = "beyond the limit of the " + pose.beyond_limit;
+    else if (pose.actual && !pose.actual->converged)
+      own.why_not = "the pose error cannot be iterated: " + pose.actual->reason;
+    else
+      own.pose = std::move(pose);
+  } catch (const core::InputError& error) {  // singular in every pose of this mode
+    own.why_not = error.problem();
+  }
+  return own;
+}
+
+std::vector<core::Rational> exact(const std::vector<double>& at) {
+  std::vector<core::Rational> values;
+  for (const double value : at) values.push_back(written(value));
+  return values;
+}
+
+}  // namespace
+
+PoseInModes solve_pose_in_modes(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                                const PoseRequest& request) {
+  require_values(mechanism, at.size());
+  require_rates(mechanism, request);
+  PoseInModes all{mechanism.name, {}};
+  PoseRequest own = request;
+  for (const DyadSides& sides : requested_modes(mechanism, {.all_working_modes = true})) {
+    own.working_mode = sides;
+    all.modes.push_back(solve_in(mechanism, at, own));
+  }
+  return all;
+}
+
 Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseRequest& request) {
-  std::vector<core::Rational> exact;
-  for (const double value : at) exact.push_back(written(value));
-  return solve_pose(model.content().mechanism, exact, request);
+  return solve_pose(model.content().mechanism, exact(at), request);
+}
+
+PoseInModes solve_pose_in_modes(const Model& model, const std::vector<double>& at, const PoseRequest& request) {
+  return solve_pose_in_modes(model.content().mechanism, exact(at), request);
 }
 
 Reactions reactions(const Model& model, std::span<const double> poses, const DyadSides& working_mode) {

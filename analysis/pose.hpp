@@ -17,6 +17,10 @@ namespace clearloci {
 Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                 const PoseRequest& request = {});
 
+/// In every working mode. Throws as the public one.
+PoseInModes solve_pose_in_modes(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                                const PoseRequest& request = {});
+
 /// {{"B1", "right"}, ...}.
 std::vector<std::pair<std::string, std::string>> named_mode(const mechanism::Mechanism& mechanism,
                                                             const DyadSides& sides);

@@ -50,7 +50,7 @@ void print(const Arguments& arguments, const Answer& errors, nlohmann::ordered_j
 int run_over_coordinate(const Arguments& arguments, const std::set<std::string>& formats,
                         const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   constexpr const char* usual_steps = "720";
-  const std::vector<std::string> known = report::format_names(report::Answer::coordinate_errors);
+  const std::vector<std::string> known = report::format_names<core::CoordinateErrors>();
   for (const std::string& format : formats)
     if (std::find(known.begin(), known.end(), format) == known.end())
       throw core::InputError({.file = "--export"},
@@ -67,7 +67,7 @@ int run_over_coordinate(const Arguments& arguments, const std::set<std::string>&
                                     .with_loci = !arguments.without_loci,
                                     .loci = loci_request(arguments.loci, mechanism, progress, limit)});
   limit.writing();
-  const auto files = report::write_coordinate_errors(errors, output_folder(arguments.common), formats);
+  const auto files = report::write_answer(errors, output_folder(arguments.common), formats);
   progress.clear();
   print(arguments, errors, report::coordinate_errors_object, report::coordinate_errors_text, files);
   if (errors.loci.complete) return exit_done;
@@ -96,7 +96,7 @@ int run_over_volume(const Arguments& arguments, const std::set<std::string>& for
   const LociRequest loci = loci_request(arguments.loci, mechanism, progress, limit);
   require_memory(memory_of(cells[0], cells[1] * cells[2], mechanism, requested_modes(mechanism, loci).size(), formats),
                  "--grid", words);
-  std::vector<report::VolumeSlice> slices;
+  std::vector<core::VolumeSlice> slices;
   for (const std::string& word : arguments.slices) {
     const auto [across, value] = parse_slice(word, mechanism);
     const double lower = core::to_double(mechanism.coordinates[across].lower),
@@ -108,13 +108,14 @@ int run_over_volume(const Arguments& arguments, const std::set<std::string>& for
       error_volume(mechanism, {.cells = cells, .worst_case = !arguments.without_worst_case, .loci = loci});
   progress.clear();
   limit.writing();
-  const auto files = report::write_error_volume(errors, output_folder(arguments.common), formats, slices);
+  const auto files =
+      report::write_answer(report::VolumeSheet{errors, slices}, output_folder(arguments.common), formats);
   print(arguments, errors, report::error_volume_object, report::error_volume_text, files);
   return exit_done;
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names(report::Answer::error));
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::ErrorMap>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "error.json", incomplete_body(name, "the errors were"));
@@ -137,7 +138,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
                                                 .loci = loci});
   progress.clear();
   limit.writing();
-  const auto files = report::write_error(errors, output_folder(arguments.common), formats);
+  const auto files = report::write_answer(errors, output_folder(arguments.common), formats);
   print(arguments, errors, report::error_object, report::error_text, files);
   if (errors.loci.complete) return exit_done;
   throw core::LimitReached("the time limit was reached; the loci in the pictures are incomplete, the errors are not");
@@ -160,7 +161,7 @@ Command add_error_command(CLI::App& program) {
       ->type_name("NAME=VALUE");
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides error.json, several after commas: {}",
-                              fmt::join(report::format_names(report::Answer::error), ", ")))
+                              fmt::join(report::format_names<core::ErrorMap>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   app->add_flag("--no-loci", arguments->without_loci, "Pictures without the loci drawn over them");

@@ -40,7 +40,7 @@ void check_formats(const std::set<std::string>& formats, std::size_t coordinates
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names(report::Answer::loci));
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<report::LociSheet>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   check_formats(formats, mechanism.coordinates.size());
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
@@ -81,7 +81,7 @@ Command add_loci_command(CLI::App& program) {
   add_mesh_argument(*app, arguments->loci);
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides loci.json, several after commas: {}",
-                              fmt::join(report::format_names(report::Answer::loci), ", ")))
+                              fmt::join(report::format_names<report::LociSheet>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   app->add_flag("--exact", arguments->exact,

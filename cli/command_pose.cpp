@@ -2,17 +2,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "analysis/loci.hpp"
 #include "analysis/pose.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
-#include "report/files.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/pose.hpp"
@@ -28,63 +27,31 @@ struct Arguments {
   bool iterate = false;
 };
 
-/// What is told of a working mode in which the pose has no answer.
-struct ModePose {
-  std::optional<Pose> pose;
-  std::string why_not = {};
-};
-
-ModePose solve_in(const DyadSides& sides, const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
-                  PoseRequest request) {
-  std::string words;
-  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(mechanism);
-  for (std::size_t i = 0; i < sides.size(); ++i)
-    words += (i == 0 ? "" : ", ") + mechanism.points[static_cast<std::size_t>(points[i])].name + " " +
-             mechanism::side_name(mechanism, points[i], sides[i]);
-  try {
-    request.working_mode = sides;
-    Pose pose = solve_pose(mechanism, at, request);
-    if (!pose.unreachable.empty()) return {{}, fmt::format("{}: point {} cannot be placed", words, pose.unreachable)};
-    if (!pose.beyond_limit.empty()) return {{}, words + ": beyond the limit of the " + pose.beyond_limit};
-    if (pose.actual && !pose.actual->converged)
-      return {{}, fmt::format("{}: the pose error cannot be iterated: {}", words, pose.actual->reason)};
-    return {std::move(pose)};
-  } catch (const core::InputError& error) {  // singular in every pose of this mode
-    return {{}, words + ": " + error.problem()};
-  }
+PoseRequest request_of(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+  PoseRequest request{.iterate = arguments.iterate};
+  request.velocity = parse_rates(arguments.velocity, "--velocity", mechanism);
+  request.acceleration = parse_rates(arguments.acceleration, "--acceleration", mechanism);
+  return request;
 }
 
 int run_all_modes(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   const std::vector<core::Rational> at = parse_pose(arguments.at, mechanism);
-  PoseRequest request{.iterate = arguments.iterate};
-  request.velocity = parse_rates(arguments.velocity, "--velocity", mechanism);
-  request.acceleration = parse_rates(arguments.acceleration, "--acceleration", mechanism);
-  nlohmann::ordered_json all = {
-      {"format", 1}, {"mechanism", mechanism.name}, {"poses", nlohmann::ordered_json::array()}};
-  std::string text;
-  for (const DyadSides& sides : requested_modes(mechanism, {.all_working_modes = true})) {
-    const ModePose own = solve_in(sides, mechanism, at, request);
-    if (own.pose) all["poses"].push_back(report::pose_object(*own.pose));
-    text += (text.empty() ? "" : "\n") + (own.pose ? report::pose_text(*own.pose) : own.why_not + "\n");
-  }
-  if (all["poses"].empty())
+  const PoseInModes poses = solve_pose_in_modes(mechanism, at, request_of(arguments, mechanism));
+  if (std::none_of(poses.modes.begin(), poses.modes.end(), [](const ModePose& own) { return own.pose.has_value(); }))
     throw core::InputError({.file = "--at"}, "the pose is out of reach in every working mode",
                            "choose a pose inside the workspace");
   limit.writing();
-  const std::string json = report::json_text(all);
-  if (!arguments.common.output.empty()) report::write_atomically(output_folder(arguments.common) / "pose.json", json);
+  if (!arguments.common.output.empty()) report::write_answer(poses, output_folder(arguments.common));
   if (arguments.common.json)
-    fmt::print("{}", json);
+    fmt::print("{}", report::json_text(report::pose_in_modes_object(poses)));
   else if (!arguments.common.quiet)
-    fmt::print("{}", text);
+    fmt::print("{}", report::pose_in_modes_text(poses));
   return exit_done;
 }
 
 Pose solve(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
   const std::vector<core::Rational> at = parse_pose(arguments.at, mechanism);
-  PoseRequest request{.iterate = arguments.iterate};
-  request.velocity = parse_rates(arguments.velocity, "--velocity", mechanism);
-  request.acceleration = parse_rates(arguments.acceleration, "--acceleration", mechanism);
+  PoseRequest request = request_of(arguments, mechanism);
   if (!arguments.working_mode.empty()) request.working_mode = parse_working_mode(arguments.working_mode, mechanism);
   Pose pose = solve_pose(mechanism, at, request);
   if (!pose.unreachable.empty())
@@ -111,7 +78,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   if (arguments.working_mode == "all") return run_all_modes(arguments, mechanism, limit);
   const Pose pose = solve(arguments, mechanism);
   limit.writing();
-  if (!arguments.common.output.empty()) report::write_pose(pose, output_folder(arguments.common));
+  if (!arguments.common.output.empty()) report::write_answer(pose, output_folder(arguments.common));
   if (arguments.common.json)
     fmt::print("{}", report::json_text(report::pose_object(pose)));
   else if (!arguments.common.quiet)

@@ -73,7 +73,7 @@ TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechan
 
 int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats =
-      parse_formats(arguments.formats, report::format_names(report::Answer::trajectory));
+      parse_formats(arguments.formats, report::format_names<core::TrajectoryResult>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   require_plane_motion(mechanism);
   const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);
@@ -116,7 +116,7 @@ Command add_trajectory_command(CLI::App& program) {
       ->type_name("SIDES");
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides trajectory.json, several after commas: {}",
-                              fmt::join(report::format_names(report::Answer::trajectory), ", ")))
+                              fmt::join(report::format_names<core::TrajectoryResult>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   app->footer(

@@ -1,6 +1,5 @@
 // clearloci validate: the traced loci held against reactions solved numerically on a grid.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,15 +8,15 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "analysis/loci.hpp"
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/memory_bound.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
-#include "report/files.hpp"
+#include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/validation.hpp"
-#include "report/wording.hpp"
 
 namespace clearloci::cli {
 namespace {
@@ -27,59 +26,6 @@ struct Arguments {
   LociArguments loci;
   std::string grid;
 };
-
-std::string reaction_name(const numeric::TracedReaction& reaction) {
-  return fmt::format("{}_{}", to_string(reaction.quantity), reaction.joint);
-}
-
-/// Along each coordinate.
-std::vector<int> nodes_of(const LociValidation& validation, const numeric::GridSpec& grid) {
-  std::vector<int> nodes = {grid.nx, grid.ny, grid.nz};
-  nodes.resize(validation.map.lower.size());
-  return nodes;
-}
-
-void print_table(const LociValidation& validation, const numeric::GridSpec& grid) {
-  constexpr std::size_t edges_shown = 20;
-  const std::array<const char*, 3> names = {"points", "arcs", "surfaces"};
-  const char* const loci = names.at(validation.map.lower.size() - 1);
-  const numeric::ValidationReport& report = validation.report;
-  fmt::print("{}: loci against reactions at {} nodes\n", validation.map.mechanism,
-             fmt::join(nodes_of(validation, grid), " x "));
-  const core::WorkingMode* mode = nullptr;
-  for (const numeric::ReactionTally& tally : report.tallies) {
-    if (mode == nullptr || *mode != tally.mode) {
-      const std::string words = report::mode_words(validation.map.tower, tally.mode);
-      fmt::print("\n{:<16}{:>10}{:>10}{:>10}{:>10}  edges{}{}\n", "reaction", "held", "disputed", "undecided",
-                 "outside", words.empty() ? "" : "; ", words);
-      mode = &tally.mode;
-    }
-    const std::string name = reaction_name(tally.reaction);
-    if (tally.identically_zero)
-      fmt::print("{:<16}{:>10}\n", name, "zero in every pose");
-    else
-      fmt::print("{:<16}{:>10}{:>10}{:>10}{:>10}\n", name, tally.held, tally.disputed, tally.undecided, tally.outside);
-  }
-  fmt::print("\n{} edges held, {} disputed, {} undecided, {} outside\n", report.held, report.disputed, report.undecided,
-             report.outside);
-  for (std::size_t i = 0; i < report.disputed_edges.size() && i < edges_shown; ++i) {
-    const numeric::DisputedEdge& edge = report.disputed_edges[i];
-    const std::string words = report::mode_words(validation.map.tower, edge.mode);
-    fmt::print("disputed: {} {} from ({}) to ({}), crossed by {} {}{}{}\n", reaction_name(edge.reaction),
-               edge.sign_change ? "changes sign" : "keeps its sign", fmt::join(edge.from, ", "),
-               fmt::join(edge.to, ", "), edge.crossings, loci, words.empty() ? "" : "; ", words);
-  }
-  if (report.disputed_edges.size() > edges_shown) fmt::print("... --json lists more disputed edges\n");
-  fmt::print("{} reactions along {} held, {} disputed, {} undecided\n", report.arcs_held, loci,
-             report.disputed_arcs.size(), report.arcs_undecided);
-  for (std::size_t i = 0; i < report.disputed_arcs.size() && i < edges_shown; ++i) {
-    const numeric::DisputedArc& arc = report.disputed_arcs[i];
-    const std::string words = report::mode_words(validation.map.tower, arc.mode);
-    const char* what = arc.unbounded ? "grows without bound" : arc.claimed ? "does not vanish" : "vanishes unnamed";
-    fmt::print("disputed: {} {} along {} near ({}){}{}\n", reaction_name(arc.reaction), what, arc.curve,
-               fmt::join(arc.at, ", "), words.empty() ? "" : "; ", words);
-  }
-}
 
 numeric::GridSpec grid_of(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
   const std::size_t coordinates = mechanism.coordinates.size();
@@ -112,18 +58,16 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   Progress progress(arguments.common.quiet);
   LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   const numeric::GridSpec grid = grid_of(arguments, mechanism);
-  const LociValidation validation = validate_loci(mechanism, std::move(request), grid);
+  const core::Validation validation = validate_loci(mechanism, std::move(request), grid);
   progress.clear();
   limit.writing();
 
-  const bool write = !arguments.common.output.empty();
-  if (write || arguments.common.json) {
-    const std::string text = report::json_text(report::validation_object(validation, nodes_of(validation, grid)));
-    if (write) report::write_atomically(output_folder(arguments.common) / "validation.json", text);
-    if (arguments.common.json) fmt::print("{}", text);
-  }
-  if (!arguments.common.json && !arguments.common.quiet) print_table(validation, grid);
-  return validation.report.disputed == 0 ? exit_done : exit_check_said_no;
+  if (!arguments.common.output.empty()) report::write_answer(validation, output_folder(arguments.common));
+  if (arguments.common.json)
+    fmt::print("{}", report::json_text(report::validation_object(validation)));
+  else if (!arguments.common.quiet)
+    fmt::print("{}", report::validation_text(validation));
+  return validation.validated() ? exit_done : exit_check_said_no;
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include "core/errors.hpp"
 #include "mechanism/read_pose_task.hpp"
 #include "mechanism/read_task.hpp"
-#include "report/files.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/pose_verification.hpp"
@@ -78,19 +77,17 @@ int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mecha
   const core::PoseVerification result = verify_poses(mechanism, task, request);
   progress.clear();
   limit.writing();
-  const std::filesystem::path folder = output_folder(arguments.common), file = folder / "verify.json";
-  const std::string json = report::json_text(report::pose_verification_object(result));
-  report::write_atomically(file, json);
+  const std::filesystem::path folder = output_folder(arguments.common);
+  const auto files = report::write_answer(result, folder);
   if (arguments.common.json)
-    fmt::print("{}", json);
+    fmt::print("{}", report::json_text(report::pose_verification_object(result)));
   else if (!arguments.common.quiet)
-    fmt::print("{}\n{}", report::pose_verification_text(result), written_words(folder, {file}));
+    fmt::print("{}\n{}", report::pose_verification_text(result), written_words(folder, files));
   return status_of(result.verdict);
 }
 
 int run(const Arguments& arguments, TimeLimit& limit) {
-  const std::set<std::string> formats =
-      parse_formats(arguments.formats, report::format_names(report::Answer::verification));
+  const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::Verification>());
   const std::optional<FitGoal> goal = parse_fit(arguments.fit);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
@@ -114,7 +111,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
-  const std::vector<std::filesystem::path> files = report::write_verification(result, folder, formats);
+  const std::vector<std::filesystem::path> files = report::write_answer(result, folder, formats);
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::verification_object(result)));
   } else if (!arguments.common.quiet) {
@@ -142,7 +139,7 @@ Command add_verify_command(CLI::App& program) {
       ->default_str("nearest");
   app->add_option("--export", arguments->formats,
                   fmt::format("Pictures besides verify.json, several after commas: {}",
-                              fmt::join(report::format_names(report::Answer::verification), ", ")))
+                              fmt::join(report::format_names<core::Verification>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate);

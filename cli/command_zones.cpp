@@ -16,7 +16,6 @@
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
 #include "mechanism/read_pose_task.hpp"
-#include "report/files.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/pose_zones.hpp"
@@ -43,7 +42,7 @@ int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mecha
   progress.clear();
   limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
-  const std::vector<std::filesystem::path> files = report::write_pose_zones(map, folder, formats);
+  const std::vector<std::filesystem::path> files = report::write_answer(map, folder, formats);
   if (arguments.common.json)
     fmt::print("{}", report::json_text(report::pose_zones_object(map)));
   else if (!arguments.common.quiet)
@@ -55,8 +54,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   const bool over_poses = mechanism::has_pose_tasks(mechanism);
   const std::set<std::string> formats =
-      over_poses ? std::set<std::string>{}
-                 : parse_formats(arguments.formats, report::format_names(report::Answer::zones));
+      over_poses ? std::set<std::string>{} : parse_formats(arguments.formats, report::format_names<core::ZoneMap>());
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "zones.json", incomplete_body(name, "the zones were"));
@@ -73,7 +71,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   const std::filesystem::path folder = output_folder(arguments.common);
   if (certify)
     write_certificate(arguments.certificate, "zones", arguments.common, certificate, map.loci, {.zones = &map.zones});
-  const std::vector<std::filesystem::path> files = report::write_zones(map, folder, formats);
+  const std::vector<std::filesystem::path> files = report::write_answer(map, folder, formats);
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::zones_object(map)));
   } else if (!arguments.common.quiet) {
@@ -93,7 +91,7 @@ Command add_zones_command(CLI::App& program) {
   add_locus_arguments(*app, arguments->loci);
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides zones.json, several after commas: {}; by cells svg, png, pdf, vtk, stl",
-                              fmt::join(report::format_names(report::Answer::zones), ", ")))
+                              fmt::join(report::format_names<core::ZoneMap>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   app->add_option("--cells", arguments->cells,

@@ -10,7 +10,6 @@
 #include "report/error.hpp"
 #include "report/field_exports.hpp"
 #include "report/file_units.hpp"
-#include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/wording.hpp"
@@ -64,7 +63,7 @@ std::string slug(const core::VolumeModeErrors& one) {
 }
 
 /// What a picture of a slice has below its colours: no loci, but names, units and the title.
-core::LocusMap plane_of(const FieldVolume& volume, const VolumeSlice& slice, const core::VolumeErrors& errors,
+core::LocusMap plane_of(const FieldVolume& volume, const core::VolumeSlice& slice, const core::VolumeErrors& errors,
                         const std::string& mode) {
   core::LocusMap plane;
   plane.mechanism = volume.mechanism + ", " +
@@ -147,42 +146,47 @@ std::string error_volume_text(const core::VolumeErrors& errors) {
   return text;
 }
 
-std::vector<std::filesystem::path> write_error_volume(const core::VolumeErrors& errors,
-                                                      const std::filesystem::path& directory,
-                                                      const std::set<std::string>& formats,
-                                                      std::vector<VolumeSlice> slices) {
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    write_atomically(directory / name, bytes);
-    files.push_back(directory / name);
-  };
-  write("error.json", json_text(error_volume_object(errors)));
-  const bool drawn = formats.contains("png") || formats.contains("svg") || formats.contains("pdf");
-  const bool named = !slices.empty();
-  for (const core::VolumeModeErrors& one : errors.modes) {
+namespace {
+
+std::string slug(const core::VolumeErrors& errors, const core::VolumeModeErrors& one) {
+  return errors.modes.size() > 1 ? slug(one) : "";
+}
+
+}  // namespace
+
+Files volume_pictures(const VolumeSheet& sheet, PictureFormat format) {
+  Files files;
+  const bool named = !sheet.slices.empty();
+  for (const core::VolumeModeErrors& one : sheet.errors.modes) {
     const FieldVolume& volume = one.volume;
-    const std::string which = errors.modes.size() > 1 ? slug(one) : "";
-    if (!named) slices = {{2, volume.cells[2] / 2}};
-    for (const VolumeSlice& slice : slices) {
-      if (!drawn) break;
-      const core::LocusMap plane = plane_of(volume, slice, errors, mode_text(one));
+    const std::vector<core::VolumeSlice> middle = {{2, volume.cells[2] / 2}};
+    for (const core::VolumeSlice& slice : named ? sheet.slices : middle) {
+      const core::LocusMap plane = plane_of(volume, slice, sheet.errors, mode_text(one));
       const core::FieldMap map = core::slice_of(volume, slice.across, slice.layer);
       const std::string layer = named ? fmt::format("-{}{}", volume.coordinates[slice.across], slice.layer) : "";
       for (const core::Field& field : map.fields) {
         std::string name = field.name;
         std::replace(name.begin(), name.end(), '_', '-');
-        const auto picture = [&](const char* ending, PictureFormat format) {
-          write("error-" + name + which + layer + ending, field_picture(plane, {}, map, field, format));
-        };
-        if (formats.contains("png")) picture(".png", PictureFormat::png);
-        if (formats.contains("svg")) picture(".svg", PictureFormat::svg);
-        if (formats.contains("pdf")) picture(".pdf", PictureFormat::pdf);
+        files.push_back({"error-" + name + slug(sheet.errors, one) + layer + ending_of(format),
+                         field_picture(plane, {}, map, field, format)});
       }
     }
-    if (formats.contains("csv"))
-      write("error" + which + ".csv", field_csv(in_file_units(volume, errors.units), errors.units));
-    if (formats.contains("vtk")) write("error" + which + ".vti", vti(volume));
   }
+  return files;
+}
+
+Files volume_csv(const VolumeSheet& sheet) {
+  Files files;
+  for (const core::VolumeModeErrors& one : sheet.errors.modes)
+    files.push_back({"error" + slug(sheet.errors, one) + ".csv",
+                     field_csv(in_file_units(one.volume, sheet.errors.units), sheet.errors.units)});
+  return files;
+}
+
+Files volume_vti(const VolumeSheet& sheet) {
+  Files files;
+  for (const core::VolumeModeErrors& one : sheet.errors.modes)
+    files.push_back({"error" + slug(sheet.errors, one) + ".vti", vti(one.volume)});
   return files;
 }
 

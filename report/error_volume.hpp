@@ -2,22 +2,14 @@
 // slices.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <set>
 #include <string>
-#include <vector>
 
 #include "clearloci/error.hpp"
+#include "report/answers.hpp"
+#include "report/picture.hpp"
 
 namespace clearloci::report {
-
-/// A layer of cells across a coordinate.
-struct VolumeSlice {
-  std::size_t across = 2;
-  int layer = 0;
-};
 
 /// The sizes of the errors of every mode.
 nlohmann::ordered_json error_volume_object(const core::VolumeErrors& errors);
@@ -25,11 +17,10 @@ nlohmann::ordered_json error_volume_object(const core::VolumeErrors& errors);
 /// A table of sizes a mode. Ends with a newline.
 std::string error_volume_text(const core::VolumeErrors& errors);
 
-/// Writes error.json, and what is asked for of csv, vtk (one volume a mode) and, a picture a field and slice, png, svg,
-/// pdf. Returns the files. No slices: the one across the last coordinate in the middle of the box.
-std::vector<std::filesystem::path> write_error_volume(const core::VolumeErrors& errors,
-                                                      const std::filesystem::path& directory,
-                                                      const std::set<std::string>& formats,
-                                                      std::vector<VolumeSlice> slices = {});
+/// Bytes of a table a mode and of a volume a mode, and of a picture a field and slice; without slices of the one across
+/// the last coordinate in the middle of the box.
+Files volume_csv(const VolumeSheet& sheet);
+Files volume_vti(const VolumeSheet& sheet);
+Files volume_pictures(const VolumeSheet& sheet, PictureFormat format);
 
 }  // namespace clearloci::report

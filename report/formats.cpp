@@ -6,6 +6,7 @@
 #include "report/coordinate_errors.hpp"
 #include "report/coordinate_plots.hpp"
 #include "report/error.hpp"
+#include "report/error_volume.hpp"
 #include "report/exports.hpp"
 #include "report/field_exports.hpp"
 #include "report/file_units.hpp"
@@ -13,8 +14,12 @@
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/pose.hpp"
+#include "report/pose_verification.hpp"
+#include "report/pose_zone_picture.hpp"
+#include "report/pose_zones.hpp"
 #include "report/trajectory.hpp"
 #include "report/trajectory_plots.hpp"
+#include "report/validation.hpp"
 #include "report/verification.hpp"
 #include "report/viewer.hpp"
 #include "report/wording.hpp"
@@ -26,18 +31,6 @@ namespace {
 bool any(std::size_t) { return true; }
 bool curves(std::size_t coordinates) { return coordinates < 3; }
 bool surfaces(std::size_t coordinates) { return coordinates == 3; }
-
-const char* ending_of(PictureFormat format) {
-  switch (format) {
-    case PictureFormat::svg:
-      return ".svg";
-    case PictureFormat::png:
-      return ".png";
-    case PictureFormat::pdf:
-      break;
-  }
-  return ".pdf";
-}
 
 /// "-left-right" where there are several modes.
 std::string which(const std::vector<core::WorkingMode>& modes, const core::TowerNames& tower,
@@ -83,7 +76,7 @@ Files zone_pictures(const core::ZoneMap& map) {
 }
 
 template <PictureFormat format>
-Files verification_picture(const core::Verification& result) {
+Files verification_pictures(const core::Verification& result) {
   return {{std::string("verify") + ending_of(format), verification_picture(result, format)}};
 }
 
@@ -107,8 +100,6 @@ Files loci_stl(const LociSheet& loci) {
 }
 
 Files loci_html(const LociSheet& loci) { return {{"loci.html", html_page(loci)}}; }
-
-constexpr PictureFormat svg = PictureFormat::svg, png = PictureFormat::png, pdf = PictureFormat::pdf;
 
 template <PictureFormat format>
 Files error_pictures(const core::ErrorMap& errors) {
@@ -174,24 +165,41 @@ Files trajectory_csv(const core::TrajectoryResult& result) {
 
 Files pose_json(const core::Pose& pose) { return {{"pose.json", json_text(pose_object(pose))}}; }
 
-/// Writes what the formats that `wanted` picks make of an answer. `made`: the answer's column of the registry.
-template <class Answer, class Wanted>
-std::vector<std::filesystem::path> write_in(Files (*Format::*made)(const Answer&), const Answer& answer,
-                                            const std::filesystem::path& directory, Wanted wanted) {
-  std::vector<std::filesystem::path> paths;
-  for (const Format& format : formats()) {
-    if (format.*made == nullptr || !wanted(format)) continue;
-    for (const File& file : (format.*made)(answer)) {
-      write_atomically(directory / file.name, file.bytes);
-      paths.push_back(directory / file.name);
-    }
-  }
-  return paths;
+Files pose_in_modes_json(const core::PoseInModes& poses) {
+  return {{"pose.json", json_text(pose_in_modes_object(poses))}};
+}
+Files validation_json(const core::Validation& validation) {
+  return {{"validation.json", json_text(validation_object(validation))}};
+}
+Files pose_verification_json(const core::PoseVerification& answer) {
+  return {{"verify.json", json_text(pose_verification_object(answer))}};
 }
 
-/// json, and what is named.
-auto named(const std::set<std::string>& names) {
-  return [&names](const Format& format) { return format.name == "json" || names.contains(std::string(format.name)); };
+template <PictureFormat format>
+Files pose_zones_pictures(const core::PoseZones& map) {
+  return {{std::string("zones") + ending_of(format), pose_zone_picture(map, format)}};
+}
+Files pose_zones_json(const core::PoseZones& map) { return {{"zones.json", json_text(pose_zones_object(map))}}; }
+
+template <PictureFormat format>
+Files volume_slices(const VolumeSheet& sheet) {
+  return volume_pictures(sheet, format);
+}
+Files volume_json(const VolumeSheet& sheet) { return {{"error.json", json_text(error_volume_object(sheet.errors))}}; }
+
+/// What is drawn is drawn alike as svg, png and pdf.
+template <PictureFormat format>
+Format pictures(std::string_view name) {
+  return {name,
+          any,
+          loci_pictures<format>,
+          zone_pictures<format>,
+          pose_zones_pictures<format>,
+          verification_pictures<format>,
+          error_pictures<format>,
+          coordinate_pictures<format>,
+          volume_slices<format>,
+          trajectory_pictures<format>};
 }
 
 }  // namespace
@@ -199,20 +207,17 @@ auto named(const std::set<std::string>& names) {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = [] {
     std::vector<Format> list = {
-        {"json", any, loci_json, zones_json, verification_json, error_json, coordinate_json, trajectory_json,
-         pose_json},
-        {"csv", any, loci_csv, nullptr, nullptr, error_csv, coordinate_csv, trajectory_csv},
-        {"svg", any, loci_pictures<svg>, zone_pictures<svg>, verification_picture<svg>, error_pictures<svg>,
-         coordinate_pictures<svg>, trajectory_pictures<svg>},
-        {"png", any, loci_pictures<png>, zone_pictures<png>, verification_picture<png>, error_pictures<png>,
-         coordinate_pictures<png>, trajectory_pictures<png>},
-        {"pdf", any, loci_pictures<pdf>, zone_pictures<pdf>, verification_picture<pdf>, error_pictures<pdf>,
-         coordinate_pictures<pdf>, trajectory_pictures<pdf>},
+        {"json", any, loci_json, zones_json, pose_zones_json, verification_json, pose_verification_json, error_json,
+         coordinate_json, volume_json, trajectory_json, pose_json, pose_in_modes_json, validation_json},
+        {"csv", any, loci_csv, error_csv, coordinate_csv, volume_csv, trajectory_csv},
+        pictures<PictureFormat::svg>("svg"),
+        pictures<PictureFormat::png>("png"),
+        pictures<PictureFormat::pdf>("pdf"),
         {"dxf", curves, loci_dxf},
         {"dxf-r12", curves, loci_dxf_r12},
         {"geojson", curves, loci_geojson, zones_in_geojson},
-        {"vtk", any, loci_vtk, nullptr, nullptr, error_vtk},
-        {"stl", surfaces, loci_stl},
+        {"vtk", any, loci_vtk, pose_zones_vtk, error_vtk, volume_vti},
+        {"stl", surfaces, loci_stl, pose_zones_stl},
         {"obj", surfaces, loci_obj},
         {"html", any, loci_html},
     };
@@ -223,72 +228,36 @@ const std::vector<Format>& formats() {
   return all;
 }
 
+bool can_hold(std::string_view name, std::size_t coordinates) {
+  return std::any_of(formats().begin(), formats().end(), [&](const Format& format) {
+    return format.name == name && format.maker<LociSheet>() != nullptr && format.holds_coordinates(coordinates);
+  });
+}
+
+void write_files(const Files& files, const std::filesystem::path& directory,
+                 std::vector<std::filesystem::path>& paths) {
+  for (const File& file : files) {
+    write_atomically(directory / file.name, file.bytes);
+    paths.push_back(directory / file.name);
+  }
+}
+
 namespace {
 
-bool holds(const Format& format, Answer answer) {
-  switch (answer) {
-    case Answer::loci:
-      return format.loci != nullptr;
-    case Answer::zones:
-      return format.zones != nullptr;
-    case Answer::verification:
-      return format.verification != nullptr;
-    case Answer::error:
-      return format.error != nullptr;
-    case Answer::coordinate_errors:
-      return format.coordinate_errors != nullptr;
-    case Answer::trajectory:
-      return format.trajectory != nullptr;
-    case Answer::pose:
-      break;
-  }
-  return format.pose != nullptr;
+/// json, and what is named.
+auto named(const std::set<std::string>& names) {
+  return [&names](const Format& format) { return format.name == "json" || names.contains(std::string(format.name)); };
 }
 
 }  // namespace
-
-std::vector<std::string> format_names(Answer answer) {
-  std::vector<std::string> names;
-  for (const Format& format : formats())
-    if (holds(format, answer)) names.emplace_back(format.name);
-  return names;
-}
-
-bool can_hold(std::string_view name, std::size_t coordinates) {
-  return std::any_of(formats().begin(), formats().end(), [&](const Format& format) {
-    return format.name == name && format.loci != nullptr && format.holds_coordinates(coordinates);
-  });
-}
 
 std::vector<std::filesystem::path> write_loci(const LociSheet& loci, const std::filesystem::path& directory,
                                               const std::set<std::string>& names) {
   const std::size_t coordinates = loci.map.tower.coordinates.size();
   const auto asked = named(names);
-  return write_in(&Format::loci, loci, directory, [&](const Format& format) {
+  return write_wanted(loci, directory, [&](const Format& format) {
     return format.holds_coordinates(coordinates) && (asked(format) || (coordinates == 3 && format.name == "obj"));
   });
-}
-
-std::vector<std::filesystem::path> write_zones(const core::ZoneMap& map, const std::filesystem::path& directory,
-                                               const std::set<std::string>& names) {
-  return write_in(&Format::zones, map, directory, named(names));
-}
-
-std::vector<std::filesystem::path> write_verification(const core::Verification& result,
-                                                      const std::filesystem::path& directory,
-                                                      const std::set<std::string>& names) {
-  return write_in(&Format::verification, result, directory, named(names));
-}
-
-std::vector<std::filesystem::path> write_error(const core::ErrorMap& errors, const std::filesystem::path& directory,
-                                               const std::set<std::string>& names) {
-  return write_in(&Format::error, errors, directory, named(names));
-}
-
-std::vector<std::filesystem::path> write_coordinate_errors(const core::CoordinateErrors& result,
-                                                           const std::filesystem::path& directory,
-                                                           const std::set<std::string>& names) {
-  return write_in(&Format::coordinate_errors, result, directory, named(names));
 }
 
 std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult& result,
@@ -297,15 +266,10 @@ std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult
                                                     const std::function<void(double, std::string_view)>& progress) {
   const auto asked = named(names);
   std::size_t seen = 0;
-  return write_in(&Format::trajectory, result, directory, [&](const Format& format) {
+  return write_wanted(result, directory, [&](const Format& format) {
     if (progress) progress(0.5 + 0.5 * static_cast<double>(seen++) / static_cast<double>(formats().size()), "files");
     return asked(format);
   });
-}
-
-std::vector<std::filesystem::path> write_pose(const core::Pose& pose, const std::filesystem::path& directory,
-                                              const std::set<std::string>& names) {
-  return write_in(&Format::pose, pose, directory, named(names));
 }
 
 }  // namespace clearloci::report

@@ -1,81 +1,116 @@
-// The one registry of export formats: a line a format, a column an answer. What the commands offer, and
-// clearloci/export.hpp, is read off it; a new format is a file that makes its bytes and a line in formats.cpp.
+// The one registry of export formats: a line a format, with how it writes each answer that it holds. What the commands
+// offer, and clearloci/export.hpp, is read off it; a new format is a file that makes its bytes and a line in
+// formats.cpp.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "clearloci/error.hpp"
 #include "clearloci/pose.hpp"
+#include "clearloci/pose_tasks.hpp"
+#include "clearloci/pose_zones.hpp"
 #include "clearloci/trajectory.hpp"
+#include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
-#include "core/sketch.hpp"
+#include "report/answers.hpp"
 
 namespace clearloci::report {
 
-struct File {
-  std::string name, bytes;
-};
-using Files = std::vector<File>;
+/// The files that a format makes of an answer.
+template <class Answer>
+using Maker = Files (*)(const Answer&);
 
-/// Loci with what their pictures show besides.
-struct LociSheet {
-  const core::LocusMap& map;
-  const std::vector<core::ModeSketch>& sketches;  ///< may be empty or lack modes
-};
+class Format {
+ public:
+  /// `holds`: loci over so many free ones. `own`: a maker for each answer that the format holds.
+  template <class... Answers>
+  Format(std::string_view called, bool (*holds)(std::size_t), Maker<Answers>... own)
+      : name(called), holds_coordinates(holds) {
+    ((std::get<Maker<Answers>>(makers_) = own), ...);
+  }
 
-/// How each answer is written; null where the format does not hold it.
-struct Format {
   std::string_view name;
-  bool (*holds_coordinates)(std::size_t count) = nullptr;  ///< loci over so many free ones
-  Files (*loci)(const LociSheet&) = nullptr;
-  Files (*zones)(const core::ZoneMap&) = nullptr;
-  Files (*verification)(const core::Verification&) = nullptr;
-  Files (*error)(const core::ErrorMap&) = nullptr;
-  Files (*coordinate_errors)(const core::CoordinateErrors&) = nullptr;
-  Files (*trajectory)(const core::TrajectoryResult&) = nullptr;
-  Files (*pose)(const core::Pose&) = nullptr;
+  bool (*holds_coordinates)(std::size_t count);
+
+  /// Null where the format does not hold the answer.
+  template <class Answer>
+  Maker<Answer> maker() const {
+    return std::get<Maker<Answer>>(makers_);
+  }
+
+ private:
+  std::tuple<Maker<LociSheet>, Maker<core::ZoneMap>, Maker<core::PoseZones>, Maker<core::Verification>,
+             Maker<core::PoseVerification>, Maker<core::ErrorMap>, Maker<core::CoordinateErrors>, Maker<VolumeSheet>,
+             Maker<core::TrajectoryResult>, Maker<core::Pose>, Maker<core::PoseInModes>, Maker<core::Validation>>
+      makers_ = {};
 };
 
 /// In the order in which files are written; json is the first.
 const std::vector<Format>& formats();
 
-enum class Answer { loci, zones, verification, error, coordinate_errors, trajectory, pose };
-
 /// The names of the formats that an answer can be written in.
-std::vector<std::string> format_names(Answer answer);
+template <class Answer>
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const Format& format : formats())
+    if (format.maker<Answer>() != nullptr) names.emplace_back(format.name);
+  return names;
+}
 
 /// Whether loci over so many free coordinates can be written so: dxf and geojson hold curves, stl and obj surfaces.
 bool can_hold(std::string_view format, std::size_t coordinates);
 
-/// Write the answer in the formats named, and as json always; of surfaces also `loci.obj`, which holds the triangles
-/// that `loci.json` speaks of. Files are `loci.json`, `loci.csv`, `loci-r12.dxf`, ..., each for all modes; pictures one
-/// a mode: `loci.svg`, or `loci-left-right.svg`, ... where there are several; stl a file a surface,
-/// `loci-s1-contact-loss.stl`. Every file is whole or not there. Returns the files in the order written; throws
-/// core::InputError where the directory cannot be written. Names that the answer has no format for are passed over.
+/// What the formats named make of an answer.
+template <class Answer>
+Files files_of(const Answer& answer, const std::set<std::string>& names) {
+  Files files;
+  for (const Format& format : formats())
+    if (format.maker<Answer>() != nullptr && names.contains(std::string(format.name)))
+      for (File& file : format.maker<Answer>()(answer)) files.push_back(std::move(file));
+  return files;
+}
+
+/// Each is whole or not there; their paths join `paths`. Throws core::InputError where the directory cannot be written.
+void write_files(const Files& files, const std::filesystem::path& directory, std::vector<std::filesystem::path>& paths);
+
+/// Writes what the formats that `wanted` picks make of an answer, one format at a time.
+template <class Answer, class Wanted>
+std::vector<std::filesystem::path> write_wanted(const Answer& answer, const std::filesystem::path& directory,
+                                                Wanted wanted) {
+  std::vector<std::filesystem::path> paths;
+  for (const Format& format : formats())
+    if (format.maker<Answer>() != nullptr && wanted(format))
+      write_files(format.maker<Answer>()(answer), directory, paths);
+  return paths;
+}
+
+/// Writes the answer in the formats named, and as json always, and returns the files in the order written:
+/// `zones.json`, `error.csv`, ..., each for all modes; pictures one a mode: `zones.svg`, or `zones-left-right.svg`, ...
+/// where there are several; of error maps one a field besides, `error-dx.png`; over a single coordinate also
+/// `take-up.png`, ... Throws core::InputError where the directory cannot be
+/// written. Names that the answer has no format for are passed over.
+template <class Answer>
+std::vector<std::filesystem::path> write_answer(const Answer& answer, const std::filesystem::path& directory,
+                                                const std::set<std::string>& names = {}) {
+  return write_wanted(answer, directory, [&](const Format& format) {
+    return format.name == "json" || names.contains(std::string(format.name));
+  });
+}
+
+/// Likewise; of surfaces also `loci.obj`, which holds the triangles that `loci.json` speaks of. stl is a file a
+/// surface, `loci-s1-contact-loss.stl`.
 std::vector<std::filesystem::path> write_loci(const LociSheet& loci, const std::filesystem::path& directory,
                                               const std::set<std::string>& names);
-std::vector<std::filesystem::path> write_zones(const core::ZoneMap& map, const std::filesystem::path& directory,
-                                               const std::set<std::string>& names);
-std::vector<std::filesystem::path> write_verification(const core::Verification& result,
-                                                      const std::filesystem::path& directory,
-                                                      const std::set<std::string>& names);
-/// Of maps `error.json`, `error.csv`, `error-dx.png`, ...; over a single coordinate also `take-up.png`, ...
-std::vector<std::filesystem::path> write_error(const core::ErrorMap& errors, const std::filesystem::path& directory,
-                                               const std::set<std::string>& names);
-std::vector<std::filesystem::path> write_coordinate_errors(const core::CoordinateErrors& result,
-                                                           const std::filesystem::path& directory,
-                                                           const std::set<std::string>& names);
-/// `progress`: from 0.5 on.
+/// Likewise; `progress`: from 0.5 on.
 std::vector<std::filesystem::path> write_trajectory(
     const core::TrajectoryResult& result, const std::filesystem::path& directory, const std::set<std::string>& names,
     const std::function<void(double fraction, std::string_view stage)>& progress = {});
-std::vector<std::filesystem::path> write_pose(const core::Pose& pose, const std::filesystem::path& directory,
-                                              const std::set<std::string>& names = {});
 
 }  // namespace clearloci::report

@@ -32,6 +32,18 @@ std::string drawn(const Subject& subject, PictureFormat format) {
 
 }  // namespace
 
+const char* ending_of(PictureFormat format) {
+  switch (format) {
+    case PictureFormat::svg:
+      return ".svg";
+    case PictureFormat::png:
+      return ".png";
+    case PictureFormat::pdf:
+      break;
+  }
+  return ".pdf";
+}
+
 std::string picture(const core::LocusMap& in_si, const core::WorkingMode& mode, const core::Sketch* si_sketch,
                     PictureFormat format) {
   const core::LocusMap map = in_file_units(in_si);

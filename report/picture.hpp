@@ -13,6 +13,9 @@ namespace clearloci::report {
 
 enum class PictureFormat { svg, pdf, png };
 
+/// ".svg", ".pdf", ".png".
+const char* ending_of(PictureFormat format);
+
 /// The loci of one working mode as the bytes of a file: workspace shaded, one colour and dash pattern a reason, direct
 /// singularities dash-dotted in black, the boundary thin and grey, isolated points as ringed markers, and, where given,
 /// the mechanism in the posture of `sketch` with its loads. Axes have one scale; the legend names joints. `sketch`

@@ -98,4 +98,27 @@ Json pose_object(const core::Pose& pose) {
   return result;
 }
 
+nlohmann::ordered_json pose_in_modes_object(const core::PoseInModes& poses) {
+  nlohmann::ordered_json all = {
+      {"format", 1}, {"mechanism", poses.mechanism}, {"poses", nlohmann::ordered_json::array()}};
+  for (const core::ModePose& own : poses.modes)
+    if (own.pose) all["poses"].push_back(pose_object(*own.pose));
+  return all;
+}
+
+std::string pose_in_modes_text(const core::PoseInModes& poses) {
+  std::string text;
+  for (const core::ModePose& own : poses.modes) {
+    if (!text.empty()) text += "\n";
+    if (own.pose) {
+      text += pose_text(*own.pose);
+      continue;
+    }
+    std::string words;
+    for (const auto& [point, side] : own.working_mode) words += (words.empty() ? "" : ", ") + point + " " + side;
+    text += words + ": " + own.why_not + "\n";
+  }
+  return text;
+}
+
 }  // namespace clearloci::report

@@ -10,9 +10,8 @@
 #include "report/exports.hpp"
 #include "report/field_exports.hpp"
 #include "report/file_units.hpp"
-#include "report/files.hpp"
+#include "report/formats.hpp"
 #include "report/loci_json.hpp"
-#include "report/pose_zone_picture.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -223,35 +222,30 @@ std::string label_vti(const core::PoseZones& map) {
 }  // namespace
 
 std::vector<std::string> pose_zone_formats(std::size_t coordinates) {
-  std::vector<std::string> names = {"json", "svg", "png", "pdf"};
-  if (coordinates > 1) names.emplace_back("vtk");
-  if (coordinates > 2) names.emplace_back("stl");
+  std::vector<std::string> names = format_names<core::PoseZones>();
+  std::erase_if(names, [&](const std::string& name) {
+    return (name == "vtk" && coordinates < 2) || (name == "stl" && coordinates < 3);
+  });
   return names;
 }
 
-std::vector<std::filesystem::path> write_pose_zones(const core::PoseZones& map, const std::filesystem::path& directory,
-                                                    const std::set<std::string>& formats) {
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    write_atomically(directory / name, bytes);
-    files.push_back(directory / name);
-  };
-  write("zones.json", json_text(pose_zones_object(map)));
-  if (formats.contains("svg")) write("zones.svg", pose_zone_picture(map, PictureFormat::svg));
-  if (formats.contains("png")) write("zones.png", pose_zone_picture(map, PictureFormat::png));
-  if (formats.contains("pdf")) write("zones.pdf", pose_zone_picture(map, PictureFormat::pdf));
-  if (formats.contains("vtk") && map.grid.size() > 1) write("zones.vti", label_vti(map));
+Files pose_zones_vtk(const core::PoseZones& map) {
+  Files files;
+  if (map.grid.size() > 1) files.push_back({"zones.vti", label_vti(map)});
+  if (map.grid.size() < 3) return files;
   for (const core::PoseZone& zone : map.zones) {
-    if (map.grid.size() < 3) break;
-    const core::LocusSurface surface = surface_of(zone);
-    if (formats.contains("vtk")) {
-      core::LocusMap alone;
-      alone.mechanism = map.mechanism;
-      alone.surfaces.push_back(surface);
-      write("zones-" + zone.id + ".vtp", vtp(alone));
-    }
-    if (formats.contains("stl")) write("zones-" + zone.id + ".stl", stl(surface));
+    core::LocusMap alone;
+    alone.mechanism = map.mechanism;
+    alone.surfaces.push_back(surface_of(zone));
+    files.push_back({"zones-" + zone.id + ".vtp", vtp(alone)});
   }
+  return files;
+}
+
+Files pose_zones_stl(const core::PoseZones& map) {
+  Files files;
+  if (map.grid.size() < 3) return files;
+  for (const core::PoseZone& zone : map.zones) files.push_back({"zones-" + zone.id + ".stl", stl(surface_of(zone))});
   return files;
 }
 

@@ -9,9 +9,17 @@
 #include "analysis/model.hpp"
 #include "clearloci/export.hpp"
 #include "core/errors.hpp"
+#include "report/coordinate_errors.hpp"
+#include "report/error.hpp"
+#include "report/error_volume.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
+#include "report/pose.hpp"
+#include "report/pose_verification.hpp"
+#include "report/pose_zones.hpp"
+#include "report/trajectory.hpp"
+#include "report/validation.hpp"
 #include "report/verification.hpp"
 #include "report/wording.hpp"
 #include "report/zones.hpp"
@@ -26,68 +34,126 @@ void check(const std::set<std::string>& wanted, const std::vector<std::string>& 
                              fmt::format("choose from {}", fmt::join(known, ", ")));
 }
 
+using Paths = std::vector<std::filesystem::path>;
+
 template <class Answer>
-std::vector<ExportedFile> files_in(report::Files (*report::Format::*made)(const Answer&), const Answer& answer,
-                                   const std::set<std::string>& names) {
+Paths write_checked(const Answer& answer, const std::filesystem::path& folder, const std::set<std::string>& formats,
+                    const std::vector<std::string>& known = report::format_names<Answer>()) {
+  check(formats, known);
+  return report::write_answer(answer, folder, formats);
+}
+
+template <class Answer>
+std::vector<ExportedFile> files_checked(const Answer& answer, const std::set<std::string>& formats,
+                                        const std::vector<std::string>& known = report::format_names<Answer>()) {
+  check(formats, known);
   std::vector<ExportedFile> files;
-  for (const report::Format& format : report::formats())
-    if (format.*made != nullptr && names.contains(std::string(format.name)))
-      for (report::File& file : (format.*made)(answer)) files.push_back({std::move(file.name), std::move(file.bytes)});
+  for (report::File& own : report::files_of(answer, formats))
+    files.push_back({std::move(own.name), std::move(own.bytes)});
   return files;
 }
 
 }  // namespace
 
 std::vector<std::string> loci_formats(std::size_t coordinates) {
-  std::vector<std::string> names = report::format_names(report::Answer::loci);
+  std::vector<std::string> names = report::format_names<report::LociSheet>();
   std::erase_if(names, [&](const std::string& name) { return !report::can_hold(name, coordinates); });
   return names;
 }
-std::vector<std::string> zone_formats() { return report::format_names(report::Answer::zones); }
-std::vector<std::string> verification_formats() { return report::format_names(report::Answer::verification); }
+std::vector<std::string> zone_formats() { return report::format_names<ZoneMap>(); }
+std::vector<std::string> pose_zone_formats(std::size_t coordinates) { return report::pose_zone_formats(coordinates); }
+std::vector<std::string> verification_formats() { return report::format_names<Verification>(); }
+std::vector<std::string> error_formats(std::size_t coordinates) {
+  return coordinates == 1   ? report::format_names<CoordinateErrors>()
+         : coordinates == 2 ? report::format_names<ErrorMap>()
+                            : report::format_names<report::VolumeSheet>();
+}
+std::vector<std::string> trajectory_formats() { return report::format_names<TrajectoryResult>(); }
 
-std::vector<std::filesystem::path> export_loci(const Model& model, const LocusMap& loci,
-                                               const std::filesystem::path& folder,
-                                               const std::set<std::string>& formats) {
+Paths export_loci(const Model& model, const LocusMap& loci, const std::filesystem::path& folder,
+                  const std::set<std::string>& formats) {
   check(formats, loci_formats(loci.tower.coordinates.size()));
   return report::write_loci({loci, sample_sketches(model.content().mechanism, loci)}, folder, formats);
 }
-
-std::vector<std::filesystem::path> export_zones(const ZoneMap& zones, const std::filesystem::path& folder,
-                                                const std::set<std::string>& formats) {
-  check(formats, zone_formats());
-  return report::write_zones(zones, folder, formats);
+Paths export_zones(const ZoneMap& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
+  return write_checked(zones, folder, formats);
 }
-
-std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
-                                                       const std::set<std::string>& formats) {
-  check(formats, verification_formats());
-  return report::write_verification(answer, folder, formats);
+Paths export_zones(const PoseZones& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
+  return write_checked(zones, folder, formats, pose_zone_formats(zones.coordinates.size()));
+}
+Paths export_verification(const Verification& answer, const std::filesystem::path& folder,
+                          const std::set<std::string>& formats) {
+  return write_checked(answer, folder, formats);
+}
+Paths export_errors(const ErrorMap& errors, const std::filesystem::path& folder, const std::set<std::string>& formats) {
+  return write_checked(errors, folder, formats);
+}
+Paths export_errors(const CoordinateErrors& errors, const std::filesystem::path& folder,
+                    const std::set<std::string>& formats) {
+  return write_checked(errors, folder, formats);
+}
+Paths export_errors(const VolumeErrors& errors, const std::filesystem::path& folder,
+                    const std::set<std::string>& formats, const std::vector<VolumeSlice>& slices) {
+  return write_checked(report::VolumeSheet{errors, slices}, folder, formats);
+}
+Paths export_trajectory(const TrajectoryResult& result, const std::filesystem::path& folder,
+                        const std::set<std::string>& formats) {
+  return write_checked(result, folder, formats);
 }
 
 std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats) {
-  check(formats, loci_formats(loci.tower.coordinates.size()));
   const std::vector<core::ModeSketch> sketches = sample_sketches(model.content().mechanism, loci);
-  return files_in(&report::Format::loci, report::LociSheet{loci, sketches}, formats);
+  return files_checked(report::LociSheet{loci, sketches}, formats, loci_formats(loci.tower.coordinates.size()));
 }
-
 std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats) {
-  check(formats, zone_formats());
-  return files_in(&report::Format::zones, zones, formats);
+  return files_checked(zones, formats);
 }
-
+std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std::string>& formats) {
+  return files_checked(zones, formats, pose_zone_formats(zones.coordinates.size()));
+}
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats) {
-  check(formats, verification_formats());
-  return files_in(&report::Format::verification, answer, formats);
+  return files_checked(answer, formats);
+}
+std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats) {
+  return files_checked(errors, formats);
+}
+std::vector<ExportedFile> error_files(const CoordinateErrors& errors, const std::set<std::string>& formats) {
+  return files_checked(errors, formats);
+}
+std::vector<ExportedFile> error_files(const VolumeErrors& errors, const std::set<std::string>& formats,
+                                      const std::vector<VolumeSlice>& slices) {
+  return files_checked(report::VolumeSheet{errors, slices}, formats);
+}
+std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const std::set<std::string>& formats) {
+  return files_checked(result, formats);
 }
 
-std::string to_json(const LocusMap& loci) { return report::json_text(report::loci_object(loci)); }
-std::string to_json(const ZoneMap& zones) { return report::json_text(report::zones_object(zones)); }
-std::string to_json(const Verification& answer) { return report::json_text(report::verification_object(answer)); }
+using report::json_text;
+std::string to_json(const LocusMap& loci) { return json_text(report::loci_object(loci)); }
+std::string to_json(const ZoneMap& zones) { return json_text(report::zones_object(zones)); }
+std::string to_json(const PoseZones& zones) { return json_text(report::pose_zones_object(zones)); }
+std::string to_json(const Verification& answer) { return json_text(report::verification_object(answer)); }
+std::string to_json(const PoseVerification& answer) { return json_text(report::pose_verification_object(answer)); }
+std::string to_json(const ErrorMap& errors) { return json_text(report::error_object(errors)); }
+std::string to_json(const CoordinateErrors& errors) { return json_text(report::coordinate_errors_object(errors)); }
+std::string to_json(const VolumeErrors& errors) { return json_text(report::error_volume_object(errors)); }
+std::string to_json(const TrajectoryResult& result) { return json_text(report::trajectory_object(result)); }
+std::string to_json(const Pose& pose) { return json_text(report::pose_object(pose)); }
+std::string to_json(const PoseInModes& poses) { return json_text(report::pose_in_modes_object(poses)); }
+std::string to_json(const Validation& validation) { return json_text(report::validation_object(validation)); }
 
 std::string to_table(const LocusMap& loci) { return report::loci_table(loci); }
 std::string to_table(const ZoneMap& zones) { return report::zones_table(zones); }
+std::string to_table(const PoseZones& zones) { return report::pose_zones_table(zones); }
 std::string to_text(const Verification& answer) { return report::verification_text(answer, answer.by.has_value()); }
+std::string to_text(const PoseVerification& answer) { return report::pose_verification_text(answer); }
+std::string to_text(const ErrorMap& errors) { return report::error_text(errors); }
+std::string to_text(const CoordinateErrors& errors) { return report::coordinate_errors_text(errors); }
+std::string to_text(const VolumeErrors& errors) { return report::error_volume_text(errors); }
+std::string to_text(const TrajectoryResult& result) { return report::trajectory_text(result); }
+std::string to_text(const Pose& pose) { return report::pose_text(pose); }
+std::string to_text(const PoseInModes& poses) { return report::pose_in_modes_text(poses); }
+std::string to_text(const Validation& validation) { return report::validation_text(validation); }
 
 std::vector<WorkingMode> modes_of(const LocusMap& loci) { return report::modes_of(loci); }
 

@@ -1,8 +1,13 @@
 #include "report/validation.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "report/loci_json.hpp"
+#include "report/wording.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -13,9 +18,35 @@ Json reaction_json(const auto& reaction) {
   return {{"joint", reaction.joint}, {"quantity", to_string(reaction.quantity)}};
 }
 
+std::string reaction_name(const core::TracedReaction& reaction) {
+  return fmt::format("{}_{}", to_string(reaction.quantity), reaction.joint);
+}
+
+std::string after(const core::Validation& validation, const core::WorkingMode& mode) {
+  const std::string words = mode_words(validation.map.tower, mode);
+  return words.empty() ? "" : "; " + words;
+}
+
+std::string tallies_text(const core::Validation& validation) {
+  std::string text;
+  const core::WorkingMode* mode = nullptr;
+  for (const core::ReactionTally& tally : validation.report.tallies) {
+    if (mode == nullptr || *mode != tally.mode) {
+      text += fmt::format("\n{:<16}{:>10}{:>10}{:>10}{:>10}  edges{}\n", "reaction", "held", "disputed", "undecided",
+                          "outside", after(validation, tally.mode));
+      mode = &tally.mode;
+    }
+    const std::string name = reaction_name(tally.reaction);
+    text += tally.identically_zero ? fmt::format("{:<16}{:>10}\n", name, "zero in every pose")
+                                   : fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}\n", name, tally.held, tally.disputed,
+                                                 tally.undecided, tally.outside);
+  }
+  return text;
+}
+
 }  // namespace
 
-Json validation_object(const LociValidation& validation, const std::vector<int>& nodes) {
+Json validation_object(const core::Validation& validation) {
   const auto& report = validation.report;
   Json tallies = Json::array();
   for (const auto& tally : report.tallies)
@@ -44,8 +75,8 @@ Json validation_object(const LociValidation& validation, const std::vector<int>&
                     {"unbounded", arc.unbounded}});
   return {{"format", 1},
           {"mechanism", validation.map.mechanism},
-          {"grid", nodes},
-          {"validated", report.disputed == 0},
+          {"grid", validation.nodes},
+          {"validated", validation.validated()},
           {"held", report.held},
           {"disputed", report.disputed},
           {"undecided", report.undecided},
@@ -55,6 +86,34 @@ Json validation_object(const LociValidation& validation, const std::vector<int>&
           {"arcs_held", report.arcs_held},
           {"arcs_undecided", report.arcs_undecided},
           {"disputed_arcs", std::move(arcs)}};
+}
+
+std::string validation_text(const core::Validation& validation) {
+  constexpr std::size_t edges_shown = 20;
+  const std::array<const char*, 3> names = {"points", "arcs", "surfaces"};
+  const char* const loci = names.at(validation.map.lower.size() - 1);
+  const core::ValidationReport& report = validation.report;
+  std::string text = fmt::format("{}: loci against reactions at {} nodes\n", validation.map.mechanism,
+                                 fmt::join(validation.nodes, " x "));
+  text += tallies_text(validation);
+  text += fmt::format("\n{} edges held, {} disputed, {} undecided, {} outside\n", report.held, report.disputed,
+                      report.undecided, report.outside);
+  for (std::size_t i = 0; i < report.disputed_edges.size() && i < edges_shown; ++i) {
+    const core::DisputedEdge& edge = report.disputed_edges[i];
+    text += fmt::format("disputed: {} {} from ({}) to ({}), crossed by {} {}{}\n", reaction_name(edge.reaction),
+                        edge.sign_change ? "changes sign" : "keeps its sign", fmt::join(edge.from, ", "),
+                        fmt::join(edge.to, ", "), edge.crossings, loci, after(validation, edge.mode));
+  }
+  if (report.disputed_edges.size() > edges_shown) text += "... --json lists more disputed edges\n";
+  text += fmt::format("{} reactions along {} held, {} disputed, {} undecided\n", report.arcs_held, loci,
+                      report.disputed_arcs.size(), report.arcs_undecided);
+  for (std::size_t i = 0; i < report.disputed_arcs.size() && i < edges_shown; ++i) {
+    const core::DisputedArc& arc = report.disputed_arcs[i];
+    const char* what = arc.unbounded ? "grows without bound" : arc.claimed ? "does not vanish" : "vanishes unnamed";
+    text += fmt::format("disputed: {} {} along {} near ({}){}\n", reaction_name(arc.reaction), what, arc.curve,
+                        fmt::join(arc.at, ", "), after(validation, arc.mode));
+  }
+  return text;
 }
 
 }  // namespace clearloci::report

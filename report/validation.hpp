@@ -1,14 +1,16 @@
-// The answer of `clearloci validate` as JSON.
+// The answer of `clearloci validate` as JSON and as a text.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <vector>
+#include <string>
 
-#include "analysis/loci.hpp"
+#include "clearloci/validate.hpp"
 
 namespace clearloci::report {
 
-/// `nodes`: of the grid that reactions were solved at, along each coordinate.
-nlohmann::ordered_json validation_object(const LociValidation& validation, const std::vector<int>& nodes);
+nlohmann::ordered_json validation_object(const core::Validation& validation);
+
+/// A table of every mode's reactions, then what is disputed. Ends with a newline.
+std::string validation_text(const core::Validation& validation);
 
 }  // namespace clearloci::report

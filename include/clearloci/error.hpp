@@ -67,6 +67,12 @@ struct FieldVolume {
   }
 };
 
+/// A layer of cells across a coordinate, for pictures.
+struct VolumeSlice {
+  std::size_t across = 2;
+  int layer = 0;
+};
+
 /// A layer of cells across one of the coordinates, as a map over the other two.
 FieldMap slice_of(const FieldVolume& volume, std::size_t across, int layer);
 

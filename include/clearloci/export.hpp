@@ -4,26 +4,38 @@
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::LocusMap loci = trace_loci(model);
 //     for (const auto& file : export_loci(model, loci, "out", {"svg", "dxf"})) std::cout << file << "\n";
+//     export_errors(clearloci::error_map(model), "out", {"png", "vtk"});
 //
 // Formats are known by name: "json" (always written), "csv", "svg", "png", "pdf", "dxf", "dxf-r12", "geojson", "vtk",
 // "stl", "obj", "html". Coordinates in files are m and rad.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "clearloci/error.hpp"
 #include "clearloci/loci.hpp"
+#include "clearloci/pose.hpp"
+#include "clearloci/pose_tasks.hpp"
+#include "clearloci/pose_zones.hpp"
+#include "clearloci/trajectory.hpp"
+#include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 
 namespace clearloci {
 
-/// The formats that loci over so many free coordinates can be written in, and those of zones and of verifications.
+/// The formats that loci over so many free coordinates can be written in, those of zones over two lengths and by cells,
+/// of verifications, of errors over one to three coordinates, and of trajectories.
 std::vector<std::string> loci_formats(std::size_t coordinates = 2);
 std::vector<std::string> zone_formats();
+std::vector<std::string> pose_zone_formats(std::size_t coordinates);
 std::vector<std::string> verification_formats();
+std::vector<std::string> error_formats(std::size_t coordinates = 2);
+std::vector<std::string> trajectory_formats();
 
 /// Write the answer into a folder, which is made where it is missing, and return the files in the order written. The
 /// pictures of loci over x and y show the mechanism in a posture. Throw InputError for a format that the answer has
@@ -33,8 +45,21 @@ std::vector<std::filesystem::path> export_loci(const Model& model, const LocusMa
                                                const std::set<std::string>& formats = {"svg", "png", "csv"});
 std::vector<std::filesystem::path> export_zones(const ZoneMap& zones, const std::filesystem::path& folder,
                                                 const std::set<std::string>& formats = {"svg", "png"});
+std::vector<std::filesystem::path> export_zones(const PoseZones& zones, const std::filesystem::path& folder,
+                                                const std::set<std::string>& formats = {"svg", "png"});
 std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
                                                        const std::set<std::string>& formats = {"svg", "png"});
+std::vector<std::filesystem::path> export_errors(const ErrorMap& errors, const std::filesystem::path& folder,
+                                                 const std::set<std::string>& formats = {"png"});
+std::vector<std::filesystem::path> export_errors(const CoordinateErrors& errors, const std::filesystem::path& folder,
+                                                 const std::set<std::string>& formats = {"png"});
+/// `slices`: the layers of cells that are drawn; none: the one in the middle of the last coordinate.
+std::vector<std::filesystem::path> export_errors(const VolumeErrors& errors, const std::filesystem::path& folder,
+                                                 const std::set<std::string>& formats = {"png"},
+                                                 const std::vector<VolumeSlice>& slices = {});
+std::vector<std::filesystem::path> export_trajectory(const TrajectoryResult& result,
+                                                     const std::filesystem::path& folder,
+                                                     const std::set<std::string>& formats = {"png", "csv"});
 
 /// A file that is not written.
 struct ExportedFile {
@@ -44,17 +69,42 @@ struct ExportedFile {
 /// What the above would write in these formats alone, in memory.
 std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats);
 std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats);
+std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std::string>& formats);
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats);
+std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats);
+std::vector<ExportedFile> error_files(const CoordinateErrors& errors, const std::set<std::string>& formats);
+std::vector<ExportedFile> error_files(const VolumeErrors& errors, const std::set<std::string>& formats,
+                                      const std::vector<VolumeSlice>& slices = {});
+std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const std::set<std::string>& formats);
 
-/// The bytes of loci.json, zones.json, verify.json.
+/// The bytes of loci.json, zones.json, verify.json, error.json, trajectory.json, pose.json, validation.json. Required
+/// of a Pose: it is within reach, and where it was iterated it converged.
 std::string to_json(const LocusMap& loci);
 std::string to_json(const ZoneMap& zones);
+std::string to_json(const PoseZones& zones);
 std::string to_json(const Verification& answer);
+std::string to_json(const PoseVerification& answer);
+std::string to_json(const ErrorMap& errors);
+std::string to_json(const CoordinateErrors& errors);
+std::string to_json(const VolumeErrors& errors);
+std::string to_json(const TrajectoryResult& result);
+std::string to_json(const Pose& pose);
+std::string to_json(const PoseInModes& poses);
+std::string to_json(const Validation& validation);
 
 /// The tables and texts of the program, in UTF-8.
 std::string to_table(const LocusMap& loci);
 std::string to_table(const ZoneMap& zones);
+std::string to_table(const PoseZones& zones);
 std::string to_text(const Verification& answer);
+std::string to_text(const PoseVerification& answer);
+std::string to_text(const ErrorMap& errors);
+std::string to_text(const CoordinateErrors& errors);
+std::string to_text(const VolumeErrors& errors);
+std::string to_text(const TrajectoryResult& result);
+std::string to_text(const Pose& pose);
+std::string to_text(const PoseInModes& poses);
+std::string to_text(const Validation& validation);
 
 /// The working modes that the map speaks of, each once.
 std::vector<WorkingMode> modes_of(const LocusMap& loci);

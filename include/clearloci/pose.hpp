@@ -113,6 +113,19 @@ struct Pose {
   std::vector<std::string> notes = {};  ///< such as what a clearance stands for
 };
 
+/// A pose in one of the working modes.
+struct ModePose {
+  std::vector<std::pair<std::string, std::string>> working_mode;  ///< {"B1", "right"}, ...
+  std::optional<Pose> pose;
+  std::string why_not = {};  ///< where there is none, as a clause: "point B1 cannot be placed"
+};
+
+/// A pose in every working mode.
+struct PoseInModes {
+  std::string mechanism;
+  std::vector<ModePose> modes;
+};
+
 /// Scalar reactions at many poses.
 struct Reactions {
   /// One a column: "fA1x", "fA1y", ..., "MA1", as the equations name their unknowns; N or N m. NaN where a pose is out
@@ -140,6 +153,10 @@ struct PoseRequest {
 /// Throws InputError where the number of values or of sides is wrong, a value is no finite number, the equations are
 /// not square, |A| vanishes in every pose of the working mode, or a spatial mechanism is to be iterated.
 Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseRequest& request = {});
+
+/// The same in every working mode: where a mode has no such pose, why. Throws likewise for what is wrong in all of
+/// them; `request.working_mode` is passed over.
+PoseInModes solve_pose_in_modes(const Model& model, const std::vector<double>& at, const PoseRequest& request = {});
 
 /// `poses`: pose after pose, each with one value a free coordinate as of solve_pose. Planar mechanisms by the compiled
 /// elimination, some million poses a second. Throws as solve_pose.

@@ -35,7 +35,7 @@ struct PoseZoneBall {
   double radius = 0;
 };
 
-/// Sizes are products of the coordinates' units: m or rad over one coordinate, m^3 over three lengths.
+/// Sizes are products of the coordinates' units: rad over one angle, m over one length, m^3 over three lengths.
 struct PoseZone {
   std::string id;                                ///< "z1": the largest comes first
   int assembly_mode = 0;                         ///< sign of |A|

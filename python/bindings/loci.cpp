@@ -5,11 +5,13 @@
 
 namespace clearloci::python {
 
-py::dict mode_of(const TowerNames& tower, const WorkingMode& mode) {
+py::dict mode_of(const std::vector<std::pair<std::string, std::string>>& mode) {
   py::dict sides;
-  for (const auto& [point, side] : describe_mode(tower, mode)) sides[py::str(point)] = side;
+  for (const auto& [point, side] : mode) sides[py::str(point)] = side;
   return sides;
 }
+
+py::dict mode_of(const TowerNames& tower, const WorkingMode& mode) { return mode_of(describe_mode(tower, mode)); }
 
 namespace {
 
@@ -132,6 +134,14 @@ void bind_loci(py::module_& module) {
   module.def("trace_loci", [](const Model& model, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
     return unlocked(request, [&](const LociRequest& own) { return trace_loci(model, own); });
+  });
+  // Its values are those of its JSON.
+  bind_answer<Validation>(module, "Validation", [](const Validation& validation) {
+    return py::module_::import("json").attr("loads")(to_json(validation));
+  });
+  module.def("validate_loci", [](const Model& model, const std::vector<int>& nodes, const py::kwargs& options) {
+    LociRequest request = request_of(model, options);
+    return unlocked(request, [&](const LociRequest& own) { return validate_loci(model, {nodes, own}); });
   });
 }
 

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bindings/bindings.hpp"
+#include "clearloci/export.hpp"
 
 namespace clearloci::python {
 
@@ -14,7 +17,33 @@ py::dict mode_of(const TowerNames& tower, const WorkingMode& mode);
 
 py::dict dict_of(const LocusMap& map);
 
+/// {"B1": "right"} of a mode that is described already.
+py::dict mode_of(const std::vector<std::pair<std::string, std::string>>& mode);
+
 /// Paths as text.
 std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files);
+
+/// An answer as the library holds it: its values by `data`, and what the program prints and writes of it. `exported`
+/// writes the files; null of an answer that is JSON alone.
+template <class Answer, class Data>
+py::class_<Answer> bind_answer(py::module_& module, const char* name, Data data,
+                               std::vector<std::filesystem::path> (*exported)(const Answer&,
+                                                                              const std::filesystem::path&,
+                                                                              const std::set<std::string>&) = nullptr) {
+  py::class_<Answer> own(module, name);
+  own.def("data", [data](const Answer& answer) { return data(answer); });
+  own.def("json", [](const Answer& answer) { return to_json(answer); });
+  own.def("table", [](const Answer& answer) {
+    if constexpr (requires { to_text(answer); })
+      return to_text(answer);
+    else
+      return to_table(answer);
+  });
+  if (exported != nullptr)
+    own.def("export",
+            [exported](const Answer& answer, const Model&, const std::string& folder,
+                       const std::set<std::string>& formats) { return names_of(exported(answer, folder, formats)); });
+  return own;
+}
 
 }  // namespace clearloci::python

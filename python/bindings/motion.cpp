@@ -194,6 +194,49 @@ py::dict dict_of(const TrajectoryResult& result) {
   return all;
 }
 
+py::dict dict_of(const VolumeErrors& errors) {
+  py::list modes;
+  for (const VolumeModeErrors& own : errors.modes) {
+    // The last coordinate first, as volumes are indexed.
+    const std::vector<py::ssize_t> shape(own.volume.cells.rbegin(), own.volume.cells.rend());
+    py::dict fields, units, axes, one;
+    for (const Field& field : own.volume.fields) {
+      py::array_t<double> array(shape);
+      std::copy(field.values.begin(), field.values.end(), array.mutable_data());
+      fields[py::str(field.name)] = array;
+      units[py::str(field.name)] = field.unit;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::vector<double> middles;
+      for (int i = 0; i < own.volume.cells[c]; ++i) middles.push_back(own.volume.at(c, i));
+      axes[py::str(own.volume.coordinates[c])] = column(middles);
+    }
+    one["working_mode"] = mode_of(own.mode);
+    one["fields"] = fields;
+    one["units"] = units;
+    one["axes"] = axes;
+    one["reachable"] = own.reachable;
+    one["undefined"] = own.undefined;
+    one["never_loaded"] = own.never_loaded;
+    modes.append(one);
+  }
+  py::dict all;
+  all["modes"] = modes;
+  return all;
+}
+
+py::list list_of(const PoseInModes& poses) {
+  py::list all;
+  for (const ModePose& own : poses.modes)
+    if (own.pose) all.append(dict_of(*own.pose));
+  return all;
+}
+
+std::vector<std::filesystem::path> export_volume(const VolumeErrors& errors, const std::filesystem::path& folder,
+                                                 const std::set<std::string>& formats) {
+  return export_errors(errors, folder, formats);
+}
+
 DyadSides only_mode(const Model& model, const py::kwargs& options) {
   const LociRequest request = request_of(model, options);
   return request.working_modes.empty() ? DyadSides{} : request.working_modes.front();
@@ -202,10 +245,23 @@ DyadSides only_mode(const Model& model, const py::kwargs& options) {
 }  // namespace
 
 void bind_motion(py::module_& module) {
+  bind_answer<Pose>(module, "Pose", [](const Pose& own) { return dict_of(own); });
+  bind_answer<PoseInModes>(module, "PoseInModes", [](const PoseInModes& own) { return list_of(own); });
+  bind_answer<ErrorMap>(
+      module, "ErrorMap", [](const ErrorMap& own) { return dict_of(own); }, &export_errors);
+  bind_answer<CoordinateErrors>(
+      module, "CoordinateErrors", [](const CoordinateErrors& own) { return dict_of(own); }, &export_errors);
+  bind_answer<VolumeErrors>(
+      module, "VolumeErrors", [](const VolumeErrors& own) { return dict_of(own); }, &export_volume);
+  bind_answer<TrajectoryResult>(
+      module, "TrajectoryResult", [](const TrajectoryResult& own) { return dict_of(own); }, &export_trajectory);
   module.def("solve_pose",
              [](const Model& model, const std::vector<double>& at, bool iterate, const py::kwargs& options) {
-               return dict_of(solve_pose(model, at, {.working_mode = only_mode(model, options), .iterate = iterate}));
+               return solve_pose(model, at, {.working_mode = only_mode(model, options), .iterate = iterate});
              });
+  module.def("solve_pose_in_modes", [](const Model& model, const std::vector<double>& at, bool iterate) {
+    return solve_pose_in_modes(model, at, {.iterate = iterate});
+  });
   module.def("reactions", [](const Model& model, const PyPoses& poses, const py::kwargs& options) {
     const DyadSides sides = only_mode(model, options);
     const std::span<const double> values(poses.data(), static_cast<std::size_t>(poses.size()));
@@ -220,18 +276,27 @@ void bind_motion(py::module_& module) {
                ErrorRequest request{
                    .nx = nx, .ny = ny, .worst_case = worst_case, .with_loci = loci, .loci = request_of(model, options)};
                LociRequest own = request.loci;
-               return dict_of(unlocked(own, [&](const LociRequest& with_signals) {
+               return unlocked(own, [&](const LociRequest& with_signals) {
                  request.loci = with_signals;
                  return error_map(model, request);
-               }));
+               });
+             });
+  module.def("error_volume",
+             [](const Model& model, const std::array<int, 3>& cells, bool worst_case, const py::kwargs& options) {
+               ErrorRequest request{.cells = cells, .worst_case = worst_case, .loci = request_of(model, options)};
+               LociRequest own = request.loci;
+               return unlocked(own, [&](const LociRequest& with_signals) {
+                 request.loci = with_signals;
+                 return error_volume(model, request);
+               });
              });
   module.def("coordinate_errors", [](const Model& model, int steps, bool worst_case, const py::kwargs& options) {
     ErrorRequest request{.steps = steps, .worst_case = worst_case, .loci = request_of(model, options)};
     LociRequest own = request.loci;
-    return dict_of(unlocked(own, [&](const LociRequest& with_signals) {
+    return unlocked(own, [&](const LociRequest& with_signals) {
       request.loci = with_signals;
       return coordinate_errors(model, request);
-    }));
+    });
   });
   module.def("follow_trajectory", [](const Model& model, const std::string& path, const py::object& period, int samples,
                                      const py::object& min_force, const std::vector<double>& periods,
@@ -239,11 +304,8 @@ void bind_motion(py::module_& module) {
     TrajectoryRequest request{.working_mode = only_mode(model, options), .samples = samples, .periods = periods};
     if (!period.is_none()) request.period = period.cast<double>();
     if (!min_force.is_none()) request.min_force = min_force.cast<double>();
-    const TrajectoryResult result = [&] {
-      const py::gil_scoped_release free;
-      return follow_trajectory(model, path, request);
-    }();
-    return dict_of(result);
+    const py::gil_scoped_release free;
+    return follow_trajectory(model, path, request);
   });
 }
 

@@ -1,16 +1,11 @@
 // Tasks and zones over one to six coordinates, by cells.
 #include "bindings/bindings.hpp"
+#include "bindings/maps.hpp"
 #include "clearloci/pose_tasks.hpp"
 #include "clearloci/pose_zones.hpp"
 
 namespace clearloci::python {
 namespace {
-
-py::dict mode_of(const std::vector<std::pair<std::string, std::string>>& mode) {
-  py::dict own;
-  for (const auto& [point, side] : mode) own[py::str(point)] = side;
-  return own;
-}
 
 template <class Value>
 py::object or_none(const std::optional<Value>& value) {
@@ -121,15 +116,18 @@ py::dict dict_of(const PoseZones& map) {
 }  // namespace
 
 void bind_poses(py::module_& module) {
-  module.def("verify_poses", [](const Model& model, const std::string& text, const std::string& file,
-                                const py::kwargs& options) {
-    LociRequest request = request_of(model, options);
-    const PoseTask task = text.empty() ? read_pose_task(file, model) : parse_pose_task(text, model, file);
-    return dict_of(unlocked(request, [&](const LociRequest& own) { return verify_poses(model, task, own); }));
-  });
+  bind_answer<PoseVerification>(module, "PoseVerification", [](const PoseVerification& own) { return dict_of(own); });
+  bind_answer<PoseZones>(
+      module, "PoseZones", [](const PoseZones& own) { return dict_of(own); }, &export_zones);
+  module.def("verify_poses",
+             [](const Model& model, const std::string& text, const std::string& file, const py::kwargs& options) {
+               LociRequest request = request_of(model, options);
+               const PoseTask task = text.empty() ? read_pose_task(file, model) : parse_pose_task(text, model, file);
+               return unlocked(request, [&](const LociRequest& own) { return verify_poses(model, task, own); });
+             });
   module.def("find_pose_zones", [](const Model& model, long cells, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
-    return dict_of(unlocked(request, [&](const LociRequest& own) { return find_pose_zones(model, own, cells); }));
+    return unlocked(request, [&](const LociRequest& own) { return find_pose_zones(model, own, cells); });
   });
 }
 

@@ -12,10 +12,10 @@ Units are SI throughout: m, rad, N, N m. Names and defaults are those of the com
 """
 
 from ._clearloci import InputError, LimitReached, __version__
-from .answers import Curve, Loci, Surface, Verification, Zone, Zones
+from .answers import Curve, Loci, Surface, Validation, Verification, Zone, Zones
 from .design import Designs, design
 from .model import Model, parse, read
-from .motion import CoordinateErrors, ErrorMap, Pose, Trajectory
+from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
 from .poses import PoseVerification, PoseZone, PoseZones
 
 __all__ = [
@@ -23,6 +23,7 @@ __all__ = [
     "Curve",
     "Designs",
     "ErrorMap",
+    "ErrorVolume",
     "InputError",
     "LimitReached",
     "Loci",
@@ -33,6 +34,7 @@ __all__ = [
     "PoseZones",
     "Surface",
     "Trajectory",
+    "Validation",
     "Verification",
     "Zone",
     "Zones",

@@ -6,7 +6,7 @@ from __future__ import annotations
 import html
 import os
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator
 
 import numpy as np
 
@@ -67,7 +67,7 @@ class Surface:
 class IsolatedPoint:
     kind: str
     vanishing: list[str]
-    at: list[float]  #: one value a coordinate, m or rad
+    at: list[float]  #: one value a coordinate: rad of an angle, else m
     working_mode: dict[str, str]
     certified: bool
     factor: str
@@ -97,18 +97,20 @@ class ModeArea:
     in_doubt: float  #: m^2 of that in zones that are not certified, in none, or in several
 
 
-class _Answer:
-    """What the library holds of an answer, made when it is wanted and left out of pickles."""
+class Written:
+    """What the library holds of an answer, made when it is wanted and left out of pickles; and what the program prints
+    and writes of it."""
 
-    _map: Any = None
+    model: Model
+    _map: Any
 
     def _ask(self) -> Any:
         raise NotImplementedError
 
     @property
     def _held(self) -> Any:
-        if self._map is None:
-            self._map = self._ask()
+        if "_map" not in self.__dict__:
+            object.__setattr__(self, "_map", self._ask())
         return self._map
 
     def __getstate__(self) -> dict[str, Any]:
@@ -122,15 +124,73 @@ class _Answer:
         """The table that the program prints."""
         return self._held.table()
 
+
+class Exported(Written):
+    """Files, too."""
+
     def export(self, folder: str | os.PathLike[str], formats: Iterable[str] = ("svg", "png")) -> list[str]:
         """Writes the formats named, and json, as the program does; returns the files."""
         return self._held.export(self.model._handle, os.fspath(folder), set(formats))
+
+
+class _Answer(Exported):
+    """Pictures in a notebook, too."""
 
     def _repr_svg_(self) -> str:
         return self._held.svgs()[0]
 
     def _repr_html_(self) -> str:
         return "".join(self._held.svgs()) + f"<pre>{html.escape(self.table())}</pre>"
+
+
+class Asked(Written):
+    """An answer of plain values that knows what it was asked by."""
+
+    _question: tuple[str, Model, tuple[Any, ...], dict[str, Any]]
+
+    @property
+    def model(self) -> Model:  # type: ignore[override]
+        return self._question[1]
+
+    def _ask(self) -> Any:
+        return held_of(*self._question)
+
+
+def held_of(name: str, model: Model, arguments: tuple[Any, ...], options: dict[str, Any]) -> Any:
+    """The answer as the library holds it: a call of the bindings by its name."""
+    return getattr(_clearloci, name)(model._handle, *arguments, **options)
+
+
+def ask(make: Callable[[Any], Any], name: str, model: Model, *arguments: Any, **options: Any) -> Any:
+    """What `make` makes of the library's answer, one or a list; each remembers the question."""
+    held = held_of(name, model, arguments, options)
+    answer = make(held.data())
+    for one in answer if isinstance(answer, list) else [answer]:
+        object.__setattr__(one, "_question", (name, model, arguments, options))
+        object.__setattr__(one, "_map", held)
+    return answer
+
+
+@dataclass(frozen=True)
+class Validation(Asked):
+    """Loci held against reactions that are solved numerically: true where nothing is disputed."""
+
+    mechanism: str
+    grid: list[int]  #: nodes along each coordinate
+    validated: bool
+    held: int  #: edges between nodes, over all reactions
+    disputed: int
+    undecided: int
+    outside: int
+    reactions: list[dict[str, Any]]  #: the same, a reaction in a working mode
+    disputed_edges: list[dict[str, Any]]
+    arcs_held: int
+    arcs_undecided: int
+    disputed_arcs: list[dict[str, Any]]
+    format: int = 1
+
+    def __bool__(self) -> bool:
+        return self.validated
 
 
 class Loci(_Answer):

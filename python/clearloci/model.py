@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
 import numpy as np
 
 from . import _clearloci
-from .answers import Loci, Verification, Zones
-from .motion import CoordinateErrors, ErrorMap, Pose, Trajectory
+from .answers import Loci, Validation, Verification, Zones, ask
+from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
 from .poses import PoseVerification, PoseZone, PoseZones
 
 if TYPE_CHECKING:
@@ -97,18 +97,31 @@ class Model:
             text, file = "", os.fspath(task)
         else:
             text, file = text_of(task), "task"
-        return PoseVerification(**_clearloci.verify_poses(self._handle, text, file, **options))
+        return ask(lambda own: PoseVerification(**own), "verify_poses", self, text, file, **options)
 
     def pose_zones(self, cells: int = 300_000, **options: Any) -> PoseZones:
         """The discontinuity-free zones over one to three coordinates, angles among them, by so many cells."""
-        answer = _clearloci.find_pose_zones(self._handle, cells, **options)
-        return PoseZones(**{**answer, "zones": [PoseZone(**own) for own in answer["zones"]]})
 
-    def pose(self, at: Sequence[float], iterate: bool = False, **options: Any) -> Pose:
-        """Posture, reactions, take-up and pose error at one pose: a value a free coordinate, m or, of an angle, rad.
-        A float stands for the shortest decimal that reads back as it.
+        def zones_of(answer: dict[str, Any]) -> PoseZones:
+            return PoseZones(**{**answer, "zones": [PoseZone(**own) for own in answer["zones"]]})
+
+        return ask(zones_of, "find_pose_zones", self, cells, **options)
+
+    def validate(self, grid: Sequence[int] = (), **options: Any) -> Validation:
+        """The loci held against reactions that are solved numerically at the nodes of a grid: so many along each
+        coordinate, 400 each over two, 4000 over one, 40 each over three where none are given.
         """
-        return Pose(**_clearloci.solve_pose(self._handle, [float(value) for value in at], iterate, **options))
+        return ask(lambda own: Validation(**own), "validate_loci", self, [int(n) for n in grid], **options)
+
+    def pose(self, at: Sequence[float], iterate: bool = False, **options: Any) -> Pose | list[Pose]:
+        """Posture, reactions, take-up and pose error at one pose: a value a free coordinate, m or, of an angle, rad.
+        A float stands for the shortest decimal that reads back as it. With working_mode="all" a list: of the modes that
+        have the pose.
+        """
+        values = [float(value) for value in at]
+        if options.get("working_mode") == "all":
+            return ask(lambda own: [Pose(**one) for one in own], "solve_pose_in_modes", self, values, iterate)
+        return ask(lambda own: Pose(**own), "solve_pose", self, values, iterate, **options)
 
     def reactions(self, poses: ArrayLike, **options: Any) -> dict[str, np.ndarray]:
         """Scalar reactions, N and N m, at poses (n, coordinates): name -> (n,), NaN where a pose is out of reach."""
@@ -120,16 +133,33 @@ class Model:
         """The pose error over two coordinates, on a grid of (nx, ny) cells; one map a working mode, of a single one
         that map.
         """
-        answer = _clearloci.error_map(self._handle, *grid, worst_case, False, **options)
-        maps = [ErrorMap(coordinates=answer["coordinates"], **own) for own in answer["modes"]]
+
+        def maps_of(answer: dict[str, Any]) -> list[ErrorMap]:
+            return [ErrorMap(coordinates=answer["coordinates"], **own) for own in answer["modes"]]
+
+        maps = ask(maps_of, "error_map", self, *grid, worst_case, False, **options)
         return maps[0] if options.get("working_mode") != "all" else maps
+
+    def error_volume(
+        self, grid: tuple[int, int, int] = (40, 40, 40), worst_case: bool = True, **options: Any
+    ) -> ErrorVolume | list[ErrorVolume]:
+        """The pose error over three coordinates, on so many cells along each; one a working mode."""
+
+        def volumes_of(answer: dict[str, Any]) -> list[ErrorVolume]:
+            return [ErrorVolume(**own) for own in answer["modes"]]
+
+        volumes = ask(volumes_of, "error_volume", self, [int(n) for n in grid], worst_case, **options)
+        return volumes[0] if options.get("working_mode") != "all" else volumes
 
     def coordinate_errors(
         self, steps: int = 720, worst_case: bool = True, **options: Any
     ) -> CoordinateErrors | list[CoordinateErrors]:
         """The pose error over a single coordinate, with its jumps at the loci; one a working mode."""
-        answer = _clearloci.coordinate_errors(self._handle, steps, worst_case, **options)
-        all_modes = [CoordinateErrors(coordinate=answer["coordinate"], **own) for own in answer["modes"]]
+
+        def errors_of(answer: dict[str, Any]) -> list[CoordinateErrors]:
+            return [CoordinateErrors(coordinate=answer["coordinate"], **own) for own in answer["modes"]]
+
+        all_modes = ask(errors_of, "coordinate_errors", self, steps, worst_case, **options)
         return all_modes[0] if options.get("working_mode") != "all" else all_modes
 
     def trajectory(
@@ -144,11 +174,8 @@ class Model:
         """What happens along a motion file: reactions with inertia, take-up, contact losses, critical periods; over
         `periods` (s) the error of each.
         """
-        return Trajectory(
-            **_clearloci.follow_trajectory(
-                self._handle, os.fspath(path), period, samples, min_force, [float(p) for p in periods], **options
-            )
-        )
+        arguments = (os.fspath(path), period, samples, min_force, [float(p) for p in periods])
+        return ask(lambda own: Trajectory(**own), "follow_trajectory", self, *arguments, **options)
 
     def __repr__(self) -> str:
         return f"<clearloci.Model {self.name!r}>"

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .answers import Asked, Exported
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True)
-class Pose:
+class Pose(Asked):
     """One pose: places in m, reactions in N and N m, errors in m and rad."""
 
     at: list[float]
@@ -37,7 +39,7 @@ class Pose:
 
 
 @dataclass(frozen=True)
-class ErrorMap:
+class ErrorMap(Asked, Exported):
     """The pose error of one working mode over two coordinates; every field is an array (ny, nx), NaN where none is."""
 
     working_mode: dict[str, str]
@@ -66,7 +68,21 @@ class ErrorMap:
 
 
 @dataclass(frozen=True)
-class CoordinateErrors:
+class ErrorVolume(Asked, Exported):
+    """The pose error of one working mode over three coordinates; every field is an array indexed by the last coordinate
+    first, NaN where there is none."""
+
+    working_mode: dict[str, str]
+    fields: dict[str, np.ndarray]  #: "dx", "dy", "dz", "dalpha_x", ..., "dp", "worst_dx", ...
+    units: dict[str, str]
+    axes: dict[str, np.ndarray]  #: of each coordinate the middles of the cells, m or, of an angle, rad
+    reachable: int
+    undefined: int
+    never_loaded: list[str]
+
+
+@dataclass(frozen=True)
+class CoordinateErrors(Asked, Exported):
     """The pose error of one working mode over a single coordinate."""
 
     working_mode: dict[str, str]
@@ -78,7 +94,7 @@ class CoordinateErrors:
 
 
 @dataclass(frozen=True)
-class Trajectory:
+class Trajectory(Asked, Exported):
     """A motion: times in s, lengths in m, angles in rad, forces in N, couples in N m."""
 
     period: float

@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from .answers import Asked, Exported
+
 
 @dataclass(frozen=True)
-class PoseVerification:
+class PoseVerification(Asked):
     """Whether a task of poses keeps clear of every locus: true where that is proven. m, rad, N, N m."""
 
     verdict: str  #: "verified", "refuted", "undecided"
@@ -49,7 +51,7 @@ class PoseZone:
 
 
 @dataclass(frozen=True)
-class PoseZones:
+class PoseZones(Asked, Exported):
     """Zones over one to three coordinates, by cells; largest first."""
 
     zones: list[PoseZone]

@@ -25,7 +25,7 @@ class Examples : public testing::TestWithParam<std::string> {};
 TEST_P(Examples, HoldAgainstTheWitness) {
   LociRequest request;
   request.all_working_modes = true;
-  const LociValidation validation = validate_loci(example(GetParam()), request, {400, 400});
+  const Validation validation = validate_loci(example(GetParam()), request, {400, 400});
   EXPECT_EQ(validation.report.disputed, 0u);
   EXPECT_GT(validation.report.held, 1000u);
 }

@@ -471,7 +471,7 @@ class Laws {
 
   void nothing_is_disputed() {
     try {
-      const LociValidation validation = validate_loci(mechanism_, in_time(), {.nx = 60, .ny = 60});
+      const Validation validation = validate_loci(mechanism_, in_time(), {.nx = 60, .ny = 60});
       tally_.edges += static_cast<long>(validation.report.held);
       if (validation.report.disputed == 0) return;
       const numeric::DisputedEdge& edge = validation.report.disputed_edges.front();

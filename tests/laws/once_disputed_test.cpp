@@ -17,7 +17,7 @@ mechanism::Mechanism corpus(const std::string& name) {
 /// `certified`: every curve is to be.
 void hold(const std::string& name, bool certified, LociRequest request = {}) {
   SCOPED_TRACE(name);
-  const LociValidation validation = validate_loci(corpus(name), request, {60, 60});
+  const Validation validation = validate_loci(corpus(name), request, {60, 60});
   EXPECT_EQ(validation.report.disputed, 0u);
   EXPECT_GT(validation.report.held, 100u);
   for (const core::LocusCurve& curve : validation.map.curves)
@@ -39,7 +39,7 @@ TEST(OnceDisputed, AChordBesideABend) {
   request.working_modes = {{-1, -1}};  // right, right
   request.joints = {"A1"};
   request.quantities = {core::Quantity::fx};
-  const LociValidation validation = validate_loci(corpus("witness/coupler_with_large_roots"), request, {200, 200});
+  const Validation validation = validate_loci(corpus("witness/coupler_with_large_roots"), request, {200, 200});
   EXPECT_EQ(validation.report.disputed, 0u);
   EXPECT_GT(validation.report.held, 10000u);
 }
@@ -49,7 +49,7 @@ TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
   LociRequest request;
   request.joints = {"A2"};
   request.quantities = {core::Quantity::M};
-  const LociValidation validation = validate_loci(corpus("witness/prrr_r_node_on_the_rim"), request, {100, 100});
+  const Validation validation = validate_loci(corpus("witness/prrr_r_node_on_the_rim"), request, {100, 100});
   EXPECT_EQ(validation.report.disputed, 0u);
   double length = 0;
   for (const core::LocusCurve& curve : validation.map.curves)
@@ -95,7 +95,7 @@ TEST(OnceDisputed, SingularitiesWithinOneEdge) {
   LociRequest request;
   request.joints = {"A1"};
   request.quantities = {core::Quantity::fx};
-  const LociValidation validation = validate_loci(corpus("witness/stacked_5r_close_singularities"), request, {60, 60});
+  const Validation validation = validate_loci(corpus("witness/stacked_5r_close_singularities"), request, {60, 60});
   EXPECT_EQ(validation.report.disputed, 0u);
   EXPECT_GT(validation.report.held, 1000u);
 }

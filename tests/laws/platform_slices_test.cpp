@@ -106,8 +106,8 @@ mechanism::Mechanism read(const Platform& platform) {
   return mechanism::parse_mechanism(text_of(platform), "platform.yaml");
 }
 
-LociValidation hold(const mechanism::Mechanism& mechanism, int nodes) {
-  LociValidation validation = validate_loci(mechanism, {}, {nodes, nodes});
+Validation hold(const mechanism::Mechanism& mechanism, int nodes) {
+  Validation validation = validate_loci(mechanism, {}, {nodes, nodes});
   EXPECT_TRUE(validation.map.complete);
   EXPECT_FALSE(validation.map.curves.empty());
   EXPECT_EQ(validation.report.disputed, 0u);
@@ -119,7 +119,7 @@ LociValidation hold(const mechanism::Mechanism& mechanism, int nodes) {
 TEST(PlatformSlices, PlacesOnCirclesHoldAgainstTheWitness) { hold(read(six_three_on_circles()), 30); }
 
 TEST(PlatformSlices, AnAngleOfOneChartHoldsAgainstTheWitness) {
-  const LociValidation validation = hold(read(turning("[-60 deg, 60 deg]")), 40);
+  const Validation validation = hold(read(turning("[-60 deg, 60 deg]")), 40);
   EXPECT_EQ(validation.map.tower.coordinates, (std::vector<std::string>{"x", "t"}));
   EXPECT_EQ(validation.map.angles, (std::vector<bool>{false, true}));
   for (const core::LocusCurve& curve : validation.map.curves) {

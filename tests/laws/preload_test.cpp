@@ -25,7 +25,7 @@ mechanism::Mechanism example(const std::string& name) { return mechanism::read_m
 mechanism::Mechanism parsed(const std::string& text) { return mechanism::parse_mechanism(text, "m.yaml"); }
 
 void expect_witnessed(const mechanism::Mechanism& mechanism) {
-  const LociValidation validation = validate_loci(mechanism, {}, {120, 120});
+  const Validation validation = validate_loci(mechanism, {}, {120, 120});
   EXPECT_EQ(validation.report.disputed, 0U);
   EXPECT_GT(validation.report.held, 1000U);
 }
@@ -65,7 +65,7 @@ TEST(Preload, InSpaceToo) {
   const std::string text = {std::istreambuf_iterator<char>(file), {}};
   LociRequest request;
   request.joints = {"S1", "S4"};
-  const LociValidation validation = validate_loci(
+  const Validation validation = validate_loci(
       parsed(text + "springs: [{links: [ground, platform], at: [A1, P], stiffness: 300, free_length: 0.2}]\n"
                     "limits: [{distance: [A1, B1], within: [0.3, 0.7]}]\n"),
       request, {40, 40});

@@ -22,7 +22,7 @@ void hold(const std::string& text, int nodes) {
   const mechanism::Mechanism mechanism = mechanism::parse_mechanism(text, "random.yaml");
   LociRequest request;
   request.all_working_modes = true;
-  const LociValidation validation = validate_loci(mechanism, request, {nodes, nodes});
+  const Validation validation = validate_loci(mechanism, request, {nodes, nodes});
   EXPECT_EQ(validation.report.disputed, 0u);
   for (const numeric::DisputedArc& arc : validation.report.disputed_arcs)
     ADD_FAILURE() << arc.reaction.joint << "." << core::to_string(arc.reaction.quantity) << " along " << arc.curve

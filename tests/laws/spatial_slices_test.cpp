@@ -26,7 +26,7 @@ int designs(int usual) {
 void hold(const std::string& text, int nodes, double undecided = 0.01) {
   SCOPED_TRACE(text);
   const mechanism::Mechanism mechanism = mechanism::parse_mechanism(text, "random.yaml");
-  const LociValidation validation = validate_loci(mechanism, {}, {nodes, nodes});
+  const Validation validation = validate_loci(mechanism, {}, {nodes, nodes});
   EXPECT_TRUE(validation.map.complete);
   EXPECT_FALSE(validation.map.curves.empty());
   EXPECT_EQ(validation.report.disputed, 0u);
@@ -71,7 +71,7 @@ std::size_t joint_index(const mechanism::Mechanism& m, const std::string& name) 
 
 TEST(SpatialSlices, ALocusThatIsLeftOutOrMovedIsDisputed) {
   const mechanism::Mechanism m = slice();
-  const LociValidation good = validate_loci(m, {}, {60, 60});
+  const Validation good = validate_loci(m, {}, {60, 60});
   ASSERT_EQ(good.report.disputed, 0u);
   const auto wanted = selected_reactions(m, {});
   for (std::size_t c = 0; c < good.map.curves.size(); ++c) {

@@ -66,7 +66,7 @@ TEST_P(SymmetricDesigns, HoldAgainstTheWitness) {
       request.deadline =
           std::chrono::steady_clock::now() + std::chrono::seconds(from_environment("CLEARLOCI_PATIENCE", 60));
       const mechanism::Mechanism mechanism = mechanism::parse_mechanism(text, "symmetric.yaml");
-      const LociValidation validation = validate_loci(mechanism, request, {60, 60});
+      const Validation validation = validate_loci(mechanism, request, {60, 60});
       if (!validation.map.complete) {
         ++tally.late;
         continue;

@@ -220,7 +220,7 @@ std::string rods(const std::string& first, const std::string& second, const std:
 void hold(const std::string& text) {
   SCOPED_TRACE(text);
   const mechanism::Mechanism mechanism = mechanism::parse_mechanism(text, "symmetric.yaml");
-  const LociValidation validation = validate_loci(mechanism, {}, {40, 40});
+  const Validation validation = validate_loci(mechanism, {}, {40, 40});
   EXPECT_EQ(validation.report.disputed, 0u);
   EXPECT_GT(validation.report.held, 100u);
   EXPECT_TRUE(validation.report.disputed_arcs.empty());
@@ -274,7 +274,7 @@ TEST(Vanishing, AGuideLosesContactWhereAnEndLifts) {
 // The axis changes its length from pose to pose, so that N is known over that length only.
 TEST(Vanishing, TelescopesLoseContactWhereAnEndLifts) {
   const mechanism::Mechanism telescope = corpus("telescopes.yaml");
-  const LociValidation validation = validate_loci(telescope, {}, {60, 60});
+  const Validation validation = validate_loci(telescope, {}, {60, 60});
   EXPECT_EQ(validation.report.disputed, 0u);
   bool ahead = false, behind = false;
   for (const LocusCurve& curve : validation.map.curves) {

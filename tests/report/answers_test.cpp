@@ -144,7 +144,7 @@ TEST(ErrorText, SaysWhereTheLargestIs) {
 
 TEST(WriteError, WritesWhatIsAskedForAndNoMore) {
   const fixture::ScratchFolder folder;
-  const auto files = write_error(one_field(), folder.path(), {"csv", "vtk"});
+  const auto files = write_answer(one_field(), folder.path(), {"csv", "vtk"});
   ASSERT_EQ(files.size(), 3U);
   EXPECT_EQ(files[0].filename(), "error.json");
   EXPECT_EQ(files[1].filename(), "error.csv");
@@ -159,20 +159,45 @@ TEST(WriteError, HasNoMapOverOneCoordinate) {
   const fixture::ScratchFolder folder;
   core::CoordinateErrors errors;
   errors.mechanism = "Crank";
-  EXPECT_EQ(write_coordinate_errors(errors, folder.path(), {"vtk"}).size(), 1U) << "json alone";
+  EXPECT_EQ(write_answer(errors, folder.path(), {"vtk"}).size(), 1U) << "json alone";
 }
 
 TEST(ValidationObject, IsValidatedWhereNothingIsDisputed) {
-  LociValidation validation;
+  Validation validation;
   validation.map.mechanism = "Crank";
+  validation.nodes = {3, 4};
   validation.report.held = 7;
-  EXPECT_TRUE(validation_object(validation, {3, 4})["validated"]);
+  EXPECT_TRUE(validation_object(validation)["validated"]);
   validation.report.disputed = 1;
   validation.report.disputed_edges.push_back({{0, 1}, {2, 1}, {}, {"A", core::Quantity::M}, 1, false});
-  const nlohmann::ordered_json json = validation_object(validation, {3, 4});
+  const nlohmann::ordered_json json = validation_object(validation);
   EXPECT_FALSE(json["validated"]);
   EXPECT_EQ(json["grid"], nlohmann::ordered_json({3, 4}));
   EXPECT_EQ(json["disputed_edges"][0]["reaction"]["quantity"], "M");
+}
+
+TEST(ValidationText, SaysWhatIsDisputedAndWhere) {
+  Validation validation;
+  validation.map.mechanism = "Crank";
+  validation.map.lower = {0, 0};
+  validation.nodes = {3, 4};
+  validation.report.disputed = 1;
+  validation.report.disputed_edges.push_back({{0, 1}, {2, 1}, {}, {"A", core::Quantity::M}, 1, false});
+  const std::string text = validation_text(validation);
+  EXPECT_NE(text.find("Crank: loci against reactions at 3 x 4 nodes"), std::string::npos);
+  EXPECT_NE(text.find("disputed: M_A keeps its sign from (0, 1) to (2, 1), crossed by 1 arcs"), std::string::npos);
+}
+
+TEST(PoseInModesObject, HoldsTheModesThatHaveThePose) {
+  core::PoseInModes poses{"Crank", {}};
+  poses.modes.push_back({{{"B", "left"}}, {}, "point B cannot be placed"});
+  EXPECT_TRUE(pose_in_modes_object(poses)["poses"].empty());
+  EXPECT_EQ(pose_in_modes_text(poses), "B left: point B cannot be placed\n");
+  core::Pose pose;
+  pose.at = {0.5};
+  pose.angles = {false};
+  poses.modes.push_back({{{"B", "right"}}, pose, ""});
+  EXPECT_EQ(pose_in_modes_object(poses)["poses"].size(), 1U);
 }
 
 }  // namespace

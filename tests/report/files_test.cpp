@@ -79,7 +79,7 @@ TEST(Files, AFolderWithoutPermissionIsRefused) {
 TEST(WriteLoci, OneModeNeedsNoModeInItsNames) {
   const ScratchFolder scratch;
   const auto map = fixture::five_bar_map();
-  const std::vector<std::string> all = format_names(Answer::loci);
+  const std::vector<std::string> all = format_names<LociSheet>();
   const std::vector<core::ModeSketch> sketches = {
       {fixture::elbows_out(), fixture::five_bar_sketch(fixture::elbows_out())}};
   const auto written = write_loci({map, sketches}, scratch.path() / "out", {all.begin(), all.end()});
@@ -118,12 +118,17 @@ TEST(Formats, HoldWhatTheySay) {
   EXPECT_FALSE(can_hold("dxf", 3));
   EXPECT_TRUE(can_hold("stl", 3));
   EXPECT_FALSE(can_hold("stl", 2));
-  EXPECT_EQ(format_names(Answer::zones), (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson"}));
-  EXPECT_EQ(format_names(Answer::verification), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
-  EXPECT_EQ(format_names(Answer::error), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
-  EXPECT_EQ(format_names(Answer::coordinate_errors), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
-  EXPECT_EQ(format_names(Answer::trajectory), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
-  EXPECT_EQ(format_names(Answer::pose), (std::vector<std::string>{"json"}));
+  EXPECT_EQ(format_names<core::ZoneMap>(), (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson"}));
+  EXPECT_EQ(format_names<core::Verification>(), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
+  EXPECT_EQ(format_names<core::ErrorMap>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
+  EXPECT_EQ(format_names<core::CoordinateErrors>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
+  EXPECT_EQ(format_names<core::TrajectoryResult>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
+  EXPECT_EQ(format_names<core::Pose>(), (std::vector<std::string>{"json"}));
+  EXPECT_EQ(format_names<core::PoseInModes>(), (std::vector<std::string>{"json"}));
+  EXPECT_EQ(format_names<core::Validation>(), (std::vector<std::string>{"json"}));
+  EXPECT_EQ(format_names<core::PoseVerification>(), (std::vector<std::string>{"json"}));
+  EXPECT_EQ(format_names<VolumeSheet>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
+  EXPECT_EQ(format_names<core::PoseZones>(), (std::vector<std::string>{"json", "svg", "png", "pdf", "vtk", "stl"}));
 }
 
 }  // namespace

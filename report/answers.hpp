@@ -1,0 +1,27 @@
+// What is written to files: answers with what their pictures show besides, and the files that are made of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clearloci/error.hpp"
+#include "core/sketch.hpp"
+
+namespace clearloci::report {
+
+struct File {
+  std::string name, bytes;
+};
+using Files = std::vector<File>;
+
+struct LociSheet {
+  const core::LocusMap& map;
+  const std::vector<core::ModeSketch>& sketches;  ///< may be empty or lack modes
+};
+
+struct VolumeSheet {
+  const core::VolumeErrors& errors;
+  const std::vector<core::VolumeSlice>& slices;  ///< that are drawn; empty: one in the middle
+};
+
+}  // namespace clearloci::report
