@@ -1,6 +1,6 @@
 // What a SheetProgram runs: instructions without the numbers that stand in them. Designs that differ by numbers alone
 // share it, so that where a length is dragged or thousands of designs are tried it is compiled once.
-// Private to loci/sheet/.
+// Of interest to loci/sheet/ alone.
 #pragma once
 
 #include <cstdint>

@@ -85,7 +85,7 @@ TEST(OnceDisputed, AnEvenZeroBesideASingularity) {
   request.all_working_modes = true;
   request.joints = {"G1"};
   request.quantities = {core::Quantity::N};
-  const LociValidation validation = validate_loci(corpus("witness/one_rail_double_zero"), request, {60, 60});
+  const Validation validation = validate_loci(corpus("witness/one_rail_double_zero"), request, {60, 60});
   EXPECT_EQ(validation.report.disputed, 0u);
   EXPECT_GT(validation.report.held, 1000u);
 }
@@ -105,7 +105,7 @@ TEST(OnceDisputed, TwoSingularitiesThatHideTheirSigns) {
   LociRequest request;
   request.joints = {"B2"};
   request.quantities = {core::Quantity::fy};
-  const LociValidation validation = validate_loci(corpus("witness/stacked_5r_hidden_singularities"), request, {60, 60});
+  const Validation validation = validate_loci(corpus("witness/stacked_5r_hidden_singularities"), request, {60, 60});
   EXPECT_EQ(validation.report.disputed, 0u);
   EXPECT_GT(validation.report.held, 1000u);
 }
