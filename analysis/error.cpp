@@ -65,13 +65,6 @@ std::optional<ErrorSizes> sizes_of(const std::vector<double>& values, const std:
 }
 
 core::LocusMap loci_below(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
-  const bool torsion = std::any_of(mechanism.springs.begin(), mechanism.springs.end(),
-                                   [](const auto& spring) { return spring.kind == mechanism::Spring::Kind::torsion; });
-  if (torsion && request.with_loci) {
-    core::LocusMap none = empty_map(mechanism);
-    none.notes.emplace_back("no loci are drawn: torsion springs turn with angles, which are no polynomials");
-    return none;
-  }
   return request.with_loci ? with_modes(mechanism, trace_loci(mechanism, request.loci)) : empty_map(mechanism);
 }
 

@@ -62,7 +62,7 @@ std::string words_beyond(const numeric::NumericModel& model, const DyadSides& si
   // An angle between points that coincide keeps no limit, and is beyond it by nothing that has a size.
   if (const auto tightest = numeric::tightest_limit(model, at, sides); tightest && tightest->slack < 0) end = *tightest;
   const mechanism::Mechanism& m = model.mechanism;
-  return mechanism::words_of(m, m.limits[end.limit], end.upper);
+  return mechanism::words_of_end(m, end.limit, end.upper);
 }
 
 std::vector<double> components(mechanism::Space space, const Eigen::Vector3d& v) {

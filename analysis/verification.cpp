@@ -277,7 +277,7 @@ class Verifier {
   std::string limit_at(const Point2& at, double passes = 1e-9) const {
     const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(cases_.front().model, at, sides_);
     if (!end || end->slack > passes) return {};
-    return mechanism::words_of(mechanism_, mechanism_.limits[end->limit], end->upper);
+    return mechanism::words_of_end(mechanism_, end->limit, end->upper);
   }
 
   static OpenTask open_part(const loci::TaskProof& proof) {

@@ -165,7 +165,7 @@ class Reader {
     return integer(entry, "function", 0, static_cast<long>(c.functions.size()) - 1);
   }
 
-  /// "v0 v1 c1/2 +0,1 *2,3 i4": steps that use earlier ones.
+  /// "v0 v1 c1/2 +0,1 *2,3 i4 a5,4": steps that use earlier ones.
   StraightLine program(const std::string& words, std::size_t variables) const {
     StraightLine line;
     std::istringstream stream(words);
@@ -192,11 +192,11 @@ class Reader {
         } else {
           if (comma == std::string::npos) fail("a step lacks a number");
           step.second = small(rest.substr(comma + 1), known - 1);
-          const std::string operations = "+-*";
+          const std::string operations = "+-*a";
           const std::size_t which = operations.find(word[0]);
           if (which == std::string::npos) fail("an unknown step");
           step.operation = std::array{StraightLine::Operation::add, StraightLine::Operation::subtract,
-                                      StraightLine::Operation::multiply}[which];
+                                      StraightLine::Operation::multiply, StraightLine::Operation::angle}[which];
         }
       }
       line.steps.push_back(std::move(step));

@@ -82,6 +82,33 @@ inline Interval squared(const Interval& a) {
   mpfi_sqr(r.get(), a.get());
   return r;
 }
+/// Whether ways (x, y) may lie where their angles are cut, on the negative x axis.
+inline bool crosses_cut(const Interval& y, const Interval& x) {
+  return y.sign() == 0 && mpfr_cmp_si(&x.get()->left, 0) <= 0;
+}
+/// Of the ways (x, y) from the x axis, in [-pi, pi].
+inline Interval angle_of(const Interval& y, const Interval& x) {
+  Interval r(y.bits());
+  if (crosses_cut(y, x)) {
+    mpfi_const_pi(r.get());
+    mpfr_neg(&r.get()->left, &r.get()->right, MPFR_RNDD);
+  } else {
+    mpfi_atan2(r.get(), y.get(), x.get());
+  }
+  return r;
+}
+/// 1 / (x^2 + y^2), with which the angle changes; the whole line where it may jump.
+inline Interval angle_slope(const Interval& y, const Interval& x) {
+  Interval r(y.bits());
+  if (crosses_cut(y, x)) {
+    mpfr_set_inf(&r.get()->left, -1);
+    mpfr_set_inf(&r.get()->right, 1);
+  } else {
+    r = squared(x) + squared(y);
+    mpfi_inv(r.get(), r.get());
+  }
+  return r;
+}
 /// Of the numbers that have one: what is below 0 is left out.
 inline Interval root_of(const Interval& a) {
   Interval r(a);

@@ -88,6 +88,8 @@ void Sheet::run(std::size_t stage, std::vector<Interval>& values) const {
       mpfi_sub(r, a, b);
     else if (step.operation == Operation::inverse)
       mpfi_inv(r, a);
+    else if (step.operation == Operation::angle)
+      values[step.result] = angle_of(values[step.first], values[step.second]);
     else if (step.first == step.second)
       mpfi_sqr(r, a);
     else
@@ -109,6 +111,11 @@ void Sheet::run_slopes(std::size_t stage) {
         if (in_a) mpfi_mul(slope, da, values_[b].get());
         if (in_b) mpfi_mul(product.get(), values_[a].get(), db);
         if (in_b) mpfi_add(slope, slope, product.get());
+      } else if (operation == Operation::angle) {  // of (y, x): (x dy - y dx) / (x^2 + y^2)
+        if (in_a) mpfi_mul(slope, da, values_[b].get());
+        if (in_b) mpfi_mul(product.get(), values_[a].get(), db);
+        if (in_b) mpfi_sub(slope, slope, product.get());
+        mpfi_mul(slope, slope, angle_slope(values_[a], values_[b]).get());
       } else if (operation == Operation::inverse) {
         mpfi_sqr(product.get(), values_[r].get());
         mpfi_mul(slope, da, product.get());

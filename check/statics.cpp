@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "core/interpret.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -162,6 +163,23 @@ class Closure {
   const Sides& sides_;
 };
 
+/// A way at angle - rest of a torsion spring, from the direction of the first two points of `from` (the ground: x) to
+/// that of `to`.
+Vector off_rest(const Mechanism& m, const Pose& pose, const Posture& posture, const mechanism::Spring& spring) {
+  const auto direction = [&](mechanism::LinkIndex link) -> Vector {
+    if (link == mechanism::ground) return {pose.number(1), pose.number(0)};
+    const auto& points = m.links.at(static_cast<std::size_t>(link)).points;
+    const auto at = [&](std::size_t i) { return posture.points.at(static_cast<std::size_t>(points.at(i))); };
+    return at(1) - at(0);
+  };
+  const auto of_rest = [&](Expression::Kind function) {
+    return pose.value(Expression::apply(function, {spring.rest}));
+  };
+  const Interval c = of_rest(Expression::Kind::cos), s = of_rest(Expression::Kind::sin);
+  const Vector a = direction(spring.from), b = direction(spring.to), rest = c * a + s * left_of(a);
+  return {dot(rest, b), cross(rest, b)};
+}
+
 /// The matrix of the equations with the column -w_e behind it.
 class Equations {
  public:
@@ -245,9 +263,14 @@ class Equations {
 
   /// k v - k l0 v / |v| on the first end, v the way to the second one; F v / |v| of a constant force.
   void write_spring(const mechanism::Spring& spring) {
-    if (spring.kind == mechanism::Spring::Kind::torsion)
-      throw core::InputError({m_.file}, "a torsion spring, which check does not know", "");
     const std::size_t last = unknowns_.size();
+    if (spring.kind == mechanism::Spring::Kind::torsion) {
+      const Vector way = off_rest(m_, pose_, posture_, spring);
+      const Wrench back = couple(pose_.value(spring.stiffness) * angle_of(way[1], way[0]));
+      add(spring.to, last, back, 1);
+      add(spring.from, last, back, -1);
+      return;
+    }
     const Vector v = arm(spring.to_point) - arm(spring.from_point);
     const bool linear = spring.kind == mechanism::Spring::Kind::linear;
     const Interval k = pose_.value(spring.stiffness), l0 = pose_.value(spring.free_length);
@@ -296,6 +319,13 @@ void add_guide_ends(const Mechanism& m, const Posture& posture, const Interval& 
   }
 }
 
+/// What is left to half a turn off the rest, in the cosine.
+void add_reach(const Mechanism& m, const mechanism::Spring& spring, const Pose& pose, Posture& posture) {
+  const Vector way = off_rest(m, pose, posture, spring);
+  const Interval least = pose.value(Expression::number(mechanism::least_torsion_cosine()));
+  posture.squares.push_back(way[0] / root_of(square_of(way)) - least);
+}
+
 /// l^2 - |B - A|^2 and so on (docs/mechanism-file.md); of an angle in its cosine. False: a way may have no length.
 bool add_limit(const mechanism::Limit& limit, const Pose& pose, Posture& posture) {
   const auto at = [&](std::size_t i) { return posture.points.at(static_cast<std::size_t>(limit.points.at(i))); };
@@ -334,12 +364,13 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
     closure.result.divisors.push_back(square_of(at(spring.to_point) - at(spring.from_point)));
     if (closure.result.divisors.back().sign() == 0) return std::nullopt;
   }
-  for (const mechanism::Limit& limit : m.limits) {
-    const std::size_t before = closure.result.squares.size();
+  const std::size_t before = closure.result.squares.size();
+  for (const mechanism::Limit& limit : m.limits)
     if (!add_limit(limit, pose, closure.result)) return std::nullopt;
-    for (std::size_t j = before; j < closure.result.squares.size(); ++j)
-      if (closure.result.squares[j].below()) return std::nullopt;
-  }
+  for (const mechanism::Spring& spring : m.springs)
+    if (spring.kind == mechanism::Spring::Kind::torsion) add_reach(m, spring, pose, closure.result);
+  for (std::size_t j = before; j < closure.result.squares.size(); ++j)
+    if (closure.result.squares[j].below()) return std::nullopt;
   for (const mechanism::Joint& joint : m.joints)
     if (mechanism::traits(joint).slides)
       closure.result.divisors.push_back(square_of(pose.vector(joint.axes.at(0), closure.result.points)));
@@ -348,6 +379,7 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
 
 std::size_t limit_ends(const Mechanism& m) {
   std::size_t count = 0;
+  for (const mechanism::Spring& spring : m.springs) count += spring.kind == mechanism::Spring::Kind::torsion ? 1U : 0U;
   for (const mechanism::Limit& limit : m.limits)
     count += (limit.keeps_lower() ? 1U : 0U) + (limit.keeps_upper() ? 1U : 0U);
   return count;

@@ -138,6 +138,30 @@ inline Interval inverse(const Interval& a) {
   return {lower - std::abs(lower) * 0x1p-52, upper + std::abs(upper) * 0x1p-52};
 }
 
+/// Whether ways (x, y) may lie on the cut of their angles, the negative x axis with the origin.
+inline bool crosses_cut(const Interval& y, const Interval& x) { return x.lower() <= 0 && y.contains_zero(); }
+
+/// Of the ways (x, y) from the x axis. Off the cut the least and the largest are at corners, for the ways of one angle
+/// are a ray.
+inline Interval angle_of(const Interval& y, const Interval& x) {
+  constexpr double pi = 3.14159265358979323846;
+  constexpr double error = 0x1p-50;  // eight times what the library promises of its arc tangent
+  if (crosses_cut(y, x)) return {-pi - error, pi + error};
+  double lower = pi, upper = -pi;
+  for (const double b : {y.lower(), y.upper()})
+    for (const double a : {x.lower(), x.upper()}) {
+      const double angle = std::atan2(b, a);
+      lower = std::min(lower, angle);
+      upper = std::max(upper, angle);
+    }
+  return {lower - (std::abs(lower) * error + 0x1p-1000), upper + (std::abs(upper) * error + 0x1p-1000)};
+}
+
+/// 1 / (x^2 + y^2), with which the angle changes; where it may jump, nothing is known of that.
+inline Interval angle_slope(const Interval& y, const Interval& x) {
+  return crosses_cut(y, x) ? inverse(Interval(0.0)) : inverse(squared(x) + squared(y));
+}
+
 /// Square roots of the non-negative part of `a`; required: a.upper() >= 0.
 inline Interval square_root(const Interval& a) {
   const double lower = std::sqrt(std::max(0.0, a.lower())), upper = std::sqrt(a.upper());

@@ -18,6 +18,7 @@ int operands(Operation operation) {
     case Operation::add:
     case Operation::subtract:
     case Operation::multiply:
+    case Operation::angle:
       return 2;
     default:
       return 1;

@@ -22,7 +22,8 @@ struct PoseProgram {
     inverse,
     square_root,
     cosine,
-    sine
+    sine,
+    angle  ///< of the way (second, first) from the x axis
   };
   struct Step {
     Operation operation = Operation::constant;
@@ -53,6 +54,7 @@ class PoseProgramBuilder {
   int square_root(int a);
   int cosine(int a);
   int sine(int a);
+  int angle(int y, int x) { return make(Operation::angle, y, x); }
   int power(int base, int exponent);  ///< exponent >= 0
 
   /// Whether a step is a rational number, and which.

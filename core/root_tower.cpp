@@ -1,5 +1,7 @@
 #include "core/root_tower.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/errors.hpp"
@@ -21,6 +23,24 @@ std::vector<WorkingMode> all_working_modes(const RootTower& tower, const Working
     modes.push_back(std::move(mode));
   }
   return modes;
+}
+
+std::optional<double> root_value(const Root& root, int sign, std::span<const double> at) {
+  if (root.is_angle())
+    return angle_shift + std::atan2(evaluate(root.cosine_and_sine[1], at), evaluate(root.cosine_and_sine[0], at));
+  const double square = evaluate(root.square, at);
+  if (!(square >= 0)) return std::nullopt;
+  return sign * std::sqrt(square);
+}
+
+StraightLine line_of_angle(const StraightLine& sine, const StraightLine& cosine) {
+  StraightLineBuilder builder;
+  const int y = builder.append(sine), x = builder.append(cosine);
+  return builder.line(builder.power(builder.add(builder.constant(angle_shift), builder.angle(y, x)), 2));
+}
+
+bool has_angles(const RootTower& tower) {
+  return std::any_of(tower.roots.begin(), tower.roots.end(), [](const Root& root) { return root.is_angle(); });
 }
 
 TowerNames names_of(const RootTower& tower) {

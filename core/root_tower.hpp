@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,9 @@
 
 namespace clearloci::inline core {
 
-/// One root s = +-sqrt(square). `point` is the constructed point that it places ("B1").
+/// One root s = +-sqrt(square), or what stands for an angle among them: s = 4 + angle of (cosine, sine), which is
+/// positive, so that it is +sqrt(line) with line = (4 + angle)^2 like any root of role `length`, but no algebraic
+/// number. `point` is the constructed point that it places ("B1").
 struct Root {
   std::string name;   ///< "s1"
   std::string point;  ///< constructed point, e.g. "B1"
@@ -21,8 +25,25 @@ struct Root {
   Polynomial square;  ///< in (coordinates..., s1...sm), where only earlier roots occur; a positive multiple of Q_j
   /// What the signs + and - of a working mode are called.
   std::array<std::string, 2> sides = {"left", "right"};
-  StraightLine line = {};  ///< the same element as it is computed; may be empty
+  StraightLine line = {};  ///< the same element as it is computed; may be empty, but of an angle
+  /// Of an angle: positive multiples of its cosine and sine, in the same variables; `square` is the sum of their
+  /// squares.
+  std::vector<Polynomial> cosine_and_sine = {};
+  /// Of what is left to where an angle is cut: the `point` of the angle's root. No sheet with the angle goes on there.
+  std::string bounds = {};
+
+  bool is_angle() const { return !cosine_and_sine.empty(); }
 };
+
+/// Rewrites every polynomial of a root, as in other variables.
+template <class Rewrite>
+void rewrite(Root& root, const Rewrite& as) {
+  root.square = as(root.square);
+  for (Polynomial& part : root.cosine_and_sine) part = as(part);
+}
+
+/// What is added to an angle to be its root: more than half a turn, and exact.
+inline constexpr int angle_shift = 4;
 
 /// The way from one end of a dyad to the other, over the tower: numerators over a positive denominator, and the way as
 /// it is computed. Where both vanish the construction is undefined.
@@ -42,6 +63,15 @@ struct RootTower {
 
   int variables() const { return static_cast<int>(coordinates.size() + roots.size()); }
 };
+
+/// The value of a root, signed, from those of the variables before it; nothing where its square is negative.
+std::optional<double> root_value(const Root& root, int sign, std::span<const double> at);
+
+/// The square of an angle's root, of multiples of its sine and cosine by the same positive factor.
+StraightLine line_of_angle(const StraightLine& sine, const StraightLine& cosine);
+
+/// Whether an angle is among the roots: what is written with it has no implicit polynomials.
+bool has_angles(const RootTower& tower);
 
 /// What the names in the tower are, without its algebra.
 TowerNames names_of(const RootTower& tower);

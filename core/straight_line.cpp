@@ -76,6 +76,8 @@ int StraightLineBuilder::inverse(int a) {
   return make(Operation::inverse, a, 0);
 }
 
+int StraightLineBuilder::angle(int y, int x) { return make(Operation::angle, y, x); }
+
 int StraightLineBuilder::power(int base, int exponent) {
   if (exponent == 0) return one_;
   if (exponent == 1) return base;
@@ -110,6 +112,37 @@ int StraightLineBuilder::horner(const std::vector<const Term*>& terms, std::size
     previous = exponent;
   }
   return multiply(result, power(variables[v], previous));
+}
+
+int StraightLineBuilder::append(const StraightLine& line) {
+  std::vector<int> place;
+  for (const StraightLine::Step& step : line.steps) {
+    const auto operand = [&](int index) { return place[static_cast<std::size_t>(index)]; };
+    switch (step.operation) {
+      case Operation::constant:
+        place.push_back(constant(step.value(), step.radius()));
+        break;
+      case Operation::variable:
+        place.push_back(variable(step.first));
+        break;
+      case Operation::add:
+        place.push_back(add(operand(step.first), operand(step.second)));
+        break;
+      case Operation::subtract:
+        place.push_back(subtract(operand(step.first), operand(step.second)));
+        break;
+      case Operation::multiply:
+        place.push_back(multiply(operand(step.first), operand(step.second)));
+        break;
+      case Operation::inverse:
+        place.push_back(inverse(operand(step.first)));
+        break;
+      case Operation::angle:
+        place.push_back(angle(operand(step.first), operand(step.second)));
+        break;
+    }
+  }
+  return place.back();
 }
 
 StraightLine StraightLineBuilder::line(int result) const {

@@ -12,7 +12,8 @@
 namespace clearloci::inline core {
 
 struct StraightLine {
-  enum class Operation { constant, variable, add, subtract, multiply, inverse };
+  /// `angle`: of the way (second, first) from the x axis, in (-pi, pi].
+  enum class Operation { constant, variable, add, subtract, multiply, inverse, angle };
   struct Constant {
     Rational value, radius;  ///< the number is known to be within the radius of the value
   };
@@ -51,10 +52,15 @@ class StraightLineBuilder {
   int subtract(int a, int b);
   int multiply(int a, int b);
   int inverse(int a);
+  /// Of the way (x, y) from the x axis.
+  int angle(int y, int x);
   int power(int base, int exponent);
   /// Horner's scheme in the last variable, its coefficients likewise in those before. `variables`: one step a variable;
   /// that of one which does not occur is not looked at.
   int polynomial(const Polynomial& p, const std::vector<int>& variables);
+
+  /// All steps of another line; its result here.
+  int append(const StraightLine& line);
 
   /// The steps that a result needs.
   StraightLine line(int result) const;

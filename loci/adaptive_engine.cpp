@@ -57,6 +57,7 @@ bool replaces(const LocusCurve& curve, const LocusProblem& problem, const SheetS
 /// that it settled.
 void settle_exactly(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares,
                     LocusMap& map) {
+  if (core::has_angles(problem.tower)) return;  // its algebra knows roots of polynomials only
   const auto factor_of = [&](const SheetShare& share) -> const LocusFactor& {
     return problem.factors[static_cast<std::size_t>(share.factor)];
   };

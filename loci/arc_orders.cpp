@@ -130,6 +130,13 @@ bool ArcOrders::place_roots_on(int side) {
   std::vector<Germ>& squares = squares_[side];
   squares.clear();
   for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
+    if (tower_.roots[j].is_angle()) {
+      std::vector<MultiInterval> at = at_;
+      at.resize(static_cast<std::size_t>(tower_.variables()), MultiInterval(0.0));
+      at_.push_back(sheet::angle_root(tower_.roots[j], at));
+      squares.push_back(Germ{0, 1});
+      continue;
+    }
     const std::optional<Germ> square = germ(tower_.roots[j].square, side);
     if (!square) decided_ = false;
     if (!square || square->sign < 0) return false;
@@ -147,6 +154,27 @@ std::optional<Germ> ArcOrders::coordinate_germ(const Polynomial& p, int side) {
   const int cofactor = sign_at_point(own.rest);
   if (cofactor == 0) return std::nullopt;
   return Germ{own.order, own.order % 2 == 0 ? cofactor : side * cofactor};
+}
+
+/// By powers of the angle's root, which is positive: told where the lowest order is that of one of them alone.
+std::optional<Germ> ArcOrders::germ_with_angle(const Polynomial& p, int root, int side) {
+  const std::size_t variable = tower_.coordinates.size() + static_cast<std::size_t>(root);
+  std::map<int, Polynomial> powers;
+  for (core::Term term : p.terms) {
+    Polynomial& own = powers[std::exchange(term.exponents[variable], 0)];
+    own.variables = p.variables;
+    own.terms.push_back(std::move(term));
+  }
+  Germ lowest;
+  bool several = false;
+  for (const auto& [power, coefficient] : powers) {
+    const std::optional<Germ> own = germ(coefficient, side);
+    if (!own) return std::nullopt;
+    if (own->is_zero() || (!lowest.is_zero() && own->order > lowest.order)) continue;
+    several = !lowest.is_zero() && own->order == lowest.order;
+    lowest = *own;
+  }
+  return several ? std::nullopt : std::optional(lowest);
 }
 
 /// +1 or -1 where it is proven, else 0.
@@ -167,6 +195,7 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
   if (const int sign = sign_at_point(p); sign != 0) return Germ{0, sign};
   const int top = top_root(p, tower_);
   if (top < 0) return coordinate_germ(p, side);
+  if (tower_.roots[static_cast<std::size_t>(top)].is_angle()) return germ_with_angle(p, top, side);
   const auto [a, b] = split(p, static_cast<int>(tower_.coordinates.size()) + top);
   const Germ& square = squares_.at(side)[static_cast<std::size_t>(top)];
   std::optional<Germ> plain = germ(a, side);

@@ -84,6 +84,7 @@ class ArcOrders {
   bool place_roots_on(int side);
   std::optional<Germ> coordinate_germ(const core::Polynomial& p, int side);
   int sign_at_point(const core::Polynomial& p);
+  std::optional<Germ> germ_with_angle(const core::Polynomial& p, int root, int side);
 
   const core::RootTower& tower_;
   core::WorkingMode mode_;

@@ -74,6 +74,10 @@ std::vector<MultiInterval> on_sheet(const core::RootTower& tower, const WorkingM
   for (std::size_t i = 0; i < 2; ++i) variables.emplace_back(at.lower[i], at.upper[i]);
   variables.resize(static_cast<std::size_t>(tower.variables()), MultiInterval(core::Rational(0)));
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    if (tower.roots[j].is_angle()) {
+      variables[2 + j] = sheet::angle_root(tower.roots[j], variables);
+      continue;
+    }
     const MultiInterval square = evaluate(tower.roots[j].square, variables);
     if (!square.non_negative()) return {};
     const MultiInterval root = square_root(square);
@@ -135,9 +139,9 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
     std::vector<double> at = {p[0], p[1]};
     at.resize(static_cast<std::size_t>(tower.variables()), 0.0);
     for (std::size_t j = 0; j < tower.roots.size(); ++j) {
-      const double square = core::evaluate(tower.roots[j].square, std::span<const double>(at));
-      if (!(square >= 0)) return std::nullopt;
-      at[2 + j] = mode[j] * std::sqrt(square);
+      const std::optional<double> root = core::root_value(tower.roots[j], mode[j], at);
+      if (!root) return std::nullopt;
+      at[2 + j] = *root;
     }
     return core::Point2{core::evaluate(first, std::span<const double>(at)),
                         core::evaluate(second, std::span<const double>(at))};

@@ -50,6 +50,10 @@ class Place {
       : tower_(tower), root_(root) {
     values_.emplace_back(lower, upper);
     for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+      if (tower.roots[j].is_angle()) {
+        place_angle(tower.roots[j]);
+        continue;
+      }
       const int square = sign(tower.roots[j].square);
       if (square < 0) {
         reachable_ = false;
@@ -70,11 +74,13 @@ class Place {
     return list;
   }
 
-  /// Exact: intervals where they decide, else signs of the parts (loci/sheet_sign.hpp).
+  /// Exact: intervals where they decide, else signs of the parts (loci/sheet_sign.hpp). Of what holds an angle 0 means
+  /// that it is not told from zero.
   int sign(const Polynomial& p) {
     const int quick = evaluate(p, values_).sign();
     if (quick != 0 || p.is_zero()) return quick;
     if (root_ == nullptr) throw NotTold{};
+    if (has_angle(p, tower_)) return 0;
     const int top = top_root(p, tower_);
     if (top < 0) return sign_at(univariate_signed(p), *root_) * leading_sign(p);
     const auto [a, b] = split(p, static_cast<int>(tower_.coordinates.size()) + top);
@@ -86,6 +92,14 @@ class Place {
   }
 
  private:
+  void place_angle(const core::Root& root) {
+    const std::size_t placed = values_.size();
+    values_.resize(static_cast<std::size_t>(tower_.variables()), MultiInterval(0.0));
+    const MultiInterval turned = sheet::angle_root(root, values_);
+    values_.resize(placed);
+    values_.push_back(turned);
+    signs_.push_back(1);
+  }
   Univariate univariate_signed(const Polynomial& p) const { return univariate(core::with_variables(p, 1)); }
   /// `univariate` makes the leading coefficient positive.
   static int leading_sign(const Polynomial& p) { return sgn(p.terms.front().coefficient); }
@@ -97,8 +111,11 @@ class Place {
   bool reachable_ = true;
 };
 
+/// How the zeros of a factor are found. `open`: it holds an angle, and enclosures have not told its zeros.
+enum class Search { by_polynomial, on_sheet, open };
+
 /// Every value of the coordinate where some factor may vanish, ascending, but for those that are looked for on sheets.
-std::vector<RealRoot> candidates(const LocusProblem& problem, const std::vector<bool>& on_sheets) {
+std::vector<RealRoot> candidates(const LocusProblem& problem, const std::vector<Search>& searches) {
   std::vector<Univariate> polynomials;
   const auto add = [&](const Polynomial& p) {
     if (p.is_zero() || p.is_constant()) return;
@@ -108,11 +125,12 @@ std::vector<RealRoot> candidates(const LocusProblem& problem, const std::vector<
   };
   for (std::size_t f = 0; f < problem.factors.size(); ++f) {
     const LocusFactor& factor = problem.factors[f];
-    if (factor.role == FactorRole::construction || on_sheets[f]) continue;
+    if (factor.role == FactorRole::construction || searches[f] != Search::by_polynomial) continue;
     for (const Polynomial& p : factor.implicit) add(p);
     if (factor.implicit.empty()) add(norm(factor.sheet, problem.tower));
   }
-  for (const core::Root& root : problem.tower.roots) add(norm(root.square, problem.tower));
+  for (const core::Root& root : problem.tower.roots)
+    if (!root.is_angle() && !has_angle(root.square, problem.tower)) add(norm(root.square, problem.tower));
   std::vector<RealRoot> roots;
   for (const Univariate& p : coprime_base(polynomials))
     for (RealRoot& root : real_roots(p, problem.lower[0], problem.upper[0])) {
@@ -145,14 +163,11 @@ CoordinateGerm germs_at(RealRoot& root) {
   };
 }
 
-/// Factors whose zeros are looked for on the sheets.
-std::vector<bool> heavy_factors(const LocusProblem& problem) {
-  std::vector<bool> heavy;
-  for (const LocusFactor& factor : problem.factors)
-    heavy.push_back(factor.implicit.empty() && factor.role != FactorRole::construction &&
-                    factor.role != FactorRole::workspace_boundary &&
-                    norm_degree(factor.sheet, problem.tower) > heavy_degree);
-  return heavy;
+Search search_of(const LocusFactor& factor, const core::RootTower& tower) {
+  if (factor.role == FactorRole::construction || !factor.implicit.empty()) return Search::by_polynomial;
+  if (has_angle(factor.sheet, tower)) return Search::on_sheet;
+  const bool heavy = factor.role != FactorRole::workspace_boundary && norm_degree(factor.sheet, tower) > heavy_degree;
+  return heavy ? Search::on_sheet : Search::by_polynomial;
 }
 
 bool is_reaction_or_determinant(const LocusFactor& factor) {
@@ -192,33 +207,64 @@ std::vector<EdgeLabel> labels_from(const LocusProblem& problem, const ReactionOr
 std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::WorkingMode& mode, RealRoot& root,
                                  Place& place) {
   std::vector<int> compared;
+  std::vector<const LocusFactor*> untold;
   std::vector<bool> vanishing(problem.factors.size()), margins(problem.factors.size());
+  bool proven = true;
   for (std::size_t f = 0; f < problem.factors.size(); ++f) {
     const LocusFactor& factor = problem.factors[f];
     vanishing[f] = factor.role != FactorRole::construction && place.sign(factor.sheet) == 0;
-    if (vanishing[f] && is_reaction_or_determinant(factor)) compared.push_back(static_cast<int>(f));
+    if (!vanishing[f]) continue;
+    // Whether what holds an angle vanishes at the very zero of something else is never told.
+    if (has_angle(factor.sheet, problem.tower)) {
+      proven = false;
+      if (factor.role == FactorRole::reaction) untold.push_back(&factor);
+    } else if (is_reaction_or_determinant(factor)) {
+      compared.push_back(static_cast<int>(f));
+    }
   }
   ArcOrders point(problem.tower, mode, germs_at(root), {{root.lower, root.upper}});
   const ReactionOrders orders = compared.empty() ? ReactionOrders{} : reaction_orders(problem, point, compared);
   // The end of the range and of the reach at once: no side to come from.
-  core::ensure(compared.empty() || orders.decided || point.sides().empty(), "orders at a point are always decided");
-  for (std::size_t f = 0; f < problem.factors.size(); ++f)
-    margins[f] = vanishing[f] && problem.factors[f].role == FactorRole::margin &&
-                 is_margin(problem.factors[f], point).value_or(true);
-  return labels_from(problem, orders, vanishing, margins);
+  const bool decided = compared.empty() || orders.decided || point.sides().empty();
+  core::ensure(decided || core::has_angles(problem.tower), "orders at a point are always decided");
+  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+    if (!vanishing[f] || problem.factors[f].role != FactorRole::margin) continue;
+    margins[f] =
+        has_angle(problem.factors[f].sheet, problem.tower) || is_margin(problem.factors[f], point).value_or(true);
+  }
+  std::vector<EdgeLabel> labels = labels_from(problem, orders, vanishing, margins);
+  if (!untold.empty() && !orders.singular) {
+    EdgeLabel label = reaction_label(problem, untold);
+    if (!label.vanishing.empty()) labels.insert(labels.begin(), std::move(label));
+  }
+  for (EdgeLabel& label : labels) label.proven = proven && decided;
+  return labels;
 }
 
-/// The same at a simple zero of one factor where nothing else vanishes. Throws NotTold where something else may.
+/// The same at a simple zero of one factor where nothing else vanishes. Where something else may, throws NotTold; with
+/// an angle, which polynomials would tell nothing of, it is not proven.
 std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor, Place& place) {
   std::vector<bool> vanishing(problem.factors.size()), margins(problem.factors.size());
+  const bool own_angle = has_angle(problem.factors[factor].sheet, problem.tower);
+  bool proven = true;
+  const auto look_at = [&](const Polynomial& other) {
+    try {
+      place.sign(other);
+    } catch (const NotTold&) {
+      if (!own_angle && !has_angle(other, problem.tower)) throw;
+      proven = false;
+    }
+  };
   for (std::size_t f = 0; f < problem.factors.size(); ++f)
-    if (f != factor && problem.factors[f].role != FactorRole::construction) place.sign(problem.factors[f].sheet);
-  for (const auto& [sheet, power] : problem.factors[factor].cleared) place.sign(sheet);
+    if (f != factor && problem.factors[f].role != FactorRole::construction) look_at(problem.factors[f].sheet);
+  for (const auto& [sheet, power] : problem.factors[factor].cleared) look_at(sheet);
   vanishing[factor] = true;
   margins[factor] = problem.factors[factor].role == FactorRole::margin;
   const bool compared = is_reaction_or_determinant(problem.factors[factor]);
-  return labels_from(problem, compared ? orders_at_simple_zero(problem, static_cast<int>(factor)) : ReactionOrders{},
-                     vanishing, margins);
+  const ReactionOrders orders = compared ? orders_at_simple_zero(problem, static_cast<int>(factor)) : ReactionOrders{};
+  std::vector<EdgeLabel> labels = labels_from(problem, orders, vanishing, margins);
+  for (EdgeLabel& label : labels) label.proven = proven;
+  return labels;
 }
 
 /// Whether a mode reaches the open interval between two neighbouring candidates.
@@ -240,10 +286,10 @@ struct Event {
 
 /// The zeros on a mode's sheet of the factors that are looked for there; `refused`: the first for which that failed.
 std::optional<std::vector<Event>> zeros_on_sheet(const LocusProblem& problem, const core::WorkingMode& mode,
-                                                 std::vector<RealRoot>& roots, const std::vector<bool>& on_sheets,
+                                                 std::vector<RealRoot>& roots, const std::vector<Search>& searches,
                                                  std::size_t& refused) {
   std::vector<Event> events;
-  if (std::find(on_sheets.begin(), on_sheets.end(), true) == on_sheets.end()) return events;
+  if (std::find(searches.begin(), searches.end(), Search::on_sheet) == searches.end()) return events;
   struct End {
     StretchEnd place;
     std::optional<Place> at;
@@ -264,7 +310,7 @@ std::optional<std::vector<Event>> zeros_on_sheet(const LocusProblem& problem, co
   const Rational width = range / Rational(core::Integer(1) << halvings),
                  enough = range / Rational(core::Integer(1) << least_halvings);
   for (std::size_t f = 0; f < problem.factors.size(); ++f) {
-    if (!on_sheets[f]) continue;
+    if (searches[f] != Search::on_sheet) continue;
     refused = f;
     SheetRoots search(problem.tower, mode, problem.factors[f]);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
@@ -285,15 +331,19 @@ std::optional<std::vector<Event>> zeros_on_sheet(const LocusProblem& problem, co
 
 /// Adds the points of a mode. False: they are not all told, and the factor `refused` is to be eliminated.
 bool add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::vector<RealRoot>& roots,
-              const std::vector<bool>& on_sheets, LocusMap& map, std::size_t& refused) {
-  std::optional<std::vector<Event>> events = zeros_on_sheet(problem, mode, roots, on_sheets, refused);
+              const std::vector<Search>& searches, LocusMap& map, std::size_t& refused) {
+  std::optional<std::vector<Event>> events = zeros_on_sheet(problem, mode, roots, searches, refused);
   if (!events) return false;
   for (RealRoot& root : roots) events->push_back({&root, {}, 0});
   std::sort(events->begin(), events->end(), [](const Event& a, const Event& b) { return a.lower() < b.lower(); });
   for (std::size_t i = 0; i + 1 < events->size(); ++i) {
     const Event &a = (*events)[i], &b = (*events)[i + 1];
     if (a.upper() < b.lower() || (a.exact != nullptr && b.exact != nullptr)) continue;
-    refused = a.exact == nullptr ? a.factor : b.factor;  // perhaps one point: only polynomials can tell
+    const auto holds_angle = [&](const Event& event) {
+      return event.exact == nullptr && has_angle(problem.factors[event.factor].sheet, problem.tower);
+    };
+    if (holds_angle(a) || holds_angle(b)) continue;      // perhaps one point: labels say that it is not proven
+    refused = a.exact == nullptr ? a.factor : b.factor;  // only polynomials can tell
     return false;
   }
   std::vector<core::IsolatedPoint> points;
@@ -334,7 +384,7 @@ bool add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::v
       point.vanishing = std::move(label.vanishing);
       point.at = {at};
       point.mode = mode;
-      point.certified = true;
+      point.certified = label.proven;
       point.factor = std::move(label.factor);
       point.cause = std::move(label.cause);
       point.excited = label.excited;
@@ -351,16 +401,24 @@ bool add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::v
 
 void add_points_of_one_coordinate(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
   core::ensure(problem.tower.coordinates.size() == 1, "one free coordinate");
-  std::vector<bool> on_sheets = heavy_factors(problem);
-  std::vector<RealRoot> roots = candidates(problem, on_sheets);
+  std::vector<Search> searches;
+  for (const LocusFactor& factor : problem.factors) searches.push_back(search_of(factor, problem.tower));
+  std::vector<RealRoot> roots = candidates(problem, searches);
   for (std::size_t m = 0; m < problem.modes.size(); ++m) {
     if (options.progress) options.progress(static_cast<double>(m) / static_cast<double>(problem.modes.size()), "roots");
     for (std::size_t refused = 0;;) {
       if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
         throw core::LimitReached("the time limit was reached");
-      if (add_mode(problem, problem.modes[m], roots, on_sheets, map, refused)) break;
-      on_sheets[refused] = false;
-      roots = candidates(problem, on_sheets);
+      if (add_mode(problem, problem.modes[m], roots, searches, map, refused)) break;
+      const LocusFactor& factor = problem.factors[refused];
+      if (has_angle(factor.sheet, problem.tower)) {
+        searches[refused] = Search::open;
+        map.notes.push_back("undecided: where " + (factor.cause.empty() ? factor.expression : factor.cause) +
+                            " vanishes, which holds an angle that enclosures do not tell from its zeros");
+      } else {
+        searches[refused] = Search::by_polynomial;
+        roots = candidates(problem, searches);
+      }
     }
   }
 }

@@ -175,9 +175,9 @@ bool is_on_sheet(const core::RootTower& tower, const core::WorkingMode& mode, co
   values[0] = at[0];
   values[1] = at[1];
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
-    const double square = core::evaluate(tower.roots[j].square, std::span<const double>(values));
-    if (!(square >= 0)) return false;
-    values[2 + j] = mode[j] * std::sqrt(square);
+    const std::optional<double> root = core::root_value(tower.roots[j], mode[j], values);
+    if (!root) return false;
+    values[2 + j] = *root;
   }
   return true;
 }

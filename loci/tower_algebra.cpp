@@ -47,6 +47,15 @@ int top_root(const Polynomial& p, const core::RootTower& tower) {
   return top;
 }
 
+bool has_angle(const Polynomial& p, const core::RootTower& tower) {
+  for (int j = 0; j < static_cast<int>(tower.roots.size()); ++j) {
+    if (!core::depends_on(p, static_cast<int>(tower.coordinates.size()) + j)) continue;
+    const core::Root& root = tower.roots[static_cast<std::size_t>(j)];
+    if (root.is_angle() || has_angle(root.square, tower)) return true;
+  }
+  return false;
+}
+
 Polynomial conjugate_product(const Polynomial& p, int root, const core::RootTower& tower) {
   const auto [a, b] = split(p, static_cast<int>(tower.coordinates.size()) + root);
   return reduce(a * a - b * b * tower.roots[static_cast<std::size_t>(root)].square, tower);

@@ -16,10 +16,13 @@ core::Polynomial reduce(core::Polynomial p, const core::RootTower& tower);
 /// The last root that occurs in p; -1: none.
 int top_root(const core::Polynomial& p, const core::RootTower& tower);
 
+/// Whether an element holds an angle: then it is no algebraic number, and has no norm.
+bool has_angle(const core::Polynomial& p, const core::RootTower& tower);
+
 /// Product of an element with its conjugates under the sign of root `root`: a^2 - b^2 Q.
 core::Polynomial conjugate_product(const core::Polynomial& p, int root, const core::RootTower& tower);
 
-/// Every root eliminated: in the coordinates alone, zero wherever p is.
+/// Every root eliminated: in the coordinates alone, zero wherever p is. Required: no angle.
 core::Polynomial norm(core::Polynomial p, const core::RootTower& tower);
 
 /// A bound on the degree of an element's norm, before anything is divided out.

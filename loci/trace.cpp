@@ -58,6 +58,9 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
     if (coordinates == 1) {
       add_points_of_one_coordinate(problem, options, map);
     } else {
+      if (options.engine == Engine::exact && core::has_angles(problem.tower))
+        throw core::InputError({}, "the exact engine knows polynomials only, and torsion springs turn with angles",
+                               "leave --engine exact out");
       Found found = finder_of(options.sketch ? Engine::adaptive : options.engine)(problem, options);
       map = std::move(found.map);
       add_points(problem, options, found.withheld, map);

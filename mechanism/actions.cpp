@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 
@@ -70,6 +71,31 @@ std::vector<Action> actions(const Mechanism& mechanism) {
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
     if (mechanism.joints[j].effort) all.push_back(action_of(mechanism.joints[j], j));
   return all;
+}
+
+core::Rational least_torsion_cosine() { return {-9999985, 10000000}; }
+
+std::string words_of_reach(const Spring& spring) {
+  return "torsion spring " + spring.name + " half a turn off its rest";
+}
+
+std::string words_of_end(const Mechanism& mechanism, std::size_t limit, bool upper) {
+  if (limit < mechanism.limits.size()) return words_of(mechanism, mechanism.limits[limit], upper);
+  std::size_t left = limit - mechanism.limits.size();
+  for (const Spring& spring : mechanism.springs)
+    if (spring.kind == Spring::Kind::torsion && left-- == 0) return words_of_reach(spring);
+  core::ensure(false, "a limit or a torsion spring");
+  return {};
+}
+
+VectorExpression direction_of(const Mechanism& mechanism, LinkIndex link) {
+  if (link == ground) {
+    std::vector<Expression> axis(dimension(mechanism), Expression::number(0));
+    axis.front() = Expression::number(1);
+    return {VectorExpression::Kind::components, std::move(axis), 0, {}};
+  }
+  const std::vector<PointIndex>& points = mechanism.links[static_cast<std::size_t>(link)].points;
+  return way(points.at(0), points.at(1));
 }
 
 VectorExpression way(PointIndex from, PointIndex to) {

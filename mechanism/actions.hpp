@@ -37,6 +37,18 @@ struct Action {
 /// The springs in the file's order, then the actuators.
 std::vector<Action> actions(const Mechanism& mechanism);
 
+/// A torsion spring is known within half a turn of its rest less a tenth of a degree: where its couple jumps the
+/// workspace ends as at a limit. The cosine of the angle is at least this.
+core::Rational least_torsion_cosine();
+/// "torsion spring T half a turn off its rest".
+std::string words_of_reach(const Spring& spring);
+
+/// What a pose may be beyond: the file's limits, then its torsion springs.
+std::string words_of_end(const Mechanism& mechanism, std::size_t limit, bool upper);
+
+/// Of a link's first two points, the way from one to the other; the x axis of the ground: what torsion springs measure.
+VectorExpression direction_of(const Mechanism& mechanism, LinkIndex link);
+
 /// The way from one point to another.
 VectorExpression way(PointIndex from, PointIndex to);
 

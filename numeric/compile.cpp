@@ -29,6 +29,8 @@ class ModelBuilder {
     for (const auto& u : model.axes)
       if (u) add_placed(*u, model);
     for (const mechanism::Limit& limit : m_.limits) add_limit(limit, model);
+    for (const Action& action : mechanism::actions(m_))
+      if (action.law == Action::Law::torsion) add_reach(action, model);
     if (!m_.gravity.empty()) model.gravity = geometry_.components(m_.gravity);
     model.loads = loads(model);
     model.posture_size = tape_.size();
@@ -93,7 +95,8 @@ class ModelBuilder {
     auto& t = tape_;
     if (action.law == Action::Law::torsion) {
       const Triple u = axis_of(action);
-      return geometry_.times(torsion(action, u), u);
+      const Register off = off_rest(action, u);
+      return geometry_.times(t.negate(t.multiply(compile(action.stiffness), off)), u);
     }
     if (!action.along) return about_z(compile(action.effort));
     const Triple v = geometry_.vector(*action.along);
@@ -115,9 +118,9 @@ class ModelBuilder {
     return *geometry_.axes()[static_cast<std::size_t>(m_.springs[action.index].joint)];
   }
 
-  /// -c (angle - rest) about the unit vector u, of the directions as seen along it; turned back by rest, so that its
+  /// angle - rest about the unit vector u, of the directions as seen along it; turned back by rest, so that its
   /// branch is cut half a turn off it.
-  Register torsion(const Action& action, const Triple& u) {
+  Register off_rest(const Action& action, const Triple& u) {
     auto& t = tape_;
     Geometry& g = geometry_;
     const Triple a = g.direction_of(action.by), b = g.direction_of(action.on);
@@ -127,7 +130,7 @@ class ModelBuilder {
     const Register c = t.cos(rest), s = t.sin(rest);
     const Register y = t.subtract(t.multiply(c, sine), t.multiply(s, cosine));
     const Register x = t.add(t.multiply(c, cosine), t.multiply(s, sine));
-    return t.negate(t.multiply(compile(action.stiffness), t.atan2(y, x)));
+    return t.atan2(y, x);
   }
 
   /// Slack to both ends, of the size of a number: distances over the end, cosines of angles.
@@ -149,8 +152,18 @@ class ModelBuilder {
       if (limit.keeps_lower()) slack[0] = t.divide(t.subtract(square, t.square(lower)), unit2);
       slack[1] = t.divide(t.subtract(unit2, square), unit2);
     }
+    keep(slack, model);
+  }
+
+  /// Slack to half a turn off the rest of a torsion spring, in the cosine.
+  void add_reach(const Action& action, NumericModel& model) {
+    const Register least = tape_.constant(core::to_double(mechanism::least_torsion_cosine()));
+    keep({tape_.subtract(tape_.cos(off_rest(action, axis_of(action))), least), std::nullopt}, model);
+  }
+
+  void keep(const std::array<std::optional<Register>, 2>& slack, NumericModel& model) {
     for (const auto& end : slack)
-      if (end) model.placed.push_back(t.sqrt(*end));
+      if (end) model.placed.push_back(tape_.sqrt(*end));
     model.slack.push_back(slack);
   }
 

@@ -212,7 +212,7 @@ void check_instants(const Motion& motion, const std::vector<std::vector<Instant>
         const mechanism::Mechanism& m = motion.model.mechanism;
         throw core::InputError({file, 0, 0},
                                "the path is beyond the limit of the " +
-                                   mechanism::words_of(m, m.limits[at.broken->limit], at.broken->upper) + ", at " +
+                                   mechanism::words_of_end(m, at.broken->limit, at.broken->upper) + ", at " +
                                    place_words(motion, at),
                                "move the waypoints, or choose another working mode");
       }

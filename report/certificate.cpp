@@ -40,6 +40,9 @@ std::string program_text(const StraightLine& line) {
       case StraightLine::Operation::inverse:
         text += fmt::format("i{}", step.first);
         break;
+      case StraightLine::Operation::angle:
+        text += fmt::format("a{},{}", step.first, step.second);
+        break;
     }
   }
   return text;

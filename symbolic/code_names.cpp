@@ -12,7 +12,7 @@ namespace {
 using Words = std::set<std::string, std::less<>>;
 
 /// What every output uses itself.
-const Words own_words = {"A", "b", "cos", "sin", "sqrt", "pi"};
+const Words own_words = {"A", "atan2", "b", "cos", "sin", "sqrt", "pi"};
 
 // Parameters are local in C, so that functions of the library may be hidden; words of the language and macros may not.
 // C++ included, since C is pasted into it. `linux` and `unix` are macros of GNU C.
@@ -201,7 +201,7 @@ const Words matlab_words = {"break",
                             "varargout"};
 
 // |A|, w and w_e of the headings.
-const Words text_words = {"A", "w", "w_e", "cos", "sin", "sqrt", "pi"};
+const Words text_words = {"A", "atan2", "w", "w_e", "cos", "sin", "sqrt", "pi"};
 
 constexpr std::string_view reserved_prefixes[] = {"determinant_", "M_",   "FP_",  "HUGE_",
                                                   "MATH_",        "SNAN", "DBL_", "FLT_"};

@@ -33,7 +33,7 @@ Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
   const auto& units = geometry.positive_units();
   known_denominators_.insert(known_denominators_.end(), units.begin(), units.end());
   for (const TowerRoot& root : geometry.roots())
-    if (!root.value || root.square.constant() != 1) independent_roots_.push_back(root);
+    if (!root.is_angle() && (!root.value || root.square.constant() != 1)) independent_roots_.push_back(root);
 }
 
 const Poly& Elimination::over_tower(const Poly& natural) const {
@@ -187,7 +187,14 @@ double Elimination::norm_degree(const Poly& sheet) const {
   return degree;
 }
 
+bool Elimination::has_angle(const Poly& sheet) const {
+  const auto& roots = geometry_->roots();
+  return std::any_of(roots.begin(), roots.end(),
+                     [&](const TowerRoot& root) { return root.is_angle() && sheet.depends_on(root.variable); });
+}
+
 bool Elimination::is_too_heavy(const Poly& sheet) const {
+  if (has_angle(sheet)) return true;  // no polynomial has its zeros
   // Three coordinates have many more terms of one degree than two, one has few.
   const double bound = geometry_->coordinates() == 1 ? 400 : geometry_->coordinates() == 2 ? 140 : 40;
   return norm_degree(sheet) > bound;

@@ -47,6 +47,8 @@ class Elimination {
   /// Whether implicit_factors would take long and come to more than anyone can use. Traced on the sheets such factors
   /// are as well off without.
   bool is_too_heavy(const Poly& sheet) const;
+  /// Whether an angle is among its roots: then no polynomial has its zeros.
+  bool has_angle(const Poly& sheet) const;
 
   /// The irreducible factors of the squared distances that the closure divides by.
   const std::vector<Poly>& denominator_factors() const { return denominator_factors_; }

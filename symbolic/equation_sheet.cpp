@@ -61,6 +61,7 @@ class SheetWriter {
     }
     for (const ConstructedPoint& c : geometry_.constructed()) write_closure(c, sheet.closure);
     for (const InverseLength& length : geometry_.inverse_lengths()) write_length(length, sheet.closure);
+    for (const TorsionAngle& angle : geometry_.torsion_angles()) write_angle(angle, sheet.closure);
     sheet.determinant = determinant("A", determinants_.determinant);
     for (std::size_t k = 0; k < equations.unknown_names.size(); ++k) {
       sheet.numerators.push_back(determinant(equations.unknown_names[k], determinants_.numerators[k]));
@@ -234,6 +235,13 @@ class SheetWriter {
     const FormulaText one = as_text(Poly(geometry_.ring(), 1));
     lines.emplace_back(symbols_[static_cast<std::size_t>(length.variable)],
                        w.quotient(one, w.root(as_text(squared(length.along)))).text);
+  }
+
+  /// What a torsion spring is turned off its rest.
+  void write_angle(const TorsionAngle& angle, Lines& lines) const {
+    const auto part = [&](std::size_t i) { return as_text(geometry_.poly(angle.way[i])); };
+    lines.emplace_back(symbols_[static_cast<std::size_t>(angle.variable)],
+                       FormulaWriter(language_).angle(part(1), part(0)).text);
   }
 
   /// How a constructed point follows from the ones before it, in the formulas of method.md section 1.

@@ -218,7 +218,7 @@ std::string format_python(const EquationSheet& sheet) {
   out << "# Equations of a mechanism, A w = -w_e,\n# written by clearloci equations:\n# "
       << comment_text(sheet.mechanism, Language::python) << "\n";
   write_renamed(out, sheet, "# ");
-  out << "from math import cos, pi, sin, sqrt\n\n";
+  out << "from math import atan2, cos, pi, sin, sqrt\n\n";
   for (const auto& [name, value] : sheet.parameters) out << name << " = " << value << "\n";
   out << "UNKNOWNS = [";
   for (const std::string& unknown : sheet.unknowns) out << "\"" << unknown << "\", ";

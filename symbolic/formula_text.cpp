@@ -65,6 +65,12 @@ FormulaText FormulaWriter::root(const FormulaText& a) const {
   return {language_ == Language::latex ? "\\sqrt{" + a.text + "}" : "sqrt(" + a.text + ")", Form::atom};
 }
 
+FormulaText FormulaWriter::angle(const FormulaText& y, const FormulaText& x) const {
+  if (language_ == Language::latex)
+    return {"\\operatorname{atan2}\\left(" + y.text + ", " + x.text + "\\right)", Form::atom};
+  return {"atan2(" + y.text + ", " + x.text + ")", Form::atom};
+}
+
 FormulaText FormulaWriter::negated(const FormulaText& a) const {
   return a.form == Form::zero ? a : FormulaText{"-" + grouped(a), Form::sum};
 }

@@ -31,6 +31,8 @@ class FormulaWriter {
   FormulaText quotient(const FormulaText& a, const FormulaText& b) const;
   FormulaText squared(const FormulaText& a) const;
   FormulaText root(const FormulaText& a) const;
+  /// Of the way (x, y) from the x axis.
+  FormulaText angle(const FormulaText& y, const FormulaText& x) const;
   FormulaText negated(const FormulaText& a) const;
   FormulaText twice(const FormulaText& a) const;
 

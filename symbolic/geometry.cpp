@@ -72,7 +72,9 @@ std::vector<PlacedExpression> expressions_of(const Mechanism& m) {
   for (const mechanism::Joint& joint : m.joints)
     if (joint.effort) add({*joint.effort}, joint.where);
   for (const mechanism::Spring& spring : m.springs)
-    add({spring.stiffness, spring.free_length, spring.force}, spring.where);
+    add({spring.stiffness, spring.free_length, spring.force, Expression::apply(Expression::Kind::cos, {spring.rest}),
+         Expression::apply(Expression::Kind::sin, {spring.rest})},
+        spring.where);
   if (!m.gravity.empty()) {
     add(m.gravity, {m.file});
     for (const mechanism::Mass& body : mechanism::masses(m))
@@ -107,6 +109,7 @@ Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts char
     }
   }
   list_lengths();
+  list_torsion_angles();
   name_variables();
   place_angles();
   const std::size_t count = mechanism.points.size();
@@ -117,6 +120,7 @@ Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts char
   for (const mechanism::Joint& joint : mechanism.joints)
     for (const mechanism::VectorExpression& axis : joint.axes) divide_by_length(axis);
   for (InverseLength& length : inverse_lengths_) place_length(length);
+  for (TorsionAngle& angle : torsion_angles_) place_torsion_angle(angle);
 }
 
 GiNaC::symbol Geometry::symbol(const std::string& name) const {
@@ -252,6 +256,11 @@ void Geometry::name_variables() {
     std::erase(name, '.');
     length.variable = add_untaken(name);
   }
+  for (TorsionAngle& angle : torsion_angles_) {
+    std::string name = "a" + mechanism_->springs[angle.spring].name;
+    std::erase(name, '.');
+    angle.variable = add_untaken(name);
+  }
   std::vector<std::pair<std::string, std::array<int, 2>>> circles;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     if (!charts_[i]) continue;
@@ -260,7 +269,7 @@ void Geometry::name_variables() {
     circles.push_back({name, {cosine, add("sin(" + name + ")")}});
   }
   first_root_ = static_cast<int>(names.size());
-  const std::size_t most_roots = constructed_.size() + inverse_lengths_.size();
+  const std::size_t most_roots = constructed_.size() + inverse_lengths_.size() + torsion_angles_.size();
   for (std::size_t i = 1; i <= most_roots; ++i) add_untaken("s" + std::to_string(i));
   for (const std::string& name : kept_) variable_of_symbol_[name] = add(name);
   add_untaken("t");
@@ -271,6 +280,7 @@ void Geometry::name_variables() {
   }
   for (const InverseLength& length : inverse_lengths_)
     variable_of_symbol_[ring_->name(length.variable)] = length.variable;
+  for (const TorsionAngle& angle : torsion_angles_) variable_of_symbol_[ring_->name(angle.variable)] = angle.variable;
   for (const auto& [name, variables] : circles) {
     for (const int variable : variables) variable_of_symbol_[ring_->name(variable)] = variable;
   }
@@ -306,6 +316,8 @@ void Geometry::place_angles() {
 
 std::vector<Substitution> Geometry::substitutions() const {
   std::vector<Substitution> list;
+  for (const TorsionAngle& angle : torsion_angles_)
+    if (angle.place) list.push_back({angle.variable, -1, *angle.place});
   for (const InverseLength& length : inverse_lengths_)
     if (length.place) list.push_back({length.variable, -1, *length.place});
   for (const ConstructedPoint& c : constructed_)
@@ -376,7 +388,7 @@ Poly Geometry::reduce(const Poly& p) const {
   // From the last root down: a square may hold earlier roots only.
   for (auto next = roots_.rbegin(); next != roots_.rend(); ++next) {
     const TowerRoot& root = *next;
-    if (result.degree(root.variable) < 2) continue;
+    if (root.is_angle() || result.degree(root.variable) < 2) continue;
     const std::vector<Poly> powers = result.coefficients(root.variable);
     const Poly s = Poly::variable(*ring_, root.variable);
     Poly even(*ring_), odd(*ring_), square_power(*ring_, 1);
@@ -402,6 +414,14 @@ core::RootTower Geometry::plain_tower() const {
   const std::vector<int> variables = tower_variables();
   for (const TowerRoot& root : roots_) {
     const std::string name = "s" + std::to_string(tower.roots.size() + 1);
+    if (root.is_angle()) {
+      const auto own = std::find_if(torsion_angles_.begin(), torsion_angles_.end(), [&](const TorsionAngle& angle) {
+        return angle.root == static_cast<int>(tower.roots.size());
+      });
+      tower.roots.push_back({name, mechanism_->springs[own->spring].name, root.role, root.square.plain(variables)});
+      for (const Poly& part : root.cosine_and_sine) tower.roots.back().cosine_and_sine.push_back(part.plain(variables));
+      continue;
+    }
     if (root.point < 0) {
       const auto own = std::find_if(inverse_lengths_.begin(), inverse_lengths_.end(), [&](const InverseLength& length) {
         return length.root == static_cast<int>(tower.roots.size());

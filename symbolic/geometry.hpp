@@ -49,6 +49,10 @@ struct TowerRoot {
   /// Of a root that depends on earlier ones (dependent_roots.hpp): the root itself over the tower. Its `variable` then
   /// stands for the root of the number `square`, and occurs nowhere if that is 1.
   std::optional<Poly> value = {};
+  /// Of an angle, which is none of a polynomial: positive multiples of its cosine and sine (core::Root).
+  std::vector<Poly> cosine_and_sine = {};
+
+  bool is_angle() const { return !cosine_and_sine.empty(); }
 };
 
 /// Where a root that depends on earlier ones is e = f times roots, and f takes both signs: |f| is f on one side of
@@ -89,6 +93,20 @@ struct InverseLength {
   int variable = -1;
   GiNaC::ex natural = 0;
   std::optional<TowerPoint> place = {};  ///< (1 / |v|, 0) over the tower; none of a number
+  int root = -1;                         ///< by its place in Geometry::roots
+};
+
+/// What a torsion spring is turned off its rest: a natural coordinate of its own, over the tower with one more root,
+/// that is no root of a polynomial (core::Root). With a, b the directions of the joint's links and the rest r, in the
+/// plane
+///     X = a . b cos r + a x b sin r,  Y = a x b cos r - a . b sin r,  angle of (X, Y)
+/// in space, about the joint's axis u, with u . u a . b - (u . a)(u . b) for a . b and |u| u . (a x b) for a x b.
+struct TorsionAngle {
+  std::size_t spring = 0;
+  int variable = -1;
+  GiNaC::ex natural = 0;                 ///< a number where the links do not turn
+  std::array<GiNaC::ex, 2> way = {};     ///< X, Y
+  std::optional<TowerPoint> place = {};  ///< (angle, 0) over the tower; none of a number
   int root = -1;                         ///< by its place in Geometry::roots
 };
 
@@ -136,6 +154,11 @@ class Geometry {
   const InverseLength& inverse_length(const std::string& name) const;
   /// What the inverse length of an arm of a limit's angle is called; none is shared with springs and joints.
   static std::string arm_name(std::size_t limit, bool second);
+  /// The same of the directions that a torsion spring measures.
+  static std::string arm_name(const mechanism::Spring& spring, bool second);
+
+  const std::vector<TorsionAngle>& torsion_angles() const { return torsion_angles_; }
+  const TorsionAngle& torsion_angle(std::size_t spring) const;
 
   const Charts& charts() const { return charts_; }
   /// What over_tower puts in, in an order in which no place holds a coordinate that is still to be replaced.
@@ -170,6 +193,10 @@ class Geometry {
   void name_variables();
   void list_lengths();
   void place_length(InverseLength& length);
+  void list_torsion_angles();
+  void place_torsion_angle(TorsionAngle& angle);
+  /// Over the tower, with one positive denominator for all.
+  std::array<Poly, 2> numerators(const std::array<GiNaC::ex, 2>& way) const;
   void place_angles();
   void take_samples();
   /// Expressions of the file as GiNaC's, an algebra of core/interpret.hpp.
@@ -233,6 +260,7 @@ class Geometry {
   std::vector<TowerPoint> tower_;
   std::vector<ConstructedPoint> constructed_;
   std::vector<InverseLength> inverse_lengths_;
+  std::vector<TorsionAngle> torsion_angles_;
   std::vector<TowerRoot> roots_;
   std::vector<Poly> denominators_;
   std::vector<Way> dyad_ways_;

@@ -19,10 +19,28 @@ bool is_needed(const mechanism::Action& action, const mechanism::Mechanism& mech
   return keep_parameters && action.law == mechanism::Action::Law::linear && !core::symbols(action.free_length).empty();
 }
 
+/// The direction of a link of a torsion spring's joint, turned a quarter about the axis in space.
+mechanism::VectorExpression across_axis(const mechanism::Mechanism& mechanism, const mechanism::Spring& spring,
+                                        bool second) {
+  const mechanism::VectorExpression own = mechanism::direction_of(mechanism, second ? spring.to : spring.from);
+  if (mechanism.space == mechanism::Space::planar) return own;
+  const auto& axis = mechanism.joints[static_cast<std::size_t>(spring.joint)].axes.at(0);
+  return {mechanism::VectorExpression::Kind::cross, {}, 0, {axis, own}};
+}
+
+const mechanism::VectorExpression& joint_axis(const mechanism::Mechanism& mechanism, const mechanism::Action& action) {
+  const mechanism::JointIndex joint = mechanism.springs[action.index].joint;
+  return mechanism.joints[static_cast<std::size_t>(joint)].axes.at(0);
+}
+
 }  // namespace
 
 std::string Geometry::arm_name(std::size_t limit, bool second) {
   return "limit" + std::to_string(limit + 1) + (second ? ".b" : ".a");
+}
+
+std::string Geometry::arm_name(const mechanism::Spring& spring, bool second) {
+  return "limit." + spring.name + (second ? ".b" : ".a");
 }
 
 bool Geometry::has_inverse_length(const std::string& name) const {
@@ -41,6 +59,12 @@ void Geometry::list_lengths() {
   for (const mechanism::Action& action : mechanism::actions(*mechanism_))
     if (is_needed(action, *mechanism_, keep_parameters_))
       inverse_lengths_.push_back({action.length_name(), *action.along});
+    else if (action.law == mechanism::Action::Law::torsion && mechanism_->space == mechanism::Space::spatial)
+      inverse_lengths_.push_back({action.length_name(), joint_axis(*mechanism_, action)});
+  for (const mechanism::Spring& spring : mechanism_->springs)
+    if (spring.kind == mechanism::Spring::Kind::torsion)
+      for (const bool second : {false, true})
+        inverse_lengths_.push_back({arm_name(spring, second), across_axis(*mechanism_, spring, second)});
   for (std::size_t i = 0; i < mechanism_->limits.size(); ++i) {
     const mechanism::Limit& limit = mechanism_->limits[i];
     if (!limit.is_angle()) continue;

@@ -48,6 +48,14 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry) {
     if (limit.keeps_lower()) all.push_back({square - lower * lower, mechanism::words_of(m, limit, false), limit.where});
     all.push_back({upper * upper - square, mechanism::words_of(m, limit, true), limit.where});
   }
+  for (const TorsionAngle& angle : geometry.torsion_angles()) {
+    const mechanism::Spring& spring = m.springs[angle.spring];
+    Poly cosine = geometry.poly(angle.way[0]);
+    for (const bool second : {false, true})
+      cosine *= geometry.poly(geometry.inverse_length(Geometry::arm_name(spring, second)).natural);
+    const Poly least(geometry.ring(), mechanism::least_torsion_cosine());
+    all.push_back({cosine - least, mechanism::words_of_reach(spring), spring.where, spring.name});
+  }
   return all;
 }
 

@@ -566,6 +566,7 @@ class Derivation {
       more_roots_.push_back({core::limit_name, "", core::RootRole::length,
                              core::scaled_for_doubles(sheet.plain(geometry_.tower_variables()))});
       more_roots_.back().line = lines_.of(limit.natural);
+      more_roots_.back().bounds = limit.bounds;
     }
   }
 
@@ -733,7 +734,7 @@ class Derivation {
     core::RootTower& tower = problem.tower;
     tower.roots.insert(tower.roots.end(), more_roots_.begin(), more_roots_.end());
     const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, tower.variables()); };
-    for (core::Root& root : tower.roots) widen(root.square);
+    for (core::Root& root : tower.roots) core::rewrite(root, [&](core::Polynomial p) { return widen(p), p; });
     for (core::Polynomial& denominator : tower.denominators) widen(denominator);
     for (core::DyadBase& base : tower.bases) {
       widen(base.x);

@@ -197,11 +197,16 @@ class Equations {
   /// What a spring or an actuator of known effort exerts on its two links (method.md section 11).
   void write_action(const mechanism::Action& action) {
     using Law = mechanism::Action::Law;
-    if (action.law == Law::torsion)
-      throw core::InputError(m_.springs[action.index].where,
-                             "the torsion spring " + action.name + " turns with an angle, which is no polynomial",
-                             "pose, error and trajectory know it; here leave it out");
     const auto value = [&](const core::Expression& e) { return geometry_.expression(e); };
+    if (action.law == Law::torsion) {
+      const GiNaC::ex size = -value(action.stiffness) * geometry_.torsion_angle(action.index).natural;
+      if (m_.space == mechanism::Space::planar) return write_couple(action, {0, 0, size});
+      Vector c =
+          as_vector(geometry_.vector(m_.joints[static_cast<std::size_t>(m_.springs[action.index].joint)].axes.at(0)));
+      for (GiNaC::ex& component : c)
+        component = (size * geometry_.inverse_length(action.length_name()).natural * component).expand();
+      return write_couple(action, c);
+    }
     if (!action.along) return write_couple(action, {0, 0, value(action.effort)});
     const auto inverse = [&] { return geometry_.inverse_length(action.length_name()).natural; };
     GiNaC::ex per_length;

@@ -56,6 +56,8 @@ class StaticsBuilder {
       result.demands.push_back(std::move(own));
     }
     for (const mechanism::Limit& limit : m_.limits) add_limit(limit, result.positive);
+    for (const mechanism::Spring& spring : m_.springs)
+      if (spring.kind == mechanism::Spring::Kind::torsion) add_reach(spring, result.positive);
     std::vector<int*> steps;
     const auto keep = [&](core::LinearRow& row) {
       for (core::LinearRow::Term& term : row.terms) steps.push_back(&term.step);
@@ -199,14 +201,16 @@ class StaticsBuilder {
   /// What a spring or an actuator of known effort exerts on its two links (method.md section 11).
   void add_action(const mechanism::Action& action, std::size_t load) {
     using Law = mechanism::Action::Law;
-    if (action.law == Law::torsion)
-      throw core::InputError(m_.springs[action.index].where,
-                             "the torsion spring " + action.name + " turns with an angle, which proofs do not follow",
-                             "pose, error and trajectory know it; here leave it out");
     const auto both = [&](const Wrench& on, const Wrench& by) {
       add_load(action.on, on, load);
       add_load(action.by, by, load, true);
     };
+    if (action.law == Law::torsion) {
+      const auto [x, y] = off_rest(m_.springs[action.index]);
+      const int back = b_.negate(b_.multiply(points_.expression(action.stiffness), b_.angle(y, x)));
+      const Wrench own = couple(points_.times(back, axis_of(m_.springs[action.index])));
+      return both(own, own);
+    }
     if (!action.along) {
       const Wrench own = couple({b_.zero(), b_.zero(), points_.expression(action.effort)});
       return both(own, own);
@@ -226,6 +230,23 @@ class StaticsBuilder {
     const Vector force = points_.times(per_length, v);
     if (action.couple) return both(couple(force), couple(force));
     both(force_at(arm(action.on_point), force), force_at(arm(action.by_point), force));
+  }
+
+  /// Of the joint that a torsion spring turns about.
+  Vector axis_of(const mechanism::Spring& spring) {
+    if (m_.space == mechanism::Space::planar) return {b_.zero(), b_.zero(), b_.one()};
+    return points_.unit(points_.vector(m_.joints[static_cast<std::size_t>(spring.joint)].axes.at(0)));
+  }
+
+  /// A way (x, y) at angle - rest about the axis.
+  std::array<int, 2> off_rest(const mechanism::Spring& spring) {
+    const Vector a = points_.vector(mechanism::direction_of(m_, spring.from)), u = axis_of(spring);
+    const Vector b = points_.vector(mechanism::direction_of(m_, spring.to));
+    const int sine = points_.dot(u, points_.cross(a, b));
+    const int cosine = b_.subtract(points_.dot(a, b), b_.multiply(points_.dot(u, a), points_.dot(u, b)));
+    const int rest = points_.expression(spring.rest), c = b_.cosine(rest), s = b_.sine(rest);
+    return {b_.add(b_.multiply(c, cosine), b_.multiply(s, sine)),
+            b_.subtract(b_.multiply(c, sine), b_.multiply(s, cosine))};
   }
 
   SymbolicRow scalar(int unknown) const { return {{{unknown, b_.one()}}, std::vector<int>(loads_.size(), b_.zero())}; }
@@ -258,6 +279,12 @@ class StaticsBuilder {
     std::vector<SymbolicRow> rows;
     for (const int unknown : own.force) rows.push_back(scalar(unknown));
     return rows;
+  }
+
+  void add_reach(const mechanism::Spring& spring, std::vector<int>& positive) {
+    const auto [x, y] = off_rest(spring);
+    const int size = b_.square_root(b_.add(b_.square(x), b_.square(y)));
+    positive.push_back(b_.subtract(b_.divide(x, size), b_.constant(mechanism::least_torsion_cosine())));
   }
 
   void add_limit(const mechanism::Limit& limit, std::vector<int>& positive) {

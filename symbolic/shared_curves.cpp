@@ -120,6 +120,12 @@ std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsign
   for (const TowerRoot& own : geometry_.roots()) {
     Fibre next;
     for (std::vector<Residue>& point : points) {
+      if (own.is_angle()) {  // depends on nothing algebraic: any value
+        point[static_cast<std::size_t>(own.variable)] = {
+            scattered(seed * 8UL + static_cast<unsigned long>(own.variable)), 0};
+        next.push_back(std::move(point));
+        continue;
+      }
       const std::optional<Residue> root_there = square_root(value(reduced(own.square), point));
       if (!root_there) return std::nullopt;
       Residue& s = point[static_cast<std::size_t>(own.variable)];

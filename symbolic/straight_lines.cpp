@@ -1,6 +1,7 @@
 #include "symbolic/straight_lines.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace clearloci::symbolic {
 
@@ -18,17 +19,47 @@ StraightLine StraightLines::of(const Poly& natural) {
   return builder_.line(value(core::scaled_for_doubles(natural.plain())));
 }
 
+namespace {
+
+Rational power_of_two(long exponent) {
+  Rational result = 1;
+  if (exponent >= 0)
+    result <<= static_cast<mp_bitcnt_t>(exponent);
+  else
+    result >>= static_cast<mp_bitcnt_t>(-exponent);
+  return result;
+}
+
+/// Of the power of two next to a number that is not 0.
+long exponent_of(const Rational& value) {
+  const auto bits = [](const core::Integer& part) { return static_cast<long>(mpz_sizeinbase(part.get_mpz_t(), 2)); };
+  return bits(value.get_num()) - bits(value.get_den());
+}
+
+}  // namespace
+
 StraightLine StraightLines::of(const Rational& constant, const std::vector<PolyFactor>& factors) {
-  // Coefficients in the range of doubles, by powers of two that the constant takes back.
+  // Coefficients in the range of doubles, by powers of two that the constant takes back. What it would be beyond that
+  // range by, the factors share: their values are as far beyond it the other way.
   Rational scale = constant;
-  int product = builder_.constant(1);
+  std::vector<Polynomial> scaled;
+  long count = 0;
   for (const PolyFactor& factor : factors) {
-    const Polynomial plain = factor.poly.plain(), scaled = core::scaled_for_doubles(plain);
-    const Rational gained = scaled.terms.front().coefficient / plain.terms.front().coefficient;
-    for (int i = 0; i < factor.multiplicity; ++i) scale /= gained;
-    product = builder_.multiply(product, builder_.power(value(scaled), factor.multiplicity));
+    const Polynomial plain = factor.poly.plain();
+    scaled.push_back(core::scaled_for_doubles(plain));
+    const Rational gained = scaled.back().terms.front().coefficient / plain.terms.front().coefficient;
+    for (int i = 0; i < factor.multiplicity; ++i, ++count) scale /= gained;
   }
-  return builder_.line(builder_.multiply(builder_.constant(scale), product));
+  constexpr long within_doubles = 256;
+  const long exponent = scale == 0 ? 0 : exponent_of(scale);
+  const long share = count > 0 && std::abs(exponent) > within_doubles ? exponent / count : 0;
+  scale *= power_of_two(-share * count);
+  int product = builder_.constant(scale);
+  for (std::size_t f = 0; f < factors.size(); ++f) {
+    for (core::Term& term : scaled[f].terms) term.coefficient *= power_of_two(share);
+    product = builder_.multiply(product, builder_.power(value(scaled[f]), factors[f].multiplicity));
+  }
+  return builder_.line(product);
 }
 
 StraightLine StraightLines::over_roots(const Poly& sheet) {
@@ -54,6 +85,8 @@ core::RootTower StraightLines::tower() {
 StraightLine StraightLines::square(std::size_t root) {
   for (const InverseLength& length : geometry_->inverse_lengths())
     if (length.root == static_cast<int>(root)) return squared_length(length);
+  for (const TorsionAngle& angle : geometry_->torsion_angles())
+    if (angle.root == static_cast<int>(root)) return shifted_angle(angle);
   const std::optional<Dyad> known = dyad(geometry_->roots()[root].point);
   const TowerRoot& own = geometry_->roots()[root];
   if (!known || own.role != core::RootRole::working_mode || own.value) return {};
@@ -76,6 +109,13 @@ StraightLine StraightLines::squared_length(const InverseLength& length) {
   const Place v = vector(length.along);
   const int scale = builder_.multiply(value(root.scale.plain()), builder_.inverse(value(root.scale_divisor.plain())));
   return builder_.line(builder_.multiply(builder_.power(scale, 2), dot(v, v)));
+}
+
+/// (4 + angle)^2.
+StraightLine StraightLines::shifted_angle(const TorsionAngle& angle) {
+  const auto part = [&](std::size_t i) { return value(geometry_->poly(angle.way[i].expand()).plain()); };
+  const int x = part(0), turned = builder_.angle(part(1), x);
+  return builder_.line(builder_.power(builder_.add(builder_.constant(core::angle_shift), turned), 2));
 }
 
 /// scale / (scale_divisor s).

@@ -66,6 +66,7 @@ class StraightLines {
   void know(const std::array<int, 3>& ring_variables, const Place& place);
   int dot(const Place& a, const Place& b);
   core::StraightLine squared_length(const InverseLength& length);
+  core::StraightLine shifted_angle(const TorsionAngle& angle);
   int inverse_of(const InverseLength& length);
   int excess(const Dyad& dyad);
 

@@ -48,6 +48,7 @@ class Conditions {
       root.role = core::RootRole::length;
       root.square = sheet.plain(geometry_.tower_variables());
       root.line = lines_.of(limit.natural);
+      root.bounds = limit.bounds;
       append(std::move(root));
     }
     std::vector<const mechanism::Mechanism*> all = loads;
@@ -187,7 +188,7 @@ class Conditions {
     core::RootTower& tower = result_.tower;
     tower.roots.push_back(std::move(root));
     const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, tower.variables()); };
-    for (core::Root& own : tower.roots) widen(own.square);
+    for (core::Root& own : tower.roots) core::rewrite(own, [&](core::Polynomial p) { return widen(p), p; });
     for (core::Polynomial& denominator : tower.denominators) widen(denominator);
     for (core::DyadBase& base : tower.bases) {
       widen(base.x);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/rational.hpp"
 
@@ -226,6 +227,31 @@ AffineForm<k> sine(const AffineForm<k>& x) {
   const double value = std::sin(x.c), t = x.radius() + 0x1p-40;
   return by_taylor(
       x, Derivatives{value, std::cos(x.c), -value, std::fmax(-1.0, -value - t), std::fmin(1.0, -value + t), 1});
+}
+
+/// The second derivative of atan, -2 t / (1 + t^2)^2, is never above 0.6496 in size, the third never above 2.
+template <bool k>
+AffineForm<k> arc_tangent(const AffineForm<k>& x) {
+  constexpr double most = 0.65;
+  const double slope = 1 / (1 + x.c * x.c);
+  const double low = std::fmin(most, std::fmax(0.0, 2 * x.upper())),
+               high = std::fmin(most, std::fmax(0.0, -2 * x.lower()));
+  return by_taylor(x, Derivatives{std::atan(x.c), slope, -2 * x.c * slope * slope, -low, high, 2});
+}
+
+/// Of the ways (x, y) from the x axis, counted on from the one in the middle beyond half a turn; nothing where they
+/// reach a right angle off that one.
+template <bool k>
+std::optional<AffineForm<k>> angle_of(const AffineForm<k>& y, const AffineForm<k>& x) {
+  using Form = AffineForm<k>;
+  const double size = std::hypot(x.c, y.c);
+  if (!(size > 0)) return std::nullopt;
+  const Form c(x.c / size), s(y.c / size);  // nearly: any way will do to count from
+  const Form ahead = c * x + s * y, aside = c * y - s * x;
+  if (!(ahead.lower() > 0)) return std::nullopt;
+  Form from(std::atan2(s.c, c.c));
+  from.r = Form::slack(4);
+  return from + arc_tangent(aside * inverse(ahead));
 }
 
 /// Sums of numbers times enclosures, with the roundings of all added at the end.

@@ -129,6 +129,14 @@ CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& 
       case Operation::sine:
         registers_[i] = sine(x);
         break;
+      case Operation::angle: {
+        constexpr double half_turn = 3.14159265358979312;  // just below: there the angle is cut
+        const std::optional<Form> angle = angle_of(x, y);
+        if (!angle || !(angle->lower() > -half_turn && angle->upper() < half_turn))
+          return in_doubt(Doubt::workspace, angle ? *angle : y);
+        registers_[i] = *angle;
+        break;
+      }
     }
   }
   for (const int own : statics_->positive) {

@@ -93,6 +93,8 @@ class AroundApex {
         return sum(operand(step.first), operand(step.second), true);
       case Operation::multiply:
         return product(operand(step.first), operand(step.second));
+      case Operation::angle:
+        return angle_of_way(operand(step.first), operand(step.second));
       default:
         return inverse_of(operand(step.first));
     }
@@ -128,7 +130,10 @@ class AroundApex {
   }
 
  public:
-  static StraightLine form_of(const core::Root& root) { return root.line.empty() ? form_of(root.square) : root.line; }
+  static StraightLine form_of(const core::Root& root) {
+    if (root.is_angle()) return core::line_of_angle(form_of(root.cosine_and_sine[1]), form_of(root.cosine_and_sine[0]));
+    return root.line.empty() ? form_of(root.square) : root.line;
+  }
   static StraightLine form_of(const core::Polynomial& p) {
     StraightLineBuilder builder;
     std::vector<int> variables;
@@ -172,6 +177,14 @@ class AroundApex {
     return result;
   }
 
+  /// Common powers of u turn no way.
+  std::optional<Expansion> angle_of_way(const Expansion& y, const Expansion& x) {
+    if (y.zero && x.zero) return std::nullopt;
+    const int power = y.zero ? x.power : x.zero ? y.power : std::min(y.power, x.power);
+    const auto part = [&](const Expansion& e) { return e.zero ? builder_.constant(0) : raised(e, power); };
+    return Expansion{0, builder_.angle(part(y), part(x)), false, std::nullopt, std::nullopt};
+  }
+
   std::optional<Expansion> inverse_of(const Expansion& a) {
     if (a.zero) return std::nullopt;
     const int regular = builder_.inverse(a.regular);
@@ -201,6 +214,7 @@ class AroundApex {
 /// Which roots vanish at the apex, and with which power: those whose squares do.
 void find_roots(Star& star, const core::RootTower& tower) {
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    if (tower.roots[j].is_angle()) continue;  // in every direction it has a value
     AroundApex around_apex(star, tower);
     const std::optional<Expansion> square = around_apex.of(AroundApex::form_of(tower.roots[j]));
     if (square && square->power > 0)
@@ -274,6 +288,14 @@ StraightLine polar_line(const Star& star, const core::RootTower& tower, const Sh
   if (!expansion) expansion = around_apex.of(AroundApex::form_of(function.polynomial));
   core::ensure(expansion.has_value(), "a polynomial has an expansion");
   return power && *power <= expansion->power ? around_apex.divided(*expansion, *power) : around_apex.line(*expansion);
+}
+
+StraightLine polar_angle(const Star& star, const core::RootTower& tower, const core::Root& root) {
+  AroundApex around_apex(star, tower);
+  std::optional<Expansion> expansion = around_apex.of(root.line);
+  if (!expansion) expansion = around_apex.of(AroundApex::form_of(root));
+  core::ensure(expansion.has_value(), "an angle has an expansion");
+  return around_apex.line(*expansion);
 }
 
 }  // namespace clearloci::loci::sheet

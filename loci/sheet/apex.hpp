@@ -19,4 +19,7 @@ std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::Worki
 core::StraightLine polar_line(const Star& star, const core::RootTower& tower, const SheetFunction& function,
                               std::optional<int> power = std::nullopt);
 
+/// The square of an angle's root likewise, which has no power of u.
+core::StraightLine polar_angle(const Star& star, const core::RootTower& tower, const core::Root& root);
+
 }  // namespace clearloci::loci::sheet

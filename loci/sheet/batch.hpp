@@ -43,6 +43,10 @@ inline Batch squared(const Batch& a) { return a * a; }
 inline Batch inverse(const Batch& a) {
   return batch_detail::lane_by_lane([&](std::size_t i) { return 1 / a.lanes[i]; });
 }
+inline Batch angle_of(const Batch& y, const Batch& x) {
+  return batch_detail::lane_by_lane([&](std::size_t i) { return std::atan2(y.lanes[i], x.lanes[i]); });
+}
+inline Batch angle_slope(const Batch& y, const Batch& x) { return inverse(x * x + y * y); }
 /// Not a number where the lane is negative.
 inline Batch square_root(const Batch& a) {
   return batch_detail::lane_by_lane([&](std::size_t i) { return std::sqrt(a.lanes[i]); });

@@ -82,6 +82,22 @@ inline Jet inverse(const Jet& a) {
   return jet_detail::joined(result, true);
 }
 
+inline Jet angle_of(const Jet& y, const Jet& x) {
+  Jet result(angle_of(y.value, x.value));
+  result.bounded = y.bounded && x.bounded && !crosses_cut(y.value, x.value);
+  if (!result.bounded) return result;
+  result.middle = angle_of(meet(y.middle, y.value), meet(x.middle, x.value));
+  const Interval slope = angle_slope(y.value, x.value);
+  for (std::size_t c = 0; c < 2; ++c) result.slope[c] = slope * (x.value * y.slope[c] - y.value * x.slope[c]);
+  return result.tighten();
+}
+
+inline Jet angle_slope(const Jet& y, const Jet& x) {
+  Jet result = inverse(squared(x) + squared(y));
+  result.bounded = result.bounded && !crosses_cut(y.value, x.value);
+  return result;
+}
+
 /// Required: a.value.lower() > 0.
 inline Jet square_root(const Jet& a) {
   Jet root(square_root(a.value));

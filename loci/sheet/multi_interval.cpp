@@ -99,6 +99,80 @@ MultiInterval square_root(const MultiInterval& a) {
   return result;
 }
 
+namespace {
+
+core::Rational over_two_to_the_precision(const core::Integer& numerator) {
+  core::Rational value(numerator, core::Integer(1) << MultiInterval::precision);
+  value.canonicalize();
+  return value;
+}
+
+}  // namespace
+
+core::Rational MultiInterval::lower_end() const { return over_two_to_the_precision(lower_); }
+core::Rational MultiInterval::upper_end() const { return over_two_to_the_precision(upper_); }
+
+namespace {
+
+bool crosses_cut(const MultiInterval& y, const MultiInterval& x) { return x.lower_end() <= 0 && y.sign() == 0; }
+
+// atan t = 2^k atan t_k by halves t_{k+1} = t_k / (1 + sqrt(1 + t_k^2)), each of which saves terms of the series.
+constexpr int halves = 8;
+constexpr int bits_of_small = 7;
+
+/// atan t = t - t^3/3 + t^5/5 - ... for |t| <= 2^-bits: terms alternate and shrink, so that the first one left out
+/// bounds the rest.
+MultiInterval arc_tangent_series(const MultiInterval& t, int bits) {
+  const MultiInterval t2 = squared(t);
+  MultiInterval sum(0.0), power = t;
+  for (int n = 1; n * bits <= MultiInterval::precision; n += 2, power = power * t2) {
+    const MultiInterval term = power * MultiInterval(core::Rational(1, n));
+    sum = n % 4 == 1 ? sum + term : sum - term;
+  }
+  const core::Rational rest(1, core::Integer(1) << MultiInterval::precision);
+  return sum + MultiInterval(-rest, rest);
+}
+
+/// Required: |t| <= 1.
+MultiInterval arc_tangent(MultiInterval t) {
+  const MultiInterval one(1.0);
+  for (int i = 0; i < halves; ++i) t = t * inverse(one + square_root(one + squared(t)));
+  MultiInterval angle = arc_tangent_series(t, bits_of_small);  // tan(45 deg / 256) < 2^-7
+  for (int i = 0; i < halves; ++i) angle = angle + angle;
+  return angle;
+}
+
+MultiInterval half_turn() {  // Machin's formula
+  static const MultiInterval pi =
+      MultiInterval(16.0) * arc_tangent_series(MultiInterval(core::Rational(1, 5)), 2) -
+      MultiInterval(4.0) * arc_tangent_series(MultiInterval(core::Rational(1, 239)), bits_of_small);
+  return pi;
+}
+
+/// Of one way off the cut.
+MultiInterval angle_of_way(const core::Rational& y, const core::Rational& x) {
+  const MultiInterval quarter = half_turn() * MultiInterval(0.5);
+  const bool steep = abs(y) > abs(x);
+  const MultiInterval angle = arc_tangent(MultiInterval(steep ? core::Rational(-x / y) : core::Rational(y / x)));
+  if (steep) return y > 0 ? quarter + angle : angle - quarter;
+  if (x > 0) return angle;
+  return y > 0 ? angle + half_turn() : angle - half_turn();
+}
+
+}  // namespace
+
+MultiInterval angle_of(const MultiInterval& y, const MultiInterval& x) {
+  if (crosses_cut(y, x)) return MultiInterval((-half_turn()).lower_end(), half_turn().upper_end());
+  // theta(m) + (x dy - y dx) / (x^2 + y^2) over the box, the way to the middle m.
+  const core::Rational my = (y.lower_end() + y.upper_end()) / 2, mx = (x.lower_end() + x.upper_end()) / 2;
+  const MultiInterval dy = y - MultiInterval(my), dx = x - MultiInterval(mx);
+  return angle_of_way(my, mx) + (x * dy - y * dx) * angle_slope(y, x);
+}
+
+MultiInterval angle_slope(const MultiInterval& y, const MultiInterval& x) {
+  return inverse(crosses_cut(y, x) ? MultiInterval(0.0) : squared(x) + squared(y));
+}
+
 MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterval>& at) {
   MultiInterval sum(0.0);
   for (const core::Term& term : p.terms) {
@@ -108,6 +182,11 @@ MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterva
     sum = sum + product;
   }
   return sum;
+}
+
+MultiInterval angle_root(const core::Root& root, const std::vector<MultiInterval>& at) {
+  const MultiInterval cosine = evaluate(root.cosine_and_sine[0], at), sine = evaluate(root.cosine_and_sine[1], at);
+  return MultiInterval(core::Rational(core::angle_shift)) + angle_of(sine, cosine);
 }
 
 }  // namespace clearloci::loci::sheet

@@ -5,6 +5,7 @@
 
 #include "core/polynomial.hpp"
 #include "core/rational.hpp"
+#include "core/root_tower.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -33,8 +34,15 @@ class MultiInterval {
   friend MultiInterval squared(const MultiInterval& a);
   /// 1/a; where 0 is in `a`, a stand-in for the whole line.
   friend MultiInterval inverse(const MultiInterval& a);
+  /// Of the ways (x, y) from the x axis, and 1 / (x^2 + y^2), as of intervals of doubles.
+  friend MultiInterval angle_of(const MultiInterval& y, const MultiInterval& x);
+  friend MultiInterval angle_slope(const MultiInterval& y, const MultiInterval& x);
   /// Required: non_negative().
   friend MultiInterval square_root(const MultiInterval& a);
+
+  /// Enclosing rationals, exactly.
+  core::Rational lower_end() const;
+  core::Rational upper_end() const;
 
  private:
   core::Integer lower_, upper_;
@@ -42,5 +50,8 @@ class MultiInterval {
 
 /// Value of a polynomial. Of variables that do not occur, the last ones may be left out.
 MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterval>& at);
+
+/// The value of a root that is an angle, from those of the variables before it.
+MultiInterval angle_root(const core::Root& root, const std::vector<MultiInterval>& at);
 
 }  // namespace clearloci::loci::sheet

@@ -166,6 +166,19 @@ core::StraightLine Chart::in_chart(const core::StraightLine& polar) const {
   return line;
 }
 
+namespace {
+
+/// The square of an angle's root: common powers of u turn no way.
+core::StraightLine polar_angle(const Star& star, const core::Root& root) {
+  const Polynomial x = around(star, root.cosine_and_sine[0]), y = around(star, root.cosine_and_sine[1]);
+  const int order = x.is_zero()   ? order_at(star, y)
+                    : y.is_zero() ? order_at(star, x)
+                                  : std::min(order_at(star, x), order_at(star, y));
+  return core::line_of_angle(polar_line(star, y, order), polar_line(star, x, order));
+}
+
+}  // namespace
+
 Charting::Charting(const core::RootTower& tower, std::vector<SheetFunction> functions, const std::vector<Star>& stars)
     : tower_(tower), functions_(std::move(functions)), stars_(stars) {}
 
@@ -176,16 +189,24 @@ const Charting::AtStar& Charting::at_star(int index) {
   own.star = index;
   const Star& star = stars_[index];
   if (star.apex) {
-    for (std::size_t j = 0; j < tower_.roots.size(); ++j)
-      own.squares.push_back(polar_line(star, tower_, SheetFunction{tower_.roots[j].square, tower_.roots[j].line},
-                                       2 * star.power_of_root(static_cast<int>(j))));
+    for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
+      const core::Root& root = tower_.roots[j];
+      own.squares.push_back(root.is_angle() ? polar_angle(star, tower_, root)
+                                            : polar_line(star, tower_, SheetFunction{root.square, root.line},
+                                                         2 * star.power_of_root(static_cast<int>(j))));
+    }
     for (const SheetFunction& f : functions_) own.functions.push_back(polar_line(star, tower_, f));
     known_.push_back(own);
     return known_.back();
   }
-  for (std::size_t j = 0; j < tower_.roots.size(); ++j)
+  for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
+    if (tower_.roots[j].is_angle()) {
+      own.squares.push_back(polar_angle(star, tower_.roots[j]));
+      continue;
+    }
     own.squares.push_back(
         polar_line(star, around(star, tower_.roots[j].square), 2 * star.power_of_root(static_cast<int>(j))));
+  }
   for (const SheetFunction& f : functions_) {
     const Polynomial moved = around(star, f.polynomial);
     own.functions.push_back(polar_line(star, moved, moved.is_zero() ? 0 : order_at(star, moved)));

@@ -111,6 +111,8 @@ class Builder {
   }
 
   int inverse(int a) { return make(Kind::inverse, a, a); }
+  int angle(int y, int x) { return make(Kind::angle, y, x); }
+  int angle_slope(int y, int x) { return make(Kind::angle_slope, y, x); }
 
   int power(int base, int exponent) {
     if (exponent == 0) return one_;
@@ -153,6 +155,16 @@ class Builder {
       case Kind::inverse:
         result = multiply(subtract(zero_, multiply(node, node)), derivative(n.first, v));
         break;
+      case Kind::angle: {
+        const int turned = multiply(n.second, derivative(n.first, v));
+        result = multiply(subtract(turned, multiply(n.first, derivative(n.second, v))), angle_slope(n.first, n.second));
+        break;
+      }
+      case Kind::angle_slope: {
+        const int grown = add(multiply(n.first, derivative(n.first, v)), multiply(n.second, derivative(n.second, v)));
+        result = multiply(multiply(constant(Numbers::two), multiply(node, node)), subtract(zero_, grown));
+        break;
+      }
     }
     if (node >= static_cast<int>(derivatives_[v].size())) derivatives_[v].resize(node + 1, unknown);
     return derivatives_[v][node] = result;
@@ -206,6 +218,12 @@ class Builder {
         case Kind::square:
           code.instructions.push_back({SheetCode::Operation::square, 0, 0});
           break;
+        case Kind::angle:
+          code.instructions.push_back({SheetCode::Operation::angle, 0, 0});
+          break;
+        case Kind::angle_slope:
+          code.instructions.push_back({SheetCode::Operation::angle_slope, 0, 0});
+          break;
       }
       code.instructions.back().first = registers[node.first];
       code.instructions.back().second = registers[node.second];
@@ -216,7 +234,7 @@ class Builder {
   }
 
  private:
-  enum class Kind : std::uint8_t { variable, constant, add, subtract, multiply, square, inverse };
+  enum class Kind : std::uint8_t { variable, constant, add, subtract, multiply, square, inverse, angle, angle_slope };
   static constexpr int unknown = -1;
   struct Node {
     Kind kind;
@@ -261,6 +279,9 @@ class Builder {
           break;
         case Step::inverse:
           nodes.push_back(inverse(operand(first)));
+          break;
+        case Step::angle:
+          nodes.push_back(angle(operand(first), operand(second)));
           break;
       }
     }

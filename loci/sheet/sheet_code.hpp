@@ -13,7 +13,8 @@
 namespace clearloci::loci::sheet {
 
 struct SheetCode {
-  enum class Operation : std::uint8_t { add, subtract, multiply, square, inverse };
+  /// `angle_slope` of (y, x): 1 / (x^2 + y^2), with which angles change, and nothing known where they are cut.
+  enum class Operation : std::uint8_t { add, subtract, multiply, square, inverse, angle, angle_slope };
   struct Instruction {
     Operation operation;
     std::int32_t first, second;

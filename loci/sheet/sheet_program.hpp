@@ -9,6 +9,7 @@
 // and its enclosures are tighter. One program serves double, Batch, Interval and MultiInterval.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -42,6 +43,8 @@ T enclosed_as(const core::Rational& value, const core::Rational& radius, T* type
 
 inline double squared(double a) { return a * a; }
 inline double inverse(double a) { return 1 / a; }
+inline double angle_of(double y, double x) { return std::atan2(y, x); }
+inline double angle_slope(double y, double x) { return 1 / (x * x + y * y); }
 
 /// p(..., v + shift, ...).
 core::Polynomial shifted(const core::Polynomial& p, int variable, const core::Rational& shift);
@@ -160,6 +163,12 @@ void SheetProgram::Registers<T>::run(int stage) {
         break;
       case Operation::inverse:
         values[offset + i] = inverse(a);
+        break;
+      case Operation::angle:
+        values[offset + i] = angle_of(a, b);
+        break;
+      case Operation::angle_slope:
+        values[offset + i] = angle_slope(a, b);
         break;
     }
   }

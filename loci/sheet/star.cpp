@@ -41,6 +41,7 @@ bool alone(const core::RootTower& tower, const Star& star) {
   at[1] = star.y;
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
     const Polynomial& square = tower.roots[j].square;
+    if (tower.roots[j].is_angle()) continue;  // it stays smooth, for both ends of a link do not meet
     if (star.power_of_root(static_cast<int>(j)) > 0) continue;
     const bool plain = std::none_of(square.terms.begin(), square.terms.end(), has_roots);
     if (!plain || core::evaluate(square, at) == 0) return false;
@@ -91,6 +92,7 @@ std::vector<Star> cones(const core::RootTower& tower) {
     star.y = (*place)[1];
     bool reachable = true;
     for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+      if (tower.roots[j].is_angle()) continue;  // in every direction it has a value
       const Polynomial square = around(star, tower.roots[j].square);
       if (!square.is_zero())
         star.roots.insert(star.roots.end(), static_cast<std::size_t>(order_at(star, square) / 2), static_cast<int>(j));

@@ -19,11 +19,20 @@ Subtower subtower(const core::RootTower& whole, const core::WorkingMode& mode,
                   const std::vector<core::Polynomial>& functions) {
   const int m = static_cast<int>(whole.roots.size());
   std::vector<bool> needed(m, false);
-  for (int j = m - 1; j >= 0; --j) {
+  const auto need_what_they_are_built_on = [&] {
+    for (int j = m - 1; j >= 0; --j)
+      for (int k = j + 1; k < m; ++k)
+        needed[j] = needed[j] || (needed[k] && core::depends_on(whole.roots[k].square, 2 + j));
+  };
+  for (int j = 0; j < m; ++j)
     for (const core::Polynomial& f : functions) needed[j] = needed[j] || core::depends_on(f, 2 + j);
-    for (int k = j + 1; k < m; ++k)
-      needed[j] = needed[j] || (needed[k] && core::depends_on(whole.roots[k].square, 2 + j));
-  }
+  need_what_they_are_built_on();
+  // With an angle comes where it is cut: beyond that the functions are others.
+  for (int k = 0; k < m; ++k)
+    for (int j = 0; j < m; ++j)
+      needed[k] =
+          needed[k] || (needed[j] && whole.roots[j].is_angle() && whole.roots[k].bounds == whole.roots[j].point);
+  need_what_they_are_built_on();
   Subtower part;
   part.tower.coordinates = whole.coordinates;
   for (int j = 0; j < m; ++j) (needed[j] ? part.kept : part.dropped).push_back(j);
@@ -32,7 +41,7 @@ Subtower subtower(const core::RootTower& whole, const core::WorkingMode& mode,
     part.mode.push_back(mode[j]);
   }
   for (core::Root& root : part.tower.roots) {
-    root.square = narrowed(root.square, part);
+    core::rewrite(root, [&](const core::Polynomial& p) { return narrowed(p, part); });
     root.line = narrowed(root.line, part);
   }
   for (const core::Polynomial& denominator : whole.denominators)
@@ -127,7 +136,7 @@ core::RootTower on_rim(const core::RootTower& tower, int root) {
   core::RootTower result = tower;
   result.roots.erase(result.roots.begin() + root);
   for (core::Root& other : result.roots) {
-    other.square = without_variable(other.square, 2 + root);
+    core::rewrite(other, [&](const core::Polynomial& p) { return without_variable(p, 2 + root); });
     other.line = without_variable(other.line, 2 + root);
   }
   result.bases.clear();  // special points of a rim are those of the tower

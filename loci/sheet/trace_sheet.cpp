@@ -122,7 +122,8 @@ class Tracer {
     std::vector<Cut> cuts;
     for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
     for (const int j : own_.dropped)
-      cuts.push_back({square_of(tower_, j, options_.special), core::ArcEnd::boundary, true});
+      if (!tower_.roots[static_cast<std::size_t>(j)].is_angle())  // no sheet ends there
+        cuts.push_back({square_of(tower_, j, options_.special), core::ArcEnd::boundary, true});
     add_box_cuts(cuts);
     if (!graph_.stretches.empty())
       for (const Cut& cut : cuts) apply(cut, parts);
@@ -510,6 +511,7 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
     const int v = 2 + static_cast<int>(j);
     const core::Polynomial& square = tower.roots[j].square;
+    if (tower.roots[j].is_angle()) continue;
     const std::optional<core::Polynomial> rest_of_square =
         core::depends_on(sheet, v) ? std::nullopt : exact_quotient(square, sheet);
     const bool rim = rest_of_square.has_value();

@@ -1,5 +1,6 @@
 """The examples of docs/mechanism-file.md that change a shipped mechanism run."""
 
+import json
 import re
 import unittest
 
@@ -41,14 +42,26 @@ class Documented(InOwnFolder):
                 self.run_program("pose", model, "--at", "0.2,-0.6")
                 self.run_program("loci", model, "--quiet", "-o", f"out{number}")
 
-    def test_torsion_springs_are_known_to_poses_and_refused_by_loci(self):
-        model = self.model(lambda text: text + "springs: [{joint: A1, stiffness: 2.5, rest: 30 deg}]\n")
+    def test_torsion_springs_are_known_to_every_command(self):
+        model = self.model(lambda text: text.replace("x: [-0.5, 1.0]", "x: [0.1, 0.6]")
+                           .replace("y: [-1.0, 1.0]", "y: [-0.9, -0.3]")
+                           + "springs: [{name: T, joint: A1, stiffness: 20, rest: 150 deg}]\n")
         self.run_program("pose", model, "--at", "0.2,-0.6", "--iterate")
         self.run_program("error", model, "--grid", "20x20", "--quiet")
-        for command in ("loci", "equations", "zones"):
-            refused = self.run_program(command, model, status=2)
-            self.assertEqual(refused.stderr.count("\n"), 1)
-            self.assertIn("torsion spring S1", refused.stderr)
+        self.assertIn("aT = atan2(", self.run_program("equations", model).stdout)
+        loci = json.loads(self.run_program("loci", model, "--json", "--quiet").stdout)
+        backlash = [curve for curve in loci["curves"] if curve["kind"] == "backlash"]
+        self.assertEqual(len(backlash), 1)
+        self.assertIsNone(backlash[0]["implicit"])
+        self.assertTrue(backlash[0]["certified"])
+        self.run_program("validate", model, "--grid", "60x60", "--quiet")
+        self.run_program("loci", model, "--certificate", "t.cert", "--quiet")
+        self.run_program("check", model, "t.cert")
+        refused = self.run_program("loci", model, "--engine", "exact", status=2)
+        self.assertEqual(refused.stderr.count("\n"), 1)
+        task = self.folder / "task.yaml"
+        task.write_text("format: 1\nbox: {x: [0.2, 0.35], y: [-0.75, -0.6]}\n", encoding="utf-8")
+        self.assertIn("VERIFIED", self.run_program("verify", model, task).stdout)
 
     def test_a_limit_is_named_where_it_is_broken(self):
         model = self.model(lambda text: text + "limits: [{distance: [A1, P], within: [0.31, 0.92]}]\n")

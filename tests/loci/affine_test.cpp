@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace clearloci::loci::pose {
@@ -94,6 +95,30 @@ TEST(Affine, SumsOfNumbersAreThoseOfForms) {
   }
   EXPECT_EQ(as_numbers.result().c, as_forms.result().c);
   EXPECT_EQ(as_numbers.result().r, as_forms.result().r);
+}
+
+TEST(Affine, EnclosesAngles) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1, 1);
+  int known = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Point middle = {place(random), place(random), place(random)};
+    const double half = std::pow(10.0, -4 * std::abs(place(random)) - 0.5);
+    const std::array<Affine, 3> p = box(middle, half);
+    const std::optional<Affine> angle = angle_of(p[0] * p[2] - p[1], p[0] + squared(p[1]));
+    if (!angle) continue;
+    ++known;
+    for (int sample = 0; sample < 50; ++sample) {
+      const double x = middle[0] + half * place(random), y = middle[1] + half * place(random),
+                   z = middle[2] + half * place(random);
+      // Counted on from the middle, beyond half a turn.
+      const double own = std::atan2(x * z - y, x + y * y), turn = 2 * std::numbers::pi;
+      EXPECT_TRUE((angle->lower() <= own && own <= angle->upper()) ||
+                  (angle->lower() <= own + turn && own + turn <= angle->upper()) ||
+                  (angle->lower() <= own - turn && own - turn <= angle->upper()));
+    }
+  }
+  EXPECT_GT(known, 700);
 }
 
 TEST(Affine, LeavesACubeOfTheBox) {

@@ -52,6 +52,93 @@ TEST(Interval, EnclosesRoundedResults) {
   EXPECT_LT((Interval(-1, 2) * Interval(-3, 4)).upper(), 8.000001);
 }
 
+TEST(Interval, EnclosesTheAnglesOfWays) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> number(-2, 2), part(0, 1);
+  int cut = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double x0 = number(random), y0 = number(random), wide = std::pow(part(random), 4), high = part(random);
+    const Interval x(x0, x0 + wide), y(y0, y0 + high);
+    const Interval angle = angle_of(y, x);
+    const MultiInterval precise = angle_of(MultiInterval(core::Rational(y.lower()), core::Rational(y.upper())),
+                                           MultiInterval(core::Rational(x.lower()), core::Rational(x.upper())));
+    for (int k = 0; k < 4; ++k) {
+      const double a = x.lower() + part(random) * x.width(), b = y.lower() + part(random) * y.width();
+      EXPECT_TRUE(angle.contains(std::atan2(b, a))) << a << ", " << b;
+    }
+    EXPECT_LE(precise.lower(), angle.lower() + 1e-14) << "at least as wide: its mean-value form is for narrow boxes";
+    EXPECT_GE(precise.upper(), angle.upper() - 1e-14);
+    if (crosses_cut(y, x)) ++cut;
+  }
+  EXPECT_GT(cut, 100);
+  EXPECT_EQ(angle_slope(Interval(-1e-3, 1e-3), Interval(-1, -0.5)).sign(), 0) << "nothing is known where it is cut";
+}
+
+TEST(MultiInterval, KnowsAnglesToManyDigits) {
+  const auto number = [](const char* digits) { return MultiInterval(core::Rational(digits)); };
+  const auto error = [&](const MultiInterval& a, const char* digits) {  // 60 digits of each
+    core::Rational expected(core::Integer(digits), core::Integer(1));
+    core::Integer scale;
+    mpz_ui_pow_ui(scale.get_mpz_t(), 10, 59);
+    expected /= scale;
+    return std::max(core::to_double(abs(a.upper_end() - expected)), core::to_double(abs(a.lower_end() - expected)));
+  };
+  // pi/4, 3 pi/4, atan2(-3, 1/2), atan2(1/1000, -7), from series in decimals of 90 digits.
+  EXPECT_LT(error(angle_of(number("1"), number("1")), "78539816339744830961566084581987572104929234984377645524374"),
+            1e-58);
+  EXPECT_LT(error(angle_of(number("2"), number("-2")), "235619449019234492884698253745962716314787704953132936573121"),
+            1e-58);
+  EXPECT_LT(
+      error(angle_of(number("-3"), number("1/2")), "-140564764938026978095219340199580798810019803922252509146944"),
+      1e-58);
+  EXPECT_LT(
+      error(angle_of(number("1/1000"), number("-7")), "314144979644790791289194863324968109459165096523636228207825"),
+      1e-58);
+}
+
+TEST(SheetProgram, DifferentiatesAngles) {
+  // angle of (x - y^2, x y + 2) and its slopes, by differences.
+  core::StraightLineBuilder builder;
+  const int x = builder.variable(0), y = builder.variable(1);
+  const int cosine = builder.subtract(x, builder.power(y, 2));
+  const int sine = builder.add(builder.multiply(x, y), builder.constant(2));
+  core::RootTower plane;
+  plane.coordinates = {"x", "y"};
+  const SheetProgram program(
+      plane, std::vector<SheetFunction>{{core::variable_polynomial(2, 0), builder.line(builder.angle(sine, cosine))}});
+  const auto at = [&](double a, double b) { return std::atan2(a * b + 2, a - b * b); };
+  auto numbers = program.registers<double>();
+  auto intervals = program.registers<Interval>();
+  auto jets = program.registers<Jet>();
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> number(-1.2, 1.2);
+  for (int i = 0; i < 100; ++i) {
+    const double a = number(random), b = number(random), h = 1e-6, r = 0.01;
+    numbers.set(0, a);
+    numbers.set(1, b);
+    numbers.run_values();
+    numbers.run_gradients();
+    EXPECT_DOUBLE_EQ(numbers.value(0), at(a, b));
+    EXPECT_NEAR(numbers.partial(0, 0), (at(a + h, b) - at(a - h, b)) / (2 * h), 1e-7);
+    EXPECT_NEAR(numbers.partial(0, 1), (at(a, b + h) - at(a, b - h)) / (2 * h), 1e-7);
+    intervals.set(0, Interval(a - r, a + r));
+    intervals.set(1, Interval(b - r, b + r));
+    intervals.run_values();
+    intervals.run_gradients();
+    EXPECT_TRUE(intervals.partial(0, 0).contains(numbers.partial(0, 0)));
+    EXPECT_TRUE(intervals.partial(0, 1).contains(numbers.partial(0, 1)));
+    jets.set(0, Jet(Interval(a - r, a + r), 0));
+    jets.set(1, Jet(Interval(b - r, b + r), 1));
+    jets.run_values();
+    for (const double p : {a - r, a, a + r})
+      for (const double q : {b - r, b, b + r}) {
+        EXPECT_TRUE(intervals.value(0).contains(at(p, q)));
+        EXPECT_TRUE(jets.value(0).value.contains(at(p, q)));
+      }
+    EXPECT_LE(jets.value(0).value.width(), intervals.value(0).width());
+  }
+}
+
 TEST(Interval, EnclosesRationalsThatDoublesMiss) {
   const Interval third = constant_as(core::Rational(1, 3), static_cast<Interval*>(nullptr));
   EXPECT_LT(core::Rational(third.lower()), core::Rational(1, 3));

@@ -101,15 +101,20 @@ loads: [{link: r1, at: P, force: [20, -10]}]
   EXPECT_GT(hold_against_witness(m), 10);
 }
 
-TEST(Springs, TorsionSpringsAreRefusedInOneLine) {
-  const mechanism::Mechanism m = parsed(five_bar_text + "springs: [{joint: A1, stiffness: 2.5, rest: 30 deg}]\n");
-  try {
-    (void)locus_problem(m, {});
-    FAIL() << "taken for a polynomial";
-  } catch (const core::InputError& error) {
-    EXPECT_EQ(error.position().line, 30);
-    EXPECT_NE(std::string(error.what()).find("torsion spring S1"), std::string::npos) << error.what();
-  }
+TEST(Springs, TorsionOnesTurnWithAnAngleThatIsARootOfItsOwn) {
+  // To the ground, between two moving links, and off a rest that is no number.
+  const mechanism::Mechanism m = parsed(five_bar_text + R"(springs:
+  - {joint: A1, stiffness: 2.5, rest: 30 deg}
+  - {joint: P, stiffness: 0.7, rest: -100 deg}
+)");
+  EXPECT_GT(hold_against_witness(m), 10);
+  const DerivedProblem derived = locus_problem(m, {});
+  EXPECT_EQ(derived.problem.tower.roots.size(), 6U) << "two dyads, two angles, how far each is from half a turn";
+  EXPECT_TRUE(core::has_angles(derived.problem.tower));
+  for (const core::LocusFactor& factor : derived.problem.factors)
+    if (core::depends_on(factor.sheet, 4) || core::depends_on(factor.sheet, 5)) {
+      EXPECT_TRUE(factor.implicit.empty()) << factor.expression;
+    }
 }
 
 TEST(Limits, AreBoundariesWithARootOfTheirOwn) {

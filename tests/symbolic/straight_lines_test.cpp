@@ -36,6 +36,9 @@ double evaluate(const core::StraightLine& line, const std::vector<double>& at) {
       case Operation::inverse:
         values.push_back(1 / operand(step.first));
         break;
+      case Operation::angle:
+        values.push_back(std::atan2(operand(step.first), operand(step.second)));
+        break;
     }
   }
   return values.back();

@@ -43,6 +43,12 @@ std::vector<double> natural_values(const Geometry& geometry, const std::vector<d
       square += std::pow(core::evaluate(geometry.poly(component).plain(), std::span<const double>(values)), 2);
     values[static_cast<std::size_t>(length.variable)] = 1 / std::sqrt(square);
   }
+  for (const TorsionAngle& angle : geometry.torsion_angles()) {
+    const auto part = [&](std::size_t i) {
+      return core::evaluate(geometry.poly(angle.way[i]).plain(), std::span<const double>(values));
+    };
+    values[static_cast<std::size_t>(angle.variable)] = std::atan2(part(1), part(0));
+  }
   return values;
 }
 
@@ -52,6 +58,13 @@ std::vector<double> tower_values(const Geometry& geometry, const std::vector<dou
   std::vector<double> values = natural;
   std::size_t side = 0;
   for (const TowerRoot& root : geometry.roots()) {
+    if (root.is_angle()) {
+      const auto part = [&](std::size_t i) {
+        return core::evaluate(root.cosine_and_sine[i].plain(), std::span<const double>(values));
+      };
+      values[static_cast<std::size_t>(root.variable)] = core::angle_shift + std::atan2(part(1), part(0));
+      continue;
+    }
     const double square = core::evaluate(root.square.plain(), std::span<const double>(values));
     const int sign = root.role == core::RootRole::working_mode ? mode[side++] : 1;
     values[static_cast<std::size_t>(root.variable)] = sign * std::sqrt(std::max(0.0, square));

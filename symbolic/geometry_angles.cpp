@@ -1,0 +1,87 @@
+// Angles that torsion springs turn with (method.md section 11).
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/errors.hpp"
+#include "mechanism/actions.hpp"
+#include "symbolic/geometry.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using Vector = std::vector<GiNaC::ex>;
+
+GiNaC::ex dot(const Vector& a, const Vector& b) {
+  GiNaC::ex sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace
+
+const TorsionAngle& Geometry::torsion_angle(std::size_t spring) const {
+  const auto found = std::find_if(torsion_angles_.begin(), torsion_angles_.end(),
+                                  [&](const TorsionAngle& angle) { return angle.spring == spring; });
+  core::ensure(found != torsion_angles_.end(), "a torsion spring that is known");
+  return *found;
+}
+
+void Geometry::list_torsion_angles() {
+  for (const mechanism::Action& action : mechanism::actions(*mechanism_))
+    if (action.law == mechanism::Action::Law::torsion) torsion_angles_.push_back({action.index});
+}
+
+std::array<Poly, 2> Geometry::numerators(const std::array<GiNaC::ex, 2>& way) const {
+  // X + Y t: the coefficients of t^0 and t^1 over the tower have one denominator.
+  Poly over = poly(way[0].expand()) + poly(way[1].expand()) * Poly::variable(*ring_, auxiliary());
+  for (const Substitution& pair : substitutions()) {
+    const int degree = degree_in(over, pair);
+    if (degree > 0) over = substituted(over, pair, degree);
+  }
+  std::vector<Poly> parts = over.coefficients(auxiliary());
+  parts.resize(2, Poly(*ring_));
+  return {parts[0], parts[1]};
+}
+
+void Geometry::place_torsion_angle(TorsionAngle& angle) {
+  using core::Expression;
+  const mechanism::Spring& spring = mechanism_->springs[angle.spring];
+  const Vector a = vector(mechanism::direction_of(*mechanism_, spring.from));
+  const Vector b = vector(mechanism::direction_of(*mechanism_, spring.to));
+  GiNaC::ex along = dot(a, b), across;
+  if (mechanism_->space == mechanism::Space::planar) {
+    across = a[0] * b[1] - a[1] * b[0];
+  } else {
+    const Vector u = vector(mechanism_->joints[static_cast<std::size_t>(spring.joint)].axes.at(0));
+    const Vector turned = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    along = dot(u, u) * along - dot(u, a) * dot(u, b);
+    across = dot(u, u) * inverse_length(spring.name).natural * dot(u, turned);
+  }
+  const GiNaC::ex cosine = expression(Expression::apply(Expression::Kind::cos, {spring.rest}));
+  const GiNaC::ex sine = expression(Expression::apply(Expression::Kind::sin, {spring.rest}));
+  angle.way = {(along * cosine + across * sine).expand(), (across * cosine - along * sine).expand()};
+  auto [x, y] = numerators(angle.way);
+  if (const Poly common = common_positive(x, y); !common.is_constant()) {
+    x = x.exact_quotient(common);
+    y = y.exact_quotient(common);
+  }
+  angle.natural = GiNaC::ex(symbol(ring_->name(angle.variable)));
+  angle.root = static_cast<int>(roots_.size());
+  // Not reduced: then it holds every variable that the cosine or the sine holds.
+  TowerRoot root{-1, next_root(), core::RootRole::length, x * x + y * y};
+  if (root.square.is_zero())
+    throw core::InputError(spring.where, "the torsion spring " + spring.name + " turns with links without a direction",
+                           "name two points of each link that are apart, across the joint's axis");
+  root.cosine_and_sine = {x, y};
+  roots_.push_back(root);
+  const auto value = [](const Poly& p, const std::vector<double>& at) {
+    return core::evaluate(p.plain(), std::span<const double>(at));
+  };
+  for (std::vector<double>& at : samples_)
+    at[static_cast<std::size_t>(root.variable)] = core::angle_shift + std::atan2(value(y, at), value(x, at));
+  const Poly s = Poly::variable(*ring_, root.variable);
+  angle.place = TowerPoint{s - Poly(*ring_, core::angle_shift), Poly(*ring_), Poly(*ring_, 1)};
+}
+
+}  // namespace clearloci::symbolic
