@@ -61,6 +61,7 @@ class Pose {
   Interval sqrt(const Interval&, const Expression&) const { return refuse_function(); }
   Interval cos(const Interval&, const Expression&) const { return refuse_function(); }
   Interval sin(const Interval&, const Expression&) const { return refuse_function(); }
+  Interval atan(const Interval& a, const Expression&) const { return angle_of(a, number(1.0)); }
 
   Vector vector(const mechanism::VectorExpression& v, const std::vector<Vector>& points) const {
     using Kind = mechanism::VectorExpression::Kind;

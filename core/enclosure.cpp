@@ -64,6 +64,7 @@ struct Enclosing {
   Interval sqrt(const Interval& a, const Expression&) const { return root(a); }
   Interval cos(const Interval& a, const Expression&) const { return cosine(a); }
   Interval sin(const Interval& a, const Expression&) const { return cosine(a - enclosed_pi() * Interval(0.5)); }
+  Interval atan(const Interval& a, const Expression&) const { return angle_of(a, Interval(1.0)); }
 
   /// Exponents are numbers, whole or half of one.
   Interval power(const Interval& base, const Expression& e) const {

@@ -20,6 +20,7 @@ std::size_t arity(Kind kind) {
     case Kind::sqrt:
     case Kind::cos:
     case Kind::sin:
+    case Kind::atan:
       return 1;
     case Kind::add:
     case Kind::multiply:
@@ -91,6 +92,7 @@ struct Printing {
   Printed sqrt(const Printed& a, const Expression&) const { return {"sqrt(" + a.text + ")", atom}; }
   Printed cos(const Printed& a, const Expression&) const { return {"cos(" + a.text + ")", atom}; }
   Printed sin(const Printed& a, const Expression&) const { return {"sin(" + a.text + ")", atom}; }
+  Printed atan(const Printed& a, const Expression&) const { return {"atan(" + a.text + ")", atom}; }
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace clearloci::inline core {
 
 class Expression {
  public:
-  enum class Kind { number, symbol, pi, add, multiply, divide, power, negate, sqrt, cos, sin };
+  enum class Kind { number, symbol, pi, add, multiply, divide, power, negate, sqrt, cos, sin, atan };
 
   Expression();  ///< the number 0
   static Expression number(Rational value);

@@ -1,7 +1,7 @@
 // What an expression means, from its leaves up: the one walk over core::Expression. Numbers, formulas, bounds, programs
 // and printed texts are algebras of it. An algebra has its `Value` and
 //     number(rational), symbol(name), pi(), negate(a), add(a, b), multiply(a, b),
-//     divide(a, b, e), power(a, e), sqrt(a, e), cos(a, e), sin(a, e)
+//     divide(a, b, e), power(a, e), sqrt(a, e), cos(a, e), sin(a, e), atan(a, e)
 // What is not defined everywhere is handed the whole expression e as well, to tell of it or to look at it once more; of
 // a power the exponent, e.arguments()[1], is the algebra's to interpret: most want it as a number. Where an algebra has
 //     known(e), an optional value,
@@ -64,6 +64,8 @@ typename std::remove_cvref_t<Algebra>::Value interpret(const Expression& e, Alge
       return algebra.cos(argument(0), e);
     case Kind::sin:
       return algebra.sin(argument(0), e);
+    case Kind::atan:
+      return algebra.atan(argument(0), e);
   }
   ensure(false, "an expression of a known kind");
   return interpret(Expression(), algebra);

@@ -52,6 +52,7 @@ class Evaluator {
     const CirclePoint point = circle_point(a);
     return coordinate(point, point.sine);
   }
+  RadicalSum atan(const RadicalSum&, const Expression&) const { throw std::domain_error("atan of a number"); }
 
  private:
   static RadicalSum coordinate(const CirclePoint& point, const Rational& value) {

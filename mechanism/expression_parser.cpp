@@ -29,6 +29,7 @@ std::optional<Kind> function_named(const std::string& name) {
   if (name == "sqrt") return Kind::sqrt;
   if (name == "cos") return Kind::cos;
   if (name == "sin") return Kind::sin;
+  if (name == "atan") return Kind::atan;
   return std::nullopt;
 }
 
@@ -73,7 +74,7 @@ class Parser {
     if (found.front() == '.') fail(at_, problem, "a number has one decimal point");
     if (is_letter(found.front()) || is_digit(found.front()) || found == "(")
       fail(at_, problem, "write an operator before it; a product needs *, as in 2*L");
-    fail(at_, problem, "expressions have + - * / ^ ( ) sqrt cos sin pi deg");
+    fail(at_, problem, "expressions have + - * / ^ ( ) sqrt cos sin atan pi deg");
   }
 
   bool at_end() const { return at_ >= text_.size(); }
@@ -192,7 +193,8 @@ class Parser {
       return Expression::apply(*function, {parenthesis_rest(start)});
     }
     if (!at_end() && text_[at_] == '(')
-      fail(start, "unknown function '" + name + "'", "known are sqrt, cos, sin; a product needs *, as in L*(a + b)");
+      fail(start, "unknown function '" + name + "'",
+           "known are sqrt, cos, sin, atan; a product needs *, as in L*(a + b)");
     if (name == "pi") return Expression::pi();
     if (name == "deg") return unit_symbol(name);
     return Expression::symbol(name);

@@ -173,6 +173,9 @@ class Change {
     Sum sqrt(const Sum&, const Expression&) const { throw NotPolynomial{}; }
     Sum cos(const Sum&, const Expression&) const { throw NotPolynomial{}; }
     Sum sin(const Sum&, const Expression&) const { throw NotPolynomial{}; }
+    Sum atan(const Sum& a, const Expression&) const {
+      return Sum::atom(Expression::apply(Expression::Kind::atan, {a.expression()}));
+    }
   };
 
   /// Over the scale's power.

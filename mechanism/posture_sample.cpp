@@ -35,6 +35,7 @@ struct Doubles {
   double sqrt(double a, const Expression&) const { return std::sqrt(a); }
   double cos(double a, const Expression&) const { return std::cos(a); }
   double sin(double a, const Expression&) const { return std::sin(a); }
+  double atan(double a, const Expression&) const { return std::atan(a); }
 };
 
 std::optional<Vector> if_finite(const Vector& v) {

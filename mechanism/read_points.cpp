@@ -19,8 +19,8 @@ bool mentions_coordinates(const Mechanism& mechanism, const Expression& expressi
 /// Explicit coordinates are polynomials in the lengths among the free coordinates and in cos, sin of the angles.
 class PolynomialCheck {
  public:
-  PolynomialCheck(const Mechanism& mechanism, const Value& value, std::string mend)
-      : mechanism_(mechanism), value_(value), not_polynomial_mend_(std::move(mend)) {}
+  PolynomialCheck(const Mechanism& mechanism, const Value& value, std::string mend, bool arc_tangents = false)
+      : mechanism_(mechanism), value_(value), not_polynomial_mend_(std::move(mend)), arc_tangents_(arc_tangents) {}
 
   void operator()(const Expression& expression) const {
     using Kind = Expression::Kind;
@@ -49,6 +49,11 @@ class PolynomialCheck {
       case Kind::cos:
       case Kind::sin:
         check_angle(expression.arguments()[0]);
+        return;
+      case Kind::atan:
+        if (!arc_tangents_) refuse("'" + to_string(expression) + "' is no polynomial", not_polynomial_mend_);
+        PolynomialCheck(mechanism_, value_,
+                        "the argument of atan is a polynomial in the coordinates")(expression.arguments()[0]);
         return;
       default:
         for (const Expression& argument : expression.arguments()) (*this)(argument);
@@ -124,6 +129,7 @@ class PolynomialCheck {
   const Mechanism& mechanism_;
   const Value& value_;
   std::string not_polynomial_mend_;
+  bool arc_tangents_ = false;
 };
 
 ExplicitPoint read_explicit(const Mechanism& mechanism, const Value& value) {
@@ -286,6 +292,11 @@ class OrderCheck {
 void check_polynomial(const Mechanism& mechanism, const Value& value, const Expression& expression,
                       const std::string& mend) {
   PolynomialCheck(mechanism, value, mend)(expression);
+}
+
+void check_load(const Mechanism& mechanism, const Value& value, const Expression& expression) {
+  PolynomialCheck(mechanism, value, "write a polynomial in the coordinates, atan of one, or a spring",
+                  true)(expression);
 }
 
 PointIndex read_point_name(const Mechanism& mechanism, const Value& value) {

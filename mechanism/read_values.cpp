@@ -97,6 +97,7 @@ struct Degrees {
   long sqrt(long a, const Expression&) const { return a; }
   long cos(long a, const Expression&) const { return a; }
   long sin(long a, const Expression&) const { return a; }
+  long atan(long a, const Expression&) const { return a; }
 };
 
 void check_degree(const Expression& expression, const Mechanism& mechanism, const Value& value) {
@@ -209,7 +210,7 @@ Number read_number(const Mechanism& mechanism, const Value& value, Sign sign) {
 Expression read_varying(const Mechanism& mechanism, const Value& value) {
   Expression expression = read_expression(mechanism, value, Scope::parameters_and_coordinates);
   if (!is_free(expression, mechanism)) return read_number(mechanism, value, Sign::any).expression;
-  check_polynomial(mechanism, value, expression, "write a polynomial in the coordinates, or a spring");
+  check_load(mechanism, value, expression);
   return expression;
 }
 

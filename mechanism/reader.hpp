@@ -54,6 +54,8 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value);
 /// `mend`: what to write instead.
 void check_polynomial(const Mechanism& mechanism, const Value& value, const Expression& expression,
                       const std::string& mend);
+/// The same of what a load may be: with arc tangents of such polynomials besides.
+void check_load(const Mechanism& mechanism, const Value& value, const Expression& expression);
 /// `frames`: those of the file, each read as soon as its origin is known.
 void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames);
 

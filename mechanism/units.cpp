@@ -213,6 +213,12 @@ class Conversion {
         result.expression = scaled(Expression::apply(Kind::sqrt, {result.expression}), size);
         return result;
       }
+      case Kind::atan: {  // a number, of a number
+        InSi result = (*this)(arguments[0], {});
+        result.dimension = {};
+        result.expression = scaled(Expression::apply(Kind::atan, {result.expression}), size);
+        return result;
+      }
       default: {  // functions of an angle
         InSi result = (*this)(arguments[0], file_size(m_.units, angle));
         result.dimension = {};

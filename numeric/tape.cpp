@@ -121,6 +121,7 @@ struct Compiling {
   Register sqrt(Register a, const core::Expression&) const { return tape.sqrt(a); }
   Register cos(Register a, const core::Expression&) const { return tape.cos(a); }
   Register sin(Register a, const core::Expression&) const { return tape.sin(a); }
+  Register atan(Register a, const core::Expression&) const { return tape.atan2(a, tape.constant(1.0)); }
 
   Register power(Register base, const core::Expression& e) const {
     const Register exponent = core::interpret(e.arguments()[1], *this);

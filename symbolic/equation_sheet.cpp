@@ -237,7 +237,7 @@ class SheetWriter {
                        w.quotient(one, w.root(as_text(squared(length.along)))).text);
   }
 
-  /// What a torsion spring is turned off its rest.
+  /// What a torsion spring is turned off its rest, or an arc tangent.
   void write_angle(const TorsionAngle& angle, Lines& lines) const {
     const auto part = [&](std::size_t i) { return as_text(geometry_.poly(angle.way[i])); };
     lines.emplace_back(symbols_[static_cast<std::size_t>(angle.variable)],

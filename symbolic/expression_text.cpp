@@ -54,6 +54,9 @@ class Printer {
   }
   Printed cos(const Printed& a, const Expression&) const { return call("cos", a); }
   Printed sin(const Printed& a, const Expression&) const { return call("sin", a); }
+  Printed atan(const Printed& a, const Expression&) const {
+    return call(language_ == Language::latex ? "arctan" : "atan", a);
+  }
 
   std::string enclosed(const Printed& printed, Binding needed) const {
     if (printed.binding >= needed) return printed.text;

@@ -140,6 +140,7 @@ struct Geometry::Naturals {
     const bool is_number = !stays || (core::symbols(e).empty() && mechanism::evaluate(e, m.parameters).exact);
     if (is_number) return clearloci::symbolic::number(mechanism::value_of(e, m));
     const bool turns = e.kind() == Kind::cos || e.kind() == Kind::sin;
+    if (e.kind() == Kind::atan) return geometry.arc_tangent(e.arguments()[0]);
     if (turns && free) return geometry.circle(e.arguments()[0])[e.kind() == Kind::cos ? 0 : 1];
     if (turns || e.kind() == Kind::pi || e.kind() == Kind::sqrt) return kept(core::to_string(e), e, e);
     if (e.kind() == Kind::power && !is_whole(core::interpret(e.arguments()[1], *this)))
@@ -170,6 +171,7 @@ struct Geometry::Naturals {
   GiNaC::ex sqrt(const GiNaC::ex& a, const Expression&) const { return a; }
   GiNaC::ex cos(const GiNaC::ex& a, const Expression&) const { return a; }
   GiNaC::ex sin(const GiNaC::ex& a, const Expression&) const { return a; }
+  GiNaC::ex atan(const GiNaC::ex& a, const Expression&) const { return a; }
 
  private:
   static bool is_whole(const GiNaC::ex& exponent) { return exponent.info(GiNaC::info_flags::nonnegint); }
@@ -257,9 +259,10 @@ void Geometry::name_variables() {
     length.variable = add_untaken(name);
   }
   for (TorsionAngle& angle : torsion_angles_) {
-    std::string name = "a" + mechanism_->springs[angle.spring].name;
+    std::string name = angle.tangent ? angle.name : "a" + mechanism_->springs[angle.spring].name;
     std::erase(name, '.');
     angle.variable = add_untaken(name);
+    if (angle.tangent) angle.name = names.back();
   }
   std::vector<std::pair<std::string, std::array<int, 2>>> circles;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
@@ -418,7 +421,7 @@ core::RootTower Geometry::plain_tower() const {
       const auto own = std::find_if(torsion_angles_.begin(), torsion_angles_.end(), [&](const TorsionAngle& angle) {
         return angle.root == static_cast<int>(tower.roots.size());
       });
-      tower.roots.push_back({name, mechanism_->springs[own->spring].name, root.role, root.square.plain(variables)});
+      tower.roots.push_back({name, name_of(*own), root.role, root.square.plain(variables)});
       for (const Poly& part : root.cosine_and_sine) tower.roots.back().cosine_and_sine.push_back(part.plain(variables));
       continue;
     }

@@ -101,8 +101,11 @@ struct InverseLength {
 /// plane
 ///     X = a . b cos r + a x b sin r,  Y = a x b cos r - a . b sin r,  angle of (X, Y)
 /// in space, about the joint's axis u, with u . u a . b - (u . a)(u . b) for a . b and |u| u . (a x b) for a x b.
+/// Or the arc tangent of a polynomial Y in a load, with X = 1.
 struct TorsionAngle {
   std::size_t spring = 0;
+  std::optional<core::Expression> tangent = {};  ///< an arc tangent, and of no spring
+  std::string name = {};                         ///< the symbol of an arc tangent
   int variable = -1;
   GiNaC::ex natural = 0;                 ///< a number where the links do not turn
   std::array<GiNaC::ex, 2> way = {};     ///< X, Y
@@ -159,6 +162,8 @@ class Geometry {
 
   const std::vector<TorsionAngle>& torsion_angles() const { return torsion_angles_; }
   const TorsionAngle& torsion_angle(std::size_t spring) const;
+  /// What is called after it: the spring, or the symbol of an arc tangent.
+  const std::string& name_of(const TorsionAngle& angle) const;
 
   const Charts& charts() const { return charts_; }
   /// What over_tower puts in, in an order in which no place holds a coordinate that is still to be replaced.
@@ -194,6 +199,9 @@ class Geometry {
   void list_lengths();
   void place_length(InverseLength& length);
   void list_torsion_angles();
+  std::array<GiNaC::ex, 2> way_off_rest(const mechanism::Spring& spring) const;
+  /// The symbol of the arc tangent of a polynomial.
+  GiNaC::ex arc_tangent(const core::Expression& tangent) const;
   void place_torsion_angle(TorsionAngle& angle);
   /// Over the tower, with one positive denominator for all.
   std::array<Poly, 2> numerators(const std::array<GiNaC::ex, 2>& way) const;

@@ -1,4 +1,4 @@
-// Angles that torsion springs turn with (method.md section 11).
+// Angles that torsion springs turn with, and arc tangents in loads (method.md section 11).
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -18,11 +18,21 @@ GiNaC::ex dot(const Vector& a, const Vector& b) {
   return sum;
 }
 
+/// The arguments of arc tangents, each once.
+void collect_tangents(const core::Expression& e, std::vector<core::Expression>& tangents) {
+  for (const core::Expression& argument : e.arguments()) collect_tangents(argument, tangents);
+  if (e.kind() != core::Expression::Kind::atan) return;
+  const std::string text = core::to_string(e.arguments()[0]);
+  const bool known = std::any_of(tangents.begin(), tangents.end(),
+                                 [&](const core::Expression& own) { return core::to_string(own) == text; });
+  if (!known) tangents.push_back(e.arguments()[0]);
+}
+
 }  // namespace
 
 const TorsionAngle& Geometry::torsion_angle(std::size_t spring) const {
   const auto found = std::find_if(torsion_angles_.begin(), torsion_angles_.end(),
-                                  [&](const TorsionAngle& angle) { return angle.spring == spring; });
+                                  [&](const TorsionAngle& angle) { return !angle.tangent && angle.spring == spring; });
   core::ensure(found != torsion_angles_.end(), "a torsion spring that is known");
   return *found;
 }
@@ -30,6 +40,30 @@ const TorsionAngle& Geometry::torsion_angle(std::size_t spring) const {
 void Geometry::list_torsion_angles() {
   for (const mechanism::Action& action : mechanism::actions(*mechanism_))
     if (action.law == mechanism::Action::Law::torsion) torsion_angles_.push_back({action.index});
+  std::vector<core::Expression> tangents;
+  for (const mechanism::Load& load : mechanism_->loads) {
+    for (const core::Expression& component : load.force) collect_tangents(component, tangents);
+    for (const core::Expression& component : load.couple_vector) collect_tangents(component, tangents);
+    collect_tangents(load.couple, tangents);
+  }
+  for (const mechanism::Joint& joint : mechanism_->joints)
+    if (joint.effort) collect_tangents(*joint.effort, tangents);
+  for (std::size_t i = 0; i < tangents.size(); ++i)
+    torsion_angles_.push_back({0, tangents[i], "atan" + std::to_string(i + 1)});
+}
+
+const std::string& Geometry::name_of(const TorsionAngle& angle) const {
+  return angle.tangent ? angle.name : mechanism_->springs[angle.spring].name;
+}
+
+GiNaC::ex Geometry::arc_tangent(const core::Expression& tangent) const {
+  const std::string text = core::to_string(tangent);
+  const auto own = std::find_if(torsion_angles_.begin(), torsion_angles_.end(), [&](const TorsionAngle& angle) {
+    return angle.tangent && core::to_string(*angle.tangent) == text;
+  });
+  if (own != torsion_angles_.end()) return GiNaC::ex(symbol(own->name));
+  (void)expression(tangent);  // throws where it is no polynomial
+  return GiNaC::ex(0);        // not listed yet
 }
 
 std::array<Poly, 2> Geometry::numerators(const std::array<GiNaC::ex, 2>& way) const {
@@ -44,9 +78,8 @@ std::array<Poly, 2> Geometry::numerators(const std::array<GiNaC::ex, 2>& way) co
   return {parts[0], parts[1]};
 }
 
-void Geometry::place_torsion_angle(TorsionAngle& angle) {
+std::array<GiNaC::ex, 2> Geometry::way_off_rest(const mechanism::Spring& spring) const {
   using core::Expression;
-  const mechanism::Spring& spring = mechanism_->springs[angle.spring];
   const Vector a = vector(mechanism::direction_of(*mechanism_, spring.from));
   const Vector b = vector(mechanism::direction_of(*mechanism_, spring.to));
   GiNaC::ex along = dot(a, b), across;
@@ -60,7 +93,12 @@ void Geometry::place_torsion_angle(TorsionAngle& angle) {
   }
   const GiNaC::ex cosine = expression(Expression::apply(Expression::Kind::cos, {spring.rest}));
   const GiNaC::ex sine = expression(Expression::apply(Expression::Kind::sin, {spring.rest}));
-  angle.way = {(along * cosine + across * sine).expand(), (across * cosine - along * sine).expand()};
+  return {(along * cosine + across * sine).expand(), (across * cosine - along * sine).expand()};
+}
+
+void Geometry::place_torsion_angle(TorsionAngle& angle) {
+  angle.way = angle.tangent ? std::array<GiNaC::ex, 2>{GiNaC::ex(1), expression(*angle.tangent).expand()}
+                            : way_off_rest(mechanism_->springs[angle.spring]);
   auto [x, y] = numerators(angle.way);
   if (const Poly common = common_positive(x, y); !common.is_constant()) {
     x = x.exact_quotient(common);
@@ -70,9 +108,11 @@ void Geometry::place_torsion_angle(TorsionAngle& angle) {
   angle.root = static_cast<int>(roots_.size());
   // Not reduced: then it holds every variable that the cosine or the sine holds.
   TowerRoot root{-1, next_root(), core::RootRole::length, x * x + y * y};
-  if (root.square.is_zero())
+  if (root.square.is_zero()) {
+    const mechanism::Spring& spring = mechanism_->springs[angle.spring];
     throw core::InputError(spring.where, "the torsion spring " + spring.name + " turns with links without a direction",
                            "name two points of each link that are apart, across the joint's axis");
+  }
   root.cosine_and_sine = {x, y};
   roots_.push_back(root);
   const auto value = [](const Poly& p, const std::vector<double>& at) {

@@ -49,6 +49,7 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry) {
     all.push_back({upper * upper - square, mechanism::words_of(m, limit, true), limit.where});
   }
   for (const TorsionAngle& angle : geometry.torsion_angles()) {
+    if (angle.tangent) continue;  // it is cut nowhere
     const mechanism::Spring& spring = m.springs[angle.spring];
     Poly cosine = geometry.poly(angle.way[0]);
     for (const bool second : {false, true})

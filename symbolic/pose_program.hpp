@@ -35,6 +35,7 @@ class PoseSteps {
   int sqrt(int a, const core::Expression& whole) { return exact(whole, builder_.square_root(a)); }
   int cos(int a, const core::Expression& whole) { return exact(whole, builder_.cosine(a)); }
   int sin(int a, const core::Expression& whole) { return exact(whole, builder_.sine(a)); }
+  int atan(int a, const core::Expression&) { return builder_.angle(a, builder_.one()); }
 
  private:
   int exact(const core::Expression& expression, int step);

@@ -38,6 +38,7 @@ struct Recording {
   std::string sqrt(const std::string& a, const Expression&) { return said("sqrt" + a); }
   std::string cos(const std::string& a, const Expression&) { return said("cos" + a); }
   std::string sin(const std::string& a, const Expression&) { return said("sin" + a); }
+  std::string atan(const std::string& a, const Expression&) { return said("atan" + a); }
 };
 
 /// Knows what holds no x.

@@ -99,6 +99,10 @@ TEST(ReadLoads, MayVaryWithThePose) {
   ASSERT_TRUE(to_a_point.loads[0].has_force());
   EXPECT_NE(complaint(with(text, push, "force: [1/x, 0]")).find("divides by 'x'"), std::string::npos);
   EXPECT_NE(complaint(with(text, push, "force: [sqrt(x), 0]")).find("no polynomial"), std::string::npos);
+  EXPECT_NE(complaint(with(text, push, "force: [atan(atan(x)), 0]")).find("no polynomial"), std::string::npos);
+  EXPECT_NE(complaint(with(text, push, "force: [atan(1/2), 0]")).find("atan of a number"), std::string::npos);
+  EXPECT_NE(complaint(with(text, "P: [x, y]", "P: [x, atan(y)]")).find("'atan(y)' is no polynomial"),
+            std::string::npos);
   EXPECT_NE(complaint(with(text, push, "force: [q, 0]")).find("'q'"), std::string::npos);
   EXPECT_NE(complaint(with(text, push, "force: '30*(H - Q)'")).find("'Q'"), std::string::npos);
 }

@@ -117,6 +117,28 @@ TEST(Springs, TorsionOnesTurnWithAnAngleThatIsARootOfItsOwn) {
     }
 }
 
+TEST(Springs, ArcTangentsInLoadsAreRootsOfTheirOwn) {
+  const mechanism::Mechanism m = parsed(with(five_bar_text, "force: [0, -100]",
+                                             "force: [-20*atan(4*(x - 1/3)), -100 + y*atan(4*(x - 1/3))], "
+                                             "couple: 2*atan(x*y)"));
+  EXPECT_GT(hold_against_witness(m), 10);
+  const DerivedProblem derived = locus_problem(m, {});
+  EXPECT_EQ(derived.problem.tower.roots.size(), 4U) << "two dyads, two arc tangents, of which one stands twice";
+}
+
+TEST(Springs, ArcTangentsTurnWithAnglesToo) {
+  EXPECT_GT(hold_against_witness(parsed(R"(format: 1
+name: Lever
+workspace: {q: {angle: [-80 deg, 200 deg]}}
+points: {A: [0, 0], B: ['0.3*cos(q)', '0.3*sin(q)']}
+links: {bar: {points: [A, B]}}
+joints: {A: {revolute: [ground, bar], at: A, actuated: true}}
+loads: [{link: bar, at: B, force: [0, -100], couple: '12*atan(3*sin(q) - 1)'}]
+end_effector: {link: bar, at: B}
+)")),
+            3);
+}
+
 TEST(Limits, AreBoundariesWithARootOfTheirOwn) {
   const mechanism::Mechanism m = parsed(five_bar_text +
                                         "limits:\n  - {distance: [A1, P], within: [0.31, 0.52]}\n"
