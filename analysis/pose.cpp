@@ -170,7 +170,8 @@ void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides
   }
   const numeric::Instant instant = numeric::instant_of(motion, coordinates);
   constexpr double second = 1;  // the period of a single instant
-  pose.reactions = reactions_of(motion.model, instant.reactions(second), {});
+  const Eigen::VectorXd values = instant.reactions(second);
+  pose.reactions = reactions_of(motion.model, values, numeric::joint_reactions(motion, instant, values));
   const numeric::InstantError accuracy = numeric::instant_error(motion, instant, second);
   pose.take_up = take_up_of(mechanism, accuracy.contacts, accuracy.take_up);
   pose.undefined = numeric::undefined_take_up(mechanism, accuracy.contacts, accuracy.take_up);
@@ -181,9 +182,6 @@ void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides
 
 void require_rates(const mechanism::Mechanism& mechanism, const PoseRequest& request) {
   const bool moves = !request.velocity.empty() || !request.acceleration.empty();
-  if (moves && mechanism.space == mechanism::Space::spatial)
-    throw core::InputError({mechanism.file}, "reactions with inertia are those of planar mechanisms",
-                           "ask for the pose at rest");
   if (moves && request.iterate)
     throw core::InputError({mechanism.file}, "the pose error is iterated at rest only",
                            "ask for the linear error, or leave velocity and acceleration out");

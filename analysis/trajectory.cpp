@@ -11,6 +11,7 @@
 #include "analysis/table_rows.hpp"
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/period_sweep.hpp"
 
 namespace clearloci {
@@ -37,6 +38,18 @@ std::string distance_unit(const numeric::Motion& motion) {
 
 // ---- Samples
 
+std::size_t dimension(const numeric::Motion& motion) {
+  return motion.model.mechanism.space == mechanism::Space::planar ? 2 : 3;
+}
+
+std::string axis_named(const std::string& name, std::size_t component) { return name + "xyz"[component]; }
+
+void put_components(TableRows& row, const numeric::Motion& motion, const std::string& name, const std::string& unit,
+                    const Eigen::Vector3d& v) {
+  for (std::size_t c = 0; c < dimension(motion); ++c)
+    row.put(axis_named(name, c), unit, v(static_cast<Eigen::Index>(c)));
+}
+
 void put_motion(TableRows& row, const numeric::Motion& motion, const Instant& at, double period) {
   const auto put = [&](const std::string& name, const std::string& unit, const numeric::Series& s) {
     row.put(name, unit, s.c[0]);
@@ -48,13 +61,34 @@ void put_motion(TableRows& row, const numeric::Motion& motion, const Instant& at
     put("q_" + own.name, own.angle ? "rad" : "m", at.coordinates[c]);
   }
   const auto& p = at.points[static_cast<std::size_t>(motion.model.mechanism.end_effector_point)];
-  put("px", "m", p[0]);
-  put("py", "m", p[1]);
+  for (std::size_t c = 0; c < dimension(motion); ++c) put(axis_named("p", c), "m", p[c]);
+}
+
+/// Forces and couples in Cartesian components, an actuator's share apart.
+void put_joints_in_space(TableRows& row, const numeric::Motion& motion, const Instant& at, const Eigen::VectorXd& w) {
+  using core::Quantity;
+  const mechanism::Mechanism& m = motion.model.mechanism;
+  const std::vector<numeric::JointReaction> of_joints = numeric::joint_reactions(motion, at, w);
+  for (std::size_t j = 0; j < of_joints.size(); ++j) {
+    const auto put = [&](Quantity quantity, double value) {
+      row.put(mechanism::unknown_name(m, {static_cast<mechanism::JointIndex>(j), quantity}), core::unit_of(quantity),
+              value);
+    };
+    const Eigen::Vector3d &f = of_joints[j].force, &couple = of_joints[j].couple;
+    for (const auto& [quantity, value] : {std::pair(Quantity::fx, f(0)), {Quantity::fy, f(1)}, {Quantity::fz, f(2)}})
+      put(quantity, value);
+    if (mechanism::traits(m.joints[j]).couple != mechanism::BorneCouple::none)
+      for (const auto& [quantity, value] :
+           {std::pair(Quantity::mx, couple(0)), {Quantity::my, couple(1)}, {Quantity::mz, couple(2)}})
+        put(quantity, value);
+    if (m.joints[j].actuated) put(mechanism::actuator_quantity(m.joints[j]), of_joints[j].actuator);
+  }
 }
 
 void put_joints(TableRows& row, const numeric::Motion& motion, const Instant& at, double period,
                 const std::vector<numeric::TakeUp>& take_up) {
   const Eigen::VectorXd w = at.reactions(period), rates = at.reaction_rates(period);
+  if (motion.model.mechanism.space == mechanism::Space::spatial) return put_joints_in_space(row, motion, at, w);
   for (std::size_t k = 0; k < motion.model.unknowns.size(); ++k)
     row.put(mechanism::unknown_name(motion.model.mechanism, motion.model.unknowns[k]),
             core::unit_of(motion.model.unknowns[k].quantity), w(static_cast<Eigen::Index>(k)));
@@ -82,11 +116,13 @@ core::Table table_of(const numeric::Motion& motion, const Samples& samples, doub
       row.put("stage", "", stage < 0 ? 0 : stage + 1);  // 0: dwelling
       put_motion(row, motion, at, period);
       const auto& p = at.points[static_cast<std::size_t>(motion.model.mechanism.end_effector_point)];
-      row.put("actual_px", "m", p[0].value() + e.error.dp[0]);
-      row.put("actual_py", "m", p[1].value() + e.error.dp[1]);
-      row.put("dx", "m", e.error.dp[0]);
-      row.put("dy", "m", e.error.dp[1]);
-      row.put("dalpha", "rad", e.error.dalpha[2]);
+      const Eigen::Vector3d nominal(p[0].value(), p[1].value(), p[2].value());
+      put_components(row, motion, "actual_p", "m", nominal + e.error.dp);
+      put_components(row, motion, "d", "m", e.error.dp);
+      if (dimension(motion) == 2)
+        row.put("dalpha", "rad", e.error.dalpha[2]);
+      else
+        put_components(row, motion, "dalpha", "rad", e.error.dalpha);
       put_joints(row, motion, at, period, e.take_up);
       row.end_row();
     }
@@ -137,9 +173,23 @@ LossKind kind_of(numeric::LossKind kind) {
 
 std::vector<ContactLoss> losses_of(const numeric::Motion& motion, const std::vector<numeric::ContactLoss>& found) {
   std::vector<ContactLoss> losses;
-  for (const numeric::ContactLoss& loss : found)
-    losses.push_back({kind_of(loss.kind), joint_name(motion, loss.joint), loss.quantity, loss.time, loss.distance,
-                      loss.stage + 1, loss.force, loss.from, loss.to, loss.payload});
+  for (const numeric::ContactLoss& loss : found) {
+    ContactLoss own{kind_of(loss.kind),
+                    joint_name(motion, loss.joint),
+                    loss.quantity,
+                    loss.time,
+                    loss.distance,
+                    loss.stage + 1,
+                    loss.force,
+                    loss.from,
+                    loss.to,
+                    loss.payload};
+    own.crossed = loss.effect.crossed;
+    own.displacement = loss.effect.jump.dp.norm();
+    own.rotation = loss.effect.jump.dalpha.norm();
+    own.earles_wu = loss.earles_wu;
+    losses.push_back(std::move(own));
+  }
   return losses;
 }
 
@@ -147,7 +197,7 @@ void add_sweep(const numeric::Motion& motion, const Samples& samples, const nume
                const std::vector<double>& periods, TrajectoryResult& result) {
   numeric::PeriodSweep sweep = numeric::period_sweep(motion, samples, periods);
   result.sweep = PeriodSweep{std::move(sweep.periods), std::move(sweep.distance), std::move(sweep.dx),
-                             std::move(sweep.dy), std::move(sweep.dalpha)};
+                             std::move(sweep.dy),      std::move(sweep.dz),       std::move(sweep.dalpha)};
   for (numeric::LossCurve& curve : numeric::loss_curves(motion, samples, thresholds, periods.front(), periods.back()))
     result.loss_curves.push_back({joint_name(motion, curve.joint), curve.quantity, std::move(curve.lines)});
 }
@@ -171,16 +221,8 @@ void check(const TrajectoryRequest& request) {
 
 }  // namespace
 
-void require_plane_motion(const mechanism::Mechanism& mechanism) {
-  if (mechanism.space == mechanism::Space::spatial)
-    throw core::InputError({.file = mechanism.file},
-                           "the mechanism is spatial, and trajectories are those of the plane",
-                           "solve single poses of it with clearloci pose");
-}
-
 TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                                    const TrajectoryRequest& request) {
-  require_plane_motion(mechanism);
   check(request);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
@@ -212,14 +254,12 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
 
 TrajectoryResult follow_trajectory(const Model& model, const std::string& path, const TrajectoryRequest& request) {
   const mechanism::Mechanism& mechanism = model.content().mechanism;
-  require_plane_motion(mechanism);
   return follow_trajectory(mechanism, mechanism::read_trajectory(path, mechanism), request);
 }
 
 TrajectoryResult follow_trajectory_text(const Model& model, const std::string& text, const TrajectoryRequest& request,
                                         const std::string& file) {
   const mechanism::Mechanism& mechanism = model.content().mechanism;
-  require_plane_motion(mechanism);
   return follow_trajectory(mechanism, mechanism::parse_trajectory(text, file, mechanism), request);
 }
 

@@ -7,9 +7,6 @@
 
 namespace clearloci {
 
-/// Throws core::InputError where the mechanism is spatial.
-void require_plane_motion(const mechanism::Mechanism& mechanism);
-
 /// Requires what the public one does.
 TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                                    const TrajectoryRequest& request = {});

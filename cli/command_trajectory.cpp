@@ -75,7 +75,6 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats =
       parse_formats(arguments.formats, report::format_names<core::TrajectoryResult>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  require_plane_motion(mechanism);
   const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "trajectory.json", incomplete_body(name, "the motion was"));

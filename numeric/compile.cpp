@@ -36,7 +36,15 @@ class ModelBuilder {
     model.posture_size = tape_.size();
     Equations equations(geometry_, m_);
     model.unknowns = equations.unknowns();
-    model.elimination = eliminate(tape_, equations.under(model.loads));
+    for (const mechanism::Joint& joint : m_.joints) {
+      const bool has_second = joint.axes.size() > 1;
+      model.second_axes.push_back(has_second ? std::optional(geometry_.unit(geometry_.vector(joint.axes[1])))
+                                             : std::nullopt);
+    }
+    model.equations = equations.under(model.loads);
+    model.equations_size = tape_.size();
+    model.link_rows = equations.link_rows();
+    model.elimination = eliminate(tape_, model.equations);
     model.reaction_size = tape_.size();
     for (std::size_t c = 0; c < equations.components(); ++c)
       model.unit_wrenches.push_back(eliminate(tape_, equations.under_unit(c)));

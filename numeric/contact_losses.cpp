@@ -1,5 +1,6 @@
 #include "numeric/contact_losses.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -48,31 +49,29 @@ class Watch {
       : motion_(motion),
         u_(1 / (period * period)),
         is_number_(quantity != core::Quantity::f),
-        number_(motion, joint, quantity) {
-    columns_ = motion.columns[static_cast<std::size_t>(joint)];
-  }
+        number_(motion, joint, quantity),
+        joint_(joint) {}
 
   Value at(const Instant& i) const {
     if (is_number_)
       return {number_.of(i.at_rest) + u_ * number_.of(i.inertial),
               number_.of(i.at_rest_rate) + u_ * number_.of(i.inertial_rate)};
-    const Value x = component(i, columns_.fx), y = component(i, columns_.fy);
-    return {x.value * x.value + y.value * y.value, 2 * (x.value * x.rate + y.value * y.rate)};
+    const PressingForce f = pressing(i);
+    return {f.value.squaredNorm(), 2 * f.value.dot(f.rate)};
   }
   Value at(std::size_t interval, double tau) const { return at(instant(motion_, interval, tau)); }
 
-  Point2 force(const Instant& i) const { return {component(i, columns_.fx).value, component(i, columns_.fy).value}; }
-
- private:
-  Value component(const Instant& i, int column) const {
-    return {i.at_rest(column) + u_ * i.inertial(column), i.at_rest_rate(column) + u_ * i.inertial_rate(column)};
+  Vector3d force(const Instant& i) const { return pressing(i).value; }
+  PressingForce pressing(const Instant& i) const {
+    return pressing_force(motion_, i, joint_, i.at_rest + u_ * i.inertial, i.at_rest_rate + u_ * i.inertial_rate);
   }
 
+ private:
   const Motion& motion_;
   double u_;
   bool is_number_;
   Scalar number_;
-  JointColumns columns_;
+  mechanism::JointIndex joint_;
 };
 
 /// A root of g between a and b, where g(a) and g(b) differ in sign: bisection, for g may have a kink of rounding only.
@@ -129,14 +128,19 @@ class LossSearch {
     const auto value = [&](double tau) { return watch.at(interval, tau).value; };
     const auto rate = [&](double tau) { return watch.at(interval, tau).rate; };
     if ((p.value < 0) != (q.value < 0)) {
-      add(LossKind::zero, interval, root(value, a.tau, b.tau, p.value));
+      add_zero(interval, root(value, a.tau, b.tau, p.value));
     } else if (p.value * p.rate < 0 && q.value * q.rate > 0) {
       const double extremum = root(rate, a.tau, b.tau, p.rate);
       const double there = value(extremum);
       if ((there < 0) == (p.value < 0) && there != 0) return;
-      add(LossKind::zero, interval, root(value, a.tau, extremum, p.value));
-      add(LossKind::zero, interval, root(value, extremum, b.tau, there));
+      add_zero(interval, root(value, a.tau, extremum, p.value));
+      add_zero(interval, root(value, extremum, b.tau, there));
     }
+  }
+
+  void add_zero(std::size_t interval, double tau) {
+    add(LossKind::zero, interval, tau).effect =
+        effect_of_zero(motion_, instant(motion_, interval, tau), joint_, quantity_);
   }
 
   /// A minimum of |f|² between two samples.
@@ -167,13 +171,15 @@ class LossSearch {
     if (quantity_ != core::Quantity::f) {
       flipped = watch.at(before).value * watch.at(after).value < 0;
     } else {
-      const Point2 p = watch.force(before), q = watch.force(after);
-      flipped = p[0] * q[0] + p[1] * q[1] < 0;
+      flipped = watch.force(before).dot(watch.force(after)) < 0;
     }
     if (!flipped) return;
     ContactLoss& loss = add(LossKind::jump, after.interval, after.tau);
     loss.payload =
         motion_.timeline.intervals[before.interval].carried != motion_.timeline.intervals[after.interval].carried;
+    loss.effect = quantity_ == core::Quantity::f
+                      ? effect_of_turn(motion_, after, joint_, watch.force(before), watch.force(after))
+                      : effect_of_zero(motion_, after, joint_, quantity_);
   }
 
   void add_minimum(const Watch& watch, std::size_t interval, double tau, double squared) {
@@ -197,6 +203,12 @@ class LossSearch {
     }
     loss.from = left * period_;
     loss.to = right * period_;
+    const Instant lowest = instant(motion_, interval, tau);
+    loss.effect = effect_of_turn(motion_, lowest, joint_, watch.force(instant(motion_, interval, left)),
+                                 watch.force(instant(motion_, interval, right)));
+    PressingForce least = watch.pressing(lowest);
+    least.rate /= period_;
+    loss.earles_wu = earles_wu(least);
   }
 
   ContactLoss& add(LossKind kind, std::size_t interval, double tau) {
@@ -220,14 +232,23 @@ class LossSearch {
   std::vector<ContactLoss> losses_;
 };
 
+/// f_s and f_i.
+struct ForceParts {
+  Vector3d at_rest, inertial;
+};
+
+ForceParts force_parts(const Motion& motion, const Instant& at, mechanism::JointIndex joint) {
+  return {pressing_force(motion, at, joint, at.at_rest, at.at_rest_rate).value,
+          pressing_force(motion, at, joint, at.inertial, at.inertial_rate).value};
+}
+
 /// The largest period at which f_J turns by more than a right angle from one side of a seam to the other:
 /// (f_s + u f_i)·(f_s' + u f_i') = 0.
-double turn_period(const Instant& before, const Instant& after, const JointColumns& c) {
-  const auto pair = [&](const Eigen::VectorXd& w) { return Eigen::Vector2d(w(c.fx), w(c.fy)); };
-  const double constant = pair(before.at_rest).dot(pair(after.at_rest));
-  const double half =
-      (pair(before.at_rest).dot(pair(after.inertial)) + pair(before.inertial).dot(pair(after.at_rest))) / 2;
-  const double square = pair(before.inertial).dot(pair(after.inertial));
+double turn_period(const Motion& motion, const Instant& before, const Instant& after, mechanism::JointIndex joint) {
+  const ForceParts b = force_parts(motion, before, joint), a = force_parts(motion, after, joint);
+  const double constant = b.at_rest.dot(a.at_rest);
+  const double half = (b.at_rest.dot(a.inertial) + b.inertial.dot(a.at_rest)) / 2;
+  const double square = b.inertial.dot(a.inertial);
   const double discriminant = half * half - square * constant;
   if (constant <= 0) return infinity;
   if (discriminant < 0) return 0;
@@ -246,7 +267,7 @@ void consider_seams(const Motion& motion, const std::vector<std::vector<Instant>
     if (right.stage < 0 || left.carried != right.carried) continue;
     for (std::size_t j = 0; j < motion.columns.size(); ++j) {
       if (!(motion.clearances[j].radial > 0)) continue;
-      const double period = turn_period(before, after, motion.columns[j]);
+      const double period = turn_period(motion, before, after, static_cast<mechanism::JointIndex>(j));
       CriticalPeriod& stage = critical[static_cast<std::size_t>(right.stage)];
       if (period > stage.period)
         stage = {period, static_cast<int>(j), core::Quantity::f, after.tau, after.distance.value()};
@@ -273,9 +294,7 @@ class LastLoss {
         quantity_(quantity),
         is_number_(quantity != core::Quantity::f),
         number_(motion, joint, quantity),
-        thresholds_(thresholds) {
-    columns_ = motion.columns[static_cast<std::size_t>(joint)];
-  }
+        thresholds_(thresholds) {}
 
   void search(const std::vector<Instant>& instants, CriticalPeriod& stage) const {
     for (std::size_t i = 0; i < instants.size(); ++i) {
@@ -307,11 +326,9 @@ class LastLoss {
 
   /// The least |f_s + u f_i| over u >= 0: whether some period loses contact here.
   double nearest(const Instant& at) const {
-    const Eigen::Vector2d rest(at.at_rest(columns_.fx), at.at_rest(columns_.fy));
-    const Eigen::Vector2d inertial(at.inertial(columns_.fx), at.inertial(columns_.fy));
-    const double along = rest.dot(inertial);
-    if (along >= 0) return rest.norm();
-    return std::abs(rest(0) * inertial(1) - rest(1) * inertial(0)) / inertial.norm();
+    const auto [rest, inertial] = force_parts(motion_, at, joint_);
+    if (rest.dot(inertial) >= 0) return rest.norm();
+    return rest.cross(inertial).norm() / inertial.norm();
   }
 
   void refine(std::size_t interval, double a, double b, CriticalPeriod& stage) const {
@@ -347,7 +364,6 @@ class LastLoss {
   bool is_number_;
   Scalar number_;
   const LossThresholds& thresholds_;
-  JointColumns columns_;
 };
 
 }  // namespace
@@ -370,7 +386,8 @@ LossThresholds default_thresholds(const Motion& motion, const std::vector<std::v
   for (const auto& instants : samples)
     for (const Instant& i : instants)
       for (const JointColumns& c : motion.columns)
-        if (c.fx >= 0 && c.fy >= 0) most = std::max(most, std::hypot(i.at_rest(c.fx), i.at_rest(c.fy)));
+        if (c.fx >= 0 && c.fy >= 0)
+          most = std::max(most, std::hypot(i.at_rest(c.fx), i.at_rest(c.fy), c.fz < 0 ? 0.0 : i.at_rest(c.fz)));
   return {part * most};
 }
 
@@ -381,18 +398,16 @@ std::vector<ContactLoss> contact_losses(const Motion& motion, const std::vector<
 
 double loss_period(const Motion& motion, const Instant& at, mechanism::JointIndex joint, core::Quantity quantity,
                    const LossThresholds& thresholds) {
-  const JointColumns& c = motion.columns[static_cast<std::size_t>(joint)];
   if (quantity != core::Quantity::f) {
     const Scalar number(motion, joint, quantity);
     const double rest = number.of(at.at_rest), inertial = number.of(at.inertial);
     if (rest == 0) return infinity;
     return rest * inertial < 0 ? std::sqrt(-inertial / rest) : 0;
   }
-  const Point2 rest = {at.at_rest(c.fx), at.at_rest(c.fy)}, inertial = {at.inertial(c.fx), at.inertial(c.fy)};
-  const double excess = rest[0] * rest[0] + rest[1] * rest[1] - thresholds.force * thresholds.force;
+  const auto [rest, inertial] = force_parts(motion, at, joint);
+  const double excess = rest.squaredNorm() - thresholds.force * thresholds.force;
   if (excess <= 0) return infinity;
-  const double half = rest[0] * inertial[0] + rest[1] * inertial[1];
-  const double square = inertial[0] * inertial[0] + inertial[1] * inertial[1];
+  const double half = rest.dot(inertial), square = inertial.squaredNorm();
   const double discriminant = half * half - square * excess;
   if (half >= 0 || discriminant < 0) return 0;
   // The smaller root of square u² + 2 half u + excess, without cancellation.

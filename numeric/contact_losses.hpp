@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "numeric/dynamics.hpp"
+#include "numeric/loss_effects.hpp"
 
 namespace clearloci::numeric {
 
@@ -36,6 +36,8 @@ struct ContactLoss {
   double force = 0;                             ///< of a minimum: |f_J|, N
   double from = 0, to = 0;  ///< of a minimum: times between which |f_J| is at or below the threshold, s
   bool payload = false;     ///< of a jump: a body is picked or placed there
+  LossEffect effect;
+  double earles_wu = 0;  ///< of a minimum, rad/(N s); infinite where the force vanishes
 };
 
 /// What is watched of a joint: f with a radial clearance, M or F with play in its actuator, the ends of a guide's

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/wrench_rows.hpp"
 
@@ -18,24 +20,59 @@ namespace clearloci::numeric {
 namespace {
 
 using Rate = Taylor<1>;  ///< a value and its derivative by τ
-using RatePoint = std::array<Rate, 2>;
+using RateVector = std::array<Rate, 3>;
 
 constexpr double slender_rod = -1;
 
-RatePoint rate_of(const PointSeries& p) { return {p[0].truncated<1>(), p[1].truncated<1>()}; }
-
-RatePoint acceleration_of(const PointSeries& p) {
-  return {p[0].derivative().derivative(), p[1].derivative().derivative()};
+[[noreturn]] void refuse_rotation(const mechanism::Link& link) {
+  throw core::InputError(link.where, "link " + link.name + " has inertia, but its points do not show its rotation",
+                         "name more points of it, or write its mass as point masses");
 }
 
-Rate cross(const RatePoint& a, const RatePoint& b) { return a[0] * b[1] - a[1] * b[0]; }
+template <int N>
+std::array<Taylor<N>, 3> cross(const std::array<Taylor<N>, 3>& a, const std::array<Taylor<N>, 3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
-/// ω = r × r' / r² of a vector that turns with a link, differentiated once more.
+template <int N>
+std::array<Taylor<N>, 3> unit(const std::array<Taylor<N>, 3>& a) {
+  const Taylor<N> length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+template <int M, int N>
+std::array<Taylor<M>, 3> truncated(const std::array<Taylor<N>, 3>& a) {
+  return {a[0].template truncated<M>(), a[1].template truncated<M>(), a[2].template truncated<M>()};
+}
+
+template <int N>
+std::array<Taylor<N - 1>, 3> derivative(const std::array<Taylor<N>, 3>& a) {
+  return {a[0].derivative(), a[1].derivative(), a[2].derivative()};
+}
+
+RateVector acceleration_of(const PointSeries& p) { return derivative(derivative(p)); }
+
+RateVector times(double factor, const RateVector& v) { return {factor * v[0], factor * v[1], factor * v[2]}; }
+
+Vector3d values_of(const PointSeries& v) { return {v[0].value(), v[1].value(), v[2].value()}; }
+
+/// ω = r × r' / r² about z of a vector of the plane that turns with a link, differentiated once more.
 Rate angular_acceleration(const PointSeries& r) {
   const std::array<Taylor<2>, 2> v = {r[0].derivative(), r[1].derivative()};
   const std::array<Taylor<2>, 2> arm = {r[0].truncated<2>(), r[1].truncated<2>()};
   const Taylor<2> turning = (arm[0] * v[1] - arm[1] * v[0]) / (arm[0] * arm[0] + arm[1] * arm[1]);
   return turning.derivative();
+}
+
+/// ω = ½ Σ e_i × e_i' of a frame that turns with two directions of a link, differentiated once more.
+RateVector angular_acceleration(const PointSeries& a, const PointSeries& b) {
+  const PointSeries e1 = unit(a), e3 = unit(cross(a, b)), e2 = cross(e3, e1);
+  std::array<Taylor<2>, 3> turning{};
+  for (const PointSeries& e : {e1, e2, e3}) {
+    const std::array<Taylor<2>, 3> part = cross(truncated<2>(e), derivative(e));
+    for (std::size_t c = 0; c < 3; ++c) turning[c] = turning[c] + 0.5 * part[c];
+  }
+  return derivative(turning);
 }
 
 /// A column of right-hand sides with its derivative.
@@ -47,12 +84,6 @@ struct Column {
     value(row) += sign * entry.c[0];
     rate(row) += sign * entry.c[1];
   }
-  /// A force at a point and a couple on a link; the moment is about the end-effector point.
-  void add(mechanism::LinkIndex link, const RatePoint& arm, const RatePoint& force, const Rate& couple, double sign) {
-    add(3 * link, force[0], sign);
-    add(3 * link + 1, force[1], sign);
-    add(3 * link + 2, couple + cross(arm, force), sign);
-  }
 };
 
 /// The equations of one instant, put together from series.
@@ -60,17 +91,18 @@ class InstantEquations {
  public:
   InstantEquations(const Motion& motion, const Interval& interval, const std::vector<Series>& registers)
       : motion_(motion),
+        model_(motion.model),
         interval_(interval),
         registers_(registers),
-        size_(static_cast<Eigen::Index>(motion.model.unknowns.size())),
+        rows_of_wrench_(wrench_rows(model_.mechanism.space)),
+        size_(static_cast<Eigen::Index>(model_.unknowns.size())),
         A_(Eigen::MatrixXd::Zero(size_, size_)),
         A_rate_(A_),
         rest_(size_),
         inertial_(size_) {}
 
   void solve(Instant& instant) {
-    assemble_matrix();
-    assemble_loads();
+    assemble_statics();
     assemble_links();
     assemble_payloads();
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A_);
@@ -80,114 +112,139 @@ class InstantEquations {
     // A w = b  =>  A w' = b' - A' w
     instant.at_rest_rate = lu.solve(rest_.rate - A_rate_ * instant.at_rest);
     instant.inertial_rate = lu.solve(inertial_.rate - A_rate_ * instant.inertial);
-    instant.influence = lu.solve(unit_wrenches(motion_.model.mechanism, size_)).transpose();
+    instant.influence = lu.solve(unit_wrenches_on_the_end_effector()).transpose();
   }
 
  private:
-  Series at(Register r) const { return registers_[static_cast<std::size_t>(r)]; }
-  PointSeries point(mechanism::PointIndex p) const {
-    const auto& [x, y, z] = motion_.model.points[static_cast<std::size_t>(p)];
-    return {at(x), at(y)};
+  const Series& at(Register r) const { return registers_[static_cast<std::size_t>(r)]; }
+  PointSeries vector(const Triple& v) const { return {at(v[0]), at(v[1]), at(v[2])}; }
+  PointSeries point(mechanism::PointIndex p) const { return vector(model_.points[static_cast<std::size_t>(p)]); }
+  PointSeries between(mechanism::PointIndex p, mechanism::PointIndex q) const {
+    const PointSeries a = point(p), b = point(q);
+    return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   }
-  RatePoint arm(mechanism::PointIndex p) const {
-    const RatePoint a = rate_of(point(p)), e = rate_of(point(motion_.model.mechanism.end_effector_point));
-    return {a[0] - e[0], a[1] - e[1]};
+  RateVector arm(mechanism::PointIndex p) const {
+    return truncated<1>(between(model_.mechanism.end_effector_point, p));
+  }
+  Eigen::Index row_of(mechanism::LinkIndex link, std::size_t component) const {
+    const std::size_t first = rows_of_wrench_.size() * static_cast<std::size_t>(link);
+    return static_cast<Eigen::Index>(model_.link_rows[first + component]);
   }
 
-  void assemble_matrix() {
-    for (Eigen::Index column = 0; column < size_; ++column) {
-      const mechanism::Unknown& unknown = motion_.model.unknowns[static_cast<std::size_t>(column)];
-      const mechanism::Joint& joint = motion_.model.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
-      const std::optional<RatePoint> force = unit_force(unknown);
-      const Rate moment = force ? cross(arm(joint.at), *force) : Rate(1);
-      for (const int sign : {1, -1}) {
-        const mechanism::LinkIndex link = sign > 0 ? joint.to : joint.from;
-        if (link == mechanism::ground) continue;
-        const std::array<Rate, 3> wrench = {force ? (*force)[0] : Rate(), force ? (*force)[1] : Rate(), moment};
-        for (Eigen::Index row = 0; row < 3; ++row) {
-          A_(3 * link + row, column) += sign * wrench[static_cast<std::size_t>(row)].c[0];
-          A_rate_(3 * link + row, column) += sign * wrench[static_cast<std::size_t>(row)].c[1];
+  /// A, and the loads in its last column.
+  void assemble_statics() {
+    const SparseEquations& equations = model_.equations;
+    for (std::size_t r = 0; r < equations.rows.size(); ++r) {
+      const auto row = static_cast<Eigen::Index>(r);
+      for (const auto& [column, value] : equations.rows[r]) {
+        const Rate entry = at(value).truncated<1>();
+        if (column == equations.unknowns) {
+          rest_.add(row, entry);
+        } else {
+          A_(row, column) = entry.c[0];
+          A_rate_(row, column) = entry.c[1];
         }
       }
     }
   }
 
-  /// The force of a unit of an unknown; none of a couple.
-  std::optional<RatePoint> unit_force(const mechanism::Unknown& unknown) const {
-    const auto axis = [&] {
-      const auto& [x, y, z] = *motion_.model.axes[static_cast<std::size_t>(unknown.joint)];
-      return RatePoint{at(x).truncated<1>(), at(y).truncated<1>()};
-    };
-    switch (unknown.quantity) {
-      case core::Quantity::fx:
-        return RatePoint{Rate(1), Rate()};
-      case core::Quantity::fy:
-        return RatePoint{Rate(), Rate(1)};
-      case core::Quantity::N:
-        return RatePoint{-axis()[1], axis()[0]};
-      case core::Quantity::F:
-        return axis();
-      default:
-        return std::nullopt;
+  Eigen::MatrixXd unit_wrenches_on_the_end_effector() const {
+    const mechanism::Mechanism& m = model_.mechanism;
+    Eigen::MatrixXd wrenches = Eigen::MatrixXd::Zero(size_, static_cast<Eigen::Index>(rows_of_wrench_.size()));
+    for (std::size_t c = 0; c < rows_of_wrench_.size(); ++c) {
+      wrenches(row_of(m.end_effector_link, c), static_cast<Eigen::Index>(c)) += 1;
+      if (m.relative_to != mechanism::ground) wrenches(row_of(m.relative_to, c), static_cast<Eigen::Index>(c)) -= 1;
     }
+    return wrenches;
   }
 
-  void assemble_loads() {
-    for (const LoadRegisters& load : motion_.model.loads) {
-      const RatePoint force = {at(load.force[0]).truncated<1>(), at(load.force[1]).truncated<1>()};
-      rest_.add(load.link, load.at ? arm(*load.at) : RatePoint{}, force, at(load.couple[2]).truncated<1>(), -1);
+  /// A force at a point and a couple on a link; the moment is about the end-effector point.
+  void add(Column& column, mechanism::LinkIndex link, mechanism::PointIndex where, const RateVector& force,
+           const RateVector& couple, double sign) const {
+    const RateVector moment = cross(arm(where), force);
+    for (std::size_t c = 0; c < rows_of_wrench_.size(); ++c) {
+      const auto k = static_cast<std::size_t>(rows_of_wrench_[c]);
+      column.add(row_of(link, c), k < 3 ? force[k] : couple[k - 3] + moment[k - 3], sign);
     }
   }
 
   void assemble_links() {
-    const auto& links = motion_.model.mechanism.links;
+    const auto& links = model_.mechanism.links;
     for (std::size_t i = 0; i < links.size(); ++i) {
-      const double m = motion_.mass[i];
-      double inertia = motion_.inertia[i];
-      if (inertia == slender_rod) {
-        const PointSeries p = point(links[i].points[0]), q = point(links[i].points[1]);
-        const double x = q[0].value() - p[0].value(), y = q[1].value() - p[1].value();
-        inertia = m * (x * x + y * y) / 12;
-      }
-      add_inertia(static_cast<int>(i), links[i].centre_of_mass, m, inertia);
+      const auto link = static_cast<mechanism::LinkIndex>(i);
+      const double m = motion_.mass[i], inertia = motion_.inertia[i];
+      if (m == 0 && inertia <= 0) continue;
+      add_inertia(link, links[i].centre_of_mass, m, inertia == slender_rod ? rod(links[i], m) : turned(link, inertia));
     }
-    for (const PlacedMass& body : motion_.point_masses) add_inertia(body.link, body.at, body.mass, 0);
+    for (const PlacedMass& body : motion_.point_masses) add_inertia(body.link, body.at, body.mass, {});
   }
 
   void assemble_payloads() {
     for (const int number : interval_.carried) {
       const mechanism::Payload& payload = motion_.timeline.trajectory.payloads[static_cast<std::size_t>(number)];
       const double m = core::to_double(payload.mass);
-      add_inertia(payload.link, payload.at, m, core::to_double(payload.inertia));
-      if (!motion_.model.gravity) continue;
-      const auto& [gx, gy, gz] = *motion_.model.gravity;
-      const RatePoint weight = {m * at(gx).truncated<1>(), m * at(gy).truncated<1>()};
-      rest_.add(payload.link, arm(payload.at), weight, Rate(), -1);
+      add_inertia(payload.link, payload.at, m, turned(payload.link, core::to_double(payload.inertia)));
+      if (!model_.gravity) continue;
+      add(rest_, payload.link, payload.at, times(m, truncated<1>(vector(*model_.gravity))), {}, -1);
     }
   }
 
-  void add_inertia(mechanism::LinkIndex link, mechanism::PointIndex centre, double m, double inertia) {
-    if (m == 0 && inertia == 0) return;
-    const RatePoint a = acceleration_of(point(centre));
-    const Rate turning = inertia == 0 ? Rate() : inertia * angular_acceleration(direction(link));
-    inertial_.add(link, arm(centre), {m * a[0], m * a[1]}, turning, 1);
+  void add_inertia(mechanism::LinkIndex link, mechanism::PointIndex centre, double m, const RateVector& turning) {
+    add(inertial_, link, centre, times(m, acceleration_of(point(centre))), turning, 1);
+  }
+
+  /// m/12 r × r'' of a slender rod between a link's first two points.
+  RateVector rod(const mechanism::Link& link, double m) const {
+    const PointSeries r = between(link.points.at(0), link.points.at(1));
+    return times(m / 12, cross(truncated<1>(r), acceleration_of(r)));
+  }
+
+  /// I α.
+  RateVector turned(mechanism::LinkIndex link, double inertia) const {
+    if (inertia == 0) return {};
+    if (model_.mechanism.space == mechanism::Space::planar)
+      return {Rate(), Rate(), inertia * angular_acceleration(direction_in_plane(link))};
+    if (motion_.still[static_cast<std::size_t>(link)]) return {};
+    const auto [a, b] = two_directions(link);
+    return times(inertia, angular_acceleration(a, b));
   }
 
   /// From its first point to its second one, or along the guide that it turns with.
-  PointSeries direction(mechanism::LinkIndex link) const {
+  PointSeries direction_in_plane(mechanism::LinkIndex link) const {
     const mechanism::JointIndex guide = motion_.guide[static_cast<std::size_t>(link)];
-    if (guide >= 0) {
-      const auto& [x, y, z] = *motion_.model.axes[static_cast<std::size_t>(guide)];
-      return {at(x), at(y)};
-    }
-    const auto& points = motion_.model.mechanism.links[static_cast<std::size_t>(link)].points;
-    const PointSeries p = point(points.at(0)), q = point(points.at(1));
-    return {q[0] - p[0], q[1] - p[1]};
+    if (guide >= 0) return vector(*model_.axes[static_cast<std::size_t>(guide)]);
+    const auto& points = model_.mechanism.links[static_cast<std::size_t>(link)].points;
+    return between(points.at(0), points.at(1));
+  }
+
+  PointSeries series_of(const BodyDirection& own) const {
+    return own.axis ? vector(*own.axis) : between(own.from, own.to);
+  }
+
+  /// The first two that are well apart, else those that are farthest apart.
+  std::array<PointSeries, 2> two_directions(mechanism::LinkIndex link) const {
+    constexpr double well = 0.1, hardly = 1e-6;  // sines
+    const std::vector<BodyDirection>& all = motion_.directions[static_cast<std::size_t>(link)];
+    double best = hardly;
+    std::optional<std::array<PointSeries, 2>> found;
+    for (std::size_t i = 0; i < all.size() && best < well; ++i)
+      for (std::size_t k = i + 1; k < all.size() && best < well; ++k) {
+        const PointSeries a = series_of(all[i]), b = series_of(all[k]);
+        const Vector3d u = values_of(a), v = values_of(b);
+        const double sine = u.cross(v).norm() / (u.norm() * v.norm());
+        if (!(sine > best)) continue;
+        best = sine;
+        found = {a, b};
+      }
+    if (!found) refuse_rotation(model_.mechanism.links[static_cast<std::size_t>(link)]);
+    return *found;
   }
 
   const Motion& motion_;
+  const NumericModel& model_;
   const Interval& interval_;
   const std::vector<Series>& registers_;
+  const std::vector<Eigen::Index>& rows_of_wrench_;
   Eigen::Index size_;
   Eigen::MatrixXd A_, A_rate_;
   Column rest_, inertial_;
@@ -242,11 +299,46 @@ mechanism::JointIndex guide_of(const mechanism::Mechanism& mechanism, mechanism:
   return own == mechanism.joints.end() ? -1 : static_cast<mechanism::JointIndex>(own - mechanism.joints.begin());
 }
 
+/// The links that turn with a link, which guides hold to it; itself first.
+std::vector<mechanism::LinkIndex> turning_with(const mechanism::Mechanism& m, mechanism::LinkIndex link) {
+  std::vector<mechanism::LinkIndex> all = {link};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const mechanism::Joint& joint : m.joints) {
+      if (joint.type != mechanism::JointType::prismatic || (joint.from != all[i] && joint.to != all[i])) continue;
+      const mechanism::LinkIndex other = joint.from == all[i] ? joint.to : joint.from;
+      if (std::find(all.begin(), all.end(), other) == all.end()) all.push_back(other);
+    }
+  return all;
+}
+
+/// Points first, then axes along which it slides, then the others.
+std::vector<BodyDirection> directions_of(const NumericModel& model, const std::vector<mechanism::LinkIndex>& links) {
+  const mechanism::Mechanism& m = model.mechanism;
+  const auto holds = [&](mechanism::LinkIndex link) {
+    return std::find(links.begin(), links.end(), link) != links.end();
+  };
+  std::vector<BodyDirection> all;
+  for (const mechanism::LinkIndex link : links) {
+    if (link == mechanism::ground) continue;
+    const std::vector<mechanism::PointIndex>& points = m.links[static_cast<std::size_t>(link)].points;
+    for (std::size_t k = 1; k < points.size(); ++k) all.push_back({points[0], points[k]});
+  }
+  for (const bool slides : {true, false})
+    for (std::size_t j = 0; j < m.joints.size(); ++j) {
+      const mechanism::Joint& joint = m.joints[j];
+      if (mechanism::traits(joint).slides != slides || mechanism::holds_idle_freedom(joint)) continue;
+      const bool crossed = joint.type == mechanism::JointType::universal;
+      if (model.axes[j] && (holds(joint.from) || (holds(joint.to) && !crossed))) all.push_back({0, 0, model.axes[j]});
+      if (crossed && model.second_axes[j] && holds(joint.to)) all.push_back({0, 0, model.second_axes[j]});
+    }
+  return all;
+}
+
 Motion motion_of(const mechanism::Mechanism& mechanism, Timeline timeline, std::vector<int> mode) {
-  if (mechanism.space != mechanism::Space::planar)
-    throw core::InputError({mechanism.file, 0, 0}, "the mechanism is spatial, and trajectories are those of the plane",
-                           "solve single poses of it with clearloci pose");
-  Motion motion{compile(mechanism), std::move(mode), std::move(timeline), {}, {}, {}, {}, {}, {}};
+  Motion motion;
+  motion.model = compile(mechanism);
+  motion.mode = std::move(mode);
+  motion.timeline = std::move(timeline);
   core::ensure(motion.mode.size() == motion.model.dyads.size(), "a working mode has one sign for each dyad");
   std::vector<bool> turns(mechanism.links.size(), false);
   for (const mechanism::Link& link : mechanism.links) {
@@ -262,12 +354,15 @@ Motion motion_of(const mechanism::Mechanism& mechanism, Timeline timeline, std::
                                      core::to_double(mechanism::value_of(point.mass, mechanism))});
   for (const mechanism::Payload& payload : motion.timeline.trajectory.payloads)
     if (payload.inertia > 0) turns[static_cast<std::size_t>(payload.link)] = true;
-  for (std::size_t i = 0; i < turns.size(); ++i)
-    if (turns[i] && mechanism.links[i].points.size() < 2 && motion.guide[i] < 0)
-      throw core::InputError(
-          mechanism.links[i].where,
-          "link " + mechanism.links[i].name + " has inertia but a single point, so its rotation is unknown",
-          "name a second point of it");
+  const bool planar = mechanism.space == mechanism::Space::planar;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const std::vector<mechanism::LinkIndex> links = turning_with(mechanism, static_cast<mechanism::LinkIndex>(i));
+    motion.directions.push_back(directions_of(motion.model, links));
+    motion.still.push_back(std::find(links.begin(), links.end(), mechanism::ground) != links.end());
+    const bool shown = planar ? mechanism.links[i].points.size() > 1 || motion.guide[i] >= 0
+                              : motion.still.back() || motion.directions.back().size() > 1;
+    if (turns[i] && !shown) refuse_rotation(mechanism.links[i]);
+  }
   motion.columns = joint_columns(motion.model);
   motion.clearances = joint_clearances(mechanism);
   return motion;
@@ -278,11 +373,15 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
   const NumericModel& model = motion.model;
   std::vector<Series> inputs = result.coordinates;
   for (const int sign : motion.mode) inputs.emplace_back(sign);
-  std::vector<Series> registers(static_cast<std::size_t>(model.posture_size));
-  run<Series, 1>(model.tape, 0, model.posture_size, inputs.data(), registers.data());
+  std::vector<Series> registers(static_cast<std::size_t>(model.equations_size));
+  run<Series, 1>(model.tape, 0, model.equations_size, inputs.data(), registers.data());
+  const auto vector = [&](const Triple& v) {
+    const auto at = [&](std::size_t c) { return registers[static_cast<std::size_t>(v[c])]; };
+    return PointSeries{at(0), at(1), at(2)};
+  };
   result.reachable = true;
-  for (const auto& [x, y, z] : model.points) {
-    result.points.push_back({registers[static_cast<std::size_t>(x)], registers[static_cast<std::size_t>(y)]});
+  for (const Triple& point : model.points) {
+    result.points.push_back(vector(point));
     for (const Series& s : result.points.back())
       for (const double c : s.c) result.reachable = result.reachable && std::isfinite(c);
   }
@@ -293,10 +392,12 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
         result.broken = LimitEnd{i, upper, registers[static_cast<std::size_t>(*end)].value()};
   result.reachable = result.reachable && !result.broken;
   for (const auto& axis : model.axes) {
-    Vector3d& u = result.axes.emplace_back(Vector3d::Zero());
-    for (std::size_t c = 0; axis && c < 3; ++c)
-      u[static_cast<Eigen::Index>(c)] = registers[static_cast<std::size_t>((*axis)[c])].value();
+    const PointSeries u = axis ? vector(*axis) : PointSeries{};
+    result.axes.push_back(values_of(u));
+    result.axes_rate.push_back({u[0].c[1], u[1].c[1], u[2].c[1]});
   }
+  for (const auto& axis : model.couple_axes)
+    result.couple_axes.push_back(axis ? values_of(vector(*axis)) : Vector3d::Zero());
   if (result.reachable) InstantEquations(motion, stretch, registers).solve(result);
 }
 
@@ -329,14 +430,41 @@ Instant instant(const Motion& motion, std::size_t interval, double tau) {
   return result;
 }
 
+std::vector<JointReaction> joint_reactions(const Motion& motion, const Instant& at, const Eigen::VectorXd& values) {
+  const NumericModel& model = motion.model;
+  std::vector<JointReaction> all =
+      joint_reactions(at.axes.size(), unknown_columns(model, at.axes, at.couple_axes), values);
+  if (model.mechanism.space == mechanism::Space::planar) return all;
+  // The whole force and couple of equations.hpp hold the actuator's share.
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    Vector3d& whole = mechanism::traits(model.mechanism.joints[j]).slides ? all[j].force : all[j].couple;
+    whole -= all[j].actuator * at.axes[j];
+  }
+  return all;
+}
+
+PressingForce pressing_force(const Motion& motion, const Instant& at, mechanism::JointIndex joint,
+                             const Eigen::VectorXd& values, const Eigen::VectorXd& rates) {
+  const auto j = static_cast<std::size_t>(joint);
+  const JointColumns& c = motion.columns[j];
+  const auto force = [&](const Eigen::VectorXd& w) { return Vector3d(w(c.fx), w(c.fy), c.fz < 0 ? 0.0 : w(c.fz)); };
+  PressingForce own{force(values), force(rates)};
+  if (c.fz < 0 || !mechanism::traits(motion.model.mechanism.joints[j]).turns_about_axis()) return own;
+  // f - u (u·f), differentiated
+  const Vector3d &u = at.axes[j], &turn = at.axes_rate[j];
+  const double along = u.dot(own.value);
+  own.rate -= turn * along + u * (turn.dot(own.value) + u.dot(own.rate));
+  own.value -= u * along;
+  return own;
+}
+
 InstantError instant_error(const Motion& motion, const Instant& at, double period) {
   InstantError result;
   const mechanism::Mechanism& m = motion.model.mechanism;
-  const std::vector<ReactionColumn> columns =
-      reaction_columns(m, at.axes, std::vector<Vector3d>(at.axes.size(), Vector3d::Zero()));
   result.contacts = joint_contacts(m, at.axes);
-  result.take_up = take_up(result.contacts, joint_reactions(at.axes.size(), columns, at.reactions(period)));
+  result.take_up = take_up(result.contacts, joint_reactions(motion, at, at.reactions(period)));
   if (undefined_take_up(m, result.contacts, result.take_up).empty()) {
+    const std::vector<ReactionColumn> columns = unknown_columns(motion.model, at.axes, at.couple_axes);
     result.error = pose_error(m.space, at.influence, clearance_displacements(columns, result.take_up));
   } else {
     const Vector3d none = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());

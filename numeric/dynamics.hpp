@@ -1,5 +1,7 @@
 // Reactions along a trajectory (paper (9), (10); method.md section 7):
 //     A w_J = w_i - w_e,   w_i of a link: (m a_G, I α + p_EG × m a_G)
+// In space A is that of equations.hpp, and the moment of a slender rod m/12 r × r'' of the way r between its ends; an
+// `inertia` is the same about every axis, so that I α is its moment, with α of two directions that turn with the link.
 // Every derivative is exact: the closure's tape runs over Taylor series in time. With time in parts τ of the period T,
 // accelerations are those by τ divided by T², so that
 //     w_J = w_s + w_i / T²
@@ -22,6 +24,12 @@ struct PlacedMass {
   double mass = 0;  ///< kg
 };
 
+/// Between two points of a link, or the axis of a joint that is fixed in it.
+struct BodyDirection {
+  mechanism::PointIndex from = 0, to = 0;
+  std::optional<Triple> axis = {};
+};
+
 /// A mechanism on its way along a path.
 struct Motion {
   NumericModel model;
@@ -31,6 +39,9 @@ struct Motion {
   std::vector<double> mass, inertia;  ///< of the links; inertia < 0: that of a slender rod between its first two points
   /// Of links with a single point: the joint whose guide they turn with; -1 of others.
   std::vector<mechanism::JointIndex> guide;
+  /// In space: directions that turn with a link, the surest first.
+  std::vector<std::vector<BodyDirection>> directions;
+  std::vector<bool> still;  ///< links that do not turn: guides hold them to the ground
   std::vector<JointColumns> columns;
   std::vector<JointClearance> clearances;
 };
@@ -40,7 +51,7 @@ struct Motion {
 Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                       std::vector<int> mode);
 
-using PointSeries = std::array<Series, 2>;
+using PointSeries = std::array<Series, 3>;
 
 /// The mechanism at one instant. Rates are by τ.
 struct Instant {
@@ -49,7 +60,8 @@ struct Instant {
   Series distance;                              ///< along the path
   std::vector<Series> coordinates;              ///< free coordinates
   std::vector<PointSeries> points;              ///< of the mechanism
-  std::vector<Vector3d> axes;                   ///< as Posture::axes
+  std::vector<Vector3d> axes, couple_axes;      ///< as Posture::axes and its couple_axes
+  std::vector<Vector3d> axes_rate;              ///< derivatives of the axes
   std::optional<LimitEnd> broken;               ///< a limit that the pose is beyond; then not reachable
   bool reachable = false;                       ///< everything below only then
   double determinant = 0;                       ///< |A|
@@ -69,6 +81,16 @@ Motion compile_motion(const mechanism::Mechanism& mechanism, std::vector<int> mo
 
 /// With these coordinates as functions of time; time is in s and the period 1 s.
 Instant instant_of(const Motion& motion, const std::vector<Series>& coordinates);
+
+/// What joints exert at an instant, of a column of the unknowns: as of reactions.hpp.
+std::vector<JointReaction> joint_reactions(const Motion& motion, const Instant& at, const Eigen::VectorXd& values);
+
+/// What presses the parts of a joint together, of a column of the unknowns with its derivative by τ.
+struct PressingForce {
+  Vector3d value = Vector3d::Zero(), rate = Vector3d::Zero();
+};
+PressingForce pressing_force(const Motion& motion, const Instant& at, mechanism::JointIndex joint,
+                             const Eigen::VectorXd& values, const Eigen::VectorXd& rates);
 
 /// By the pieces of the given interval; at its ends the one-sided limit.
 Instant instant(const Motion& motion, std::size_t interval, double tau);

@@ -28,6 +28,8 @@ class Equations {
   /// Under loads, and under a unit of a component of a wrench on the end effector.
   SparseEquations under(const std::vector<LoadRegisters>& loads);
   SparseEquations under_unit(std::size_t component);
+  /// Where the equations of the links stand: of every component of every link, link after link.
+  const std::vector<std::size_t>& link_rows() const { return link_rows_; }
   /// Of a wrench on a link: 3 or 6.
   std::size_t components() const { return rows_of_wrench_.size(); }
 

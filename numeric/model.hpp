@@ -46,6 +46,11 @@ struct NumericModel {
   std::vector<Register> placed;
   /// Of every limit what is left to its lower and upper end, negative beyond it; none where no pose is beyond.
   std::vector<std::array<std::optional<Register>, 2>> slack;
+  /// A and the loads as they stand before anything is eliminated, with the instructions that compute them; and where
+  /// the rows of the links are among theirs (equations.hpp).
+  SparseEquations equations;
+  int equations_size = 0;
+  std::vector<std::size_t> link_rows;
   Elimination elimination;
   /// The same matrix under a unit of each component of a wrench on the end effector, 3 or 6.
   std::vector<Elimination> unit_wrenches;
@@ -57,6 +62,8 @@ struct NumericModel {
   std::vector<std::optional<Triple>> axes;
   /// Of every joint that bears a couple about one direction alone: that direction.
   std::vector<std::optional<Triple>> couple_axes;
+  /// Of universal joints the second axis, of `to`: a unit vector.
+  std::vector<std::optional<Triple>> second_axes;
   std::optional<Triple> gravity;
   /// Of every joint in space: the Cartesian directions, 0 to 2, of its components 1 and 2 across the axis.
   std::vector<std::array<int, 2>> across;

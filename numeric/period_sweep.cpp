@@ -30,6 +30,20 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
       sweep.distance.push_back(i.distance.value());
     }
   for (auto* values : {&sweep.dx, &sweep.dy, &sweep.dalpha}) values->resize(periods.size() * all.size());
+  if (motion.model.mechanism.space == mechanism::Space::spatial) {
+    sweep.dz.resize(periods.size() * all.size());
+    tbb::parallel_for(std::size_t{0}, periods.size(), [&](std::size_t p) {
+      for (std::size_t s = 0; s < all.size(); ++s) {
+        const PoseError error = instant_error(motion, *all[s], periods[p]).error;
+        const std::size_t place = sweep.index(p, s);
+        sweep.dx[place] = error.dp(0);
+        sweep.dy[place] = error.dp(1);
+        sweep.dz[place] = error.dp(2);
+        sweep.dalpha[place] = error.dalpha.norm();
+      }
+    });
+    return sweep;
+  }
   std::vector<JointTerms> joints;
   for (std::size_t j = 0; j < motion.columns.size(); ++j) {
     const JointColumns& columns = motion.columns[j];

@@ -12,8 +12,9 @@ struct PeriodSweep {
   std::vector<double> periods;   ///< s
   std::vector<double> tau;       ///< of the samples, in order; two at a seam of intervals
   std::vector<double> distance;  ///< of the samples, m
-  /// By period, then sample: m, m, rad. NaN where a take-up is undefined.
-  std::vector<double> dx, dy, dalpha;
+  /// By period, then sample: m, rad. NaN where a take-up is undefined. In space `dalpha` is the size of the rotation;
+  /// in the plane there is no dz.
+  std::vector<double> dx, dy, dz, dalpha;
 
   std::size_t index(std::size_t period, std::size_t sample) const { return period * distance.size() + sample; }
 };

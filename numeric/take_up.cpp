@@ -36,12 +36,26 @@ std::vector<JointColumns> joint_columns(const NumericModel& model) {
   for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
     JointColumns& joint = columns[static_cast<std::size_t>(model.unknowns[k].joint)];
     const core::Quantity quantity = model.unknowns[k].quantity;
-    int& column = quantity == core::Quantity::fx   ? joint.fx
-                  : quantity == core::Quantity::fy ? joint.fy
-                  : quantity == core::Quantity::N  ? joint.normal
-                  : quantity == core::Quantity::T  ? joint.tilt
-                                                   : joint.couple;
-    column = static_cast<int>(k);
+    const auto place = [&]() -> int* {
+      switch (quantity) {
+        case core::Quantity::fx:
+          return &joint.fx;
+        case core::Quantity::fy:
+          return &joint.fy;
+        case core::Quantity::fz:
+          return &joint.fz;
+        case core::Quantity::N:
+          return &joint.normal;
+        case core::Quantity::T:
+          return &joint.tilt;
+        case core::Quantity::M:
+        case core::Quantity::F:
+          return &joint.couple;
+        default:
+          return nullptr;
+      }
+    };
+    if (int* const column = place()) *column = static_cast<int>(k);
   }
   return columns;
 }

@@ -40,10 +40,10 @@ std::vector<JointClearance> joint_clearances(const mechanism::Mechanism& mechani
 /// Whether some joint has a clearance at all.
 bool any_clearance(const std::vector<JointClearance>& clearances);
 
-/// Columns of a planar joint's unknowns; -1 where it has none.
+/// Columns of a joint's unknowns, in space those of equations.hpp; -1 where it has none.
 struct JointColumns {
-  int fx = -1, fy = -1, couple = -1;  ///< `couple`: the actuator's, M or F
-  int normal = -1, tilt = -1;         ///< N, T of a prismatic joint
+  int fx = -1, fy = -1, fz = -1, couple = -1;  ///< `couple`: the actuator's, M or F
+  int normal = -1, tilt = -1;                  ///< N, T of a prismatic joint
 };
 
 std::vector<JointColumns> joint_columns(const NumericModel& model);

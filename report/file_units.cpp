@@ -270,6 +270,44 @@ core::Table in_file_units(core::Table table, const core::Units& units) {
   return table;
 }
 
+core::TrajectoryResult in_file_units(core::TrajectoryResult result) {
+  if (!result.units.declared) return result;
+  const ShownUnit length = shown_unit("m", result.units), force = shown_unit("N", result.units);
+  const double per_distance = result.distance_unit == "m" ? length.per_si : 1;
+  if (result.distance_unit == "m") result.distance_unit = length.name;
+  const auto scale = [](std::vector<double>& values, double factor) {
+    for (double& value : values) value *= factor;
+  };
+  result.length *= per_distance;
+  result.min_force *= force.per_si;
+  for (core::TrajectoryStage& stage : result.stages) {
+    stage.starts_at *= per_distance;
+    stage.stops_at *= per_distance;
+    if (stage.lost_last) stage.lost_last->distance *= per_distance;
+  }
+  for (core::ContactLoss& loss : result.losses) {
+    loss.distance *= per_distance;
+    loss.force *= force.per_si;
+    loss.displacement *= length.per_si;
+  }
+  core::Table& samples = result.samples;
+  for (std::size_t c = 0; c < samples.columns.size(); ++c) {
+    if (samples.units[c].rfind("rad", 0) == 0) continue;
+    const ShownUnit shown = shown_unit(samples.units[c], result.units);
+    samples.units[c] = shown.name;
+    scale(samples.columns[c], shown.per_si);
+  }
+  if (result.sweep) {
+    scale(result.sweep->distance, per_distance);
+    for (std::vector<double>* const values : {&result.sweep->dx, &result.sweep->dy, &result.sweep->dz})
+      scale(*values, length.per_si);
+  }
+  for (core::LossCurve& curve : result.loss_curves)
+    for (core::Polyline& line : curve.lines)
+      for (core::Point2& point : line) point[0] *= per_distance;
+  return result;
+}
+
 std::string column_head(const std::string& name, const std::string& si, const core::Units& units) {
   return units.declared ? name + " (" + shown_unit(si, units).name + ")" : name;
 }

@@ -23,6 +23,9 @@ core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const
 /// Columns of m, rad, N and their rates.
 core::Table in_file_units(core::Table table, const core::Units& units);
 
+/// Distances, forces and columns of samples; what has to do with angles stays in rad, and couples in N m.
+core::TrajectoryResult in_file_units(core::TrajectoryResult result);
+
 /// The unit in which a quantity of SI units is shown, and how many of it one SI unit is: "mm/s", 1000 for "m/s".
 struct ShownUnit {
   std::string name;

@@ -32,8 +32,11 @@ Json losses_json(const core::TrajectoryResult& result) {
       one["force"] = loss.force;
       one["from"] = loss.from;
       one["to"] = loss.to;
+      one["earles_wu"] = number_json(loss.earles_wu);
     }
     if (loss.kind == core::LossKind::jump) one["by"] = loss.payload ? "payload" : "acceleration";
+    one["crossed"] = loss.crossed;
+    one["jump"] = {{"displacement", loss.displacement}, {"rotation", loss.rotation}};
     all.push_back(std::move(one));
   }
   return all;
@@ -70,13 +73,14 @@ struct ShownDistance {
                           : " " + of) {}
 };
 
-std::string loss_words(const core::ContactLoss& loss) {
+std::string loss_words(const core::ContactLoss& loss, const std::string& force) {
   const std::string what = reaction_name({loss.joint, loss.quantity});
   switch (loss.kind) {
     case core::LossKind::zero:
       return what + " = 0";
     case core::LossKind::minimum:
-      return what + fmt::format(" down to {:.4g} N", loss.force);
+      return what + fmt::format(" down to {} {}, turning {} rad/(N s)", engineering(loss.force, 4), force,
+                                std::isfinite(loss.earles_wu) ? engineering(loss.earles_wu, 3) : "without bound");
     case core::LossKind::jump:
       break;
   }
@@ -89,7 +93,6 @@ std::string notes_text(const core::TrajectoryResult& result) {
   return text;
 }
 
-/// In the units of the mechanism file, which the heads name where it declares them.
 }  // namespace
 
 Json trajectory_object(const core::TrajectoryResult& result) {
@@ -114,20 +117,26 @@ Json trajectory_object(const core::TrajectoryResult& result) {
 
 core::Table sweep_table(const core::TrajectoryResult& result) {
   const core::PeriodSweep& sweep = *result.sweep;
-  core::Table table{{"period", "distance", "dx", "dy", "dalpha"},
-                    {"s", result.distance_unit, "m", "m", "rad"},
-                    std::vector<std::vector<double>>(5)};
+  core::Table table{{"period", "distance"}, {"s", result.distance_unit}, std::vector<std::vector<double>>(2)};
   for (const double period : sweep.periods) {
     table.columns[0].insert(table.columns[0].end(), sweep.distance.size(), period);
     table.columns[1].insert(table.columns[1].end(), sweep.distance.begin(), sweep.distance.end());
   }
-  table.columns[2] = sweep.dx;
-  table.columns[3] = sweep.dy;
-  table.columns[4] = sweep.dalpha;
+  const auto add = [&table](const std::string& name, const std::string& unit, const std::vector<double>& values) {
+    table.names.push_back(name);
+    table.units.push_back(unit);
+    table.columns.push_back(values);
+  };
+  add("dx", "m", sweep.dx);
+  add("dy", "m", sweep.dy);
+  if (!sweep.dz.empty()) add("dz", "m", sweep.dz);
+  add("dalpha", "rad", sweep.dalpha);
   return table;
 }
 
-std::string trajectory_text(const core::TrajectoryResult& result) {
+std::string trajectory_text(const core::TrajectoryResult& given) {
+  const core::TrajectoryResult result = in_file_units(given);
+  const std::string force = shown_unit("N", result.units).name;
   const ShownDistance shown(result.distance_unit);
   std::string text = fmt::format("{}: {}, {} law, period {:.6g} s, length {:.6g}{}\n\n", result.mechanism,
                                  result.trajectory, result.law, result.period, shown.scale * result.length, shown.unit);
@@ -143,16 +152,18 @@ std::string trajectory_text(const core::TrajectoryResult& result) {
                                     : "");
   }
   text += fmt::format(
-      "\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {:.4g} N: {} times\n",
-      result.min_force, result.losses.size());
+      "\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {} {}: {} times\n",
+      engineering(result.min_force, 4), force, result.losses.size());
   if (result.losses.empty()) return text + notes_text(result);
   const std::string heading = shown.unit == " deg" ? "angle [deg]"
                               : shown.unit.empty() ? "distance"
                                                    : "distance [" + shown.unit.substr(1) + "]";
-  text += fmt::format("{:>14}{:>14}{:>8}  {:<10}\n", "time [s]", heading, "stage", "what");
+  const std::string length = shown_unit("m", result.units).name;
+  text +=
+      fmt::format("{:>14}{:>14}{:>8}{:>14}  {:<10}\n", "time [s]", heading, "stage", "jump [" + length + "]", "what");
   for (const core::ContactLoss& loss : result.losses)
-    text += fmt::format("{:>14.9f}{:>14.6f}{:>8}  {}\n", loss.time, shown.scale * loss.distance, loss.stage,
-                        loss_words(loss));
+    text += fmt::format("{:>14.9f}{:>14.6f}{:>8}{:>14}  {}\n", loss.time, shown.scale * loss.distance, loss.stage,
+                        engineering(loss.displacement, 4), loss_words(loss, force));
   return text + notes_text(result);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "report/file_units.hpp"
 #include "report/plot_lines.hpp"
 #include "report/wording.hpp"
 
@@ -29,7 +30,7 @@ Plot frame(const core::TrajectoryResult& result, const std::string& what) {
 std::string distance_label(const core::TrajectoryResult& result, const std::string& angle_unit) {
   if (result.distance_unit == "s") return "time (s)";
   if (result.distance_unit == "rad") return "angle turned along the path (" + angle_unit + ")";
-  return result.distance_unit.empty() ? "distance along the path" : "distance along the path (m)";
+  return "distance along the path" + (result.distance_unit.empty() ? "" : " (" + result.distance_unit + ")");
 }
 
 /// Degrees in a radian where the path is one of angles.
@@ -37,11 +38,18 @@ double shown_scale(const core::TrajectoryResult& result) {
   return result.distance_unit == "rad" ? 180 / std::numbers::pi : 1;
 }
 
+/// What lengths and forces are shown in; the result is in these already.
+std::string length_name(const core::TrajectoryResult& result) { return shown_unit("m", result.units).name; }
+std::string force_name(const core::TrajectoryResult& result) { return shown_unit("N", result.units).name; }
+
+std::string least_force_words(const core::TrajectoryResult& result) {
+  return fmt::format("|f| down to {} {}", engineering(result.min_force, 3), force_name(result));
+}
+
 /// Stops and contact losses, over time or distance.
 void add_marks(const core::TrajectoryResult& result, Plot& plot, bool over_time) {
   const double scale = over_time ? 1 : shown_scale(result);
-  plot.mark_labels = {"stop", "M = 0: backlash crossed", fmt::format("|f| down to {:.3g} N", result.min_force),
-                      "reaction reversed at once"};
+  plot.mark_labels = {"stop", "M = 0: backlash crossed", least_force_words(result), "reaction reversed at once"};
   for (const core::TrajectoryStage& stage : result.stages)
     plot.marks.push_back({scale * (over_time ? stage.ends : stage.stops_at), stop_mark});
   for (const core::ContactLoss& loss : result.losses) {
@@ -52,23 +60,63 @@ void add_marks(const core::TrajectoryResult& result, Plot& plot, bool over_time)
   }
 }
 
-NamedPlot path_plot(const core::TrajectoryResult& result) {
+double largest_size(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// 1, 2 or 5 times a power of ten: by how much errors are magnified to be seen beside a path; 1 where they are seen.
+double magnification(const core::Table& c) {
+  constexpr double seen = 0.05;  // of the path's extent
+  double extent = 0, error = 0;
+  for (const std::string axis : {"x", "y", "z"}) {
+    if (!c.has("p" + axis)) continue;
+    const auto& place = c.at("p" + axis);
+    const auto [least, most] = std::minmax_element(place.begin(), place.end());
+    extent = std::max(extent, *most - *least);
+    error = std::max(error, largest_size(c.at("d" + axis)));
+  }
+  if (!(error > 0) || !(extent > 0)) return 1;
+  const double wanted = seen * extent / error, power = std::pow(10.0, std::floor(std::log10(wanted)));
+  if (wanted < 2) return 1;
+  return wanted >= 5 * power ? 5 * power : wanted >= 2 * power ? 2 * power : power;
+}
+
+/// As seen along the third direction.
+NamedPlot path_plot(const core::TrajectoryResult& result, char across, char up) {
   Plot plot = frame(result, "path, nominal and actual");
-  plot.x_label = "x (m)";
+  plot.x_label = fmt::format("{} ({})", across, length_name(result));
   plot.equal_scales = true;
   PlotPanel panel;
-  panel.y_label = "y (m)";
+  panel.y_label = fmt::format("{} ({})", up, length_name(result));
   const core::Table& c = result.samples;
-  panel.series.push_back({"nominal", {line(c.at("px"), c.at("py"))}, -1, true});
-  const auto &x = c.at("actual_px"), &y = c.at("actual_py"), &stage = c.at("stage");
+  const auto &x = c.at(std::string("p") + across), &y = c.at(std::string("p") + up),
+             &dx = c.at(std::string("d") + across), &dy = c.at(std::string("d") + up), &stage = c.at("stage");
+  panel.series.push_back({"nominal", {line(x, y)}, -1, true});
+  const double factor = magnification(c);
+  const std::string how = factor > 1 ? fmt::format(", errors × {}", factor) : "";
   for (std::size_t k = 0; k < result.stages.size(); ++k) {
     core::Polyline points;
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (stage[i] == static_cast<double>(k + 1)) points.push_back({x[i], y[i]});
-    panel.series.push_back({fmt::format("actual, stage {}", k + 1), {std::move(points)}, static_cast<int>(k)});
+      if (stage[i] == static_cast<double>(k + 1)) points.push_back({x[i] + factor * dx[i], y[i] + factor * dy[i]});
+    panel.series.push_back({fmt::format("actual, stage {}{}", k + 1, how), {std::move(points)}, static_cast<int>(k)});
   }
   plot.panels.push_back(std::move(panel));
-  return {"trajectory-path", std::move(plot)};
+  const bool only_view = !c.has("pz");
+  return {only_view ? "trajectory-path" : fmt::format("trajectory-path-{}{}", across, up), std::move(plot)};
+}
+
+/// What small lengths are shown in, and how many of it the unit of lengths is: µm or mm where that is metric.
+std::pair<std::string, double> small_length(const core::TrajectoryResult& result) {
+  const ShownUnit length = shown_unit("m", result.units);
+  if (length.name != "m" && length.name != "mm") return {length.name, 1};
+  double most = 0;
+  for (const std::string error : {"dx", "dy", "dz"})
+    if (result.samples.has(error)) most = std::max(most, largest_size(result.samples.at(error)) / length.per_si);
+  constexpr double coarse = 1e-4;  // m
+  return most < coarse ? std::pair("µm", 1e6 / length.per_si) : std::pair("mm", 1e3 / length.per_si);
 }
 
 NamedPlot error_plot(const core::TrajectoryResult& result) {
@@ -77,15 +125,25 @@ NamedPlot error_plot(const core::TrajectoryResult& result) {
   const core::Table& c = result.samples;
   std::vector<double> distance = c.at("distance");
   for (double& value : distance) value *= shown_scale(result);
-  const auto add = [&](const char* column, const char* label, const char* y_label, int number) {
+  const auto [length, per_length] = small_length(result);
+  const auto add = [&, per_length = per_length](const char* column, const char* label, const std::string& y_label,
+                                                int number) {
     PlotPanel panel;
     panel.y_label = y_label;
-    panel.series.push_back({label, {line(distance, c.at(column), 1e3)}, number});
+    const double factor = y_label == "mrad" ? 1e3 : per_length;
+    panel.series.push_back({label, {line(distance, c.at(column), factor)}, number});
     plot.panels.push_back(std::move(panel));
   };
-  add("dx", "error in x", "mm", 0);
-  add("dy", "error in y", "mm", 1);
-  add("dalpha", "error in orientation", "mrad", 2);
+  add("dx", "error in x", length, 0);
+  add("dy", "error in y", length, 1);
+  if (c.has("dz")) {
+    add("dz", "error in z", length, 2);
+    add("dalphax", "rotation about x", "mrad", 3);
+    add("dalphay", "rotation about y", "mrad", 4);
+    add("dalphaz", "rotation about z", "mrad", 5);
+  } else {
+    add("dalpha", "error in orientation", "mrad", 2);
+  }
   add_marks(result, plot, false);
   return {"trajectory-error", std::move(plot)};
 }
@@ -109,23 +167,50 @@ NamedPlot take_up_plot(const core::TrajectoryResult& result) {
   return {"trajectory-take-up", std::move(plot)};
 }
 
+struct Effort {
+  PlotSeries series;
+  double largest = 0;
+};
+
+/// Panels of efforts of like size, the largest first: what is less than a tenth of a panel's largest would be a line
+/// along its axis.
+void add_by_size(std::vector<Effort> efforts, const std::string& y_label, Plot& plot) {
+  constexpr double alike = 0.1;
+  std::stable_sort(efforts.begin(), efforts.end(),
+                   [](const Effort& a, const Effort& b) { return a.largest > b.largest; });
+  double most = 0;
+  for (Effort& effort : efforts) {
+    if (most == 0 || (effort.largest < alike * most && effort.largest > 0)) {
+      PlotPanel& panel = plot.panels.emplace_back();
+      panel.y_label = y_label;
+      most = effort.largest;
+    }
+    plot.panels.back().series.push_back(std::move(effort.series));
+  }
+}
+
 NamedPlot reactions_plot(const core::TrajectoryResult& result) {
   Plot plot = frame(result, "reactions");
   plot.x_label = "time (s)";
   const core::Table& c = result.samples;
-  PlotPanel forces, couples;
-  forces.y_label = "|f| (N)";
-  couples.y_label = "M (N m)";
+  std::vector<Effort> forces, couples, thrusts;
+  const auto add = [&](std::vector<Effort>& efforts, const std::string& label, const std::vector<double>& values,
+                       std::size_t number) {
+    efforts.push_back({{label, {line(c.at("time"), values)}, static_cast<int>(number)}, largest_size(values)});
+  };
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
     const std::string &name = result.joints[j], fx = "f" + name + "x", fy = "f" + name + "y";
-    if (c.has(fx) && c.has(fy))
-      forces.series.push_back({"f_" + name, {line(c.at("time"), lengths(c.at(fx), c.at(fy)))}, static_cast<int>(j)});
-    for (const char* const actuator : {"M", "F"})
-      if (c.has(actuator + name))
-        couples.series.push_back({"M_" + name, {line(c.at("time"), c.at(actuator + name))}, static_cast<int>(j)});
+    if (c.has(fx) && c.has(fy)) {
+      std::vector<double> sizes = lengths(c.at(fx), c.at(fy));
+      if (const std::string fz = "f" + name + "z"; c.has(fz)) sizes = lengths(sizes, c.at(fz));
+      add(forces, "f_" + name, sizes, j);
+    }
+    if (c.has("M" + name)) add(couples, "M_" + name, c.at("M" + name), j);
+    if (c.has("F" + name)) add(thrusts, "F_" + name, c.at("F" + name), j);
   }
-  plot.panels.push_back(std::move(forces));
-  if (!couples.series.empty()) plot.panels.push_back(std::move(couples));
+  add_by_size(std::move(forces), "|f| (" + force_name(result) + ")", plot);
+  add_by_size(std::move(thrusts), "F (" + force_name(result) + ")", plot);
+  add_by_size(std::move(couples), "M (N m)", plot);
   add_marks(result, plot, true);
   plot.panel_height = 190;
   return {"trajectory-reactions", std::move(plot)};
@@ -135,16 +220,18 @@ NamedPlot motion_plot(const core::TrajectoryResult& result) {
   Plot plot = frame(result, "motion of the end effector");
   plot.x_label = "time (s)";
   const core::Table& c = result.samples;
-  const auto add = [&](const char* y_label, const std::string& ending, const std::string& what) {
+  const auto add = [&](const std::string& y_label, const std::string& ending, const std::string& what) {
     PlotPanel panel;
     panel.y_label = y_label;
     panel.series.push_back({what + " in x", {line(c.at("time"), c.at("px" + ending))}, 0});
     panel.series.push_back({what + " in y", {line(c.at("time"), c.at("py" + ending))}, 1});
+    if (c.has("pz")) panel.series.push_back({what + " in z", {line(c.at("time"), c.at("pz" + ending))}, 2});
     plot.panels.push_back(std::move(panel));
   };
-  add("m", "", "place");
-  add("m/s", "_rate", "velocity");
-  add("m/s²", "_acceleration", "acceleration");
+  const std::string length = length_name(result);
+  add(length, "", "place");
+  add(length + "/s", "_rate", "velocity");
+  add(length + "/s²", "_acceleration", "acceleration");
   return {"trajectory-motion", std::move(plot)};
 }
 
@@ -184,7 +271,9 @@ NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& na
   for (const core::LossCurve& curve : result.loss_curves) {
     const std::string what = reaction_name({curve.joint, curve.quantity});
     const bool is_number = curve.quantity != core::Quantity::f;
-    const std::string words = is_number ? what + " = 0" : fmt::format("|{}| = {:.3g} N", what, result.min_force);
+    const std::string words =
+        is_number ? what + " = 0"
+                  : fmt::format("|{}| = {} {}", what, engineering(result.min_force, 3), force_name(result));
     const auto joint = std::find(result.joints.begin(), result.joints.end(), curve.joint) - result.joints.begin();
     panel.series.push_back({words, curve.lines, is_number ? number++ : 2 + static_cast<int>(joint), !is_number});
   }
@@ -196,16 +285,28 @@ NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& na
 
 }  // namespace
 
-std::vector<NamedPlot> trajectory_plots(const core::TrajectoryResult& result) {
-  std::vector<NamedPlot> plots = {path_plot(result), error_plot(result), take_up_plot(result), reactions_plot(result),
-                                  motion_plot(result)};
+std::vector<NamedPlot> trajectory_plots(const core::TrajectoryResult& given) {
+  const core::TrajectoryResult result = in_file_units(given);
+  const bool spatial = result.samples.has("pz");
+  std::vector<NamedPlot> plots = {path_plot(result, 'x', 'y')};
+  if (spatial) plots.push_back(path_plot(result, 'x', 'z'));
+  plots.push_back(error_plot(result));
+  if (NamedPlot directions = take_up_plot(result); !directions.plot.panels.empty())
+    plots.push_back(std::move(directions));
+  plots.push_back(reactions_plot(result));
+  plots.push_back(motion_plot(result));
   if (!result.sweep) return plots;
   const core::PeriodSweep& sweep = *result.sweep;
-  plots.push_back(sweep_plot(result, "periods-dx", "error in x", sweep.dx, true, "m"));
-  plots.push_back(sweep_plot(result, "periods-dy", "error in y", sweep.dy, true, "m"));
-  plots.push_back(sweep_plot(result, "periods-dalpha", "error in orientation", sweep.dalpha, true, "rad"));
-  plots.push_back(
-      sweep_plot(result, "periods-dp", "distance from the nominal place", lengths(sweep.dx, sweep.dy), false, "m"));
+  const std::string length = length_name(result);
+  std::vector<double> distances = lengths(sweep.dx, sweep.dy);
+  plots.push_back(sweep_plot(result, "periods-dx", "error in x", sweep.dx, true, length));
+  plots.push_back(sweep_plot(result, "periods-dy", "error in y", sweep.dy, true, length));
+  if (spatial) {
+    plots.push_back(sweep_plot(result, "periods-dz", "error in z", sweep.dz, true, length));
+    distances = lengths(distances, sweep.dz);
+  }
+  plots.push_back(sweep_plot(result, "periods-dalpha", "error in orientation", sweep.dalpha, !spatial, "rad"));
+  plots.push_back(sweep_plot(result, "periods-dp", "distance from the nominal place", distances, false, length));
   return plots;
 }
 

@@ -41,6 +41,13 @@ struct ContactLoss {
   double force = 0;                 ///< of a minimum: |f_J|, N
   double from = 0, to = 0;          ///< of a minimum: times between which |f_J| is at or below the threshold, s
   bool payload = false;             ///< of a jump: a body is picked or placed there; else the acceleration jumps
+  /// How far the joint's parts go across their clearance, m; rad of an actuator that turns. Of a minimum: while the
+  /// force is at or below the threshold.
+  double crossed = 0;
+  double displacement = 0, rotation = 0;  ///< how far the end effector jumps with that, m and rad
+  /// Of a minimum: how fast the force's direction turns, over its size, rad/(N s): what Earles and Wu (1975) judge by.
+  /// Infinite where the force vanishes.
+  double earles_wu = 0;
 };
 
 /// What of a stage's reactions is the last to let go as the cycle gets slower.
@@ -64,9 +71,10 @@ struct TrajectoryStage {
 
 /// Pose errors over the distance at several periods.
 struct PeriodSweep {
-  std::vector<double> periods;         ///< s
-  std::vector<double> distance;        ///< of the samples, in distance_unit; two at a seam of the motion
-  std::vector<double> dx, dy, dalpha;  ///< by period, then sample: m, m, rad. NaN where a take-up is undefined
+  std::vector<double> periods;             ///< s
+  std::vector<double> distance;            ///< of the samples, in distance_unit; two at a seam of the motion
+  std::vector<double> dx, dy, dz, dalpha;  ///< by period, then sample: m, rad. NaN where a take-up is undefined. In
+                                           ///< space dalpha is the rotation's size; in the plane there is no dz
 
   std::size_t index(std::size_t period, std::size_t sample) const { return period * distance.size() + sample; }
 };
@@ -92,7 +100,8 @@ struct TrajectoryResult {
   std::vector<ContactLoss> losses;  ///< of the joints with a clearance, in order of time
   /// One row a sample, at the seams of the motion two, the limits from both sides: time, distance, stage (0: dwelling);
   /// q_<coordinate> and px, py of the end effector's point, each with _rate and _acceleration; actual_px, actual_py;
-  /// the error dx, dy, dalpha; reactions; beta_J and beta_rate_J of the joints with a radial clearance.
+  /// the error dx, dy, dalpha; reactions; beta_J and beta_rate_J of the joints with a radial clearance. In space pz,
+  /// actual_pz, dz, the rotation dalphax, dalphay, dalphaz, and no beta.
   Table samples;
   std::optional<PeriodSweep> sweep;     ///< where periods are asked for
   std::vector<LossCurve> loss_curves;   ///< with it
@@ -113,7 +122,7 @@ struct TrajectoryRequest {
 };
 
 /// `path`: the trajectory file. Throws InputError, with file, line, column, problem and mend, for whatever is wrong
-/// with it; where the mechanism is spatial or its working mode has a determinant of zero everywhere; where the path
+/// with it; where its working mode has a determinant of zero everywhere; where the path
 /// leaves the workspace or meets a direct singularity; and where a number of the request is wrong.
 TrajectoryResult follow_trajectory(const Model& model, const std::string& path, const TrajectoryRequest& request = {});
 

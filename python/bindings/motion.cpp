@@ -155,6 +155,10 @@ py::dict dict_of(const TrajectoryResult& result) {
     one["time"] = loss.time;
     one["distance"] = loss.distance;
     one["stage"] = loss.stage;
+    one["crossed"] = loss.crossed;
+    one["displacement"] = loss.displacement;
+    one["rotation"] = loss.rotation;
+    if (loss.kind == LossKind::minimum) one["earles_wu"] = loss.earles_wu;
     losses.append(one);
   }
   for (const TrajectoryStage& stage : result.stages) {
@@ -186,6 +190,7 @@ py::dict dict_of(const TrajectoryResult& result) {
     one["distance"] = column(sweep.distance);
     one["dx"] = grid(sweep.dx);
     one["dy"] = grid(sweep.dy);
+    if (!sweep.dz.empty()) one["dz"] = grid(sweep.dz);
     one["dalpha"] = grid(sweep.dalpha);
     all["sweep"] = one;
   } else {

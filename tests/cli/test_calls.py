@@ -45,8 +45,6 @@ class WrongCalls(InOwnFolder):
     def test_what_has_no_meaning_in_space(self):
         examples = FIVE_BAR.parent
         platform = examples / "gough_stewart_slice.yaml"
-        path = examples / "pick_and_place" / "path.yaml"
-        self.assertIn("gough_stewart_slice.yaml: the mechanism is spatial", self.complaint("trajectory", platform, path))
         self.assertIn("--iterate", self.complaint("pose", platform, "--at", "0.1,0.1", "--iterate"))
         self.assertIn("--working-mode", self.complaint("pose", platform, "--at", "0.1,0.1", "--working-mode", "left"))
         (self.folder / "task.yaml").write_text(

@@ -401,6 +401,25 @@ class Platform(InOwnFolder):
         self.assertIn("dalpha_z [rad]", text)
         self.assertNotIn("-0 ", text)
 
+    def test_trajectory(self):
+        (self.folder / "path.yaml").write_text(
+            "format: 1\npath: {closed: true, waypoints: [[-0.3, -0.2], {at: [0.2, 0.1], stop: true}]}\n"
+            "motion: cycloidal\nperiod: 0.5\n",
+            encoding="utf-8",
+        )
+        result = self.json("trajectory", self.SLICE, "path.yaml", "--samples", "50", "--periods", "0.5:1:0.25",
+                           "--export", "csv,png", "-o", "made")
+        samples = result["samples"]
+        # The first instant is the pose at rest: the links of this slice weigh nothing.
+        pose = self.json("pose", self.SLICE, "--at", "-0.3,-0.2")
+        for leg in range(1, 7):
+            self.assertAlmostEqual(samples[f"FS{leg}"][0], pose["reactions"][f"S{leg}"]["F"], delta=1e-7)
+        for axis in "xyz":
+            self.assertAlmostEqual(samples["d" + axis][0], pose["pose_error"]["d" + axis], delta=1e-15)
+            self.assertAlmostEqual(samples["dalpha" + axis][0], pose["pose_error"]["dalpha_" + axis], delta=1e-14)
+        self.assertTrue((self.folder / "made" / "trajectory-path-xz.png").exists())
+        self.assertTrue((self.folder / "made" / "periods-dz.png").exists())
+
     def test_validate(self):
         verdict = self.json("validate", self.SLICE, "--grid", "50x50")
         self.assertTrue(verdict["validated"])

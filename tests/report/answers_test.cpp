@@ -89,7 +89,7 @@ core::TrajectoryResult two_losses() {
   result.joints = {"A", "B"};
   core::TrajectoryStage stage{"1", "2", 0, 2, 0, 3, 1, infinity, core::LostLast{"A", core::Quantity::M, 0.25}};
   result.stages = {stage};
-  result.losses = {{core::LossKind::minimum, "B", core::Quantity::f, 0.5, 0.1, 1, 4.5, 0.4, 0.6, false},
+  result.losses = {{core::LossKind::minimum, "B", core::Quantity::f, 0.5, 0.1, 1, 4.5, 0.4, 0.6, false, 2e-5, 3e-5, 0, 12.5},
                    {core::LossKind::jump, "A", core::Quantity::M, 1.5, 0.2, 0, 0, 0, 0, true}};
   result.samples = {{"time", "dx"}, {"s", "m"}, {{0, 1}, {1e-5, nan}}};
   return result;
@@ -97,7 +97,7 @@ core::TrajectoryResult two_losses() {
 
 TEST(TrajectoryText, SaysHowContactIsLost) {
   const std::string text = trajectory_text(two_losses());
-  EXPECT_TRUE(contains(text, "f_B down to 4.5 N\n")) << text;
+  EXPECT_TRUE(contains(text, "f_B down to 4.5 N, turning 12.5 rad/(N s)\n")) << text;
   EXPECT_TRUE(contains(text, "M_A reversed by the payload\n")) << text;
   EXPECT_TRUE(contains(text, "never  M_A at 0.25 m\n")) << text;
 }
@@ -105,6 +105,9 @@ TEST(TrajectoryText, SaysHowContactIsLost) {
 TEST(TrajectoryObject, HasWhatConcernsTheKindOfALoss) {
   const nlohmann::ordered_json json = trajectory_object(two_losses());
   EXPECT_EQ(json["contact_losses"][0]["force"], 4.5);
+  EXPECT_EQ(json["contact_losses"][0]["earles_wu"], 12.5);
+  EXPECT_EQ(json["contact_losses"][0]["crossed"], 2e-5);
+  EXPECT_EQ(json["contact_losses"][0]["jump"]["displacement"], 3e-5);
   EXPECT_FALSE(json["contact_losses"][0].contains("by"));
   EXPECT_EQ(json["contact_losses"][1]["by"], "payload");
   EXPECT_EQ(json["contact_losses"][1]["stage"], 0);
@@ -113,9 +116,19 @@ TEST(TrajectoryObject, HasWhatConcernsTheKindOfALoss) {
   EXPECT_FALSE(json.contains("periods"));
 }
 
+TEST(TrajectoryText, SpeaksInTheUnitsOfTheFile) {
+  core::TrajectoryResult result = two_losses();
+  result.units = {true, {"mm", 1e-3}, {"rad"}, {"kN", 1e3}, {"kg"}};
+  const std::string text = trajectory_text(result);
+  EXPECT_TRUE(contains(text, "length 3000 mm")) << text;
+  EXPECT_TRUE(contains(text, "|f| falls to 0.005 kN")) << text;
+  EXPECT_TRUE(contains(text, "f_B down to 0.0045 kN")) << text;
+  EXPECT_TRUE(contains(text, "0.03  f_B")) << text;
+}
+
 TEST(SweepTable, HasARowForEverySampleOfEveryPeriod) {
   core::TrajectoryResult result = two_losses();
-  result.sweep = core::PeriodSweep{{1, 2}, {0, 0.5, 1}, {1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}};
+  result.sweep = core::PeriodSweep{{1, 2}, {0, 0.5, 1}, {1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0}, {}, {0, 0, 0, 0, 0, 0}};
   const core::Table table = sweep_table(result);
   EXPECT_EQ(table.at("period"), (std::vector<double>{1, 1, 1, 2, 2, 2}));
   EXPECT_EQ(table.at("distance"), (std::vector<double>{0, 0.5, 1, 0, 0.5, 1}));
