@@ -393,13 +393,14 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
 }
 
 std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
-  if (mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism)) return {};
+  if (mechanism.coordinates.size() != 2) return {};
+  const bool beside = mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism);
   const numeric::NumericModel model = numeric::compile(mechanism);
   std::vector<core::ModeSketch> sketches;
   for (const core::WorkspaceRegion& region : map.workspace) {
     const std::vector<int> sides = numeric::dyad_signs(model, map.tower, region.mode);
     if (const std::optional<std::vector<double>> pose = numeric::sample_pose(model, sides, model.box))
-      sketches.push_back({region.mode, numeric::sketch(model, *pose, sides)});
+      sketches.push_back({region.mode, numeric::sketch(model, *pose, sides), beside});
   }
   return sketches;
 }

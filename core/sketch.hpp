@@ -12,6 +12,8 @@ namespace clearloci::inline core {
 struct ModeSketch {
   WorkingMode mode;
   Sketch sketch;
+  /// The coordinates are not the end effector's place in the plane, so that it stands beside the loci.
+  bool beside = false;
 };
 
 }  // namespace clearloci::inline core

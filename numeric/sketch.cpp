@@ -13,6 +13,23 @@ namespace {
 
 Point2 point_of(const Posture& posture, int index) { return in_plane(posture.points[static_cast<std::size_t>(index)]); }
 
+/// Turned so that x points to the right, y upwards and z at an eye that looks down a little.
+Posture seen(Posture posture) {
+  constexpr double azimuth = 0.45, elevation = 0.4;  // rad
+  const double c = std::cos(azimuth), s = std::sin(azimuth), up = std::cos(elevation), down = std::sin(elevation);
+  Eigen::Matrix3d view;
+  view << c, s, 0, -s * down, c * down, up, s * up, -c * up, down;
+  for (Vector3d& point : posture.points) point = view * point;
+  for (Vector3d& axis : posture.axes) axis = view * axis;
+  for (AppliedLoad& load : posture.loads) {
+    load.at = view * load.at;
+    load.force = view * load.force;
+    load.couple.setZero();
+  }
+  posture.gravity = view * posture.gravity;
+  return posture;
+}
+
 double cross(const Point2& o, const Point2& p, const Point2& q) {
   return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
 }
@@ -132,9 +149,11 @@ std::vector<double> pose_grid(std::span<const std::array<double, 2>> box) {
 }  // namespace
 
 core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std::span<const int> mode) {
-  const Posture p = posture(model, pose, mode);
+  Posture p = posture(model, pose, mode);
   core::ensure(p.reachable(), "a sketch is drawn at a reachable pose");
   const auto& m = model.mechanism;
+  const bool spatial = m.space == mechanism::Space::spatial;
+  if (spatial) p = seen(std::move(p));
   core::Sketch result;
   for (const auto& link : m.links) {
     core::SketchLink drawn{link.name, {}};
@@ -150,7 +169,8 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     result.joints.push_back({joint.name, point_of(p, joint.at), on_ground, joint.actuated});
   }
   for (const auto& load : p.loads) {
-    if (!load.weight && !load.inner) result.loads.push_back({in_plane(load.at), in_plane(load.force), load.couple[2]});
+    if (!load.weight && !load.inner && !(spatial && load.force.isZero()))
+      result.loads.push_back({in_plane(load.at), in_plane(load.force), load.couple[2]});
   }
   for (const auto& spring : m.springs) {
     if (spring.kind == mechanism::Spring::Kind::torsion)
@@ -181,7 +201,10 @@ std::optional<std::vector<double>> sample_pose(const NumericModel& model, std::s
     const double conditioning = largest > 0 ? std::sqrt(std::abs(field.determinants[k]) / largest) : 1;
     // Where nothing folds, such as telescopic legs, a pose amid the box says more than one in its corner.
     const double open = model.dyads.empty() ? centrality(pose, box) : openness(model, p);
-    const double score = open * conditioning * spacing(model, p) / (1 + crossings(model, p));
+    // In space what lies over something else in the plane need not be near it.
+    const bool spatial = model.mechanism.space == mechanism::Space::spatial;
+    const double apart = spatial ? 1 : spacing(model, p) / (1 + crossings(model, p));
+    const double score = (spatial ? centrality(pose, box) : open) * conditioning * apart;
     if (score > best_score) {
       best_score = score;
       best.emplace(pose.begin(), pose.end());

@@ -11,6 +11,7 @@
 
 namespace clearloci::numeric {
 
+/// In space as seen from a little above, by a parallel projection; couples are left out then.
 /// Links with the points the user named, joints, and the file's loads (weights are told by `gravity`). Requires a
 /// reachable pose.
 core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std::span<const int> mode);

@@ -252,14 +252,37 @@ void draw_sample(const Context& context, const LegendEntry& entry, const Subject
       draw_task_point_sample(context, *subject.task, (x + end) / 2, y);
       break;
     case SampleKind::remark:
+    case SampleKind::inset:  // drawn by itself
       break;
   }
+}
+
+/// What the legend says in grey: where reactions vanish.
+std::string legend_reasons(const Layout& layout) {
+  std::string words;
+  for (const LegendEntry& entry : layout.legend)
+    for (const LegendLine& line : entry.lines)
+      if (line.secondary) words += line.text + " ";
+  return words;
+}
+
+/// The mechanism below its label.
+void draw_inset(const Context& context, const LegendEntry& entry, const core::Sketch& sketch,
+                const std::string& reasons) {
+  const double label = legend_line_height * static_cast<double>(entry.lines.size());
+  const Box box = {entry.box.x, entry.box.y + label, entry.box.width, entry.box.height - label};
+  const Layout alone = lay_out_alone(sketch, box);
+  draw_links(context, alone, sketch);
+  draw_link_names(context, alone, sketch, reasons);
+  draw_joints(context, alone, sketch);
+  draw_loads(context, alone, sketch);
 }
 
 void draw_legend(const Context& context, const Layout& layout, const Subject& subject) {
   for (const auto& entry : layout.legend) {
     draw_sample(context, entry, subject);
-    const double indent = entry.sample == SampleKind::colour_bar ? 0 : legend_sample_width + legend_sample_gap;
+    if (entry.sample == SampleKind::inset) draw_inset(context, entry, *subject.inset, legend_reasons(layout));
+    const double indent = stands_below(entry.sample) ? 0 : legend_sample_width + legend_sample_gap;
     double baseline = entry.box.y + 0.5 * legend_line_height + 0.36 * legend_font.size;
     for (const auto& line : entry.lines) {
       set_colour(context, line.secondary ? faded_ink : ink);
@@ -288,7 +311,10 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   draw_grid(context, layout, subject.layer == nullptr);
   if (subject.sketch != nullptr) draw_links(context, layout, *subject.sketch);
   draw_loci(context, subject, layout);
-  if (subject.sketch != nullptr) draw_joints(context, layout, *subject.sketch);
+  if (subject.sketch != nullptr) {
+    draw_link_names(context, layout, *subject.sketch, legend_reasons(layout));
+    draw_joints(context, layout, *subject.sketch);
+  }
   draw_isolated_points(context, subject, layout);
   if (subject.sketch != nullptr) draw_loads(context, layout, *subject.sketch);
   if (subject.zones != nullptr && subject.task == nullptr) draw_zone_numbers(context, subject, layout);

@@ -60,7 +60,8 @@ Files loci_pictures(const LociSheet& loci) {
     const auto sketch = std::find_if(loci.sketches.begin(), loci.sketches.end(),
                                      [&](const core::ModeSketch& one) { return one.mode == mode; });
     files.push_back({"loci" + which(modes, loci.map.tower, mode) + ending_of(format),
-                     picture(loci.map, mode, sketch == loci.sketches.end() ? nullptr : &sketch->sketch, format)});
+                     picture(loci.map, mode, sketch == loci.sketches.end() ? nullptr : &sketch->sketch, format,
+                             sketch != loci.sketches.end() && sketch->beside)});
   }
   return files;
 }

@@ -45,7 +45,7 @@ bool same_reactions(const std::vector<core::Vanishing>& a, const std::vector<cor
 /// A factor of many terms is no reading for a legend.
 std::string reason_of(const core::LocusCurve& curve) {
   constexpr int readable = 44;
-  const bool short_factor = curve.cause.empty() && !curve.factor.empty() && columns(curve.factor) <= readable;
+  const bool short_factor = curve.cause.empty() && reads_well(curve.factor, readable);
   return reason_words(curve.kind, curve.vanishing, curve.factor, curve.cause, readable) + (short_factor ? " = 0" : "");
 }
 

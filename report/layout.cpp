@@ -21,6 +21,8 @@ constexpr double entry_gap = 5.5;  // between two entries
 constexpr Font title_font{13, true, false};
 constexpr Font subtitle_font{9.5, false, false};
 
+constexpr double inset_room = 170;
+
 bool is_angle(const core::LocusMap& map, int coordinate) { return !map.angles.empty() && map.angles[coordinate]; }
 
 /// The searched box and, where it does not get lost in it, the mechanism, with a margin around both.
@@ -149,6 +151,7 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
     add(SampleKind::mechanism, "mechanism in a sample posture", actuated ? "actuated joints filled" : "");
     if (!subject.sketch->loads.empty()) add(SampleKind::load, "load");
   }
+  if (subject.inset != nullptr) add(SampleKind::inset, "mechanism in a sample posture");
   if (!map.complete) add(SampleKind::remark, "incomplete: stopped at the time limit");
   return entries;
 }
@@ -160,7 +163,7 @@ double place_legend(std::vector<LegendEntry>& entries, double x, double y, doubl
   for (auto& entry : entries) {
     std::vector<LegendLine> wrapped;
     for (const auto& line : entry.lines) {
-      const bool has_sample = entry.sample != SampleKind::colour_bar;  // the bar stands below its label
+      const bool has_sample = !stands_below(entry.sample);
       for (auto& piece :
            wrap(line.text, has_sample ? width - legend_sample_width - legend_sample_gap : width, measure)) {
         wrapped.push_back({std::move(piece), line.secondary});
@@ -170,6 +173,7 @@ double place_legend(std::vector<LegendEntry>& entries, double x, double y, doubl
     entry.box.width = width;
     entry.box.height = legend_line_height * static_cast<double>(entry.lines.size());
     if (entry.sample == SampleKind::colour_bar) entry.box.height += colour_bar_room;
+    if (entry.sample == SampleKind::inset) entry.box.height += inset_room;
     total += entry.box.height + entry_gap;
   }
   // Columns are filled one after the other; each takes entries until it has its share of the height.
@@ -248,6 +252,30 @@ Layout lay_out(const Subject& subject) {
   for (auto& tick : layout.y_ticks) tick.at = layout.page({0, tick.at})[1];
   layout.width = std::ceil(layout.width);
   layout.height = std::ceil(layout.height);
+  return layout;
+}
+
+Layout lay_out_alone(const core::Sketch& sketch, const Box& box) {
+  constexpr double room = 34;  // pt, for names, brackets and arrows
+  core::Point2 low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
+  const auto cover = [&](const core::Point2& at) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], at[i]);
+      high[i] = std::max(high[i], at[i]);
+    }
+  };
+  for (const core::SketchLink& link : sketch.links)
+    for (const core::Point2& at : link.points) cover(at);
+  for (const core::SketchJoint& joint : sketch.joints) cover(joint.at);
+  Layout layout;
+  layout.plot = box;
+  const core::Point2 extent = {high[0] - low[0], high[1] - low[1]};
+  const double widest = std::max({extent[0], extent[1], 1e-9});
+  const double scale = std::min((box.width - 2 * room) / std::max(extent[0], 1e-3 * widest),
+                                (box.height - 2 * room) / std::max(extent[1], 1e-3 * widest));
+  layout.scale = {scale, scale};
+  layout.low = {(low[0] + high[0] - box.width / scale) / 2, (low[1] + high[1] - box.height / scale) / 2};
+  layout.high = {layout.low[0] + box.width / scale, layout.low[1] + box.height / scale};
   return layout;
 }
 

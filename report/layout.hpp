@@ -26,6 +26,7 @@ enum class SampleKind {
   load,
   remark,
   colour_bar,
+  inset,
   zones,
   task,
   task_point
@@ -77,9 +78,16 @@ struct Subject {
   const FieldLayer* layer = nullptr;     ///< drawn in the place of the shaded workspace
   const core::ZoneMap* zones = nullptr;  ///< likewise
   const TaskMark* task = nullptr;        ///< may be null too
+  const core::Sketch* inset = nullptr;   ///< likewise: the mechanism in a space of its own, below the legend
 };
 
 Layout lay_out(const Subject& subject);
+
+/// Whether a sample stands below its label, and not in front of it.
+inline bool stands_below(SampleKind sample) { return sample == SampleKind::colour_bar || sample == SampleKind::inset; }
+
+/// Of a mechanism alone, all of it with its loads inside a box.
+Layout lay_out_alone(const core::Sketch& sketch, const Box& box);
 
 inline constexpr double legend_sample_width = 32;   ///< pt
 inline constexpr double legend_sample_gap = 8;      ///< pt, between a sample and its label

@@ -1,6 +1,7 @@
 #include "report/mechanism_drawing.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -183,7 +184,7 @@ void draw_couple(const Context& context, const Layout& layout, const core::Sketc
   const Point2 along = {-side * std::sin(tip), side * std::cos(tip)};
   draw_load_arrow(context, {head[0] - 0.5 * along[0], head[1] - 0.5 * along[1]},
                   {head[0] + 7 * along[0], head[1] + 7 * along[1]});
-  write_over_lines(context, short_number(std::abs(load.couple), 4) + " N m", at[0], at[1] + radius + 12, load_font,
+  write_over_lines(context, engineering(std::abs(load.couple), 4) + " N m", at[0], at[1] + radius + 12, load_font,
                    load_colour, Align::centre);
 }
 
@@ -205,7 +206,7 @@ void draw_force(const Context& context, const Layout& layout, const core::Sketch
   draw_load_arrow(context, tail, tip);
   // The size stands beyond the arrow's free end, inside the plot.
   const double away = leaves ? -1 : 1;
-  const std::string words = short_number(size, 4) + " N";
+  const std::string words = force_words(size);
   const double half_width = text_width(words, load_font) / 2 + 3, half_height = 6;
   const Point2 end = leaves ? tail : tip;
   const double x = end[0] + away * unit[0] * (half_width + 5), y = end[1] + away * unit[1] * (half_height + 4);
@@ -319,6 +320,41 @@ void draw_links(const Context& context, const Layout& layout, const core::Sketch
 void draw_joints(const Context& context, const Layout& layout, const core::Sketch& sketch) {
   for (const auto& joint : sketch.joints) draw_pin(context, layout.page(joint.at), joint.actuated);
   for (const auto& joint : sketch.joints) write_joint_name(context, layout, sketch, joint);
+}
+
+namespace {
+
+bool stands_in(const std::string& name, const std::string& words) {
+  const auto is_letter = [&](std::size_t k) {
+    return k < words.size() && (std::isalnum(static_cast<unsigned char>(words[k])) != 0 || words[k] == '_');
+  };
+  for (std::size_t at = words.find(name); at != std::string::npos; at = words.find(name, at + 1))
+    if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + name.size())) return true;
+  return false;
+}
+
+}  // namespace
+
+void draw_link_names(const Context& context, const Layout& layout, const core::Sketch& sketch,
+                     const std::string& words) {
+  constexpr Font font{8.5, false, true};
+  constexpr double aside = bar_width + 4;
+  for (const core::SketchLink& link : sketch.links) {
+    const std::string name = printable(link.name);
+    if (link.points.size() < 2 || !stands_in(name, words)) continue;
+    const Point2 p = layout.page(link.points[0]), q = layout.page(link.points[1]);
+    const double dx = q[0] - p[0], dy = q[1] - p[1], length = std::hypot(dx, dy);
+    if (!(length > 0)) continue;
+    // Off the link to the side on which the text needs the least room: above it, or right of an upright one.
+    double u = dy / length, v = -dx / length;
+    if (v > 0.3 || (std::abs(v) <= 0.3 && u < 0)) {
+      u = -u;
+      v = -v;
+    }
+    const double half = text_width(name, font) / 2;
+    write_over_lines(context, name, (p[0] + q[0]) / 2 + u * (aside + half * std::abs(u)),
+                     (p[1] + q[1]) / 2 + v * aside + 0.36 * font.size, font, outline, Align::centre);
+  }
 }
 
 void draw_loads(const Context& context, const Layout& layout, const core::Sketch& sketch) {

@@ -14,6 +14,10 @@ void draw_links(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layo
 /// Joints with their names.
 void draw_joints(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
 
+/// The names of the links that occur in `words`, what the legend says, beside the middles of these links.
+void draw_link_names(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch,
+                     const std::string& words);
+
 /// Forces as arrows with their size in N, couples as turning arrows with theirs in N m, gravity in the plot's corner.
 void draw_loads(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
 

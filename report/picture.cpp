@@ -45,14 +45,16 @@ const char* ending_of(PictureFormat format) {
 }
 
 std::string picture(const core::LocusMap& in_si, const core::WorkingMode& mode, const core::Sketch* si_sketch,
-                    PictureFormat format) {
+                    PictureFormat format, bool beside) {
   const core::LocusMap map = in_file_units(in_si);
   std::optional<core::Sketch> in_units;
   if (si_sketch != nullptr) in_units = in_file_units(*si_sketch, map.units);
   const core::Sketch* const sketch = in_units ? &*in_units : nullptr;
   if (map.tower.coordinates.size() == 3) return space_picture(map, mode, format);
   if (map.tower.coordinates.size() == 1) return range_picture(map, mode, format);
-  return drawn({&map, mode, groups_of_mode(group_loci(map), mode), sketch, nullptr, nullptr, nullptr}, format);
+  Subject subject{&map, mode, groups_of_mode(group_loci(map), mode)};
+  (beside ? subject.inset : subject.sketch) = sketch;
+  return drawn(subject, format);
 }
 
 std::string field_picture(const core::LocusMap& in_si, const core::WorkingMode& mode, const core::FieldMap& si_fields,

@@ -18,11 +18,11 @@ const char* ending_of(PictureFormat format);
 
 /// The loci of one working mode as the bytes of a file: workspace shaded, one colour and dash pattern a reason, direct
 /// singularities dash-dotted in black, the boundary thin and grey, isolated points as ringed markers, and, where given,
-/// the mechanism in the posture of `sketch` with its loads. Axes have one scale; the legend names joints. `sketch`
-/// belongs to the plane of the free coordinates: leave it out where these are not the platform point's x and y.
+/// the mechanism in the posture of `sketch` with its loads: in the plane of the free coordinates where these are the
+/// platform point's x and y, else `beside` it, below the legend. Axes have one scale; the legend names joints.
 /// The same map gives the same bytes. PNG has 2 pixels a point.
 std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
-                    PictureFormat format);
+                    PictureFormat format, bool beside = false);
 
 /// A field of `fields` in colours over the workspace, the loci and singularities of the mode drawn over it. Nothing is
 /// painted where the field is not a number.

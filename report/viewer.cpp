@@ -176,8 +176,9 @@ Json viewer_object(const LociSheet& loci) {
   Json meshes = Json::array(), sketches = Json::array();
   for (const core::LocusSurface& surface : loci.map.surfaces) meshes.push_back(mesh_object(surface));
   for (const core::ModeSketch& one : loci.sketches)
-    sketches.push_back(
-        {{"working_mode", mode_object(loci.map.tower, one.mode)}, {"sketch", sketch_object(one.sketch)}});
+    if (!one.beside)
+      sketches.push_back(
+          {{"working_mode", mode_object(loci.map.tower, one.mode)}, {"sketch", sketch_object(one.sketch)}});
   return {{"loci", loci_object(loci.map)},
           {"curve_groups", curve_groups(groups)},
           {"point_groups", point_groups(groups, loci.map)},

@@ -31,9 +31,16 @@ std::array<double, 2> values_of(const core::QuadraticNumber& value, const core::
   return {core::to_double(value.rational) + root, core::to_double(value.rational) - root};
 }
 
+/// "1/2"; what stands for an irrational number, or is as long, as a decimal unless `exact`.
+std::string rational_words(const core::Rational& value, bool exact) {
+  constexpr std::size_t longest = 12;  // of a number that somebody wrote: "123456/78901"
+  std::string text = core::to_string(value);
+  return exact || text.size() <= longest ? text : short_number(core::to_double(value), digits_of_decimals);
+}
+
 /// "√(69/100)", or "1/2" where the square root is exact; a decimal unless `exact`.
 std::string radius_words(const core::CircleForm& circle, bool exact) {
-  if (circle.radius) return core::to_string(*circle.radius);
+  if (circle.radius) return rational_words(*circle.radius, exact);
   if (!exact) return short_number(std::sqrt(core::to_double(circle.radius_squared)), digits_of_decimals);
   const std::string square = core::to_string(circle.radius_squared);
   return square.find('/') == std::string::npos ? "√" + square : "√(" + square + ")";
@@ -48,7 +55,7 @@ std::string root_words(const core::Rational& multiple, const core::Integer& n) {
 
 /// "1/4 ± √3/4" of both circles of a pair; `upper`: the sign that goes with the first one's.
 std::string pair_words(const core::QuadraticNumber& value, const core::Integer& n, int upper, bool exact) {
-  if (value.multiple == 0) return core::to_string(value.rational);
+  if (value.multiple == 0) return rational_words(value.rational, exact);
   const std::string both = sgn(value.multiple) == upper ? "±" : "∓";
   if (!exact) {
     const std::string size =
@@ -81,18 +88,26 @@ std::string circle_pair_words(const core::CirclePairForm& pair, bool exact) {
          pair_words(pair.centre[1], pair.n, upper, exact) + "), radius " + radius;
 }
 
-/// a x + b y + c as a text; zero terms are left out.
-std::string linear_words(const core::LineForm& line, std::span<const std::string> coordinates) {
-  const auto term = [](const core::Rational& factor, const std::string& symbol, bool first) {
+/// a x + b y + c as a text; zero terms are left out. Where some factor would be a decimal, those of the greater of a
+/// and b: "x - 0.364 y + 0.5".
+std::string linear_words(const core::LineForm& line, std::span<const std::string> coordinates, bool exact) {
+  std::array<core::Rational, 3> factors = {line.a, line.b, line.c};
+  const bool decimal = std::any_of(factors.begin(), factors.end(), [&](const core::Rational& factor) {
+    return rational_words(factor, exact) != core::to_string(factor);
+  });
+  const core::Rational& greater = abs(line.a) < abs(line.b) ? line.b : line.a;
+  if (decimal && greater != 0)
+    for (core::Rational& factor : factors) factor /= greater;
+  const auto term = [exact](const core::Rational& factor, const std::string& symbol, bool first) {
     if (factor == 0) return std::string();
     const core::Rational size = abs(factor);
-    const std::string number = core::to_string(size);
+    const std::string number = rational_words(size, exact);
     const std::string body = symbol.empty() ? number : size == 1 ? symbol : number + " " + symbol;
     return (first ? (factor < 0 ? "-" : "") : (factor < 0 ? " - " : " + ")) + body;
   };
-  std::string text = term(line.a, coordinates[0], true);
-  text += term(line.b, coordinates[1], text.empty());
-  text += term(line.c, "", text.empty());
+  std::string text = term(factors[0], coordinates[0], true);
+  text += term(factors[1], coordinates[1], text.empty());
+  text += term(factors[2], "", text.empty());
   return text;
 }
 
@@ -190,10 +205,21 @@ std::string virtual_work_words(core::LocusKind kind, std::span<const core::Vanis
 
 }  // namespace
 
+bool reads_well(const std::string& factor, int longest) {
+  if (factor.empty() || columns(factor) > longest) return false;
+  constexpr int most_digits = 5;  // of a number that says something: 18639000 is what clearing denominators left
+  int digits = 0;
+  for (const char c : factor) {
+    digits = c >= '0' && c <= '9' ? digits + 1 : 0;
+    if (digits > most_digits) return false;
+  }
+  return true;
+}
+
 std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing, const std::string& factor,
                          const std::string& cause, int longest) {
   if (!cause.empty()) return printable(cause);
-  if (!factor.empty() && columns(factor) <= longest) return printable(factor);
+  if (reads_well(factor, longest)) return printable(factor);
   return factor.empty() ? "" : printable(virtual_work_words(kind, vanishing));
 }
 
@@ -222,11 +248,11 @@ std::vector<std::string> told_once(const std::vector<std::string>& notes) {
 
 std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates, bool exact) {
   if (const auto* line = std::get_if<core::LineForm>(&form)) {
-    return "line " + linear_words(*line, coordinates) + " = 0";
+    return "line " + linear_words(*line, coordinates, exact) + " = 0";
   }
   if (const auto* circle = std::get_if<core::CircleForm>(&form)) {
-    return "circle centre (" + core::to_string(circle->centre[0]) + ", " + core::to_string(circle->centre[1]) +
-           "), radius " + radius_words(*circle, exact);
+    return "circle centre (" + rational_words(circle->centre[0], exact) + ", " +
+           rational_words(circle->centre[1], exact) + "), radius " + radius_words(*circle, exact);
   }
   if (const auto* pair = std::get_if<core::CirclePairForm>(&form)) return circle_pair_words(*pair, exact);
   if (const auto* conic = std::get_if<core::ConicForm>(&form)) {
@@ -257,7 +283,11 @@ std::string mode_slug(const core::TowerNames& tower, const core::WorkingMode& mo
 
 std::string parameter_words(const core::LocusMap& map) {
   std::vector<std::string> parts;
-  for (const auto& [name, value] : map.parameters) parts.push_back(name + " = " + value);
+  const std::string in_degrees = "*pi/180";
+  for (const auto& [name, value] : map.parameters) {
+    const bool angle = value.size() > in_degrees.size() && value.ends_with(in_degrees);
+    parts.push_back(name + " = " + (angle ? value.substr(0, value.size() - in_degrees.size()) + " deg" : value));
+  }
   return joined(parts, ", ");
 }
 
@@ -282,7 +312,12 @@ std::string short_number(double value, int digits) {
 std::string engineering(double value, int digits) {
   constexpr double least = 1e-3, most = 1e6;
   const double size = std::abs(value);
-  if (value == 0 || !std::isfinite(value) || (size >= least && size < most)) return short_number(value, digits);
+  if (value == 0 || !std::isfinite(value)) return short_number(value, digits);
+  if (size >= least && size < most) {
+    const std::string text = short_number(value, digits);
+    // More places before the point than digits: 20222 of four is 20220, and not 2.022e+04.
+    return text.find('e') == std::string::npos ? text : fmt::format("{:.0f}", std::stod(text));
+  }
   int exponent = 3 * static_cast<int>(std::floor(std::log10(size) / 3));
   std::string mantissa = short_number(value / std::pow(10.0, exponent), digits);
   // Rounded up to the next power: 999.9996e-6 is 1e-3.
@@ -291,6 +326,13 @@ std::string engineering(double value, int digits) {
     mantissa = value < 0 ? "-1" : "1";
   }
   return exponent == 0 ? mantissa : mantissa + "e" + std::to_string(exponent);
+}
+
+std::string force_words(double newtons) {
+  constexpr double kilo = 1e4, mega = 1e7;  // from where on the larger unit reads better
+  const double size = std::abs(newtons);
+  if (size >= mega) return engineering(newtons / 1e6, 4) + " MN";
+  return size >= kilo ? engineering(newtons / 1e3, 4) + " kN" : engineering(newtons, 4) + " N";
 }
 
 std::string exact_number(double value) { return value == 0 ? "0" : fmt::format("{}", value); }

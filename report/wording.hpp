@@ -22,7 +22,10 @@ std::string kind_words(core::LocusKind kind);
 /// "contact lost: A1, B1, P; backlash: A1"; empty where nothing vanishes.
 std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing);
 
-/// Why it vanishes: the cause; the factor, up to `longest` columns, as it stands; else what the vanishing means by
+/// Whether a factor is short enough to be read, in columns and in the digits of its numbers.
+bool reads_well(const std::string& factor, int longest);
+
+/// Why it vanishes: the cause; the factor, where it reads well, as it stands; else what the vanishing means by
 /// virtual work, which holds of any factor: "the loads do no work in the motion that A1 alone drives".
 std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing, const std::string& factor,
                          const std::string& cause, int longest);
@@ -53,6 +56,9 @@ std::string short_number(double value, int digits);
 /// Engineering notation: an exponent that is a multiple of three where the number is not between 0.001 and 1e6:
 /// "12.5e-6", "0.25", "1234.5". No "-0".
 std::string engineering(double value, int digits);
+
+/// "150 N", "20.22 kN".
+std::string force_words(double newtons);
 
 /// The shortest decimal that reads back as the same double.
 std::string exact_number(double value);
