@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "report/file_units.hpp"
@@ -246,7 +247,9 @@ std::size_t sample_at(const core::PeriodSweep& sweep, double distance) {
 
 NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& name, const std::string& label,
                      const std::vector<double>& values, bool is_signed, const std::string& unit) {
-  const core::PeriodSweep& sweep = *result.sweep;
+  // The plot is drawn when the result is no more.
+  const auto kept = std::make_shared<const core::PeriodSweep>(*result.sweep);
+  const core::PeriodSweep& sweep = *kept;
   Plot plot = frame(result, label);
   plot.subtitle = "Free of contact loss above";
   for (std::size_t k = 0; k < result.stages.size(); ++k) {
@@ -262,10 +265,10 @@ NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& na
   panel.y_label = "period (s)";
   panel.y_range = {lowest, highest};
   const std::size_t rows = sweep.periods.size();
-  panel.field = {label, unit, is_signed, values, [&sweep, values, lowest, highest, rows](double x, double y) {
+  panel.field = {label, unit, is_signed, values, [kept, values, lowest, highest, rows](double x, double y) {
                    const double place = (y - lowest) / (highest - lowest) * static_cast<double>(rows);
                    const auto row = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(rows) - 0.5));
-                   return values[sweep.index(row, sample_at(sweep, x))];
+                   return values[kept->index(row, sample_at(*kept, x))];
                  }};
   int number = 0;
   for (const core::LossCurve& curve : result.loss_curves) {

@@ -403,7 +403,7 @@ class Platform(InOwnFolder):
 
     def test_trajectory(self):
         (self.folder / "path.yaml").write_text(
-            "format: 1\npath: {closed: true, waypoints: [[-0.3, -0.2], {at: [0.2, 0.1], stop: true}]}\n"
+            "format: 1\npath: {closed: true, waypoints: [[-0.3, -0.2], {at: [-0.2, -0.1], stop: true}]}\n"
             "motion: cycloidal\nperiod: 0.5\n",
             encoding="utf-8",
         )
