@@ -23,7 +23,11 @@ Posture seen(Posture posture) {
   for (Vector3d& axis : posture.axes) axis = view * axis;
   for (AppliedLoad& load : posture.loads) {
     load.at = view * load.at;
-    load.force = view * load.force;
+    // As long as it is, and not as long as it is seen: its size stands beside it.
+    const Vector3d force = view * load.force;
+    const double flat = std::hypot(force.x(), force.y());
+    load.force =
+        flat > 0 ? Vector3d(Vector3d(force.x(), force.y(), 0) * (force.norm() / flat)) : Vector3d(Vector3d::Zero());
     load.couple.setZero();
   }
   posture.gravity = view * posture.gravity;
