@@ -150,8 +150,8 @@ ActualPose actual_of(const numeric::NumericModel& model, const std::vector<numer
     const mechanism::Link& link = model.mechanism.links[i];
     DisplacedLink own{link.name, {}};
     for (std::size_t k = 0; k < link.points.size(); ++k) {
-      const numeric::Point2& place = found.link_points[i][k];
-      own.points.push_back({name_of(model.mechanism, link.points[k]), {place[0], place[1]}});
+      own.points.push_back(
+          {name_of(model.mechanism, link.points[k]), components(model.mechanism.space, found.link_points[i][k])});
     }
     actual.links.push_back(std::move(own));
   }
@@ -317,9 +317,6 @@ DyadSides sides_of(const mechanism::Mechanism& mechanism, const DyadSides& sides
 
 Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                 const PoseRequest& request) {
-  if (mechanism.space == mechanism::Space::spatial && request.iterate)
-    throw core::InputError({mechanism.file}, "the pose error of a spatial mechanism is not iterated",
-                           "ask for the linear error");
   require_values(mechanism, at.size());
   require_rates(mechanism, request);
   const std::vector<numeric::Bounded> values = with_rounding(at);

@@ -72,9 +72,6 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "pose.json", incomplete_body(name, "the pose was"), false);
   });
-  if (arguments.iterate && mechanism.space == mechanism::Space::spatial)
-    throw core::InputError({.file = "--iterate"}, "the pose error of a spatial mechanism is not iterated",
-                           "leave --iterate out: the linear error is given");
   if (arguments.working_mode == "all") return run_all_modes(arguments, mechanism, limit);
   const Pose pose = solve(arguments, mechanism);
   limit.writing();

@@ -1,11 +1,14 @@
 #include "numeric/displaced.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/wrench_rows.hpp"
 
@@ -22,100 +25,173 @@ constexpr double settled = 32 * unit_roundoff;
 /// the linear step is no starting point.
 constexpr double most_condition = 1e12;
 
+constexpr const char* far_away = "the displaced mechanism cannot be closed near this pose";
+
+/// Every link moved from the nominal posture.
+struct LinkMotion {
+  Vector3d t = Vector3d::Zero();
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+};
+
+Eigen::Quaterniond turned_by(const Vector3d& rotation) {
+  const double angle = rotation.norm();
+  return angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) : Eigen::Quaterniond::Identity();
+}
+
+/// Of less than a whole turn.
+Vector3d rotation_vector(const Eigen::Quaterniond& q) {
+  const double sine = q.vec().norm();
+  return sine > 0 ? Vector3d(2 * std::atan2(sine, q.w()) / sine * q.vec()) : Vector3d::Zero();
+}
+
 class DisplacedMechanism {
  public:
-  DisplacedMechanism(const NumericModel& model, const Posture& posture, const Eigen::VectorXd& u)
-      : model_(model), posture_(posture), u_(u) {}
-
-  Point2 reference() const { return point(model_.mechanism.end_effector_point); }
-  Point2 point(mechanism::PointIndex index) const { return in_plane(posture_.points[static_cast<std::size_t>(index)]); }
-
-  /// p' - (E + t_i): the arm of a point of link i; of the ground, p - E.
-  Point2 arm(mechanism::LinkIndex link, const Point2& p) const {
-    const Point2 E = reference();
-    const Point2 r = {p[0] - E[0], p[1] - E[1]};
-    if (link == mechanism::ground) return r;
-    const double c = std::cos(u_(3 * link + 2)), s = std::sin(u_(3 * link + 2));
-    return {c * r[0] - s * r[1], s * r[0] + c * r[1]};
+  DisplacedMechanism(const NumericModel& model, const Posture& posture, const Accuracy& linear,
+                     const std::vector<LinkMotion>& links)
+      : model_(model), posture_(posture), links_(links), columns_(linear.columns), contacts_(linear.contacts) {
+    for (std::size_t j = 0; j < contacts_.size(); ++j) contacts_[j].axis = rotation(joint(j).from) * contacts_[j].axis;
+    for (ReactionColumn& column : columns_) turn(column);
   }
+
+  const std::vector<ReactionColumn>& columns() const { return columns_; }
+  const std::vector<JointContact>& contacts() const { return contacts_; }
+  const Vector3d& reference() const { return point(model_.mechanism.end_effector_point); }
+  const Vector3d& point(mechanism::PointIndex index) const { return posture_.points[static_cast<std::size_t>(index)]; }
 
   /// p' - E. Differences of such points keep the digits that absolute coordinates would lose.
-  Point2 moved(mechanism::LinkIndex link, const Point2& p) const {
-    const Point2 r = arm(link, p);
-    return link == mechanism::ground ? r : Point2{r[0] + u_(3 * link), r[1] + u_(3 * link + 1)};
-  }
+  Vector3d moved(mechanism::LinkIndex link, const Vector3d& p) const { return translation(link) + arm(link, p); }
 
   Eigen::MatrixXd matrix() const {
-    const auto size = static_cast<Eigen::Index>(model_.unknowns.size());
+    const auto size = static_cast<Eigen::Index>(columns_.size());
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
-    for (Eigen::Index column = 0; column < size; ++column) {
-      const mechanism::Unknown& unknown = model_.unknowns[static_cast<std::size_t>(column)];
-      const mechanism::Joint& joint = model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
-      for (const int sign : {1, -1}) {
-        const mechanism::LinkIndex link = sign > 0 ? joint.to : joint.from;
-        if (link == mechanism::ground) continue;
-        const Point2 r = arm(link, point(joint.at));
-        const Eigen::Vector3d wrench = unknown.quantity == core::Quantity::fx   ? Eigen::Vector3d(1, 0, -r[1])
-                                       : unknown.quantity == core::Quantity::fy ? Eigen::Vector3d(0, 1, r[0])
-                                                                                : Eigen::Vector3d(0, 0, 1);
-        A.block<3, 1>(3 * link, column) += sign * wrench;
-      }
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const ReactionColumn& column = columns_[static_cast<std::size_t>(k)];
+      const mechanism::Joint& own = joint(static_cast<std::size_t>(column.joint));
+      const Vector3d to = arm(own.to, point(own.at));
+      // What slides bears where its `to` is now.
+      const Vector3d from = mechanism::traits(own).slides
+                                ? Vector3d(moved(own.to, point(own.at)) - translation(own.from))
+                                : arm(own.from, point(own.at));
+      add_wrench(model_.mechanism, own.to, wrench_of(to, column.force, column.couple), 1, A.col(k));
+      add_wrench(model_.mechanism, own.from, wrench_of(from, column.force, column.couple), -1, A.col(k));
     }
     return A;
   }
 
   Eigen::VectorXd load_column() const {
-    Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model_.unknowns.size()));
-    for (const AppliedLoad& load : posture_.loads) {
-      if (load.spring >= 0) continue;
-      const Point2 r = arm(load.link, in_plane(load.at));
-      w.segment<3>(3 * load.link) -=
-          Vector3d(load.force[0], load.force[1], load.couple[2] + r[0] * load.force[1] - r[1] * load.force[0]);
-    }
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns_.size()));
+    for (const AppliedLoad& load : posture_.loads)
+      if (load.spring < 0)
+        add_wrench(model_.mechanism, load.link, wrench_of(arm(load.link, load.at), load.force, load.couple), -1, w);
     for (const mechanism::Spring& spring : model_.mechanism.springs) add_spring(spring, w);
     return w;
   }
 
-  /// Relative displacements of the joints minus those that the take-up wants.
-  Eigen::VectorXd closure(const Eigen::VectorXd& wanted) const {
-    Eigen::VectorXd r = -wanted;
+  /// Relative displacements of the joints, in the directions of the columns, minus those that the take-up wants.
+  Eigen::VectorXd closure(const std::vector<TakeUp>& take_up) const {
+    Eigen::VectorXd r = -clearance_displacements(columns_, take_up);
     for (Eigen::Index k = 0; k < r.size(); ++k) {
-      const mechanism::Unknown& unknown = model_.unknowns[static_cast<std::size_t>(k)];
-      const mechanism::Joint& joint = model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
-      const Point2 p = point(joint.at);
-      const auto value = [&](mechanism::LinkIndex link) {
-        if (unknown.quantity == core::Quantity::M) return link == mechanism::ground ? 0.0 : u_(3 * link + 2);
-        return moved(link, p)[unknown.quantity == core::Quantity::fx ? 0 : 1];
-      };
-      r(k) += value(joint.to) - value(joint.from);
+      const ReactionColumn& column = columns_[static_cast<std::size_t>(k)];
+      const auto j = static_cast<std::size_t>(column.joint);
+      const mechanism::Joint& own = joint(j);
+      if (column.force != Vector3d::Zero())
+        r(k) += column.force.dot(moved(own.to, point(own.at)) - moved(own.from, point(own.at)));
+      else if (is_cross(own))
+        r(k) += cross_closure(j);
+      else
+        r(k) += column.couple.dot(relative_rotation(own));
     }
     return r;
   }
 
  private:
+  const mechanism::Joint& joint(std::size_t j) const { return model_.mechanism.joints[j]; }
+  const Eigen::Quaterniond& rotation(mechanism::LinkIndex link) const {
+    static const Eigen::Quaterniond none = Eigen::Quaterniond::Identity();
+    return link == mechanism::ground ? none : links_[static_cast<std::size_t>(link)].q;
+  }
+  Vector3d translation(mechanism::LinkIndex link) const {
+    return link == mechanism::ground ? Vector3d::Zero() : links_[static_cast<std::size_t>(link)].t;
+  }
+  /// p' - (E + t_i): the arm of a point of link i; of the ground, p - E.
+  Vector3d arm(mechanism::LinkIndex link, const Vector3d& p) const { return rotation(link) * (p - reference()); }
+  Vector3d relative_rotation(const mechanism::Joint& own) const {
+    return rotation_vector(rotation(own.to) * rotation(own.from).conjugate());
+  }
+
+  static bool is_cross(const mechanism::Joint& own) {
+    return own.type == mechanism::JointType::universal && !mechanism::holds_idle_freedom(own);
+  }
+
   double value(const core::Expression& e) const { return core::to_double(mechanism::value_of(e, model_.mechanism)); }
-  double turned(mechanism::LinkIndex link) const { return link == mechanism::ground ? 0 : u_(3 * link + 2); }
+
+  /// Of constants and points, as axes are.
+  Vector3d vector(const mechanism::VectorExpression& v) const {
+    using Kind = mechanism::VectorExpression::Kind;
+    switch (v.kind) {
+      case Kind::components:
+        return {value(v.numbers[0]), value(v.numbers[1]), v.numbers.size() > 2 ? value(v.numbers[2]) : 0};
+      case Kind::point:
+        return point(v.point);
+      case Kind::add:
+        return vector(v.arguments[0]) + vector(v.arguments[1]);
+      case Kind::negate:
+        return -vector(v.arguments[0]);
+      case Kind::scale:
+        return value(v.numbers[0]) * vector(v.arguments[0]);
+      case Kind::cross:
+        return vector(v.arguments[0]).cross(vector(v.arguments[1]));
+    }
+    return Vector3d::Zero();
+  }
+  Vector3d second_axis(const mechanism::Joint& own) const { return vector(own.axes[1]).normalized(); }
+
+  /// A column of the nominal posture in the displaced one.
+  void turn(ReactionColumn& column) const {
+    const auto j = static_cast<std::size_t>(column.joint);
+    const mechanism::Joint& own = joint(j);
+    const Eigen::Quaterniond& q = rotation(own.from);
+    if (mechanism::traits(own).slides) column.force = q * column.force;
+    if (is_cross(own) && column.couple != Vector3d::Zero())
+      column.couple = contacts_[j].axis.cross(rotation(own.to) * second_axis(own)).normalized();
+    else if (mechanism::traits(own).turns_about_axis() || column.actuator)
+      column.couple = q * column.couple;
+  }
+
+  /// A relative turn by a small rotation w changes u1' . u2' by -w . (u1' x u2').
+  double cross_closure(std::size_t j) const {
+    const Vector3d &first = posture_.axes[j], second = second_axis(joint(j));
+    const Vector3d now = rotation(joint(j).to) * second;
+    // u1' . u2' - u1 . u2 without the digits that such a difference would lose.
+    const double difference = (contacts_[j].axis - first).dot(now) + first.dot(now - second);
+    return -difference / first.cross(second).norm();
+  }
 
   /// Springs pull with the length, and turn with the angle, that they have now.
   void add_spring(const mechanism::Spring& spring, Eigen::VectorXd& w) const {
+    const mechanism::Mechanism& m = model_.mechanism;
     if (spring.kind == mechanism::Spring::Kind::torsion) {
-      const auto own = static_cast<int>(&spring - model_.mechanism.springs.data());
-      const double more = value(spring.stiffness) * (turned(spring.to) - turned(spring.from));
-      for (const AppliedLoad& load : posture_.loads)
-        if (load.spring == own) w(3 * load.link + 2) -= load.couple[2] + (load.link == spring.to ? -more : more);
+      const auto own = static_cast<int>(&spring - m.springs.data());
+      const auto j = static_cast<std::size_t>(spring.joint);
+      const Vector3d& axis = contacts_[j].axis;
+      const double more = value(spring.stiffness) * axis.dot(relative_rotation(joint(j)));
+      for (const AppliedLoad& load : posture_.loads) {
+        if (load.spring != own) continue;
+        const Vector3d couple = rotation(joint(j).from) * load.couple + (load.link == spring.to ? -more : more) * axis;
+        add_wrench(m, load.link, wrench_of(Vector3d::Zero(), Vector3d::Zero(), couple), -1, w);
+      }
       return;
     }
-    const Point2 p = moved(spring.from, point(spring.from_point)), q = moved(spring.to, point(spring.to_point));
-    const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
+    const Vector3d p = moved(spring.from, point(spring.from_point)), q = moved(spring.to, point(spring.to_point));
+    const double length = (q - p).norm();
     const double tension = spring.kind == mechanism::Spring::Kind::constant_force
                                ? value(spring.force)
                                : value(spring.stiffness) * (length - value(spring.free_length));
     if (length == 0) return;
-    const Point2 force = {tension * (q[0] - p[0]) / length, tension * (q[1] - p[1]) / length};
+    const Vector3d force = tension / length * (q - p);
     const auto put = [&](mechanism::LinkIndex link, mechanism::PointIndex at, double sign) {
       if (link == mechanism::ground) return;
-      const Point2 r = arm(link, point(at));
-      w.segment<3>(3 * link) -= sign * Eigen::Vector3d(force[0], force[1], r[0] * force[1] - r[1] * force[0]);
+      add_wrench(m, link, wrench_of(arm(link, point(at)), force, Vector3d::Zero()), -sign, w);
     };
     put(spring.from, spring.from_point, 1);
     put(spring.to, spring.to_point, -1);
@@ -123,7 +199,9 @@ class DisplacedMechanism {
 
   const NumericModel& model_;
   const Posture& posture_;
-  const Eigen::VectorXd& u_;
+  const std::vector<LinkMotion>& links_;
+  std::vector<ReactionColumn> columns_;
+  std::vector<JointContact> contacts_;
 };
 
 /// Couples of clearance joints that changed sign between two iterates.
@@ -139,15 +217,12 @@ std::string names(const std::vector<std::string>& list) {
   return text;
 }
 
-std::vector<std::vector<Point2>> displaced_points(const NumericModel& model, const DisplacedMechanism& displaced) {
-  std::vector<std::vector<Point2>> all;
-  const Point2 E = displaced.reference();
+std::vector<std::vector<Vector3d>> displaced_points(const NumericModel& model, const DisplacedMechanism& displaced) {
+  std::vector<std::vector<Vector3d>> all;
   for (std::size_t i = 0; i < model.mechanism.links.size(); ++i) {
-    std::vector<Point2> points;
-    for (const mechanism::PointIndex p : model.mechanism.links[i].points) {
-      const Point2 r = displaced.moved(static_cast<int>(i), displaced.point(p));
-      points.push_back({E[0] + r[0], E[1] + r[1]});
-    }
+    std::vector<Vector3d> points;
+    for (const mechanism::PointIndex p : model.mechanism.links[i].points)
+      points.push_back(displaced.reference() + displaced.moved(static_cast<int>(i), displaced.point(p)));
     all.push_back(std::move(points));
   }
   return all;
@@ -156,19 +231,21 @@ std::vector<std::vector<Point2>> displaced_points(const NumericModel& model, con
 class Iteration {
  public:
   Iteration(const NumericModel& model, const Posture& posture, const Accuracy& linear)
-      : model_(model), posture_(posture), contacts_(linear.contacts), linear_(linear) {
+      : model_(model), posture_(posture), linear_(linear), rows_(rows_of_link(model.mechanism)) {
     size_ = typical_length(model, posture);
+    links_.resize(model.mechanism.links.size());
   }
 
   ActualPose run() {
     if (!linear_.undefined.empty()) return refuse("the take-up of " + names(linear_.undefined) + " is undefined here");
     if (!(linear_.reactions.condition < most_condition)) return refuse("the pose is at a direct singularity");
-    u_ = linear_.link_displacements;
+    if (!is_near(linear_.link_displacements)) return refuse(far_away);
+    move(linear_.link_displacements);
     result_.take_up = linear_.take_up;
     for (result_.iterations = 1; result_.iterations <= most_iterations; ++result_.iterations) {
       const double step = advance();
       if (!result_.reason.empty()) return refuse(result_.reason);
-      if (step <= settled * (1 + u_.cwiseAbs().maxCoeff() / size_)) return finish();
+      if (step <= settled * (1 + displacements().cwiseAbs().maxCoeff() / size_)) return finish();
     }
     result_.iterations = most_iterations;
     if (!reversed_.empty())
@@ -183,9 +260,42 @@ class Iteration {
     return result_;
   }
 
+  /// A link that turns by a radian, or moves as far as its length or so, has left the neighbourhood in which the linear
+  /// step means anything: what is closed there is another posture.
+  bool is_near(const Eigen::VectorXd& u) const {
+    double most = 0;
+    for (Eigen::Index i = 0; i < u.size(); ++i) most = std::max(most, size_of(u, i));
+    return most < 1;
+  }
+  /// Of one component of displacements, in units of the mechanism's (lengths) and in rad.
+  double size_of(const Eigen::VectorXd& u, Eigen::Index i) const {
+    const bool length = wrench_rows(model_.mechanism.space)[static_cast<std::size_t>(i % rows_)] < 3;
+    return std::isfinite(u(i)) ? std::abs(u(i)) / (length ? size_ : 1) : std::numeric_limits<double>::infinity();
+  }
+
+  void move(const Eigen::VectorXd& by) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Vector6 own = six_of(model_.mechanism.space, by.segment(rows_ * static_cast<Eigen::Index>(i), rows_));
+      links_[i].t += own.head<3>();
+      links_[i].q = (turned_by(own.tail<3>()) * links_[i].q).normalized();
+    }
+  }
+
+  Eigen::VectorXd displacements() const {
+    const std::vector<Eigen::Index>& rows = wrench_rows(model_.mechanism.space);
+    Eigen::VectorXd u(rows_ * static_cast<Eigen::Index>(links_.size()));
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      Vector6 own;
+      own << links_[i].t, rotation_vector(links_[i].q);
+      for (Eigen::Index r = 0; r < rows_; ++r)
+        u(rows_ * static_cast<Eigen::Index>(i) + r) = own(rows[static_cast<std::size_t>(r)]);
+    }
+    return u;
+  }
+
   /// One step; its size in units of the mechanism's (lengths) and in rad.
   double advance() {
-    const DisplacedMechanism displaced(model_, posture_, u_);
+    const DisplacedMechanism displaced(model_, posture_, linear_, links_);
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(displaced.matrix());
     const double determinant = lu.determinant();
     if (!std::isfinite(determinant) || determinant * linear_.reactions.determinant <= 0) {
@@ -193,32 +303,28 @@ class Iteration {
       return 0;
     }
     result_.reactions = lu.solve(displaced.load_column());
-    std::vector<TakeUp> next =
-        take_up(contacts_, joint_reactions(contacts_.size(), linear_.columns, result_.reactions));
-    if (const auto undefined = undefined_take_up(model_.mechanism, contacts_, next); !undefined.empty()) {
+    std::vector<TakeUp> next = take_up(
+        displaced.contacts(), joint_reactions(model_.mechanism.joints.size(), displaced.columns(), result_.reactions));
+    if (const auto undefined = undefined_take_up(model_.mechanism, displaced.contacts(), next); !undefined.empty()) {
       result_.reason = "the take-up of " + names(undefined) + " becomes undefined in the displaced geometry";
       return 0;
     }
     reversed_ = reversed_couple(model_, result_.take_up, next);
     result_.take_up = std::move(next);
-    const Eigen::VectorXd residual = displaced.closure(clearance_displacements(linear_.columns, result_.take_up));
-    const Eigen::VectorXd step = lu.transpose().solve(residual);
-    u_ -= step;
+    const Eigen::VectorXd step = lu.transpose().solve(displaced.closure(result_.take_up));
+    move(-step);
     double most = 0;
-    for (Eigen::Index i = 0; i < step.size(); ++i) most = std::max(most, std::abs(step(i)) / (i % 3 == 2 ? 1 : size_));
-    // A link that turns by a radian has left the neighbourhood in which the linear step means anything.
-    if (!(u_.cwiseAbs().maxCoeff() < 1e3 * size_) || !std::isfinite(most))
-      result_.reason = "the displaced mechanism cannot be closed near this pose";
+    for (Eigen::Index i = 0; i < step.size(); ++i) most = std::max(most, size_of(step, i));
+    if (!is_near(displacements())) result_.reason = far_away;
     return most;
   }
 
   ActualPose finish() {
-    const DisplacedMechanism displaced(model_, posture_, u_);
+    const DisplacedMechanism displaced(model_, posture_, linear_, links_);
     result_.converged = true;
-    result_.residual =
-        displaced.closure(clearance_displacements(linear_.columns, result_.take_up)).cwiseAbs().maxCoeff();
-    result_.displacements = u_;
-    const Vector6 own = end_effector_displacement(model_.mechanism, u_);
+    result_.residual = displaced.closure(result_.take_up).cwiseAbs().maxCoeff();
+    result_.displacements = displacements();
+    const Vector6 own = end_effector_displacement(model_.mechanism, result_.displacements);
     result_.error = {own.tail<3>(), own.head<3>()};
     result_.beyond_linear = {result_.error.dalpha - linear_.error.dalpha, result_.error.dp - linear_.error.dp};
     result_.link_points = displaced_points(model_, displaced);
@@ -227,10 +333,10 @@ class Iteration {
 
   const NumericModel& model_;
   const Posture& posture_;
-  std::vector<JointContact> contacts_;
   const Accuracy& linear_;
+  Eigen::Index rows_;
   double size_ = 1;
-  Eigen::VectorXd u_;
+  std::vector<LinkMotion> links_;
   std::string reversed_;
   ActualPose result_;
 };
@@ -239,12 +345,6 @@ class Iteration {
 
 ActualPose actual_pose(const NumericModel& model, const Posture& posture, const Accuracy& linear) {
   core::ensure(posture.reachable(), "the posture is reachable");
-  for (const mechanism::Joint& joint : model.mechanism.joints) {
-    if (!mechanism::traits(joint).slides) continue;
-    ActualPose refused;
-    refused.reason = "joint " + joint.name + " is prismatic, and only revolute joints are closed with their clearances";
-    return refused;
-  }
   return Iteration(model, posture, linear).run();
 }
 

@@ -213,6 +213,11 @@ void put_space_accuracy(std::string& text, const core::Pose& pose) {
     put_space_error(text, "linear", pose.error->displacement, pose.error->rotation);
   else
     put(text, "undefined: {}\n", undefined_words(pose));
+  if (pose.actual) {
+    put_space_error(text, "iterated", pose.actual->error.displacement, pose.actual->error.rotation);
+    put_space_error(text, "  difference", pose.actual->beyond_linear.displacement, pose.actual->beyond_linear.rotation);
+    put(text, "  {} iterations, closure within {:.2g}\n", pose.actual->iterations, pose.actual->residual);
+  }
   put_space_error(text, "worst, any load", pose.worst.displacement, pose.worst.rotation);
   put(text, "{:<18}{:>16} {} largest distance, {} {} largest rotation\n", "", number(pose.worst.distance), length,
       number(pose.worst.angle), angle);

@@ -141,7 +141,7 @@ namespace clearloci {
 
 struct PoseRequest {
   DyadSides working_mode = {};  ///< empty: the file's
-  bool iterate = false;         ///< also `actual`; of planar mechanisms
+  bool iterate = false;         ///< also `actual`
   /// Rates of the coordinates, one each, m/s and m/s^2 or rad/s and rad/s^2; empty: at rest. Of planar mechanisms, and
   /// not with `iterate`. Reactions, take-up and error then are those with the links' inertia.
   std::vector<double> velocity = {};
@@ -151,7 +151,7 @@ struct PoseRequest {
 /// `at`: one value a free coordinate, m or, of an angle (Model::coordinates), rad. A double stands for the shortest
 /// decimal that reads back as it: 0.1 is 1/10, and a pose on a locus there is told to be on it.
 /// Throws InputError where the number of values or of sides is wrong, a value is no finite number, the equations are
-/// not square, |A| vanishes in every pose of the working mode, or a spatial mechanism is to be iterated.
+/// not square, or |A| vanishes in every pose of the working mode.
 Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseRequest& request = {});
 
 /// The same in every working mode: where a mode has no such pose, why. Throws likewise for what is wrong in all of

@@ -68,7 +68,7 @@ RC_GTEST_PROP(ActualPose, IsTheDisplacedFiveBarsOwn, ()) {
     const double length =
         (p.points[static_cast<std::size_t>(link.points[0])] - p.points[static_cast<std::size_t>(link.points[1])])
             .norm();
-    RC_ASSERT(std::abs(distance(actual.link_points[i][0], actual.link_points[i][1]) - length) < 1e-12);
+    RC_ASSERT(std::abs((actual.link_points[i][0] - actual.link_points[i][1]).norm() - length) < 1e-12);
   }
 }
 
@@ -79,7 +79,7 @@ TEST(ActualPose, BalancesTheLoadsInTheDisplacedGeometry) {
   const ActualPose actual = actual_pose(model, p, pose_accuracy(model, p));
   ASSERT_TRUE(actual.converged) << actual.reason;
   const auto& w = actual.reactions;
-  const auto at = [&](std::size_t link, std::size_t point) { return actual.link_points[link][point]; };
+  const auto at = [&](std::size_t link, std::size_t point) { return in_plane(actual.link_points[link][point]); };
   const auto torque = [](const Point2& about, const Point2& place, double fx, double fy) {
     return (place[0] - about[0]) * fy - (place[1] - about[1]) * fx;
   };
