@@ -1,12 +1,14 @@
 #include "analysis/pose_verification.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "analysis/model.hpp"
 #include "analysis/pose_demands.hpp"
+#include "analysis/pose_fit.hpp"
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
@@ -98,11 +100,42 @@ class Verifier {
     if (samples.size() > poses) samples.erase(samples.begin() + 1, samples.end() - (poses - 1));
     const std::vector<TaskDemand> demands =
         loaded_demands(models_, sides_, demands_of(mechanism, request_), samples, notes_);
+    demands_ = demands;
     witness_.emplace(witness_for(demands));
     std::vector<const Mechanism*> list;
     for (const Mechanism& own : loads_) list.push_back(&own);
     statics_ = symbolic::pose_statics(list, sides_, demands);
     cell_.emplace(statics_);
+  }
+
+  /// The task elsewhere, or larger or smaller.
+  void place(const core::PoseShape& shape) {
+    task_.shape = shape;
+    region_ = PoseRegion(shape, metrics_.asked);
+    witness_.emplace(witness_for(demands_));
+  }
+
+  /// Whether nothing changes its sign or is too small between a few poses of a shape.
+  bool looks_good(const core::PoseShape& shape) {
+    constexpr std::size_t looks = 16;
+    if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return false;
+    std::vector<Pose> poses = PoseRegion(shape, metrics_.asked).samples();
+    const auto first = cell_->at(poses.front());
+    if (!first) return false;
+    const std::size_t stride = (poses.size() + looks - 1) / looks;
+    for (std::size_t i = 0; i < poses.size(); i += stride) {
+      if (!is_alike(*first, poses[i], {Doubt::singularity, -1, poses[i]})) return false;
+      for (std::size_t d = 0; d < statics_.demands.size(); ++d)
+        if (!is_alike(*first, poses[i], {Doubt::demand, static_cast<int>(d), poses[i]})) return false;
+    }
+    return true;
+  }
+
+  /// From a shape to the nearest locus found.
+  double room(const core::PoseShape& shape) const {
+    if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return 0;
+    const std::vector<NearPose> near = loci::pose::near_loci(statics_, PoseRegion(shape, metrics_.asked));
+    return near.empty() ? std::numeric_limits<double>::infinity() : near.front().distance;
   }
 
   PoseVerification verify(bool measured) {
@@ -233,6 +266,7 @@ class Verifier {
     // Where doubles do not tell that it is zero: its sign is certain a little to both sides.
     for (double apart = 0x1p-50; apart < 1; apart *= 4) {
       const double before = std::max(0.0, low - apart), behind = std::min(1.0, high + apart);
+      if (!region_.holds_way(at(before), at(behind), margin_)) break;
       for (const int demand : {suspect.demand, -1})
         if (witness_->differs(at(before), at(behind), demand)) {
           using Kind = numeric::TaskFailure::Kind;
@@ -304,7 +338,7 @@ class Verifier {
   }
 
   const Mechanism& mechanism_;
-  const PoseTask& task_;
+  PoseTask task_;
   LociRequest request_;
   std::vector<Mechanism> loads_;
   Metrics metrics_;
@@ -312,6 +346,7 @@ class Verifier {
   double margin_;
   DyadSides sides_;
   std::vector<numeric::NumericModel> models_;
+  std::vector<TaskDemand> demands_;
   std::optional<numeric::PoseWitness> witness_;
   core::PoseStatics statics_;
   std::optional<PoseCell> cell_;
@@ -328,6 +363,25 @@ PoseVerification decide_poses(const Mechanism& mechanism, const PoseTask& task, 
   return Verifier(mechanism, task, request).verify(false);
 }
 
+PoseVerification fit_poses(const Mechanism& mechanism, const PoseTask& task, PoseFit goal, const LociRequest& request) {
+  Verifier verifier(mechanism, task, request);
+  const PoseJudge judge{[&](const core::PoseShape& shape) {
+                          verifier.place(shape);
+                          return verifier.verify(false).verified();
+                        },
+                        [&](const core::PoseShape& shape) { return verifier.looks_good(shape); },
+                        [&](const core::PoseShape& shape) { return verifier.room(shape); }};
+  const std::optional<PlacedShape> placed = place_shape(mechanism, task, goal, judge);
+  verifier.place(placed ? placed->shape : task.shape);
+  PoseVerification result = verifier.verify(true);
+  if (placed && placed->by) {
+    result.by.emplace();
+    for (const core::Rational& value : *placed->by) result.by->push_back(core::to_double(value));
+  }
+  if (placed && placed->scale) result.scale = core::to_double(*placed->scale);
+  return result;
+}
+
 PoseTask read_pose_task(const std::string& path, const Model& model) {
   return mechanism::read_pose_task(path, model.content().mechanism);
 }
@@ -338,6 +392,10 @@ PoseTask parse_pose_task(const std::string& text, const Model& model, const std:
 
 PoseVerification verify_poses(const Model& model, const PoseTask& task, const LociRequest& request) {
   return verify_poses(model.content().mechanism, task, request);
+}
+
+PoseVerification fit_poses(const Model& model, const PoseTask& task, PoseFit goal, const LociRequest& request) {
+  return fit_poses(model.content().mechanism, task, goal, request);
 }
 
 PoseVerification decide_poses(const Model& model, const PoseTask& task, const LociRequest& request) {

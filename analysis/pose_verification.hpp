@@ -13,4 +13,7 @@ core::PoseVerification verify_poses(const mechanism::Mechanism& mechanism, const
 core::PoseVerification decide_poses(const mechanism::Mechanism& mechanism, const core::PoseTask& task,
                                     const LociRequest& request = {});
 
+core::PoseVerification fit_poses(const mechanism::Mechanism& mechanism, const core::PoseTask& task, PoseFit goal,
+                                 const LociRequest& request = {});
+
 }  // namespace clearloci

@@ -49,7 +49,19 @@ std::optional<FitGoal> parse_fit(const std::string& word) {
   if (word.empty()) return std::nullopt;
   if (word == "nearest") return FitGoal::nearest;
   if (word == "best") return FitGoal::best;
+  if (word == "largest")
+    throw core::InputError({.file = "--fit"}, "the largest scale is looked for over other than two lengths",
+                           "choose from nearest, best");
   throw core::InputError({.file = "--fit"}, fmt::format("unknown goal '{}'", word), "choose from nearest, best");
+}
+
+std::optional<PoseFit> parse_pose_fit(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  if (word == "nearest") return PoseFit::nearest;
+  if (word == "best") return PoseFit::best;
+  if (word == "largest") return PoseFit::largest;
+  throw core::InputError({.file = "--fit"}, fmt::format("unknown goal '{}'", word),
+                         "choose from nearest, best, largest");
 }
 
 /// The loci of the file's load with their cells, and the task where it was verified.
@@ -65,16 +77,15 @@ void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, 
 
 /// Over other than two lengths: a verdict without traced loci, and so without pictures.
 int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
-  if (parse_fit(arguments.fit))
-    throw core::InputError({.file = "--fit"}, "a place is looked for in the plane of two lengths",
-                           "leave out --fit, or make the other coordinates parameters");
+  const std::optional<PoseFit> goal = parse_pose_fit(arguments.fit);
   const core::PoseTask task = mechanism::read_pose_task(arguments.task, mechanism);
   Progress progress(arguments.common.quiet);
   const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   if (request.all_working_modes || request.working_modes.size() > 1)
     throw core::InputError({.file = "--working-mode"}, "a task is verified in one working mode",
                            "give one side for each dyad");
-  const core::PoseVerification result = verify_poses(mechanism, task, request);
+  const core::PoseVerification result =
+      goal ? fit_poses(mechanism, task, *goal, request) : verify_poses(mechanism, task, request);
   progress.clear();
   limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
@@ -88,10 +99,10 @@ int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mecha
 
 int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::Verification>());
-  const std::optional<FitGoal> goal = parse_fit(arguments.fit);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
   const bool over_poses = mechanism::has_pose_tasks(mechanism);
+  const std::optional<FitGoal> goal = over_poses ? std::nullopt : parse_fit(arguments.fit);
   const core::Task task = over_poses ? core::Task{} : mechanism::read_task(arguments.task, mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     nlohmann::ordered_json body = incomplete_body(name, "the verdict was");
@@ -128,13 +139,16 @@ Command add_verify_command(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
   add_common_arguments(*app, arguments->common);
   app->add_option("TASK", arguments->task,
-                  "The task file: a box, circle, polygon or path; over other than two lengths a box, ball or path")
+                  "The task file: a box, circle, polygon or path; over other than two lengths a box, ball or path, "
+                  "over three a mesh")
       ->required();
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
-  app->add_option("--fit", arguments->fit,
-                  "Move the task: to the nearest place that verifies, or to the best, with the largest margin")
-      ->type_name("nearest|best")
+  app->add_option(
+         "--fit", arguments->fit,
+         "Move the task: to the nearest place that verifies, or to the best, with the largest margin; over other "
+         "than two lengths also the largest scale of it")
+      ->type_name("nearest|best|largest")
       ->expected(0, 1)
       ->default_str("nearest");
   app->add_option("--export", arguments->formats,

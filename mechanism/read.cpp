@@ -24,9 +24,6 @@ const std::vector<std::string> top_keys = {"format", "name",   "space",   "units
 const std::vector<std::string> repeatable_keys = {"parameters", "frames", "points",  "links",
                                                   "joints",     "loads",  "springs", "limits"};
 
-// No mechanism, task or path that a person writes comes near; a device or a wrong file would fill the memory.
-constexpr std::size_t largest_file = std::size_t{4} << 20;
-
 Space read_space(const std::optional<Value>& value) {
   if (!value) return Space::planar;
   const std::string text = text_of(*value);
@@ -96,7 +93,7 @@ Mechanism parse_mechanism(const std::string& text, const std::string& file, cons
   }
 }
 
-std::string read_text(const std::string& path, const std::string& what) {
+std::string read_text(const std::string& path, const std::string& what, std::size_t most) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InputError({path, 0, 0}, "there is no such file", "check the path");
@@ -110,8 +107,9 @@ std::string read_text(const std::string& path, const std::string& what) {
   while (file) {
     file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     text.append(piece.data(), static_cast<std::size_t>(file.gcount()));
-    if (text.size() > largest_file)
-      throw InputError({path, 0, 0}, "the file has more than 4 MB", "name " + what + ", a text written by hand");
+    if (text.size() > most)
+      throw InputError({path, 0, 0}, "the file has more than " + std::to_string(most >> 20) + " MB",
+                       most == largest_text ? "name " + what + ", a text written by hand" : "name " + what);
   }
   if (file.bad()) throw InputError({path, 0, 0}, "the file cannot be read", "check its permissions");
   return text;

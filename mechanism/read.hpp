@@ -22,8 +22,10 @@ Mechanism parse_mechanism(const std::string& text, const std::string& file,
 /// The keys of a mechanism file, in the order of mechanism-file.md; what a help text names.
 const std::vector<std::string>& file_keys();
 
-/// A file's bytes. Throws core::InputError where it cannot be read or has more than 4 MB. `what`: "the mechanism file".
-std::string read_text(const std::string& path, const std::string& what);
+/// No mechanism, task or path that a person writes comes near; a device or a wrong file would fill the memory.
+constexpr std::size_t largest_text = std::size_t{4} << 20;
+/// A file's bytes. Throws core::InputError where it cannot be read or has more of them. `what`: "the mechanism file".
+std::string read_text(const std::string& path, const std::string& what, std::size_t most = largest_text);
 
 /// The value of such an expression in SI units, where the mechanism's file has a key of that name: "margin" of a
 /// length, "min_force" of a force; "" of a pure number. Throws InputError for what cannot be read or measures something

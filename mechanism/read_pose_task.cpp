@@ -1,11 +1,15 @@
 #include "mechanism/read_pose_task.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "mechanism/read_loads_from.hpp"
+#include "mechanism/read_stl.hpp"
 #include "mechanism/reader.hpp"
+#include "mechanism/units.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -13,10 +17,10 @@ namespace {
 using core::InputError;
 using core::RationalPose;
 
-const std::vector<std::string> shape_keys = {"box", "ball", "path"};
-const std::vector<std::string> task_keys = {"format", "name",         "box",        "ball",         "path",
-                                            "margin", "angle_length", "min_force",  "min_couple",   "loads_from",
-                                            "circle", "polygon",      "tolerances", "loads_within", "pose_error"};
+const std::vector<std::string> shape_keys = {"box", "ball", "path", "mesh"};
+const std::vector<std::string> task_keys = {
+    "format",    "name",       "box",        "ball",   "path",    "mesh",       "margin",       "angle_length",
+    "min_force", "min_couple", "loads_from", "circle", "polygon", "tolerances", "loads_within", "pose_error"};
 
 bool has_angle(const Mechanism& mechanism) {
   return std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
@@ -102,6 +106,33 @@ core::PosePathShape read_path(const Mechanism& mechanism, const Value& value) {
   return path;
 }
 
+/// {file: part.stl, unit: mm, at: [0, 0, 0.5]}, beside the task file. `at`: where the file's origin lies.
+core::PoseMeshShape read_mesh(const Mechanism& mechanism, const Value& value) {
+  if (mechanism.coordinates.size() != 3 || has_angle(mechanism))
+    throw InputError(value.where,
+                     value.what + " is one of three lengths, and " + mechanism.file + " has " +
+                         std::to_string(mechanism.coordinates.size()) + " free coordinates" +
+                         (has_angle(mechanism) ? ", angles among them" : ""),
+                     "write a box, a ball or a path");
+  const Mapping keys(value, {"file", "unit", "at"});
+  const Value file = keys.at("file");
+  std::string unit = mechanism.units.length.name;
+  if (const auto own = keys.find("unit")) {
+    unit = text_of(*own);
+    if (!is_unit(unit))
+      throw InputError(own->where, "'" + unit + "' is no unit of length", "write such as mm, the unit of the STL file");
+  }
+  const double size = core::to_double(value_in_si("1 " + unit, "margin", mechanism, value.where));
+  const std::filesystem::path path = std::filesystem::path(value.where.file).parent_path() / text_of(file);
+  core::PoseMeshShape mesh = read_stl(path.string(), size);
+  if (const auto at = keys.find("at")) {
+    const RationalPose by = read_pose(mechanism, *at);
+    for (std::array<double, 3>& corner : mesh.corners)
+      for (std::size_t c = 0; c < 3; ++c) corner[c] += core::to_double(by[c]);
+  }
+  return mesh;
+}
+
 std::pair<core::PoseShape, Value> read_shape(const Mechanism& mechanism, const Value& document, const Mapping& root,
                                              bool weighted) {
   for (const char* key : {"circle", "polygon"})
@@ -127,6 +158,7 @@ std::pair<core::PoseShape, Value> read_shape(const Mechanism& mechanism, const V
   value.what = "the " + found->first;
   if (found->first == "box") return {read_box(mechanism, value), value};
   if (found->first == "ball") return {read_ball(mechanism, value, weighted), value};
+  if (found->first == "mesh") return {read_mesh(mechanism, value), value};
   return {read_path(mechanism, value), value};
 }
 
@@ -140,6 +172,13 @@ std::vector<std::pair<Rational, Rational>> ranges_of(const Mechanism& mechanism,
       const bool counts = mechanism.coordinates[c].angle && task.angle_length;
       const Rational reach = counts ? Rational(ball->radius / *task.angle_length) : ball->radius;
       ranges.emplace_back(ball->centre[c] - reach, ball->centre[c] + reach);
+    } else if (const auto* mesh = std::get_if<core::PoseMeshShape>(&task.shape)) {
+      const auto [low, high] = std::minmax_element(mesh->corners.begin(), mesh->corners.end(),
+                                                   [c](const auto& one, const auto& two) { return one[c] < two[c]; });
+      // A side at 123.4 mm is beyond that by half a unit in the last place of the file's floats.
+      constexpr double of_floats = 0x1p-23;
+      const double least = (*low)[c], most = (*high)[c];
+      ranges.emplace_back(Rational(least + of_floats * std::abs(least)), Rational(most - of_floats * std::abs(most)));
     } else {
       const auto& points = std::get<core::PosePathShape>(task.shape).points;
       ranges.emplace_back(points.front()[c], points.front()[c]);

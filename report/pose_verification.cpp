@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -28,6 +29,15 @@ Json shape_json(const core::PoseShape& shape) {
     return {{"lower", rounded(box->lower)}, {"upper", rounded(box->upper)}};
   if (const auto* ball = std::get_if<core::PoseBallShape>(&shape))
     return {{"centre", rounded(ball->centre)}, {"radius", core::to_double(ball->radius)}};
+  if (const auto* mesh = std::get_if<core::PoseMeshShape>(&shape)) {
+    std::array<double, 3> lower = mesh->corners.front(), upper = lower;
+    for (const std::array<double, 3>& corner : mesh->corners)
+      for (std::size_t c = 0; c < 3; ++c) {
+        lower[c] = std::min(lower[c], corner[c]);
+        upper[c] = std::max(upper[c], corner[c]);
+      }
+    return {{"file", printable(mesh->file)}, {"triangles", mesh->triangles.size()}, {"lower", lower}, {"upper", upper}};
+  }
   Json points = Json::array();
   for (const core::RationalPose& point : std::get<core::PosePathShape>(shape).points) points.push_back(rounded(point));
   return points;
@@ -132,6 +142,8 @@ Json pose_verification_object(const core::PoseVerification& result) {
                {"open", nullptr}};
   if (result.task.angle_length) root["task"]["angle_length"] = core::to_double(*result.task.angle_length);
   if (result.units.declared) root["units"] = "SI";
+  if (result.by) root["by"] = *result.by;
+  if (result.scale) root["scale"] = *result.scale;
   if (result.nearest) {
     Json joints = Json::array();
     for (const core::Vanishing& own : result.nearest->reactions)
@@ -182,6 +194,8 @@ std::string pose_verification_text(const core::PoseVerification& result) {
   text += printable(mode) + "\n\n";
   const auto put = [&](const char* head, const std::string& fact) { text += fmt::format("{:<14}{}\n", head, fact); };
   text += std::string(verdict_line(result.verdict)) + "\n";
+  if (result.by) put("moved by", words.pose(*result.by));
+  if (result.scale) put("scaled by", fmt::format("{:.6g}", *result.scale));
   if (result.verified()) {
     const bool apart = result.margin && result.angle_margin;
     if (result.margin)

@@ -9,6 +9,7 @@
 // Lengths in m, angles in rad, forces in N, couples in N m. Poses are lists of one value a free coordinate.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,9 +34,16 @@ struct PoseBallShape {
 struct PosePathShape {
   std::vector<RationalPose> points;
 };
-using PoseShape = std::variant<PoseBoxShape, PoseBallShape, PosePathShape>;
+/// Over three lengths, a solid by its closed surface: every point that the surface winds around, whatever the sense of
+/// its triangles, and the surface itself. What a shell within the solid encloses the other way round is a hollow.
+struct PoseMeshShape {
+  std::string file;
+  std::vector<std::array<double, 3>> corners;  ///< m; each differs from the others
+  std::vector<std::array<int, 3>> triangles;   ///< every edge as often one way as the other
+};
+using PoseShape = std::variant<PoseBoxShape, PoseBallShape, PosePathShape, PoseMeshShape>;
 
-/// "box", "ball", "path".
+/// "box", "ball", "path", "mesh".
 std::string kind_of(const PoseShape& shape);
 
 struct PoseTask {
@@ -94,8 +102,12 @@ struct PoseVerification {
   std::optional<NearestToPoses> nearest;
   std::optional<PoseTaskWitness> witness;  ///< where refuted
   std::optional<OpenPoses> open;           ///< where undecided
-  std::vector<LeastReaction> least;        ///< where verified
-  long cells = 0;                          ///< that were looked at for the verdict
+  /// What fit_poses has done to the task, which is told as it is then: moved by so much, scaled by that. None where it
+  /// was not asked for, or nothing was found.
+  std::optional<std::vector<double>> by;
+  std::optional<double> scale;
+  std::vector<LeastReaction> least;  ///< where verified
+  long cells = 0;                    ///< that were looked at for the verdict
   std::vector<std::string> notes;
   Units units = {};  ///< of the mechanism file
 
@@ -114,6 +126,17 @@ PoseTask parse_pose_task(const std::string& text, const Model& model, const std:
 /// In the first of the request's working modes. The task's `min_force` and `min_couple` take the place of the
 /// request's. Where the request's deadline comes first, what is not proven is undecided.
 PoseVerification verify_poses(const Model& model, const PoseTask& task, const LociRequest& request = {});
+
+enum class PoseFit {
+  nearest,  ///< moved along the lengths, where there are any, as little as was found to be enough
+  best,     ///< moved to where the nearest locus found is farthest
+  largest,  ///< scaled about its middle, to one part in 100
+};
+
+/// Moved or scaled within the mechanism's box, so that it is verified, and as verify_poses; where no place or scale was
+/// found that is, as it lies. What it says of the task is proven; that nothing nearer, better or larger is verified is
+/// not.
+PoseVerification fit_poses(const Model& model, const PoseTask& task, PoseFit goal, const LociRequest& request = {});
 
 /// The verdict alone, with its witness or what is open: no margin and no least reactions.
 PoseVerification decide_poses(const Model& model, const PoseTask& task, const LociRequest& request = {});

@@ -1,6 +1,7 @@
 #include "loci/pose/pose_region.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -34,6 +35,35 @@ double spread(std::size_t i, std::size_t base) {
   return value;
 }
 
+Solid::Point point_of(const Pose& pose) { return {pose[0], pose[1], pose[2]}; }
+Pose pose_of(const Solid::Point& point) { return {point.begin(), point.end()}; }
+
+/// Poses in a solid, the one nearest to its middle first, and corners of its surface.
+std::vector<Pose> samples_in(const Solid& solid) {
+  constexpr std::size_t most_tried = 2048;
+  constexpr std::array<std::size_t, 3> bases = {2, 3, 5};
+  const auto& [low, high] = solid.bounds();
+  std::vector<Pose> inside;
+  std::vector<double> off;
+  for (std::size_t i = 1; i <= most_tried && inside.size() < more_samples; ++i) {
+    Solid::Point at{};
+    double from_middle = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double part = spread(i, bases[c]);
+      at[c] = low[c] + part * (high[c] - low[c]);
+      from_middle += (part - 0.5) * (part - 0.5);
+    }
+    if (!solid.holds(at)) continue;
+    inside.push_back(pose_of(at));
+    off.push_back(from_middle);
+  }
+  if (!inside.empty())
+    std::swap(inside.front(), inside[static_cast<std::size_t>(std::min_element(off.begin(), off.end()) - off.begin())]);
+  const std::size_t corners = solid.corners().size(), stride = (corners + most_corners - 1) / most_corners;
+  for (std::size_t i = 0; i < corners; i += stride) inside.push_back(pose_of(solid.corners()[i]));
+  return inside;
+}
+
 }  // namespace
 
 PoseRegion::PoseRegion(const core::PoseShape& shape, PoseMetric metric) : metric_(std::move(metric)) {
@@ -48,6 +78,12 @@ PoseRegion::PoseRegion(const core::PoseShape& shape, PoseMetric metric) : metric
       lower_.push_back(centre_[c] - radius_ / metric_.weights[c]);
       upper_.push_back(centre_[c] + radius_ / metric_.weights[c]);
     }
+  } else if (const auto* mesh = std::get_if<core::PoseMeshShape>(&shape)) {
+    kind_ = Kind::mesh;
+    solid_ = std::make_shared<const Solid>(*mesh);
+    lower_.assign(solid_->bounds().lower.begin(), solid_->bounds().lower.end());
+    upper_.assign(solid_->bounds().upper.begin(), solid_->bounds().upper.end());
+    points_ = samples_in(*solid_);
   } else {
     kind_ = Kind::path;
     for (const core::RationalPose& point : std::get<core::PosePathShape>(shape).points)
@@ -109,6 +145,8 @@ double PoseRegion::distance(const PosePiece& piece, const PoseBox& box) const {
     }
     return below * std::sqrt(square);
   }
+  if (kind_ == Kind::mesh)
+    return below * solid_->distance({{box[0][0], box[1][0], box[2][0]}, {box[0][1], box[1][1], box[2][1]}});
   for (std::size_t c = 0; c < box.size(); ++c) {
     const double off = metric_.weights[c] * (kind_ == Kind::box ? gap(box[c][0], box[c][1], lower_[c], upper_[c])
                                                                 : gap(box[c][0], box[c][1], centre_[c], centre_[c]));
@@ -162,6 +200,7 @@ Pose PoseRegion::closest(const Pose& pose) const {
     const auto [segment, t] = foot(pose);
     return on_segment(segment, t);
   }
+  if (kind_ == Kind::mesh) return nearest_in_solid(pose);
   Pose own = pose;
   if (kind_ == Kind::box) {
     for (std::size_t c = 0; c < own.size(); ++c) own[c] = std::clamp(own[c], lower_[c], upper_[c]);
@@ -177,7 +216,34 @@ Pose PoseRegion::closest(const Pose& pose) const {
 
 double PoseRegion::distance(const Pose& pose) const { return apart(pose, closest(pose)); }
 
+Pose PoseRegion::nearest_in_solid(const Pose& pose) const {
+  return solid_->holds(point_of(pose)) ? pose : pose_of(solid_->nearest_of_surface(point_of(pose)));
+}
+
+bool PoseRegion::seems_inside(const Pose& from, const Pose& to) const {
+  constexpr int looks = 24;
+  for (int i = 1; i < looks; ++i) {
+    Pose at = from;
+    for (std::size_t c = 0; c < at.size(); ++c) at[c] += (to[c] - from[c]) * i / looks;
+    if (!solid_->holds(point_of(at))) return false;
+  }
+  return true;
+}
+
+bool PoseRegion::holds_way(const Pose& from, const Pose& to, double margin) const {
+  if (kind_ != Kind::mesh) return true;  // the others are convex, or a way of theirs is
+  double square = 0;
+  for (std::size_t c = 0; c < from.size(); ++c) square += (to[c] - from[c]) * (to[c] - from[c]);
+  const double length = std::sqrt(square), off = distance(from);
+  if (off + length <= margin + hair_) return true;
+  // A ball around `from` that no triangle meets lies in the solid as a whole.
+  if (off > 0) return false;
+  const Pose rim = pose_of(solid_->nearest_of_surface(point_of(from)));
+  return length <= below * apart(from, rim);
+}
+
 std::vector<Pose> PoseRegion::way(const Pose& from, const Pose& to) const {
+  if (kind_ == Kind::mesh) return way_in_solid(from, to);
   if (kind_ != Kind::path) return {from, to};
   const auto [first, s] = foot(from);
   const auto [last, t] = foot(to);
@@ -189,7 +255,38 @@ std::vector<Pose> PoseRegion::way(const Pose& from, const Pose& to) const {
   return way;
 }
 
+/// From sample to sample that see one another, by as few as can be.
+std::vector<Pose> PoseRegion::way_in_solid(const Pose& from, const Pose& to) const {
+  const Pose first = nearest_in_solid(from), last = nearest_in_solid(to);
+  if (seems_inside(first, last)) return {from, first, last, to};
+  const std::size_t none = points_.size();
+  std::vector<std::size_t> before(points_.size(), none + 1), met;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (seems_inside(first, points_[i])) {
+      before[i] = none;
+      met.push_back(i);
+    }
+  for (std::size_t next = 0; next < met.size(); ++next) {
+    const std::size_t at = met[next];
+    if (seems_inside(points_[at], last)) {
+      std::vector<Pose> way = {to, last};
+      for (std::size_t i = at; i != none; i = before[i]) way.push_back(points_[i]);
+      way.push_back(first);
+      way.push_back(from);
+      std::reverse(way.begin(), way.end());
+      return way;
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (before[i] > none && seems_inside(points_[at], points_[i])) {
+        before[i] = at;
+        met.push_back(i);
+      }
+  }
+  return {};
+}
+
 std::vector<Pose> PoseRegion::samples() const {
+  if (kind_ == Kind::mesh) return points_;
   std::vector<Pose> all;
   const std::size_t n = coordinates();
   if (kind_ == Kind::path) {

@@ -3,10 +3,13 @@
 // over the coordinates that the margin grows in; the others stay those of the task.
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "clearloci/pose_tasks.hpp"
 #include "loci/pose/pose_chart.hpp"
+#include "loci/pose/solid.hpp"
 
 namespace clearloci::loci::pose {
 
@@ -34,8 +37,10 @@ class PoseRegion {
 
   double distance(const Pose& pose) const;
   Pose closest(const Pose& pose) const;
-  /// A way between two poses of the task or its margin that stays there.
+  /// A way between two poses of the task or its margin that stays there; in a mesh one that looks like it, or none.
   std::vector<Pose> way(const Pose& from, const Pose& to) const;
+  /// Whether the straight way between two poses of a way is certain to stay in the task and its margin.
+  bool holds_way(const Pose& from, const Pose& to, double margin) const;
   /// Its middle or start, corners, ends, and some more.
   std::vector<Pose> samples() const;
 
@@ -51,11 +56,16 @@ class PoseRegion {
   Pose on_segment(std::size_t segment, double t) const;
 
   PoseMetric metric_;
-  enum class Kind { box, ball, path } kind_ = Kind::box;
+  Pose nearest_in_solid(const Pose& pose) const;
+  std::vector<Pose> way_in_solid(const Pose& from, const Pose& to) const;
+  bool seems_inside(const Pose& from, const Pose& to) const;
+
+  enum class Kind { box, ball, path, mesh } kind_ = Kind::box;
   Pose lower_, upper_;  ///< of a box; the box around anything
   Pose centre_;
   double radius_ = 0;
-  std::vector<Pose> points_;
+  std::vector<Pose> points_;            ///< of a path; of a mesh those that samples() tells
+  std::shared_ptr<const Solid> solid_;  ///< of a mesh
   double hair_ = 0;
 };
 

@@ -47,6 +47,8 @@ py::dict dict_of(const PoseVerification& answer) {
   all["verdict"] = to_string(answer.verdict);
   all["coordinates"] = answer.coordinates;
   all["working_mode"] = mode_of(answer.working_mode);
+  all["by"] = or_none(answer.by);
+  all["scale"] = or_none(answer.scale);
   all["margin"] = or_none(answer.margin);
   all["angle_margin"] = or_none(answer.angle_margin);
   all["nearest"] = nearest;
@@ -113,18 +115,29 @@ py::dict dict_of(const PoseZones& map) {
   return all;
 }
 
+std::optional<PoseFit> goal_of(const std::string& fit) {
+  if (fit.empty()) return std::nullopt;
+  if (fit == "nearest") return PoseFit::nearest;
+  if (fit == "best") return PoseFit::best;
+  if (fit == "largest") return PoseFit::largest;
+  throw InputError({"fit", 0, 0}, "unknown goal '" + fit + "'", "choose nearest, best or largest");
+}
+
 }  // namespace
 
 void bind_poses(py::module_& module) {
   bind_answer<PoseVerification>(module, "PoseVerification", [](const PoseVerification& own) { return dict_of(own); });
   bind_answer<PoseZones>(
       module, "PoseZones", [](const PoseZones& own) { return dict_of(own); }, &export_zones);
-  module.def("verify_poses",
-             [](const Model& model, const std::string& text, const std::string& file, const py::kwargs& options) {
-               LociRequest request = request_of(model, options);
-               const PoseTask task = text.empty() ? read_pose_task(file, model) : parse_pose_task(text, model, file);
-               return unlocked(request, [&](const LociRequest& own) { return verify_poses(model, task, own); });
-             });
+  module.def("verify_poses", [](const Model& model, const std::string& text, const std::string& file,
+                                const std::string& fit, const py::kwargs& options) {
+    LociRequest request = request_of(model, options);
+    const PoseTask task = text.empty() ? read_pose_task(file, model) : parse_pose_task(text, model, file);
+    const std::optional<PoseFit> goal = goal_of(fit);
+    return unlocked(request, [&](const LociRequest& own) {
+      return goal ? fit_poses(model, task, *goal, own) : verify_poses(model, task, own);
+    });
+  });
   module.def("find_pose_zones", [](const Model& model, long cells, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
     return unlocked(request, [&](const LociRequest& own) { return find_pose_zones(model, own, cells); });

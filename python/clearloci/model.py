@@ -89,15 +89,16 @@ class Model:
         """
         return Verification(self, task, fit, options)
 
-    def verify_poses(self, task: Task, **options: Any) -> PoseVerification:
+    def verify_poses(self, task: Task, fit: str | None = None, **options: Any) -> PoseVerification:
         """Whether a task over one to six coordinates, other than two lengths, keeps clear of every locus: a task file,
-        its content as a dictionary, or an array (n, coordinates) of poses, which is a path.
+        its content as a dictionary, or an array (n, coordinates) of poses, which is a path. `fit`: "nearest" or "best",
+        to move it where it fails, or "largest", to scale it.
         """
         if isinstance(task, (str, os.PathLike)):
             text, file = "", os.fspath(task)
         else:
             text, file = text_of(task), "task"
-        return ask(lambda own: PoseVerification(**own), "verify_poses", self, text, file, **options)
+        return ask(lambda own: PoseVerification(**own), "verify_poses", self, text, file, fit or "", **options)
 
     def pose_zones(self, cells: int = 300_000, **options: Any) -> PoseZones:
         """The discontinuity-free zones over one to three coordinates, angles among them, by so many cells."""

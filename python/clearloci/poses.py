@@ -25,6 +25,8 @@ class PoseVerification(Asked):
     least: list[dict[str, Any]]  #: what every reaction has at least, "proven" and as "met"
     cells: int
     notes: list[str]
+    by: list[float] | None  #: what `fit` has moved the task by
+    scale: float | None  #: what `fit` has scaled it by
 
     def __bool__(self) -> bool:
         return self.verdict == "verified"

@@ -1,0 +1,30 @@
+// Where a task of poses could lie, or how large it could be.
+// Private to analysis/.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "clearloci/pose_tasks.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci {
+
+/// What is asked of a shape in the place of the task's.
+struct PoseJudge {
+  std::function<bool(const core::PoseShape&)> verified;    ///< by proof
+  std::function<bool(const core::PoseShape&)> looks_good;  ///< at some poses
+  std::function<double(const core::PoseShape&)> room;      ///< to the nearest locus found, in the task's metric
+};
+
+struct PlacedShape {
+  core::PoseShape shape;
+  std::optional<core::RationalPose> by;
+  std::optional<core::Rational> scale;
+};
+
+/// A verified one; nothing where none was found.
+std::optional<PlacedShape> place_shape(const mechanism::Mechanism& mechanism, const core::PoseTask& task, PoseFit goal,
+                                       const PoseJudge& judge);
+
+}  // namespace clearloci
