@@ -222,7 +222,7 @@ std::vector<std::vector<Vector3d>> displaced_points(const NumericModel& model, c
   for (std::size_t i = 0; i < model.mechanism.links.size(); ++i) {
     std::vector<Vector3d> points;
     for (const mechanism::PointIndex p : model.mechanism.links[i].points)
-      points.push_back(displaced.reference() + displaced.moved(static_cast<int>(i), displaced.point(p)));
+      points.emplace_back(displaced.reference() + displaced.moved(static_cast<int>(i), displaced.point(p)));
     all.push_back(std::move(points));
   }
   return all;
