@@ -45,7 +45,6 @@ class WrongCalls(InOwnFolder):
     def test_what_has_no_meaning_in_space(self):
         examples = FIVE_BAR.parent
         platform = examples / "gough_stewart_slice.yaml"
-        self.assertIn("--iterate", self.complaint("pose", platform, "--at", "0.1,0.1", "--iterate"))
         self.assertIn("--working-mode", self.complaint("pose", platform, "--at", "0.1,0.1", "--working-mode", "left"))
         (self.folder / "task.yaml").write_text(
             "format: 1\nbox: {x: [0, 0.1], y: [0, 0.1]}\nloads_from: [[1, 0], [0, 1]]\n", encoding="utf-8"

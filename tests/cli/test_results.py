@@ -177,6 +177,17 @@ class PoseError(InOwnFolder):
         for key, value in linear.items():
             self.assertAlmostEqual(iterated["pose_error"][key] - value, iterated["beyond_linear"][key], delta=1e-15)
 
+    def test_iterated_in_space(self):
+        model = SOURCE / "examples" / "gough_stewart_poses.yaml"
+        words = ("pose", model, "--at", "0.02,-0.03,0.5,0.1,0,0", "--iterate")
+        pose = json.loads(self.run_program(*words, "--json").stdout)
+        iterated = pose["iterated"]
+        self.assertLess(iterated["residual"], 1e-12)
+        self.assertEqual(len(pose["pose_error"]), 6)
+        for key, value in pose["pose_error"].items():
+            self.assertAlmostEqual(iterated["pose_error"][key] - value, iterated["beyond_linear"][key], delta=1e-15)
+        self.assertIn("iterated", self.run_program(*words).stdout)
+
     def test_undefined_where_a_couple_alone_vanishes(self):
         # The pins bear 12 N; only the couple of the motor at A is zero.
         model = SOURCE / "tests" / "corpus" / "loci" / "scara.yaml"
