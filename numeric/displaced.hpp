@@ -24,12 +24,12 @@ struct ActualPose {
   bool converged = false;
   std::string reason;  ///< why not, as a clause: "the determinant changes sign ..."
   int iterations = 0;
-  double residual = 0;                             ///< of the closure: the largest of all distances in m and turns in rad
-  PoseError error;                                 ///< of the end effector
-  PoseError beyond_linear;                         ///< error minus that of the linear step
-  std::vector<TakeUp> take_up;                     ///< a joint each, in the displaced geometry
-  Eigen::VectorXd reactions;                       ///< N, N m, in the displaced geometry
-  Eigen::VectorXd displacements;                   ///< u: t_x, t_y, θ a link in the plane, in space six
+  double residual = 0;            ///< of the closure: the largest of all distances in m and turns in rad
+  PoseError error;                ///< of the end effector
+  PoseError beyond_linear;        ///< error minus that of the linear step
+  std::vector<TakeUp> take_up;    ///< a joint each, in the displaced geometry
+  Eigen::VectorXd reactions;      ///< N, N m, in the displaced geometry
+  Eigen::VectorXd displacements;  ///< u: t_x, t_y, θ a link in the plane, in space six
   std::vector<std::vector<Vector3d>> link_points;  ///< where each link's points have gone, in the link's order
 };
 

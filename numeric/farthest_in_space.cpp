@@ -108,11 +108,17 @@ double farthest_in_space(const std::vector<Reach>& all, int row, double accuracy
     return value;
   };
   const auto put = [&](Triangle t) {
+    const std::array<double, 3> sides = {(t.corners[1] - t.corners[0]).norm(), (t.corners[2] - t.corners[1]).norm(),
+                                         (t.corners[0] - t.corners[2]).norm()};
+    const double highest = std::max({t.values[0], t.values[1], t.values[2]}), longest = std::ranges::max(sides);
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
     // Values at the corners are known to their roundings, and their differences are divided by the sides.
-    const double side = std::min({(t.corners[1] - t.corners[0]).norm(), (t.corners[2] - t.corners[1]).norm(),
-                                  (t.corners[0] - t.corners[2]).norm()});
-    t.bound = std::max({bound(t), t.values[0], t.values[1], t.values[2]}) *
-              (1 + 64 * std::numeric_limits<double>::epsilon() / side);
+    const double linear = std::max(bound(t), highest) * (1 + 64 * epsilon / std::ranges::min(sides));
+    // h is convex, and no point of the flat triangle is nearer to the origin than sqrt(1 - longest^2/3): for slivers,
+    // where rounding says more about the other bound than h does.
+    const double flat = longest < 1 ? highest * (1 + 8 * epsilon) / std::sqrt(1 - longest * longest / 3)
+                                    : std::numeric_limits<double>::infinity();
+    t.bound = std::min(linear, flat);
     open.push_back(t);
     std::push_heap(open.begin(), open.end());
   };

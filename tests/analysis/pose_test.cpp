@@ -97,7 +97,9 @@ TEST(SolvePose, IsTheSameForSpatialMechanisms) {
   ASSERT_TRUE(pose.error);
   EXPECT_EQ(pose.error->displacement.size(), 3U);
   EXPECT_EQ(pose.error->rotation.size(), 3U);
-  EXPECT_THROW(solve_pose(model, {0.1, 0.1}, {.iterate = true}), InputError);
+  const Pose displaced = solve_pose(model, {0.1, 0.1}, {.iterate = true});
+  ASSERT_TRUE(displaced.actual);
+  EXPECT_TRUE(displaced.actual->converged) << displaced.actual->reason;
 }
 
 TEST(SolvePose, RefusesWhatIsNoPose) {
@@ -167,7 +169,7 @@ TEST(SolvePose, RefusesRatesThatItCannotUse) {
   const Model model = example("five_bar.yaml");
   EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.velocity = {1}}), InputError);
   EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.iterate = true, .velocity = {1, 0}}), InputError);
-  EXPECT_THROW(solve_pose(example("gough_stewart.yaml"), {0, 0, 0.6}, {.velocity = {1, 0, 0}}), InputError);
+  EXPECT_THROW(solve_pose(example("gough_stewart.yaml"), {0, 0, 0.6}, {.velocity = {1, 0}}), InputError);
 }
 
 }  // namespace

@@ -89,8 +89,9 @@ core::TrajectoryResult two_losses() {
   result.joints = {"A", "B"};
   core::TrajectoryStage stage{"1", "2", 0, 2, 0, 3, 1, infinity, core::LostLast{"A", core::Quantity::M, 0.25}};
   result.stages = {stage};
-  result.losses = {{core::LossKind::minimum, "B", core::Quantity::f, 0.5, 0.1, 1, 4.5, 0.4, 0.6, false, 2e-5, 3e-5, 0, 12.5},
-                   {core::LossKind::jump, "A", core::Quantity::M, 1.5, 0.2, 0, 0, 0, 0, true}};
+  result.losses = {
+      {core::LossKind::minimum, "B", core::Quantity::f, 0.5, 0.1, 1, 4.5, 0.4, 0.6, false, 2e-5, 3e-5, 0, 12.5},
+      {core::LossKind::jump, "A", core::Quantity::M, 1.5, 0.2, 0, 0, 0, 0, true}};
   result.samples = {{"time", "dx"}, {"s", "m"}, {{0, 1}, {1e-5, nan}}};
   return result;
 }
