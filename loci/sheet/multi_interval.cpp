@@ -153,7 +153,7 @@ MultiInterval half_turn() {  // Machin's formula
 MultiInterval angle_of_way(const core::Rational& y, const core::Rational& x) {
   const MultiInterval quarter = half_turn() * MultiInterval(0.5);
   const bool steep = abs(y) > abs(x);
-  const MultiInterval angle = arc_tangent(MultiInterval(steep ? core::Rational(-x / y) : core::Rational(y / x)));
+  MultiInterval angle = arc_tangent(MultiInterval(steep ? core::Rational(-x / y) : core::Rational(y / x)));
   if (steep) return y > 0 ? quarter + angle : angle - quarter;
   if (x > 0) return angle;
   return y > 0 ? angle + half_turn() : angle - half_turn();
