@@ -394,7 +394,7 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
   for (const auto& axis : model.axes) {
     const PointSeries u = axis ? vector(*axis) : PointSeries{};
     result.axes.push_back(values_of(u));
-    result.axes_rate.push_back({u[0].c[1], u[1].c[1], u[2].c[1]});
+    result.axes_rate.emplace_back(u[0].c[1], u[1].c[1], u[2].c[1]);
   }
   for (const auto& axis : model.couple_axes)
     result.couple_axes.push_back(axis ? values_of(vector(*axis)) : Vector3d::Zero());
