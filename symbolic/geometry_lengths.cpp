@@ -22,7 +22,7 @@ bool is_needed(const mechanism::Action& action, const mechanism::Mechanism& mech
 /// The direction of a link of a torsion spring's joint, turned a quarter about the axis in space.
 mechanism::VectorExpression across_axis(const mechanism::Mechanism& mechanism, const mechanism::Spring& spring,
                                         bool second) {
-  const mechanism::VectorExpression own = mechanism::direction_of(mechanism, second ? spring.to : spring.from);
+  mechanism::VectorExpression own = mechanism::direction_of(mechanism, second ? spring.to : spring.from);
   if (mechanism.space == mechanism::Space::planar) return own;
   const auto& axis = mechanism.joints[static_cast<std::size_t>(spring.joint)].axes.at(0);
   return {mechanism::VectorExpression::Kind::cross, {}, 0, {axis, own}};
