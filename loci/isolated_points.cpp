@@ -278,12 +278,17 @@ void add_touching_points(const LocusProblem& problem, const WorkingMode& mode, L
   }
 }
 
+bool reaches(const LocusProblem& problem, const WorkingMode& mode, const core::LocusFactor& factor,
+             const sheet::Star& star) {
+  const std::array<double, 4> box = {core::to_double(problem.lower[0]), core::to_double(problem.upper[0]),
+                                     core::to_double(problem.lower[1]), core::to_double(problem.upper[1])};
+  return sheet::reaches(problem.tower, mode, {factor.sheet, factor.line}, star, box);
+}
+
 void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& mode,
                                const CurveArrangement& arrangement,
                                const std::vector<std::vector<int>>& curves_of_factor,
                                const std::vector<sheet::Star>& stars, LocusMap& map) {
-  const std::array<double, 4> box = {core::to_double(problem.lower[0]), core::to_double(problem.upper[0]),
-                                     core::to_double(problem.lower[1]), core::to_double(problem.upper[1])};
   for (const ArrangementPoint& point : arrangement.isolated_points()) {
     const std::vector<MultiInterval> at = on_sheet(problem.tower, mode, point.enclosure);
     if (at.empty()) continue;
@@ -298,8 +303,7 @@ void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& m
       const auto& own = curves_of_factor[f];
       if (std::find(own.begin(), own.end(), point.curve) == own.end()) continue;
       if (evaluate(factor.sheet, at).sign() != 0) continue;
-      if (star != stars.end() && !sheet::reaches(problem.tower, mode, {factor.sheet, factor.line}, *star, box))
-        continue;
+      if (star != stars.end() && !reaches(problem, mode, factor, *star)) continue;
       if (factor.role == FactorRole::reaction) {
         components.insert(components.end(), factor.vanishing.begin(), factor.vanishing.end());
       }

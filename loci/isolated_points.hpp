@@ -21,6 +21,10 @@ void add_contact_loss_points(const core::LocusProblem& problem, const core::Work
 /// this mode: both legs are in line with each other there.
 void add_touching_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
 
+/// A branch of the factor's zeros on the mode's sheet reaches the star.
+bool reaches(const core::LocusProblem& problem, const core::WorkingMode& mode, const core::LocusFactor& factor,
+             const sheet::Star& star);
+
 /// The isolated real points of the arrangement's curves that lie on the mode's sheet. At a star, where a construction
 /// is undefined, numerators vanish whatever the reaction does: there those count that vanish in a direction from it.
 void add_isolated_curve_points(const core::LocusProblem& problem, const core::WorkingMode& mode,

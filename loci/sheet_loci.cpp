@@ -11,6 +11,7 @@
 #include "loci/arc_stretches.hpp"
 #include "loci/arcs.hpp"
 #include "loci/edge_labels.hpp"
+#include "loci/isolated_points.hpp"
 #include "loci/plane_curve.hpp"
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/patch.hpp"
@@ -100,11 +101,8 @@ int side_along(const LocusProblem& problem, const core::Polynomial& implicit) {
 
 /// A branch of |A| = 0 reaches the star on the mode's sheet.
 bool is_singular(const LocusProblem& problem, const core::WorkingMode& mode, const sheet::Star& star) {
-  const std::array<double, 4> box = {core::to_double(problem.lower[0]), core::to_double(problem.upper[0]),
-                                     core::to_double(problem.lower[1]), core::to_double(problem.upper[1])};
   return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
-    return factor.role == FactorRole::direct_singularity &&
-           sheet::reaches(problem.tower, mode, {factor.sheet, factor.line}, star, box);
+    return factor.role == FactorRole::direct_singularity && reaches(problem, mode, factor, star);
   });
 }
 

@@ -24,6 +24,16 @@ void hold(const std::string& name, bool certified, LociRequest request = {}) {
     EXPECT_TRUE(curve.certified || !certified) << curve.id << " " << curve.factor;
 }
 
+/// One reaction alone, on a grid of so many nodes either way.
+void hold_one(const std::string& name, const std::string& joint, core::Quantity quantity, LociRequest request = {},
+              int nodes = 60, std::size_t held = 1000) {
+  request.joints = {joint};
+  request.quantities = {quantity};
+  const Validation validation = validate_loci(corpus(name), request, {nodes, nodes});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.held, held);
+}
+
 // They take more cells than the budget that curves have at first.
 TEST(OnceDisputed, CurvesThatTakeManyCells) {
   hold("witness/coupler_five_bar", true);
@@ -37,11 +47,7 @@ TEST(OnceDisputed, CurvesThatTakeManyCells) {
 TEST(OnceDisputed, AChordBesideABend) {
   LociRequest request;
   request.working_modes = {{-1, -1}};  // right, right
-  request.joints = {"A1"};
-  request.quantities = {core::Quantity::fx};
-  const Validation validation = validate_loci(corpus("witness/coupler_with_large_roots"), request, {200, 200});
-  EXPECT_EQ(validation.report.disputed, 0u);
-  EXPECT_GT(validation.report.held, 10000u);
+  hold_one("witness/coupler_with_large_roots", "A1", core::Quantity::fx, request, 200, 10000);
 }
 
 // Its curve ends in a node on the workspace boundary: the end alone fails the last check, not the arcs that lead there.
@@ -83,31 +89,17 @@ TEST(OnceDisputed, ZonesThatASideOfTheBoxTellsApart) {
 TEST(OnceDisputed, AnEvenZeroBesideASingularity) {
   LociRequest request;
   request.all_working_modes = true;
-  request.joints = {"G1"};
-  request.quantities = {core::Quantity::N};
-  const Validation validation = validate_loci(corpus("witness/one_rail_double_zero"), request, {60, 60});
-  EXPECT_EQ(validation.report.disputed, 0u);
-  EXPECT_GT(validation.report.held, 1000u);
+  hold_one("witness/one_rail_double_zero", "G1", core::Quantity::N, request);
 }
 
 // A numerator that vanishes with one factor of |A|, a twentieth of an edge beside a zero of the other one.
 TEST(OnceDisputed, SingularitiesWithinOneEdge) {
-  LociRequest request;
-  request.joints = {"A1"};
-  request.quantities = {core::Quantity::fx};
-  const Validation validation = validate_loci(corpus("witness/stacked_5r_close_singularities"), request, {60, 60});
-  EXPECT_EQ(validation.report.disputed, 0u);
-  EXPECT_GT(validation.report.held, 1000u);
+  hold_one("witness/stacked_5r_close_singularities", "A1", core::Quantity::fx);
 }
 
 // |A| vanishes twice within a sixteenth of an edge; the force flips at one of the two places and vanishes nowhere near.
 TEST(OnceDisputed, TwoSingularitiesThatHideTheirSigns) {
-  LociRequest request;
-  request.joints = {"B2"};
-  request.quantities = {core::Quantity::fy};
-  const Validation validation = validate_loci(corpus("witness/stacked_5r_hidden_singularities"), request, {60, 60});
-  EXPECT_EQ(validation.report.disputed, 0u);
-  EXPECT_GT(validation.report.held, 1000u);
+  hold_one("witness/stacked_5r_hidden_singularities", "B2", core::Quantity::fy);
 }
 
 // Where P is on A2 its dyad has no elbow, and numerators multiplied by what it divides by are zero: that is no point of
