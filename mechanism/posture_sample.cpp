@@ -68,11 +68,22 @@ std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::s
 
 namespace {
 
+void put_pose(Values& values, const Mechanism& mechanism, const std::vector<double>& pose) {
+  for (std::size_t i = 0; i < pose.size(); ++i) values[mechanism.coordinates[i].name] = pose[i];
+}
+
 Values values_of(const Mechanism& mechanism, const std::vector<double>& pose) {
   Values values;
   for (const Parameter& parameter : mechanism.parameters) values[parameter.name] = core::to_double(parameter.value);
-  for (std::size_t i = 0; i < pose.size(); ++i) values[mechanism.coordinates[i].name] = pose[i];
+  put_pose(values, mechanism, pose);
   return values;
+}
+
+MaybePoints points_at(const Mechanism& mechanism, const Values& values) {
+  const Placement<Doubles> placed(mechanism, working_mode(mechanism), {values});
+  MaybePoints points;
+  for (const Vector& point : placed.points()) points.push_back(if_finite(point));
+  return points;
 }
 
 }  // namespace
@@ -84,21 +95,19 @@ std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, c
 }
 
 MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
-  const Values values = values_of(mechanism, pose);
-  const Placement<Doubles> placed(mechanism, working_mode(mechanism), {values});
-  MaybePoints points;
-  for (const Vector& point : placed.points()) points.push_back(if_finite(point));
-  return points;
+  return points_at(mechanism, values_of(mechanism, pose));
 }
 
 std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count) {
   constexpr std::size_t tries = 4096, at_once = 64;
   std::vector<PosturePoints> postures;
+  Values values = values_of(mechanism, {});
   for (std::size_t first = 0; first < tries; first += at_once) {
     for (const std::vector<double>& pose : spread_poses(mechanism, at_once, first)) {
       if (postures.size() == count) return postures;
+      put_pose(values, mechanism, pose);
       PosturePoints posture;
-      for (const std::optional<Vector>& point : sample_points(mechanism, pose))
+      for (const std::optional<Vector>& point : points_at(mechanism, values))
         if (point) posture.push_back(*point);
       if (posture.size() == mechanism.points.size()) postures.push_back(std::move(posture));
     }
