@@ -41,21 +41,36 @@ class Placing {
     if (judge_.verified(task_.shape)) return PlacedShape{task_.shape, none, {}};
     std::vector<Place> places = good_places();
     std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.far < b.far; });
+    // Many places beside a locus look good and are not: leaps that double come past them, and halves of the last one
+    // back.
+    std::size_t failed = 0, found = places.size();  // places below `failed` were passed over
     int proofs = 0;
-    for (const Place& place : places) {
-      if (!judge_.verified(core::moved(task_.shape, place.by))) {
-        if (++proofs == most_proofs) break;
-        continue;
+    const auto good = [&](std::size_t i) { return judge_.verified(core::moved(task_.shape, places[i].by)); };
+    for (std::size_t i = 0, leap = 1; i < places.size() && proofs < most_proofs; ++proofs, leap *= 2) {
+      if (good(i)) {
+        found = i;
+        break;
       }
-      Rational part = 1, too_little = 0;
-      for (int i = 0; i < halvings; ++i) {
-        const Rational middle = (part + too_little) / 2;
-        (judge_.verified(core::moved(task_.shape, times(middle, place.by))) ? part : too_little) = middle;
-      }
-      const RationalPose by = times(part, place.by);
-      return PlacedShape{core::moved(task_.shape, by), by, {}};
+      failed = i + 1;
+      i += leap;
     }
-    return std::nullopt;
+    if (found == places.size()) return std::nullopt;
+    while (failed < found && proofs < 2 * most_proofs) {
+      const std::size_t middle = failed + (found - failed) / 2;
+      ++proofs;
+      if (good(middle))
+        found = middle;
+      else
+        failed = middle + 1;
+    }
+    const Place& place = places[found];
+    Rational part = 1, too_little = 0;
+    for (int i = 0; i < halvings; ++i) {
+      const Rational middle = (part + too_little) / 2;
+      (judge_.verified(core::moved(task_.shape, times(middle, place.by))) ? part : too_little) = middle;
+    }
+    const RationalPose by = times(part, place.by);
+    return PlacedShape{core::moved(task_.shape, by), by, {}};
   }
 
   std::optional<PlacedShape> best() const {

@@ -115,15 +115,16 @@ class Verifier {
     witness_.emplace(witness_for(demands_));
   }
 
-  /// Whether nothing changes its sign or is too small between a few poses of a shape.
+  /// Whether nothing changes its sign or is too small between a few poses of a shape: the first, its middle and
+  /// corners, and some of the others.
   bool looks_good(const core::PoseShape& shape) {
-    constexpr std::size_t looks = 16;
+    constexpr std::size_t first_looks = 9, looks = 12;
     if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return false;
     std::vector<Pose> poses = PoseRegion(shape, metrics_.asked).samples();
     const auto first = cell_->at(poses.front());
     if (!first) return false;
     const std::size_t stride = (poses.size() + looks - 1) / looks;
-    for (std::size_t i = 0; i < poses.size(); i += stride) {
+    for (std::size_t i = 0; i < poses.size(); i += i < first_looks ? 1 : stride) {
       if (!is_alike(*first, poses[i], {Doubt::singularity, -1, poses[i]})) return false;
       for (std::size_t d = 0; d < statics_.demands.size(); ++d)
         if (!is_alike(*first, poses[i], {Doubt::demand, static_cast<int>(d), poses[i]})) return false;
@@ -134,7 +135,7 @@ class Verifier {
   /// From a shape to the nearest locus found.
   double room(const core::PoseShape& shape) const {
     if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return 0;
-    const std::vector<NearPose> near = loci::pose::near_loci(statics_, PoseRegion(shape, metrics_.asked));
+    const std::vector<NearPose> near = near_loci(PoseRegion(shape, metrics_.asked));
     return near.empty() ? std::numeric_limits<double>::infinity() : near.front().distance;
   }
 
@@ -151,7 +152,7 @@ class Verifier {
     result.notes = mechanism::idle_notes(mechanism_);
     result.notes.insert(result.notes.end(), notes_.begin(), notes_.end());
     progress("search");
-    const std::vector<NearPose> near = loci::pose::near_loci(statics_, region_);
+    const std::vector<NearPose> near = near_loci(region_);
     progress("proof");
     const auto refuted = [&](const PoseSuspect& suspect) {
       result.witness = confirmed(suspect);
@@ -302,6 +303,10 @@ class Verifier {
     result.nearest = own;
   }
 
+  std::vector<NearPose> near_loci(const PoseRegion& region) const {
+    return loci::pose::near_loci(statics_, region, limit_of(region.metric(), {}));
+  }
+
   double limit_of(const PoseMetric& metric, const std::vector<NearPose>& near) const {
     double limit = margin_;
     for (std::size_t c = 0; c < mechanism_.coordinates.size(); ++c)
@@ -319,7 +324,7 @@ class Verifier {
     (metrics_.is_angle ? result.angle_margin : result.margin) = own;
     if (metrics_.angles) {
       const PoseRegion turned(task_.shape, *metrics_.angles);
-      const std::vector<NearPose> nearer = loci::pose::near_loci(statics_, turned);
+      const std::vector<NearPose> nearer = near_loci(turned);
       result.angle_margin =
           loci::pose::pose_clearance(statics_, turned, 0, limit_of(*metrics_.angles, nearer), margin_accuracy, effort);
     }
@@ -374,6 +379,10 @@ PoseVerification fit_poses(const Mechanism& mechanism, const PoseTask& task, Pos
   const std::optional<PlacedShape> placed = place_shape(mechanism, task, goal, judge);
   verifier.place(placed ? placed->shape : task.shape);
   PoseVerification result = verifier.verify(true);
+  if (!placed)
+    result.notes.emplace_back(goal == PoseFit::largest
+                                  ? "no scale was found at which the task verifies: it is judged as it is"
+                                  : "no place was found at which the task verifies: it is judged where it lies");
   if (placed && placed->by) {
     result.by.emplace();
     for (const core::Rational& value : *placed->by) result.by->push_back(core::to_double(value));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -10,6 +11,8 @@ namespace {
 
 constexpr std::size_t starts = 24;
 constexpr int steps = 12;
+/// Poses looked at along a coordinate on either side of the task, and rounds of them, each within what was met before.
+constexpr int looks = 32, rounds = 2;
 /// A reaction that is left at a zero of one of its components or along one direction, as a part of what it was: more
 /// is no zero.
 constexpr double left_over = 1e-6;
@@ -56,10 +59,18 @@ class Finder {
   Finder(const core::PoseStatics& statics, const PoseRegion& region)
       : statics_(statics), region_(region), cell_(statics) {}
 
-  std::vector<NearPose> find() {
+  std::vector<NearPose> find(double far) {
     std::vector<Pose> poses = region_.samples();
     if (poses.size() > starts) poses.resize(starts);
     for (const Pose& pose : poses) from(pose);
+    // Newton's steps may leap over what is near: along the coordinates signs are looked at one by one.
+    for (int round = 0; round < rounds; ++round) {
+      const double within = std::min(far, least_distance());
+      for (std::size_t c = 0; c < region_.coordinates(); ++c)
+        if (region_.metric().grows[c])
+          for (const double way : {1.0, -1.0}) march(c, way, within);
+      if (!(least_distance() < within)) break;
+    }
     std::vector<NearPose> list;
     for (auto& [key, own] : found_) list.push_back(std::move(own));
     std::sort(list.begin(), list.end(), [](const NearPose& a, const NearPose& b) { return a.distance < b.distance; });
@@ -112,6 +123,39 @@ class Finder {
       if (region_.metric().grows[c]) zero[c] -= value / rate * slope.gradient[c] / (w * w);
     }
     return zero;
+  }
+
+  double least_distance() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [key, own] : found_) least = std::min(least, own.distance);
+    return least;
+  }
+
+  /// From the task's side along a coordinate, up to a distance, in even steps: what changes its sign is followed from
+  /// there.
+  void march(std::size_t c, double way, double within) {
+    if (!std::isfinite(within)) return;
+    const double step = way * within / looks / region_.metric().weights[c];
+    Pose pose = region_.farthest_along(c, way);
+    auto last = cell_.at(pose);
+    if (!last) return;
+    const Functions functions(statics_, *last);
+    const auto values = [&](const PoseCell::At& at) {
+      std::vector<double> all;
+      for (const Functions::Name& name : functions.names) all.push_back(functions.value(statics_, name, at));
+      return all;
+    };
+    std::vector<double> before = values(*last);
+    for (int k = 0; k < looks; ++k) {
+      const Pose from = pose;
+      pose[c] += step;
+      const auto now = cell_.at(pose);
+      if (!now) return;  // out of reach: its boundary is what Newton's method looks for
+      std::vector<double> here = values(*now);
+      for (std::size_t f = 0; f < here.size(); ++f)
+        if (before[f] * here[f] < 0) follow(functions, f, std::abs(before[f]) < std::abs(here[f]) ? from : pose);
+      before = std::move(here);
+    }
   }
 
   void from(const Pose& start) {
@@ -178,8 +222,8 @@ class Finder {
 
 }  // namespace
 
-std::vector<NearPose> near_loci(const core::PoseStatics& statics, const PoseRegion& region) {
-  return Finder(statics, region).find();
+std::vector<NearPose> near_loci(const core::PoseStatics& statics, const PoseRegion& region, double far) {
+  return Finder(statics, region).find(far);
 }
 
 }  // namespace clearloci::loci::pose

@@ -19,7 +19,8 @@ struct NearPose {
 };
 
 /// From poses of the task along the gradient of what vanishes, by Newton's method, each time from the pose of the task
-/// that is nearest to the locus met before. Those met, nearest first, one of each kind and demand.
-std::vector<NearPose> near_loci(const core::PoseStatics& statics, const PoseRegion& region);
+/// that is nearest to the locus met before; and where a sign changes along the coordinates around it, nearer than those
+/// met before, no farther than `far`. Those met, nearest first, one of each kind and demand.
+std::vector<NearPose> near_loci(const core::PoseStatics& statics, const PoseRegion& region, double far);
 
 }  // namespace clearloci::loci::pose

@@ -214,6 +214,17 @@ Pose PoseRegion::closest(const Pose& pose) const {
   return own;
 }
 
+Pose PoseRegion::farthest_along(std::size_t coordinate, double way) const {
+  if (points_.empty()) {
+    Pose own = kind_ == Kind::ball ? centre_ : lower_;
+    for (std::size_t c = 0; c < own.size(); ++c) own[c] += 0.5 * (kind_ == Kind::ball ? 0 : upper_[c] - lower_[c]);
+    own[coordinate] = way > 0 ? upper_[coordinate] : lower_[coordinate];
+    return own;
+  }
+  return *std::max_element(points_.begin(), points_.end(),
+                           [&](const Pose& a, const Pose& b) { return way * a[coordinate] < way * b[coordinate]; });
+}
+
 double PoseRegion::distance(const Pose& pose) const { return apart(pose, closest(pose)); }
 
 Pose PoseRegion::nearest_in_solid(const Pose& pose) const {

@@ -37,6 +37,8 @@ class PoseRegion {
 
   double distance(const Pose& pose) const;
   Pose closest(const Pose& pose) const;
+  /// Its pose farthest along a coordinate (`way` 1) or against it (-1): of a box or a ball the one beside its middle.
+  Pose farthest_along(std::size_t coordinate, double way) const;
   /// A way between two poses of the task or its margin that stays there; in a mesh one that looks like it, or none.
   std::vector<Pose> way(const Pose& from, const Pose& to) const;
   /// Whether the straight way between two poses of a way is certain to stay in the task and its margin.

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <numbers>
 #include <random>
+#include <string>
+#include <tuple>
 
 #include "clearloci/errors.hpp"
 #include "clearloci/loci.hpp"
@@ -202,6 +204,34 @@ TEST(PoseFits, AnIntervalIsMovedAndGrowsToTheLociOfAFourBar) {
   const PoseVerification best = fit_poses(model, box(70 * degree, 71 * degree), PoseFit::best);
   ASSERT_TRUE(best.verified() && best.angle_margin);
   EXPECT_GT(*best.angle_margin, 0.8 * (widest / 2 - 1 * degree));
+}
+
+TEST(PoseFits, AWideIntervalIsMovedToTheGapThatHoldsIt) {
+  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml");
+  std::vector<double> at;
+  for (const IsolatedPoint& point : trace_loci(model).isolated_points) at.push_back(point.at.front());
+  std::sort(at.begin(), at.end());
+  double low = 0, high = 0;
+  for (std::size_t i = 1; i < at.size(); ++i)
+    if (at[i] - at[i - 1] > high - low) std::tie(low, high) = std::pair(at[i - 1], at[i]);
+  // Nearly as wide as the widest gap, and off it by a quarter of its width: many places beside look good.
+  const double width = high - low;
+  const auto interval = [&](double from, double to) {
+    return parse_pose_task(
+        "format: 1\nbox: {theta: [" + std::to_string(from) + " rad, " + std::to_string(to) + " rad]}\n", model);
+  };
+  const double off = low > width / 4 ? -width / 4 : width / 4;
+  const PoseTask task = interval(low + 0.05 * width + off, high - 0.05 * width + off);
+  ASSERT_EQ(decide_poses(model, task).verdict, Verdict::refuted);
+  const PoseVerification moved = fit_poses(model, task, PoseFit::nearest);
+  ASSERT_TRUE(moved.verified() && moved.by);
+  EXPECT_NEAR(std::abs(moved.by->front()), 0.2 * width, 0.002 * width);
+
+  const PoseVerification none = fit_poses(model, interval(0.1, 6.1), PoseFit::best);
+  EXPECT_FALSE(none.verified());
+  EXPECT_FALSE(none.by);
+  ASSERT_FALSE(none.notes.empty());
+  EXPECT_NE(none.notes.back().find("no place was found"), std::string::npos);
 }
 
 TEST(PoseFits, ABoxOfAPlatformIsMovedOffALocus) {

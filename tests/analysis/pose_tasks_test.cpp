@@ -8,10 +8,12 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
 #include "clearloci/errors.hpp"
+#include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
 
@@ -191,6 +193,31 @@ TEST(PoseTasks, AnIntervalEndsAtTheLociOfAFourBar) {
 }
 
 /// Random boxes and balls of other mechanisms, against reactions solved pose by pose: dyads, working modes, angles.
+TEST(PoseTasks, TheNearestLocusOfAFourBarIsTheNearest) {
+  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml");
+  const std::vector<IsolatedPoint> loci = trace_loci(model).isolated_points;
+  const auto nearest = [&](double low, double high) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const IsolatedPoint& point : loci)
+      least = std::min(least, std::max({0.0, low - point.at.front(), point.at.front() - high}));
+    return least;
+  };
+  int verified = 0;
+  for (int i = 0; i < 24; ++i) {
+    const double low = (15 * i + 1) * degree, high = low + 4 * degree;
+    const std::string from = std::to_string(low) + " rad", to = std::to_string(high) + " rad";
+    for (const std::string& shape :
+         {"box: {theta: [" + from + ", " + to + "]}", "path: [[" + from + "], [" + to + "]]"}) {
+      const PoseVerification answer = verify_poses(model, parse_pose_task("format: 1\n" + shape + "\n", model));
+      if (!answer.verified()) continue;
+      ++verified;
+      // Loci beyond the range of the file count too.
+      EXPECT_LE(answer.nearest->distance, nearest(low, high) + 1e-5) << shape;
+    }
+  }
+  EXPECT_GT(verified, 20);
+}
+
 class Sampled : public testing::TestWithParam<const char*> {};
 
 TEST_P(Sampled, VerifiedTasksHaveNoChangeOfSign) {
