@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/text.hpp"
+#include "core/virtual_work.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -156,55 +157,6 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
   return joined(parts, "; ");
 }
 
-namespace {
-
-/// "along x", "about y": what a joint gives way to where a component alone is given up.
-std::string way_of(core::Quantity quantity) {
-  using Q = core::Quantity;
-  switch (quantity) {
-    case Q::fx:
-    case Q::fy:
-    case Q::fz:
-      return std::string("along ") + core::to_string(quantity).back();
-    case Q::mx:
-    case Q::my:
-    case Q::mz:
-      return std::string("about ") + core::to_string(quantity).back();
-    case Q::N:
-      return "across its guide";
-    case Q::T:
-      return "by turning";
-    case Q::end_ahead:
-      return "at its end ahead";
-    case Q::end_behind:
-      return "at its end behind";
-    case Q::f1:
-    case Q::f2:
-      return "across its axis";
-    default:
-      return "by turning across its axis";
-  }
-}
-
-/// A reaction times a displacement against it is minus the work of the loads in the motion which that displacement
-/// leaves to the mechanism, all actuators but that one locked: it vanishes where they do none (virtual work).
-std::string virtual_work_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing) {
-  if (kind == core::LocusKind::direct_singularity) return "the mechanism can move with its actuators locked";
-  if (kind == core::LocusKind::workspace_boundary) return "a chain is stretched out or folded";
-  const auto is_effort = [](const core::Vanishing& one) {
-    return one.quantity == core::Quantity::M || one.quantity == core::Quantity::F;
-  };
-  const auto effort = std::find_if(vanishing.begin(), vanishing.end(), is_effort);
-  if (effort != vanishing.end()) return "the loads do no work in the motion that " + effort->joint + " alone drives";
-  if (vanishing.empty()) return "";
-  const core::Vanishing& one = vanishing.front();
-  if (one.quantity == core::Quantity::f)
-    return "the loads do no work in any motion that " + one.joint + " coming apart would allow";
-  return "the loads do no work in the motion of " + one.joint + " giving way " + way_of(one.quantity);
-}
-
-}  // namespace
-
 bool reads_well(const std::string& factor, int longest) {
   if (factor.empty() || columns(factor) > longest) return false;
   constexpr int most_digits = 5;  // of a number that says something: 18639000 is what clearing denominators left
@@ -220,7 +172,7 @@ std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> 
                          const std::string& cause, int longest) {
   if (!cause.empty()) return printable(cause);
   if (reads_well(factor, longest)) return printable(factor);
-  return factor.empty() ? "" : printable(virtual_work_words(kind, vanishing));
+  return factor.empty() ? "" : printable(core::virtual_work_words(kind, vanishing));
 }
 
 std::vector<std::string> told_once(const std::vector<std::string>& notes) {

@@ -32,7 +32,8 @@ struct Causes::Direction {
   std::optional<PointIndex> at;
 };
 
-Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
+Causes::Causes(const Geometry& geometry, const NewtonEulerEquations* equations)
+    : geometry_(&geometry), equations_(equations) {
   const Mechanism& m = geometry.mechanism();
   for (std::size_t i = 0; i < m.points.size(); ++i) {
     const auto& p = geometry.natural(static_cast<PointIndex>(i));
@@ -41,6 +42,7 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
   for (std::size_t i = 0; i < m.points.size(); ++i)
     if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&m.points[i].form); dyad != nullptr && dyad->axis)
       add(stretched(static_cast<PointIndex>(i), *dyad), stretched_wording(static_cast<PointIndex>(i), *dyad));
+  first_of_springs_ = conditions_.size();
   if (m.space == mechanism::Space::spatial) return;  // the conditions below are those of the plane
   // The point of a dependent root may be placed beside another one: where its leg is stretched is a fold, whatever else
   // it is on this side of it.
@@ -83,6 +85,7 @@ Causes::Causes(const Geometry& geometry) : geometry_(&geometry) {
   add_alignments();
   add_link_pairs(edges);
   // Last, since a spring between two joints lies along what has a name of its own.
+  first_of_springs_ = conditions_.size();
   add_load_conditions(edges, springs);
 }
 
@@ -195,11 +198,20 @@ void Causes::add_link_pairs(const std::vector<Edge>& edges) {
   }
 }
 
+std::string Causes::of_lines(const Poly& factor, bool loads) const {
+  if (equations_ == nullptr) return "";
+  if (!lines_) lines_.emplace(*geometry_, *equations_);
+  return lines_->of(factor, loads);
+}
+
 std::string Causes::of_determinant(const Poly& factor) const {
   const Poly primitive = factor.primitive();
+  const auto of_loads = [&](std::size_t i) {
+    return (i >= first_of_loads_ && i < last_of_loads_) || i >= first_of_springs_;
+  };
   for (std::size_t i = 0; i < conditions_.size(); ++i)
-    if ((i < first_of_loads_ || i >= last_of_loads_) && conditions_[i].first == primitive) return conditions_[i].second;
-  return "";
+    if (!of_loads(i) && conditions_[i].first == primitive) return conditions_[i].second;
+  return of_lines(factor, false);
 }
 
 std::string Causes::of(const Poly& factor) const {
@@ -207,7 +219,7 @@ std::string Causes::of(const Poly& factor) const {
   for (const auto& [condition, wording] : conditions_) {
     if (condition == primitive) return wording;
   }
-  return "";
+  return of_lines(factor, true);
 }
 
 }  // namespace clearloci::symbolic

@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "symbolic/geometry.hpp"
+#include "symbolic/lines_of_action.hpp"
 
 namespace clearloci::symbolic {
 
 /// Geometric conditions of the mechanism as polynomials in natural coordinates, each with its wording.
 class Causes {
  public:
-  explicit Causes(const Geometry& geometry);
+  /// With the equations, conditions on the lines that reactions and loads act along besides.
+  explicit Causes(const Geometry& geometry, const NewtonEulerEquations* equations = nullptr);
 
   /// The wording of the condition that a factor states, up to a constant; empty where it states none of them.
   std::string of(const Poly& factor) const;
@@ -40,11 +42,14 @@ class Causes {
   void add_alignments_along_chains(std::optional<mechanism::PointIndex> at);
   void add_alignments();
   void add_link_pairs(const std::vector<Edge>& edges);
+  std::string of_lines(const Poly& factor, bool loads) const;
 
   const Geometry* geometry_;
-  std::vector<std::array<Poly, 3>> points_;  ///< z = 0 in the plane
+  const NewtonEulerEquations* equations_;
+  mutable std::optional<LinesOfAction> lines_;  ///< made where no other condition holds
+  std::vector<std::array<Poly, 3>> points_;     ///< z = 0 in the plane
   std::vector<std::pair<Poly, std::string>> conditions_;
-  std::size_t first_of_loads_ = 0, last_of_loads_ = 0;  ///< among conditions_
+  std::size_t first_of_loads_ = 0, last_of_loads_ = 0, first_of_springs_ = 0;  ///< among conditions_
 };
 
 }  // namespace clearloci::symbolic

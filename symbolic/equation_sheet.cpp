@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/locus_map.hpp"
+#include "core/virtual_work.hpp"
 #include "mechanism/evaluate.hpp"
 #include "symbolic/algebra_turn.hpp"
 #include "symbolic/causes.hpp"
@@ -33,7 +34,7 @@ class SheetWriter {
         geometry_(m, options.keep_parameters),
         determinants_(factored_determinants(geometry_)),
         elimination_(geometry_),
-        causes_(geometry_),
+        causes_(geometry_, &determinants_.equations),
         names_(options.language) {
     name_symbols();
     if (!geometry_.has_dependent_roots()) return;
@@ -62,9 +63,10 @@ class SheetWriter {
     for (const ConstructedPoint& c : geometry_.constructed()) write_closure(c, sheet.closure);
     for (const InverseLength& length : geometry_.inverse_lengths()) write_length(length, sheet.closure);
     for (const TorsionAngle& angle : geometry_.torsion_angles()) write_angle(angle, sheet.closure);
-    sheet.determinant = determinant("A", determinants_.determinant);
+    sheet.determinant = determinant("A", determinants_.determinant, nullptr);
     for (std::size_t k = 0; k < equations.unknown_names.size(); ++k) {
-      sheet.numerators.push_back(determinant(equations.unknown_names[k], determinants_.numerators[k]));
+      sheet.numerators.push_back(
+          determinant(equations.unknown_names[k], determinants_.numerators[k], &equations.unknowns[k]));
     }
     sheet.renamed = names_.renamed();
     return sheet;
@@ -129,14 +131,29 @@ class SheetWriter {
   std::string text(const Poly& p) const { return formula(p.plain(), symbols_, language_); }
   std::string text(const GiNaC::ex& e) const { return text(geometry_.poly(e)); }
 
-  Determinant determinant(const std::string& name, const FactoredPoly& p) {
+  /// `unknown`: of a numerator; null of |A|.
+  Determinant determinant(const std::string& name, const FactoredPoly& p, const mechanism::Unknown* unknown) {
     Determinant result{name, product_formula(p, symbols_, language_), {}};
     for (const PolyFactor& factor : p.factors) {
       const Implicit& own = implicit(factor.poly);
-      DeterminantFactor entry{text(factor.poly), factor.multiplicity, causes_.of(factor.poly), own.list, own.too_heavy};
-      result.factors.push_back(std::move(entry));
+      result.factors.push_back(
+          {text(factor.poly), factor.multiplicity, cause(factor.poly, unknown), own.list, own.too_heavy});
     }
     return result;
+  }
+
+  /// What |A| shares with a numerator says the same there.
+  std::string cause(const Poly& factor, const mechanism::Unknown* unknown) const {
+    const auto& shared = determinants_.determinant.factors;
+    if (unknown == nullptr ||
+        std::any_of(shared.begin(), shared.end(), [&](const PolyFactor& own) { return own.poly == factor; })) {
+      const std::string words = causes_.of_determinant(factor);
+      return words.empty() ? core::virtual_work_words(core::LocusKind::direct_singularity, {}) : words;
+    }
+    std::string words = causes_.of(factor);
+    if (!words.empty()) return words;
+    const core::Vanishing own{mechanism_.joints[static_cast<std::size_t>(unknown->joint)].name, unknown->quantity};
+    return core::virtual_work_words(core::LocusKind::component, std::span(&own, 1));
   }
 
   struct Implicit {

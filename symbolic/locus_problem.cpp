@@ -131,7 +131,7 @@ class Derivation {
         geometry_(std::move(sheet.geometry)),
         determinants_(determinants_of(geometry_, family)),
         elimination_(geometry_),
-        causes_(geometry_),
+        causes_(geometry_, &determinants_.equations),
         reactions_(reactions(geometry_, determinants_)),
         guides_(guides(geometry_, elimination_, reactions_)),
         lines_(geometry_) {
