@@ -175,7 +175,8 @@ class Verifier {
                                     : proof.out_of_cells ? Reason::cells
                                                          : Reason::doubles};
     }
-    tell_nearest(near, result);
+    // Where a witness is in the task, one that is farther off is not the nearest.
+    if (result.verdict != core::Verdict::refuted) tell_nearest(near, result);
     if (result.verified() && measured) measure(near, result);
     return result;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "analysis/model.hpp"
@@ -138,6 +139,19 @@ class Ends {
   bool jumps_ = false;
 };
 
+/// A crank that turns on: where the range is a full turn, its first and last zone are one.
+void note_meeting_ends(PoseZones& map) {
+  constexpr double of_turn = 1e-12;  // roundings of the range's ends
+  if (std::abs(map.upper[0] - map.lower[0] - 2 * std::numbers::pi) > of_turn) return;
+  const PoseZone *first = nullptr, *last = nullptr;
+  for (const PoseZone& zone : map.zones) {
+    if (zone.lower[0] == map.lower[0]) first = &zone;
+    if (zone.upper[0] == map.upper[0]) last = &zone;
+  }
+  if (first != nullptr && last != nullptr && first != last)
+    map.notes.push_back("the range is a full turn: " + first->id + " and " + last->id + " meet where it begins anew");
+}
+
 }  // namespace
 
 PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociRequest& request, long cells) {
@@ -199,6 +213,7 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
     result.zones.push_back(std::move(zone));
   }
   result.labels = std::move(found.raster);
+  if (result.coordinates.size() == 1 && result.angles.front()) note_meeting_ends(result);
   return result;
 }
 

@@ -75,8 +75,9 @@ void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, 
                     {.task = nominal ? &result.task : nullptr});
 }
 
-/// Over other than two lengths: a verdict without traced loci, and so without pictures.
-int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
+/// Over other than two lengths: a verdict without traced loci.
+int run_over_poses(const Arguments& arguments, const std::set<std::string>& formats,
+                   const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   const std::optional<PoseFit> goal = parse_pose_fit(arguments.fit);
   const core::PoseTask task = mechanism::read_pose_task(arguments.task, mechanism);
   Progress progress(arguments.common.quiet);
@@ -89,7 +90,7 @@ int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mecha
   progress.clear();
   limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
-  const auto files = report::write_answer(result, folder);
+  const auto files = report::write_answer(result, folder, formats);
   if (arguments.common.json)
     fmt::print("{}", report::json_text(report::pose_verification_object(result)));
   else if (!arguments.common.quiet)
@@ -110,7 +111,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
     body["verified"] = false;
     write_incomplete(common, "verify.json", body);
   });
-  if (over_poses) return run_over_poses(arguments, mechanism, limit);
+  if (over_poses) return run_over_poses(arguments, formats, mechanism, limit);
   Progress progress(arguments.common.quiet);
   const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   if (request.all_working_modes || request.working_modes.size() > 1)

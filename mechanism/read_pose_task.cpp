@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -197,11 +198,13 @@ void check_inside_box(const Mechanism& mechanism, const core::PoseTask& task, co
     const Coordinate& coordinate = mechanism.coordinates[c];
     const auto& [lower, upper] = ranges[c];
     if (lower >= coordinate.lower && upper <= coordinate.upper) continue;
+    const auto told = [&](const Rational& own) {
+      return std::to_string(core::to_double(own) * (coordinate.angle ? 180 / std::numbers::pi : 1));
+    };
     throw InputError(value.where,
-                     value.what + " leaves the mechanism's box: " + coordinate.name + " from " +
-                         std::to_string(core::to_double(lower)) + " to " + std::to_string(core::to_double(upper)) +
-                         ", not within [" + std::to_string(core::to_double(coordinate.lower)) + ", " +
-                         std::to_string(core::to_double(coordinate.upper)) + "]",
+                     value.what + " leaves the mechanism's box: " + coordinate.name + " from " + told(lower) + " to " +
+                         told(upper) + ", not within [" + told(coordinate.lower) + ", " + told(coordinate.upper) +
+                         "] " + (coordinate.angle ? "deg" : "m"),
                      "move the task or widen the workspace of " + mechanism.file);
   }
 }

@@ -14,6 +14,7 @@
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/pose.hpp"
+#include "report/pose_task_picture.hpp"
 #include "report/pose_verification.hpp"
 #include "report/pose_zone_picture.hpp"
 #include "report/pose_zones.hpp"
@@ -177,6 +178,11 @@ Files pose_verification_json(const core::PoseVerification& answer) {
 }
 
 template <PictureFormat format>
+Files pose_verification_pictures(const core::PoseVerification& result) {
+  return {{std::string("verify") + ending_of(format), pose_task_picture(result, format)}};
+}
+
+template <PictureFormat format>
 Files pose_zones_pictures(const core::PoseZones& map) {
   return {{std::string("zones") + ending_of(format), pose_zone_picture(map, format)}};
 }
@@ -197,6 +203,7 @@ Format pictures(std::string_view name) {
           zone_pictures<format>,
           pose_zones_pictures<format>,
           verification_pictures<format>,
+          pose_verification_pictures<format>,
           error_pictures<format>,
           coordinate_pictures<format>,
           volume_slices<format>,

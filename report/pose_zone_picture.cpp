@@ -9,6 +9,7 @@
 
 #include "report/axis.hpp"
 #include "report/file_units.hpp"
+#include "report/pose_zones.hpp"
 #include "report/surface.hpp"
 #include "report/theme.hpp"
 #include "report/typesetting.hpp"
@@ -24,8 +25,8 @@ constexpr double margin = 16, gap = 46, legend_width = 190, line_height = 11;  /
 constexpr Font title_font{13, true}, text_font{9.5}, small_font{8.5}, number_font{9, true};
 constexpr Colour doubtful{0.45, 0.45, 0.45};
 constexpr std::size_t layers_drawn = 6, columns_of_layers = 3;
-/// A zone gets its number where a run of it is at least this wide, pt.
-constexpr double least_run = 12;
+/// A zone gets its number where a square of it is at least this wide, pt; on a strip counts the width alone.
+constexpr double least_square = 9;
 
 struct Scale {
   std::string label;
@@ -95,13 +96,44 @@ void for_runs(const Layer& layer, const Use& use) {
     }
 }
 
+/// The middle of the largest square of cells of each zone, and its half side, in cells.
+struct Square {
+  int row = 0, column = 0, half = 0;
+};
+
+std::map<int, Square> largest_squares(const Layer& layer) {
+  const auto at = [&](int row, int column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(layer.columns) + static_cast<std::size_t>(column);
+  };
+  // How many steps, slanting ones too, it is to a cell of another label or out of the picture: there and back again.
+  std::vector<int> steps(layer.labels.size(), 0);
+  const auto reach = [&](int row, int column, int way) {
+    int least = layer.rows + layer.columns;
+    for (const auto& [down, aside] : {std::pair{0, -1}, {-1, -1}, {-1, 0}, {-1, 1}}) {
+      const int r = row + way * down, c = column + way * aside;
+      if (layer.rows == 1 && down != 0) continue;
+      const bool inside = r >= 0 && r < layer.rows && c >= 0 && c < layer.columns;
+      least =
+          std::min(least, inside && layer.labels[at(r, c)] == layer.labels[at(row, column)] ? steps[at(r, c)] + 1 : 1);
+    }
+    return least;
+  };
+  for (int row = 0; row < layer.rows; ++row)
+    for (int column = 0; column < layer.columns; ++column) steps[at(row, column)] = reach(row, column, 1);
+  std::map<int, Square> largest;
+  for (int row = layer.rows - 1; row >= 0; --row)
+    for (int column = layer.columns - 1; column >= 0; --column) {
+      int& own = steps[at(row, column)];
+      own = std::min(own, reach(row, column, -1));
+      Square& best = largest[layer.labels[at(row, column)]];
+      if (own > best.half) best = {row, column, own};
+    }
+  return largest;
+}
+
 void draw_layer(const Context& context, const Layer& layer, const Box& box) {
   const double width = box.width / layer.columns, height = box.height / layer.rows;
   const auto top = [&](int row) { return box.bottom() - (row + 1) * height; };
-  struct Run {
-    double x = 0, y = 0, length = 0;
-  };
-  std::map<int, Run> longest;
   context->save();
   context->set_antialias(Cairo::ANTIALIAS_NONE);  // neighbours meet without a seam
   for_runs(layer, [&](int row, int from, int to, int label) {
@@ -109,15 +141,15 @@ void draw_layer(const Context& context, const Layer& layer, const Box& box) {
     set_colour(context, label == 0 ? doubtful : colour_of(label));
     context->rectangle(box.x + from * width, top(row), (to - from) * width, height);
     context->fill();
-    Run& own = longest[label];
-    if ((to - from) * width > own.length)
-      own = {box.x + 0.5 * (from + to) * width, top(row) + 0.5 * height, (to - from) * width};
   });
   context->restore();
   set_colour(context, light_theme.ink);
-  for (const auto& [label, run] : longest)
-    if (label > 0 && run.length >= least_run)
-      write_text(context, std::to_string(label), run.x, run.y + 3, number_font, Align::centre);
+  for (const auto& [label, square] : largest_squares(layer)) {
+    const double side = (2 * square.half - 1) * (layer.rows == 1 ? width : std::min(width, height));
+    if (label > 0 && side >= least_square)
+      write_text(context, std::to_string(label), box.x + (square.column + 0.5) * width,
+                 top(square.row) + 0.5 * height + 3, number_font, Align::centre);
+  }
 }
 
 void draw_axes(const Context& context, const Box& box, const Scale& x, const Scale* y) {
@@ -147,6 +179,21 @@ void draw_axes(const Context& context, const Box& box, const Scale& x, const Sca
   write_text(context, y->label, box.x - 4, box.y - 5, label_font, Align::right);
 }
 
+/// Where zones over one coordinate end: a line, heavy at a singularity.
+void draw_ends(const Context& context, const core::PoseZones& map, const Box& box) {
+  const double width = map.upper[0] - map.lower[0];
+  for (const core::PoseZone& zone : map.zones)
+    for (const core::PoseZoneEnd& end : zone.ends) {
+      const bool singular = end.kind == core::LocusKind::direct_singularity;
+      const double x = box.x + (end.at - map.lower[0]) / width * box.width;
+      set_colour(context, light_theme.ink);
+      context->set_line_width(singular ? 2.4 : 1.2);
+      context->move_to(x, box.y - 4);
+      context->line_to(x, box.bottom());
+      context->stroke();
+    }
+}
+
 struct LegendRow {
   const Colour* colour = nullptr;
   std::vector<std::string> lines;
@@ -167,7 +214,9 @@ std::vector<LegendRow> legend_of(const core::PoseZones& map) {
         fmt::format("{} |A|{}{}", zone.id, zone.assembly_mode > 0 ? "+" : "\u2212", signs));
   }
   if (map.zones.size() > most) rows.push_back({nullptr, {fmt::format("and {} more", map.zones.size() - most)}});
-  add(doubtful, "in doubt");
+  if (std::find(map.labels.begin(), map.labels.end(), 0) != map.labels.end()) add(doubtful, "in doubt");
+  if (std::find(map.labels.begin(), map.labels.end(), -1) != map.labels.end())
+    rows.push_back({nullptr, {"white: out of reach"}});
   return rows;
 }
 
@@ -185,13 +234,20 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
   const double head = margin + 44, left = margin + 36;
   const double legend_x = left + static_cast<double>(columns) * (width + gap) - gap + 24;
   const std::vector<LegendRow> legend = legend_of(map);
+  std::vector<std::string> ends;
+  if (!y)
+    for (const std::string& words : zone_end_lines(map))
+      for (const std::string& line : wrap(printable(words), width + legend_width, measure_in(small_font)))
+        ends.push_back(line);
   double legend_height = 0;
   for (const LegendRow& row : legend) legend_height += line_height * static_cast<double>(row.lines.size()) + 4;
-  const double bottom = head + std::max(static_cast<double>(rows) * (height + gap), legend_height);
+  const double below = head + static_cast<double>(rows) * (height + gap);
+  const double bottom = std::max(below + line_height * static_cast<double>(ends.size()), head + legend_height);
   std::string mode, description;
   for (const auto& [point, side] : map.working_mode) mode += (mode.empty() ? "" : ", ") + point + " " + side;
   for (const LegendRow& row : legend)
     for (const std::string& line : row.lines) description += line + "\n";
+  for (const std::string& line : ends) description += line + "\n";
   const std::string title = printable(map.mechanism);
 
   const auto draw = [&](const Context& context) {
@@ -207,9 +263,16 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
       const Box box{left + static_cast<double>(k % columns) * (width + gap),
                     head + static_cast<double>(row) * (height + gap), width, height};
       draw_layer(context, layers[k], box);
+      if (!y) draw_ends(context, map, box);
       draw_axes(context, box, x, y ? &*y : nullptr);
       set_colour(context, light_theme.ink);
       write_text(context, layers[k].title, box.x + 0.5 * box.width, box.y - 5, small_font, Align::centre);
+    }
+    double end_at = below;
+    set_colour(context, light_theme.ink);
+    for (const std::string& line : ends) {
+      write_text(context, line, left, end_at, small_font);
+      end_at += line_height;
     }
     double at = head + 8;
     for (const LegendRow& row : legend) {

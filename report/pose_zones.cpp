@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -110,7 +111,33 @@ std::string ball_words(const core::PoseZones& map, const Places& places, const c
   return fmt::format("      holds a ball of radius {} around {}\n", radius, places.pose(ball.centre));
 }
 
+std::string end_words(const core::PoseZones& map, const Places& places, const core::PoseZoneEnd& end) {
+  std::string words = fmt::format("{}: {}{}{}", places.value(0, end.at), kind_words(end.kind),
+                                  end.reactions.empty() ? "" : " ", reaction_names(end.reactions));
+  const ShownUnit unit = shown_unit("m", map.units);
+  if (end.jumps && std::isfinite(end.dx + end.dy + end.dalpha))
+    words += fmt::format("; the end effector jumps by ({:.3g}, {:.3g}) {} and {:.3g} rad", end.dx * unit.per_si,
+                         end.dy * unit.per_si, unit.name, end.dalpha);
+  return words;
+}
+
 }  // namespace
+
+std::vector<std::string> zone_end_lines(const core::PoseZones& map) {
+  const Places places(map);
+  std::map<double, std::string> lines;
+  // Two zones end at one place, to the finest cells.
+  constexpr double one_place = 1e-7;
+  for (const core::PoseZone& zone : map.zones)
+    for (const core::PoseZoneEnd& end : zone.ends) {
+      const double width = one_place * (map.upper[0] - map.lower[0]);
+      const auto near = lines.lower_bound(end.at - width);
+      if (near == lines.end() || near->first > end.at + width) lines.emplace(end.at, end_words(map, places, end));
+    }
+  std::vector<std::string> all;
+  for (auto& [at, words] : lines) all.push_back(std::move(words));
+  return all;
+}
 
 Json pose_zones_object(const core::PoseZones& map) {
   Json mode = Json::object();
@@ -158,15 +185,7 @@ std::string pose_zones_table(const core::PoseZones& map) {
                          places.pose(zone.sample));
     if (zone.ball) out += ball_words(map, places, *zone.ball);
     out += fmt::format("      beside it: {}\n", bounds_words(zone));
-    for (const core::PoseZoneEnd& own : zone.ends) {
-      out += fmt::format("      ends at {}: {}{}{}", places.value(0, own.at), kind_words(own.kind),
-                         own.reactions.empty() ? "" : " ", reaction_names(own.reactions));
-      const ShownUnit unit_of_jump = shown_unit("m", map.units);
-      if (own.jumps && std::isfinite(own.dx + own.dy + own.dalpha))
-        out += fmt::format("; the end effector jumps by ({:.3g}, {:.3g}) {} and {:.3g} rad",
-                           own.dx * unit_of_jump.per_si, own.dy * unit_of_jump.per_si, unit_of_jump.name, own.dalpha);
-      out += "\n";
-    }
+    for (const core::PoseZoneEnd& own : zone.ends) out += "      ends at " + end_words(map, places, own) + "\n";
     if (!zone.perhaps_one_with.empty()) {
       out += "      not proven to be another zone than";
       for (const std::string& other : zone.perhaps_one_with) out += " " + other;

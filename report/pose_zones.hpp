@@ -16,6 +16,10 @@ nlohmann::ordered_json pose_zones_object(const core::PoseZones& map);
 /// A row a zone. Ends with a newline.
 std::string pose_zones_table(const core::PoseZones& map);
 
+/// Over one coordinate a line for each place where zones end, from below: "131.41 deg: backlash M_O; the end effector
+/// jumps by ...".
+std::vector<std::string> zone_end_lines(const core::PoseZones& map);
+
 /// What zones over so many coordinates can be written as: of vtk no picture of a line, of stl surfaces alone.
 std::vector<std::string> pose_zone_formats(std::size_t coordinates);
 

@@ -1,0 +1,118 @@
+// Pictures of tasks over poses and of zones by cells, of answers written by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "report/pose_task_picture.hpp"
+#include "report/pose_zone_picture.hpp"
+#include "report/pose_zones.hpp"
+
+namespace clearloci::report {
+namespace {
+
+using core::Rational;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+core::PoseVerification verified_box() {
+  core::PoseVerification own;
+  own.mechanism = "a platform";
+  own.coordinates = {"x", "y", "phi"};
+  own.angles = {false, false, true};
+  own.verdict = core::Verdict::verified;
+  own.task.shape = core::PoseBoxShape{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(2), Rational(1)}};
+  own.margin = 0.5;
+  own.angle_margin = 0.25;
+  own.nearest = core::NearestToPoses{core::LocusKind::backlash, {{"S1", core::Quantity::F, 1}}, {1.5, 1.0, 0.5}, 0.5};
+  return own;
+}
+
+TEST(PoseTaskPicture, SaysWhatItDraws) {
+  const std::string svg = pose_task_picture(verified_box(), PictureFormat::svg);
+  EXPECT_TRUE(has(svg, "Task (box) with its margin, seen along the other coordinates"));
+  EXPECT_TRUE(has(svg, "VERIFIED no locus, singularity or boundary in the task: proven\n"));
+  EXPECT_TRUE(has(svg, "margin at least 0.5 m, proven, with the angles of the task\n"));
+  EXPECT_TRUE(has(svg, "cross: nearest backlash F_S1 at x = 1.5 m"));
+  EXPECT_FALSE(has(svg, "ring: "));
+}
+
+TEST(PoseTaskPicture, SaysWhatIsTooFarToBeDrawn) {
+  core::PoseVerification far = verified_box();
+  far.nearest->at = {100, 1, 0.5};
+  EXPECT_TRUE(has(pose_task_picture(far, PictureFormat::svg), "beyond the picture: nearest"));
+}
+
+TEST(PoseTaskPicture, DrawsEveryShapeInEveryFormat) {
+  core::PoseVerification own = verified_box();
+  const auto expect_drawn = [&](const char* kind) {
+    const std::string svg = pose_task_picture(own, PictureFormat::svg);
+    EXPECT_TRUE(has(svg, std::string("Task (") + kind + ")"));
+    EXPECT_FALSE(has(svg, "nan")) << kind;
+    EXPECT_FALSE(has(svg, "inf")) << kind;
+    EXPECT_EQ(svg, pose_task_picture(own, PictureFormat::svg));
+    EXPECT_EQ(pose_task_picture(own, PictureFormat::pdf).substr(0, 5), "%PDF-");
+    EXPECT_EQ(pose_task_picture(own, PictureFormat::png).substr(0, 8), "\x89PNG\r\n\x1A\n");
+  };
+  expect_drawn("box");
+  own.task.shape = core::PoseBallShape{{Rational(0), Rational(0), Rational(0)}, Rational(1)};
+  expect_drawn("ball");
+  own.verdict = core::Verdict::refuted;
+  own.margin.reset(), own.angle_margin.reset(), own.nearest.reset();
+  own.witness.emplace().at = {0.5, 0, 0};
+  own.task.shape =
+      core::PosePathShape{{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(0), Rational(0)}}};
+  expect_drawn("path");
+  EXPECT_TRUE(has(pose_task_picture(own, PictureFormat::svg), "ring: witness x = 0.5 m"));
+  own.angles = {false, false, false};
+  own.task.shape = core::PoseMeshShape{
+      "part.stl", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  expect_drawn("mesh");
+  // One pose alone has no extent of its own.
+  own.coordinates = {"x"}, own.angles = {false}, own.witness->at = {0.5};
+  own.task.shape = core::PoseBoxShape{{Rational(1, 2)}, {Rational(1, 2)}};
+  expect_drawn("box");
+}
+
+core::PoseZones two_intervals() {
+  core::PoseZones map;
+  map.mechanism = "a crank";
+  map.coordinates = {"theta"};
+  map.angles = {true};
+  map.lower = {0}, map.upper = {std::numbers::pi};
+  map.grid = {8};
+  map.labels = {1, 1, 1, 1, 2, 2, 2, 2};
+  core::PoseZoneEnd end{0.5 * std::numbers::pi, core::LocusKind::backlash, {{"O", core::Quantity::M, 1}}};
+  end.jumps = true, end.dx = 1e-5;
+  core::PoseZone zone;
+  zone.id = "z1", zone.assembly_mode = 1, zone.lower = {0}, zone.upper = {end.at - 1e-9}, zone.ends = {end};
+  zone.ends.front().at = zone.upper.front();
+  map.zones.push_back(zone);
+  zone.id = "z2", zone.lower = {end.at + 1e-9}, zone.upper = map.upper, zone.ends = {end};
+  zone.ends.front().at = zone.lower.front();
+  map.zones.push_back(zone);
+  return map;
+}
+
+TEST(PoseZonePicture, OfAnIntervalTellsEachEndOnceWithItsJump) {
+  const core::PoseZones map = two_intervals();
+  const std::vector<std::string> lines = zone_end_lines(map);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines.front().substr(0, 6), "89.999");
+  EXPECT_TRUE(has(lines.front(), "backlash M_O; the end effector jumps by (1e-05, 0) m and 0 rad"));
+  const std::string svg = pose_zone_picture(map, PictureFormat::svg);
+  EXPECT_TRUE(has(svg, "backlash M_O; the end effector jumps"));
+}
+
+TEST(PoseZonePicture, NamesDoubtWhereThereIsAny) {
+  core::PoseZones map = two_intervals();
+  EXPECT_FALSE(has(pose_zone_picture(map, PictureFormat::svg), "in doubt"));
+  map.labels[3] = 0;
+  map.labels[7] = -1;
+  const std::string svg = pose_zone_picture(map, PictureFormat::svg);
+  EXPECT_TRUE(has(svg, "in doubt\n"));
+  EXPECT_TRUE(has(svg, "white: out of reach\n"));
+}
+
+}  // namespace
+}  // namespace clearloci::report
