@@ -9,6 +9,8 @@ namespace clearloci::loci {
 
 namespace {
 
+using core::Interval;
+
 /// A number as the unevaluated sum of two doubles, the second at most half a spacing of the first: T. J. Dekker, "A
 /// floating-point technique for extending the available precision", Numerische Mathematik 18 (1971).
 struct TwoDoubles {
@@ -137,10 +139,24 @@ core::Point2 PlaneCurve::project(core::Point2 near) const {
   return near;
 }
 
-bool PlaneCurve::joined(const core::Point2& a, const core::Point2& b) const {
-  // A box around the chord, wider by `margin`; across it runs the coordinate in which f is monotone.
+namespace {
+
+/// Signs on the long sides of a box that differ: the branch cannot leave through them.
+bool differ(const std::array<int, 2>& sign) { return sign[0] != 0 && sign[0] == -sign[1]; }
+
+}  // namespace
+
+bool PlaneCurve::joined(const core::Point2& a, const core::Point2& b, double off) const {
   const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
-  const double margin = 0.25 * length + 1e-14;
+  constexpr double wide = 0.25;  // of the chord's length: what does where no other branch is near
+  constexpr double spare = 4;    // times how far the branch strays from its chord: what it must do where one is
+  constexpr double rounding = 1e-14;
+  const double margin = wide * length + rounding, thin = spare * off + rounding;
+  return joined_within(a, b, margin) || joined_closely(a, b, std::min(margin, thin));
+}
+
+bool PlaneCurve::joined_within(const core::Point2& a, const core::Point2& b, double margin) const {
+  // A box around the chord, wider by `margin`; across it runs the coordinate in which f is monotone.
   const bool flat = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]);
   const std::size_t along = flat ? 0 : 1, across = 1 - along;
   std::array<Interval, 2> box, side;
@@ -152,7 +168,6 @@ bool PlaneCurve::joined(const core::Point2& a, const core::Point2& b) const {
   const Interval dx = box[0] - Interval(middle[0]), dy = box[1] - Interval(middle[1]);
   const std::array<Interval, 2> slope = {at.fx + over.fxx * dx + over.fxy * dy, at.fy + over.fxy * dx + over.fyy * dy};
   if (slope[across].contains_zero()) return false;
-  // f keeps one sign on either long side: the branch cannot leave through them.
   std::array<int, 2> sign{};
   for (const int end : {0, 1}) {
     side[across] = Interval(end == 0 ? box[across].lower() : box[across].upper());
@@ -161,7 +176,52 @@ bool PlaneCurve::joined(const core::Point2& a, const core::Point2& b) const {
     const Interval range = value + slope[along] * (box[along] - Interval(middle[along]));
     sign[static_cast<std::size_t>(end)] = range.sign();
   }
-  return sign[0] != 0 && sign[0] == -sign[1];
+  return differ(sign);
+}
+
+PlaneCurve::Sheared PlaneCurve::along_chord(const core::Point2& middle, std::size_t along, double rise) const {
+  const std::array<int, 2> degree = {along == 0 ? degree_x_ : degree_y_, along == 0 ? degree_y_ : degree_x_};
+  Sheared result{degree[0] + degree[1], degree[1], {}};
+  result.coefficients.resize(static_cast<std::size_t>(result.along + 1) * static_cast<std::size_t>(result.across + 1));
+  for (const Term& term : terms_)
+    result.at(along == 0 ? term.i : term.j, along == 0 ? term.j : term.i) = term.enclosure;
+  // Horner's scheme, once a power: a -> middle + a, b -> middle + b, and last b -> rise a + b.
+  const Interval a(middle[along]), b(middle[1 - along]), s(rise);
+  for (int from = 0; from < degree[0]; ++from)
+    for (int i = degree[0] - 1; i >= from; --i)
+      for (int j = 0; j <= degree[1]; ++j) result.at(i, j) = result.at(i, j) + a * result.at(i + 1, j);
+  for (int from = 0; from < degree[1]; ++from)
+    for (int j = degree[1] - 1; j >= from; --j)
+      for (int i = 0; i <= degree[0]; ++i) result.at(i, j) = result.at(i, j) + b * result.at(i, j + 1);
+  for (int from = 0; from < degree[1]; ++from)
+    for (int j = degree[1] - 1; j >= from; --j)
+      for (int i = result.along; i > 0; --i) result.at(i, j) = result.at(i, j) + s * result.at(i - 1, j + 1);
+  return result;
+}
+
+bool PlaneCurve::joined_closely(const core::Point2& a, const core::Point2& b, double margin) const {
+  const std::size_t along = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1, across = 1 - along;
+  const core::Point2 middle = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+  const Sheared f = along_chord(middle, along, (b[across] - a[across]) / (b[along] - a[along]));
+  const Interval d = Interval(std::min(a[along], b[along]), std::max(a[along], b[along])) - Interval(middle[along]);
+  const Powers<Interval> ds(d, f.along), ws(Interval(-margin, margin), f.across);
+  Interval slope(0.0);
+  for (int i = 0; i <= f.along; ++i)
+    for (int j = 1; j <= f.across; ++j)
+      slope = slope + Interval(static_cast<double>(j)) * f.at(i, j) * ds[i] * ws[j - 1];
+  if (slope.contains_zero()) return false;
+  std::array<int, 2> sign{};
+  for (const int end : {0, 1}) {
+    const Powers<Interval> side(Interval(end == 0 ? -margin : margin), f.across);
+    Interval value(0.0);
+    for (int i = 0; i <= f.along; ++i) {
+      Interval part(0.0);
+      for (int j = 0; j <= f.across; ++j) part = part + f.at(i, j) * side[j];
+      value = value + part * ds[i];
+    }
+    sign[static_cast<std::size_t>(end)] = value.sign();
+  }
+  return differ(sign);
 }
 
 double PlaneCurve::Jet::slope() const { return std::hypot(fx, fy); }

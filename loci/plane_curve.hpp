@@ -33,14 +33,29 @@ class PlaneCurve {
   core::Point2 project(core::Point2 near) const;
 
   /// Proves that the branch through `a` reaches `b` without leaving their neighbourhood, so that both lie on one
-  /// smooth piece. Required: both on the curve to rounding. False: not proven.
-  bool joined(const core::Point2& a, const core::Point2& b) const;
+  /// smooth piece. Required: both on the curve to rounding. `off`: about how far the branch strays from the chord, with
+  /// which a branch is told from another one that touches it nearby. False: not proven.
+  bool joined(const core::Point2& a, const core::Point2& b, double off) const;
 
  private:
   using Interval = core::Interval;
 
   template <typename Number>
   Derivatives<Number> derivatives(const Number& x, const Number& y) const;
+
+  bool joined_within(const core::Point2& a, const core::Point2& b, double margin) const;
+  /// The same over a parallelogram along the chord, f in powers of the distances from its middle: dearer, but it loses
+  /// nothing to terms that cancel there, nor to the chord's own rise.
+  bool joined_closely(const core::Point2& a, const core::Point2& b, double margin) const;
+
+  /// f in powers of the coordinate along a chord and of what the other one is off it.
+  struct Sheared {
+    int along, across;  ///< degrees
+    std::vector<Interval> coefficients;
+    Interval& at(int i, int j) { return coefficients[static_cast<std::size_t>(i * (across + 1) + j)]; }
+    const Interval& at(int i, int j) const { return coefficients[static_cast<std::size_t>(i * (across + 1) + j)]; }
+  };
+  Sheared along_chord(const core::Point2& middle, std::size_t along, double rise) const;
 
   /// f at the point with twice the digits of a double.
   double precise_value(const core::Point2& at) const;

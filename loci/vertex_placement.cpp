@@ -46,9 +46,12 @@ class Placement {
   /// The curve at an x of the edge.
   Point2 at(double x) const { return {x, arrangement_.y_at(edge_, x)}; }
 
+  /// Whether roots may be isolated exactly where doubles tell nothing: a millisecond each.
+  enum class Isolation { none, where_needed };
+
   /// How far the chord strays from the curve between two of its points; more than the tolerance where the curve may
-  /// bend too much in between for samples to tell.
-  double deviation(const Point2& a, const Point2& b) const {
+  /// bend too much in between for samples to tell, or what they tell is not asked for.
+  double deviation(const Point2& a, const Point2& b, Isolation isolation) const {
     const double length = distance(a, b);
     double worst = 0;
     for (const double t : {0.5, 0.25, 0.75, 0.1, 0.9}) {
@@ -57,7 +60,7 @@ class Placement {
       double off = jet.distance();
       if (off < 0) {
         // Where the gradient nearly vanishes the vertical distance bounds the true one; it is dear, so only there.
-        if (length > cautious_) return 2 * tolerance_;
+        if (length > cautious_ || isolation == Isolation::none) return 2 * tolerance_;
         off = chord[0] > start_[0] && chord[0] < end_[0] ? std::abs(at(chord[0])[1] - chord[1]) : 0;
       } else if (jet.curvature() * length * length > 32 * tolerance_) {
         off = std::max(off, 2 * tolerance_);
@@ -68,7 +71,7 @@ class Placement {
     return worst;
   }
 
-  bool fits(const Point2& a, const Point2& b) const { return deviation(a, b) <= tolerance_; }
+  bool fits(const Point2& a, const Point2& b) const { return deviation(a, b, Isolation::where_needed) <= tolerance_; }
 
   /// The next vertex about `reach` along the curve, found in doubles and proven to lie on the same branch; `here`
   /// where no proof is had.
@@ -91,8 +94,8 @@ class Placement {
       const Point2 next = curve_.project({here[0] + reach * tangent[0] + 0.5 * reach * reach * bend[0],
                                           here[1] + reach * tangent[1] + 0.5 * reach * reach * bend[1]});
       const bool inside = next[0] > here[0] && next[0] < end_[0];
-      const double off = inside ? deviation(here, next) : 10 * tolerance_;
-      if (off <= tolerance_ && curve_.joined(here, next)) {
+      const double off = inside ? deviation(here, next, Isolation::none) : 10 * tolerance_;
+      if (off <= tolerance_ && curve_.joined(here, next, off)) {
         best = next;
         if (off > 0.6 * tolerance_ || attempt > 2) break;
         reach *= std::min(0.95 * std::sqrt(tolerance_ / std::max(off, 1e-3 * tolerance_)), 2.0);
@@ -118,14 +121,14 @@ class Placement {
     dx = std::clamp(dx, std::min(1e-15, 0.25 * (end_[0] - here[0])), 0.5 * (end_[0] - here[0]));
     Point2 next = at(here[0] + dx);
     for (int attempt = 0; attempt < 60; ++attempt) {
-      const double off = deviation(here, next);
+      const double off = deviation(here, next, Isolation::where_needed);
       if (off <= tolerance_) {
         const double room = off > 0 ? std::sqrt(tolerance_ / off) : 4;
         // Well short of the tolerance: try once more, further on.
         if (attempt > 3 || room < 1.25 || next[0] >= 0.5 * (here[0] + end_[0])) break;
         const double further = std::min(dx * std::min(0.9 * room * room, 4.0), 0.5 * (end_[0] - here[0]));
         const Point2 candidate = at(here[0] + further);
-        if (deviation(here, candidate) > tolerance_) break;
+        if (deviation(here, candidate, Isolation::where_needed) > tolerance_) break;
         dx = further;
         next = candidate;
         continue;

@@ -28,5 +28,25 @@ TEST(PlaneCurve, ProjectsToRoundingNextToANode) {
   }
 }
 
+TEST(PlaneCurve, TellsBranchesApartThatNearlyTouch) {
+  // (x + 2/3 y^2)^2 = y^4 (1 + x)/2500: two branches x = (-2/3 +- 1/50 sqrt(1 + x)) y^2 touch in the origin, upright.
+  const Polynomial x = core::variable_polynomial(2, 0), y = core::variable_polynomial(2, 1);
+  const auto number = [](const Rational& value) { return core::constant_polynomial(2, value); };
+  const Polynomial both = x + number(Rational(2, 3)) * y * y;
+  const Polynomial one = number(1);
+  const PlaneCurve curve(core::primitive_part(both * both - number(Rational(1, 2500)) * y * y * y * y * (one + x)));
+  const auto on_branch = [&](double height, double side) {
+    return curve.project({(-2.0 / 3 + side * 0.02) * height * height, height});
+  };
+  for (const double height : {0.3, 0.03, 0.003}) {
+    // A chord across a tenth of the way: the branches are as far apart as 0.04 height^2, and bend by 0.0017 height^2.
+    const core::Point2 a = on_branch(height, 1), b = on_branch(1.1 * height, 1), c = on_branch(1.1 * height, -1);
+    const double bend = 0.0017 * height * height;
+    EXPECT_TRUE(curve.joined(a, b, bend)) << height;
+    EXPECT_TRUE(curve.joined(b, a, bend)) << height;
+    EXPECT_FALSE(curve.joined(a, c, bend)) << height;
+  }
+}
+
 }  // namespace
 }  // namespace clearloci::loci
