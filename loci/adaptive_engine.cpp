@@ -21,10 +21,18 @@ using core::LocusProblem;
 /// Beyond this degree the exact arrangement does not end in useful time (docs/performance.md).
 constexpr int bearable_degree = 14;
 
+/// Cells worth their time before the exact engine takes a curve over: it takes about as long as so many times the
+/// fourth power of the degree, a tenth of a second for degree 8 and a second for degree 14.
+constexpr int cells_a_fourth_power = 8, fewest_cells = 20000, most_cells = 150000;
+
 int highest_degree(const LocusFactor& factor) {
   int degree = -1;
   for (const core::Polynomial& p : factor.implicit) degree = std::max(degree, core::total_degree(p));
   return degree;
+}
+
+bool is_too_heavy(const LocusFactor& factor) {
+  return highest_degree(factor) > bearable_degree || factor.implicit_too_heavy;
 }
 
 bool is_context(const LocusFactor& factor) {
@@ -70,9 +78,6 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
     if (is_open) open.push_back(&share);
   }
   // A curve beyond the engine's reach stays open, and so does what would have to be told together with it.
-  const auto is_too_heavy = [](const LocusFactor& factor) {
-    return highest_degree(factor) > bearable_degree || factor.implicit_too_heavy;
-  };
   for (bool left = true; left;) {
     left = false;
     for (const SheetShare* heavy : open) {
@@ -119,6 +124,31 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
   for (core::IsolatedPoint& point : exact.isolated_points) map.isolated_points.push_back(std::move(point));
   for (std::string& note : exact.notes) map.notes.push_back(std::move(note));
   for (SheetShare* share : open) share->settled = true;
+}
+
+/// By factor: the cells after which it is left to the exact engine, where that will surely settle it; 0 where it may
+/// not.
+std::vector<int> cells_before_exact(const LocusProblem& problem, const TraceOptions& options) {
+  std::vector<int> cells(problem.factors.size(), 0);
+  const bool is_asked = options.engine == Engine::adaptive_then_exact && !options.sketch && !options.deadline &&
+                        options.certificate == nullptr && !core::has_angles(problem.tower);
+  int degree_of_context = 0;
+  for (const LocusFactor& factor : problem.factors) {
+    if (!is_asked || (is_context(factor) && is_too_heavy(factor))) return cells;
+    if (is_context(factor)) degree_of_context = std::max(degree_of_context, highest_degree(factor));
+  }
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    int degree = degree_of_context;
+    bool is_settled = true;
+    for (const LocusFactor& factor : problem.factors) {
+      if (&factor != &problem.factors[f] && !shares_curve(factor, problem.factors[f])) continue;
+      is_settled = is_settled && !is_too_heavy(factor);
+      degree = std::max(degree, highest_degree(factor));
+    }
+    if (is_settled)
+      cells[f] = std::clamp(cells_a_fourth_power * degree * degree * degree * degree, fewest_cells, most_cells);
+  }
+  return cells;
 }
 
 /// Hands out the claims of shares that were proven on the sheets.
@@ -171,7 +201,7 @@ bool reopen(const LocusProblem& problem, const std::vector<WrongArc>& wrong, con
 }  // namespace
 
 Found find_adaptively(const LocusProblem& problem, const TraceOptions& options) {
-  std::vector<SheetShare> shares = trace_on_sheets(problem, options);
+  std::vector<SheetShare> shares = trace_on_sheets(problem, options, cells_before_exact(problem, options));
   if (options.certificate != nullptr) {
     *options.certificate = {problem, {}, {}};
     for (const SheetShare& share : shares) options.certificate->open.push_back({share.mode, share.factor});

@@ -52,8 +52,11 @@ class PlaneCurve {
   struct Sheared {
     int along, across;  ///< degrees
     std::vector<Interval> coefficients;
-    Interval& at(int i, int j) { return coefficients[static_cast<std::size_t>(i * (across + 1) + j)]; }
-    const Interval& at(int i, int j) const { return coefficients[static_cast<std::size_t>(i * (across + 1) + j)]; }
+    std::size_t place(int i, int j) const {
+      return static_cast<std::size_t>(i) * static_cast<std::size_t>(across + 1) + static_cast<std::size_t>(j);
+    }
+    Interval& at(int i, int j) { return coefficients[place(i, j)]; }
+    const Interval& at(int i, int j) const { return coefficients[place(i, j)]; }
   };
   Sheared along_chord(const core::Point2& middle, std::size_t along, double rise) const;
 

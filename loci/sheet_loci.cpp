@@ -448,7 +448,8 @@ bool shares_curve(const LocusFactor& a, const LocusFactor& b) {
   });
 }
 
-std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const TraceOptions& options) {
+std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const TraceOptions& options,
+                                        const std::vector<int>& settled_after) {
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
   sheet_options.certificate = options.certificate != nullptr;
@@ -488,8 +489,12 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
     const auto mode = static_cast<std::size_t>(share.mode);
     sheet::SheetTraceOptions own = sheet_options;
     own.special = special[mode];
-    share.traced = trace_share(problem, problem.factors[static_cast<std::size_t>(share.factor)], problem.modes[mode],
-                               std::move(own));
+    const auto factor = static_cast<std::size_t>(share.factor);
+    if (factor < settled_after.size() && settled_after[factor] > 0) {
+      own.whole_or_nothing = true;
+      own.most_cells = settled_after[factor];
+    }
+    share.traced = trace_share(problem, problem.factors[factor], problem.modes[mode], std::move(own));
     const std::lock_guard lock(mutex);
     if (options.progress)
       options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");

@@ -21,8 +21,9 @@ struct SheetShare {
 bool shares_curve(const core::LocusFactor& a, const core::LocusFactor& b);
 
 /// Traces every factor that has curves, except those whose curves nobody wants, in every mode. Shares come in the order
-/// of modes, then factors.
-std::vector<SheetShare> trace_on_sheets(const core::LocusProblem& problem, const TraceOptions& options);
+/// of modes, then factors. `settled_after`: by factor, the cells after which another engine settles it sooner; 0: none.
+std::vector<SheetShare> trace_on_sheets(const core::LocusProblem& problem, const TraceOptions& options,
+                                        const std::vector<int>& settled_after = {});
 
 /// Appends the curves, points and notes of shares that are not settled to the map. Shares of factors that have a curve
 /// in common belong together: a curve carries everything that vanishes on it.

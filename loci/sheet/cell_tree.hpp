@@ -42,6 +42,7 @@ struct TreeOptions {
   unsigned attempt = 0;                      ///< moves the cuts, so that an unlucky one is not met twice
   std::vector<std::array<double, 4>> holes;  ///< x0, x1, y0, y1
   std::function<bool()> stop;                ///< asked now and then; true: leave the rest undecided
+  bool whole_or_nothing = false;             ///< of a curve whose budget is spent nothing but that is wanted
 };
 
 class CellTree {

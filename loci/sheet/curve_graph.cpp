@@ -49,6 +49,7 @@ class GraphBuilder {
       // Other cuts do not help where the budget is what runs out.
       graph_.stopped = graph_.stopped || patch.tree->cut_short();
       last_attempt_ = last_attempt_ || graph_.stopped;
+      if (graph_.stopped && options_.whole_or_nothing) return leave_open(patch);
       at_leaf_.emplace_back(patch.tree->leaves().size());
       open_.emplace_back(patch.tree->leaves().size());
     }
@@ -64,6 +65,14 @@ class GraphBuilder {
   }
 
  private:
+  /// Nothing but where the budget ran out.
+  CurveGraph leave_open(const Patch& patch) {
+    for (const Leaf& own : patch.tree->leaves())
+      if (own.kind == LeafKind::undecided) graph_.undecided.push_back(patch.chart.to_plane(own.cell));
+    graph_.undecided = clusters(std::move(graph_.undecided));
+    return std::move(graph_);
+  }
+
   bool lucky() const { return !unlucky_ || last_attempt_; }
 
   const Leaf& leaf(int patch, int index) const { return graph_.patches[patch].tree->leaves()[index]; }

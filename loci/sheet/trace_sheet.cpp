@@ -114,8 +114,10 @@ class Tracer {
     tree.most_cells = options_.most_cells;
     tree.extended = !options_.sketch;
     tree.stop = options_.stop;
+    tree.whole_or_nothing = options_.whole_or_nothing;
     own_stars_ = parts.stars;
     graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+    if (graph_.stopped && options_.whole_or_nothing) return left_open();
     for (Crossing& crossing : graph_.crossings)
       if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].singular && !cutters.empty())
         crossing.label = core::ArcEnd::direct_singularity;
@@ -146,6 +148,14 @@ class Tracer {
   }
 
  private:
+  SheetTrace left_open() const {
+    SheetTrace trace;
+    trace.certified = false;
+    for (const Cell& cell : graph_.undecided)
+      trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
+    return trace;
+  }
+
   std::size_t cut_cells() const { return options_.sketch ? most_cut_cells_of_a_sketch : most_cut_cells; }
 
   Partition parts_of(const Subtower& part) const {

@@ -33,7 +33,9 @@ struct SheetTraceOptions {
   std::vector<int> along_side;
   /// Of the whole tower: where the sheet is not smooth besides its cones, and corners that the curve passes.
   std::vector<Star> special;
-  int most_cells = 150000;     ///< budget of cells a patch
+  int most_cells = 150000;  ///< budget of cells a patch
+  /// Another engine takes a curve whose budget is spent: nothing more is made of it here.
+  bool whole_or_nothing = false;
   bool sketch = false;         ///< the budget is not extended, and what is left open not tried again with other cuts
   std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
   bool certificate = false;    ///< fill in SheetTrace::claims

@@ -150,6 +150,21 @@ TEST(Engines, ArcsEndInCornersOfALineAndACircle) {
   EXPECT_EQ(ends, 2);
 }
 
+// Both rods are level at x = -1/2: two boundaries of the workspace on one line, along which cells can tell nothing.
+TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
+  const mechanism::Mechanism rails = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
+                                                               "/tests/corpus/loci/prrrp_boundaries_on_one_line.yaml");
+  const core::LocusMap map = trace_loci(rails, {});
+  int on_the_line = 0;
+  for (const core::LocusCurve& curve : map.curves) {
+    EXPECT_TRUE(curve.certified) << curve.id;
+    const auto* line = std::get_if<core::LineForm>(&curve.closed_form);
+    if (line != nullptr && curve.arcs.front().points.front()[0] == -0.5) ++on_the_line;
+  }
+  EXPECT_EQ(on_the_line, 3);  // both boundaries, and |A| = 0
+  expect_agreement(rails, all_modes(loci::Engine::adaptive_then_exact), test::EndsOnSides::by_place);
+}
+
 /// Both boundaries' circles touch, from outside or from inside, on bases of several inclinations.
 std::vector<test::FiveBarDesign> touching_designs() {
   std::vector<test::FiveBarDesign> designs(5);

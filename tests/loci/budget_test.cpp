@@ -70,5 +70,19 @@ TEST(Budget, IsHeldToAlongADoubleCurve) {
   }
 }
 
+TEST(Budget, MakesNothingOfACurveThatIsWantedWholeOrNotAtAll) {
+  SheetTraceOptions options;
+  options.whole_or_nothing = true;
+  options.most_cells = 100;
+  const SheetTrace open = trace_sheet(testing::plane(), {}, {-1, -1}, {1, 1}, {circle() * circle()}, {}, options);
+  EXPECT_FALSE(open.certified);
+  EXPECT_FALSE(open.stopped);
+  EXPECT_TRUE(open.arcs.empty());
+  EXPECT_FALSE(open.undecided.empty());
+  const SheetTrace whole = trace_sheet(testing::plane(), {}, {-1, -1}, {1, 1}, {circle()}, {}, options);
+  EXPECT_TRUE(whole.certified);
+  EXPECT_EQ(whole.arcs.size(), 1u);
+}
+
 }  // namespace
 }  // namespace clearloci::loci::sheet
