@@ -393,14 +393,20 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
 }
 
 std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
-  if (mechanism.coordinates.size() != 2) return {};
   const bool beside = mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism);
   const numeric::NumericModel model = numeric::compile(mechanism);
   std::vector<core::ModeSketch> sketches;
-  for (const core::WorkspaceRegion& region : map.workspace) {
-    const std::vector<int> sides = numeric::dyad_signs(model, map.tower, region.mode);
+  std::vector<core::WorkingMode> modes;
+  const auto add = [&](const core::WorkingMode& mode) {
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+  };
+  for (const core::WorkspaceRegion& region : map.workspace) add(region.mode);
+  for (const core::ReachableInterval& interval : map.reachable) add(interval.mode);
+  for (const core::LocusSurface& surface : map.surfaces) add(surface.mode);
+  for (const core::WorkingMode& mode : modes) {
+    const std::vector<int> sides = numeric::dyad_signs(model, map.tower, mode);
     if (const std::optional<std::vector<double>> pose = numeric::sample_pose(model, sides, model.box))
-      sketches.push_back({region.mode, numeric::sketch(model, *pose, sides), beside});
+      sketches.push_back({mode, numeric::sketch(model, *pose, sides), beside});
   }
   return sketches;
 }

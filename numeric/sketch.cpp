@@ -84,6 +84,29 @@ double spacing(const NumericModel& model, const Posture& posture) {
   return least / enough;
 }
 
+/// The least sine of the angle between two links at their joint, counted up to that of 30 deg: 1 where no link lies
+/// along its neighbour or over it, a fifth where one does.
+double bending(const NumericModel& model, const Posture& posture) {
+  constexpr double enough = 0.5, least_share = 0.2;
+  const auto& m = model.mechanism;
+  const auto arm = [&](mechanism::LinkIndex link, int at) {
+    Point2 longest{};
+    for (const int other : m.links[static_cast<std::size_t>(link)].points) {
+      const Point2 from = point_of(posture, at), to = point_of(posture, other);
+      if (distance(from, to) > std::hypot(longest[0], longest[1])) longest = {to[0] - from[0], to[1] - from[1]};
+    }
+    return longest;
+  };
+  double least = enough;
+  for (const mechanism::Joint& joint : m.joints) {
+    if (joint.from == mechanism::ground || joint.to == mechanism::ground || mechanism::traits(joint).slides) continue;
+    const Point2 a = arm(joint.from, joint.at), b = arm(joint.to, joint.at);
+    const double sizes = std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]);
+    if (sizes > 0) least = std::min(least, std::abs(a[0] * b[1] - a[1] * b[0]) / sizes);
+  }
+  return least_share + (1 - least_share) * least / enough;
+}
+
 /// Pairs of links whose first segments cross elsewhere than in a shared point.
 int crossings(const NumericModel& model, const Posture& posture) {
   int count = 0;
@@ -207,7 +230,7 @@ std::optional<std::vector<double>> sample_pose(const NumericModel& model, std::s
     const double open = model.dyads.empty() ? centrality(pose, box) : openness(model, p);
     // In space what lies over something else in the plane need not be near it.
     const bool spatial = model.mechanism.space == mechanism::Space::spatial;
-    const double apart = spatial ? 1 : spacing(model, p) / (1 + crossings(model, p));
+    const double apart = spatial ? 1 : spacing(model, p) * bending(model, p) / (1 + crossings(model, p));
     const double score = (spatial ? centrality(pose, box) : open) * conditioning * apart;
     if (score > best_score) {
       best_score = score;

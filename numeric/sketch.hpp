@@ -17,7 +17,8 @@ namespace clearloci::numeric {
 core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std::span<const int> mode);
 
 /// A reachable pose of a working mode inside a box (lower, upper of each free coordinate) where dyads are far from
-/// stretched or folded, |A| is large, points keep apart and links do not cross: the best of a grid of poses. Empty
+/// stretched or folded, |A| is large, points keep apart, links do not cross nor lie
+/// along their neighbours: the best of a grid of poses. Empty
 /// where the grid finds no reachable pose.
 std::optional<std::vector<double>> sample_pose(const NumericModel& model, std::span<const int> mode,
                                                std::span<const std::array<double, 2>> box);

@@ -270,12 +270,7 @@ std::string legend_reasons(const Layout& layout) {
 void draw_inset(const Context& context, const LegendEntry& entry, const core::Sketch& sketch,
                 const std::string& reasons) {
   const double label = legend_line_height * static_cast<double>(entry.lines.size());
-  const Box box = {entry.box.x, entry.box.y + label, entry.box.width, entry.box.height - label};
-  const Layout alone = lay_out_alone(sketch, box);
-  draw_links(context, alone, sketch);
-  draw_link_names(context, alone, sketch, reasons);
-  draw_joints(context, alone, sketch);
-  draw_loads(context, alone, sketch);
+  draw_alone(context, {entry.box.x, entry.box.y + label, entry.box.width, entry.box.height - label}, sketch, reasons);
 }
 
 void draw_legend(const Context& context, const Layout& layout, const Subject& subject) {

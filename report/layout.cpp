@@ -151,7 +151,7 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
     add(SampleKind::mechanism, "mechanism in a sample posture", actuated ? "actuated joints filled" : "");
     if (!subject.sketch->loads.empty()) add(SampleKind::load, "load");
   }
-  if (subject.inset != nullptr) add(SampleKind::inset, "mechanism in a sample posture");
+  if (subject.inset != nullptr) add(SampleKind::inset, sample_posture_words);
   if (!map.complete) add(SampleKind::remark, "incomplete: stopped at the time limit");
   return entries;
 }
@@ -255,26 +255,65 @@ Layout lay_out(const Subject& subject) {
   return layout;
 }
 
-Layout lay_out_alone(const core::Sketch& sketch, const Box& box) {
-  constexpr double room = 34;  // pt, for names, brackets and arrows
+namespace {
+
+/// A rectangle that grows.
+struct Extent {
   core::Point2 low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
-  const auto cover = [&](const core::Point2& at) {
+
+  void cover(const core::Point2& at) {
     for (std::size_t i = 0; i < 2; ++i) {
       low[i] = std::min(low[i], at[i]);
       high[i] = std::max(high[i], at[i]);
     }
-  };
+  }
+  /// Page units a unit of the rectangle, so that it fits.
+  double scale_to(double width, double height) const {
+    const core::Point2 size = {high[0] - low[0], high[1] - low[1]};
+    const double widest = std::max({size[0], size[1], 1e-9});
+    return std::min(width / std::max(size[0], 1e-3 * widest), height / std::max(size[1], 1e-3 * widest));
+  }
+};
+
+Extent extent_of(const core::Sketch& sketch) {
+  Extent all;
   for (const core::SketchLink& link : sketch.links)
-    for (const core::Point2& at : link.points) cover(at);
-  for (const core::SketchJoint& joint : sketch.joints) cover(joint.at);
+    for (const core::Point2& at : link.points) all.cover(at);
+  for (const core::SketchJoint& joint : sketch.joints) all.cover(joint.at);
+  for (const core::SketchSlide& slide : sketch.slides) {
+    all.cover(slide.from);
+    all.cover(slide.to);
+  }
+  for (const core::SketchSpring& spring : sketch.springs) {
+    all.cover(spring.from);
+    if (!spring.torsion) all.cover(spring.to);
+  }
+  return all;
+}
+
+}  // namespace
+
+Layout lay_out_alone(const core::Sketch& sketch, const Box& box) {
+  constexpr double room = 34, arrow = 40;  // pt, for names and brackets; for an arrow with its size, beyond that
+  const Extent mechanism = extent_of(sketch);
+  Extent all = mechanism;
+  double scale = all.scale_to(box.width - 2 * room, box.height - 2 * room);
+  // Arrows are of one size on the page: the smaller the scale, the farther they reach. A few rounds settle it.
+  for (int round = 0; round < 4; ++round) {
+    all = mechanism;
+    for (const core::SketchLoad& load : sketch.loads) {
+      const double size = std::hypot(load.force[0], load.force[1]);
+      if (size > 0)
+        all.cover(
+            {load.at[0] + arrow / scale * load.force[0] / size, load.at[1] + arrow / scale * load.force[1] / size});
+    }
+    scale = all.scale_to(box.width - 2 * room, box.height - 2 * room);
+  }
   Layout layout;
   layout.plot = box;
-  const core::Point2 extent = {high[0] - low[0], high[1] - low[1]};
-  const double widest = std::max({extent[0], extent[1], 1e-9});
-  const double scale = std::min((box.width - 2 * room) / std::max(extent[0], 1e-3 * widest),
-                                (box.height - 2 * room) / std::max(extent[1], 1e-3 * widest));
   layout.scale = {scale, scale};
-  layout.low = {(low[0] + high[0] - box.width / scale) / 2, (low[1] + high[1] - box.height / scale) / 2};
+  layout.low = {(all.low[0] + all.high[0] - box.width / scale) / 2,
+                (all.low[1] + all.high[1] - box.height / scale) / 2};
   layout.high = {layout.low[0] + box.width / scale, layout.low[1] + box.height / scale};
   return layout;
 }

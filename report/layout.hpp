@@ -86,6 +86,9 @@ Layout lay_out(const Subject& subject);
 /// Whether a sample stands below its label, and not in front of it.
 inline bool stands_below(SampleKind sample) { return sample == SampleKind::colour_bar || sample == SampleKind::inset; }
 
+/// What stands above a mechanism that is drawn beside the loci.
+inline constexpr const char* sample_posture_words = "mechanism in a sample posture";
+
 /// Of a mechanism alone, all of it with its loads inside a box.
 Layout lay_out_alone(const core::Sketch& sketch, const Box& box);
 

@@ -372,6 +372,14 @@ void draw_loads(const Context& context, const Layout& layout, const core::Sketch
   write_over_lines(context, "g", centre[0] - 8, centre[1] + 3, {9, false, true}, load_colour, Align::right);
 }
 
+void draw_alone(const Context& context, const Box& box, const core::Sketch& sketch, const std::string& words) {
+  const Layout alone = lay_out_alone(sketch, box);
+  draw_links(context, alone, sketch);
+  draw_link_names(context, alone, sketch, words);
+  draw_joints(context, alone, sketch);
+  draw_loads(context, alone, sketch);
+}
+
 void draw_mechanism_sample(const Context& context, double x, double y, double width) {
   const Point2 left = {x + 7, y}, right = {x + width - 6, y};
   draw_bar(context, {left, right}, bar_width);

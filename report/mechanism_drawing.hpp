@@ -21,6 +21,10 @@ void draw_link_names(const Cairo::RefPtr<Cairo::Context>& context, const Layout&
 /// Forces as arrows with their size in N, couples as turning arrows with theirs in N m, gravity in the plot's corner.
 void draw_loads(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
 
+/// All of it in a box of its own, with the names of the links that `words` speak of.
+void draw_alone(const Cairo::RefPtr<Cairo::Context>& context, const Box& box, const core::Sketch& sketch,
+                const std::string& words);
+
 /// A bar with a pin and an actuated pin, for the legend: from (x, y) over `width`.
 void draw_mechanism_sample(const Cairo::RefPtr<Cairo::Context>& context, double x, double y, double width);
 

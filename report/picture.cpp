@@ -50,8 +50,8 @@ std::string picture(const core::LocusMap& in_si, const core::WorkingMode& mode, 
   std::optional<core::Sketch> in_units;
   if (si_sketch != nullptr) in_units = in_file_units(*si_sketch, map.units);
   const core::Sketch* const sketch = in_units ? &*in_units : nullptr;
-  if (map.tower.coordinates.size() == 3) return space_picture(map, mode, format);
-  if (map.tower.coordinates.size() == 1) return range_picture(map, mode, format);
+  if (map.tower.coordinates.size() == 3) return space_picture(map, mode, sketch, format);
+  if (map.tower.coordinates.size() == 1) return range_picture(map, mode, sketch, format);
   Subject subject{&map, mode, groups_of_mode(group_loci(map), mode)};
   (beside ? subject.inset : subject.sketch) = sketch;
   return drawn(subject, format);

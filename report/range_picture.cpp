@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "report/axis.hpp"
+#include "report/mechanism_drawing.hpp"
 #include "report/surface.hpp"
 #include "report/typesetting.hpp"
 #include "report/wording.hpp"
@@ -17,11 +18,13 @@ using Context = Cairo::RefPtr<Cairo::Context>;
 
 constexpr double page_width = 640, margin = 16, label_width = 190, label_gap = 12;  // pt
 constexpr double line_height = 11, row_padding = 10, axis_height = 44;              // pt
+constexpr double sketch_height = 300;                                               // pt
+constexpr int longest_factor = 40;                                                  // columns
 const Font text_font{9}, small_font{8}, title_font{12, true};
 
 struct Row {
   core::LocusKind kind = core::LocusKind::contact_loss;
-  std::vector<std::string> lines;
+  std::vector<std::string> lines, reason;
   std::vector<double> at;
   double y = 0, height = 0;
 };
@@ -47,14 +50,16 @@ std::vector<Row> rows_of(const core::LocusMap& map, const core::WorkingMode& mod
   std::vector<std::pair<std::string, Row>> rows;
   for (const auto& point : map.isolated_points) {
     if (point.mode != mode) continue;
-    const std::string words = words_of(point);
+    const std::string words = words_of(point),
+                      reason = reason_words(point.kind, point.vanishing, point.factor, point.cause, longest_factor);
     auto row = rows.begin();
-    while (row != rows.end() && (row->first != words || row->second.kind != point.kind)) ++row;
+    while (row != rows.end() && (row->first != words + reason || row->second.kind != point.kind)) ++row;
     if (row == rows.end()) {
       Row fresh;
       fresh.kind = point.kind;
       fresh.lines = wrap(words, label_width, measure_in(text_font));
-      row = rows.insert(rows.end(), {words, std::move(fresh)});
+      if (reason != words) fresh.reason = wrap(reason, label_width, measure_in(small_font));
+      row = rows.insert(rows.end(), {words + reason, std::move(fresh)});
     }
     row->second.at.push_back(point.at.front());
   }
@@ -110,7 +115,8 @@ constexpr double least_tick_gap = 30;  // pt
 
 }  // namespace
 
-std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mode, PictureFormat format) {
+std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
+                          PictureFormat format) {
   const Range range = range_of(map);
   std::vector<Row> rows = rows_of(map, mode);
   const double left = margin + label_width + label_gap, right = page_width - margin - 8;
@@ -118,7 +124,7 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
   double y = top;
   for (Row& row : rows) {
     row.y = y;
-    row.height = line_height * static_cast<double>(row.lines.size()) + row_padding;
+    row.height = line_height * static_cast<double>(row.lines.size() + row.reason.size()) + row_padding;
     y += row.height;
   }
   const double bottom = std::max(y, top + 40);
@@ -127,6 +133,11 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
   };
   const std::string words = printable(mode_words(map.tower, mode));
   const std::string title = printable(map.mechanism);
+
+  std::string reasons;
+  for (const Row& row : rows)
+    for (const std::string& text : row.reason) reasons += text + " ";
+  const double height = bottom + axis_height + (sketch == nullptr ? 0 : sketch_height);
 
   const auto draw = [&](const Context& context) {
     context->set_source_rgb(1, 1, 1);
@@ -167,6 +178,11 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
         write_text(context, text, margin, line, text_font);
         line += line_height;
       }
+      context->set_source_rgb(0.42, 0.42, 0.42);
+      for (const std::string& text : row.reason) {
+        write_text(context, text, margin, line, small_font);
+        line += line_height;
+      }
       set_colour(context, row.kind);
       for (const double value : row.at)
         draw_mark(context, row.kind, page(value * range.factor), row.y + row.height / 2);
@@ -185,11 +201,14 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
     for (const Tick& tick : marks)
       write_text(context, tick.label, page(tick.at), bottom + 15, small_font, Align::centre);
     write_text(context, range.label, (left + right) / 2, bottom + 30, text_font, Align::centre);
+    if (sketch == nullptr) return;
+    write_text(context, sample_posture_words, margin, bottom + axis_height + 12, text_font);
+    draw_alone(context, {margin, bottom + axis_height + 16, right - margin, sketch_height - 16}, *sketch, reasons);
   };
   std::string description;
   for (const Row& row : rows)
     for (const std::string& text : row.lines) description += text + "\n";
-  return render({page_width, std::ceil(bottom + axis_height), title, description}, format, draw);
+  return render({page_width, std::ceil(height), title, description}, format, draw);
 }
 
 }  // namespace clearloci::report

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "report/axis.hpp"
+#include "report/mechanism_drawing.hpp"
 #include "report/surface.hpp"
 #include "report/surface_groups.hpp"
 #include "report/view.hpp"
@@ -22,10 +23,11 @@ using core::Point3;
 constexpr double page_margin = 14, view_side = 318, view_gap = 14;  // pt
 constexpr double label_room = 62, side_room = 66;                   // around the box of a view
 constexpr double sample_width = 26, sample_gap = 8, line_height = 11.5, entry_gap = 5;
+constexpr double sketch_height = 300;
 constexpr double pixels_per_point = 2;
 constexpr double elevation = 0.4;  // rad
 constexpr std::array<double, 2> azimuths = {-1.05, 0.52};
-constexpr Font title_font{13, true}, subtitle_font{9.5}, legend_font{8.5};
+constexpr Font title_font{13, true}, subtitle_font{9.5};
 constexpr Colour ink = light_theme.ink, grey{0.42, 0.42, 0.42};
 
 void set_ink(const Context& context, const Colour& colour, double opacity = 1) {
@@ -314,7 +316,8 @@ std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<Surfac
 
 }  // namespace
 
-std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mode, PictureFormat format) {
+std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
+                          PictureFormat format) {
   const std::vector<SurfaceGroup> groups = groups_of_mode(group_surfaces(map), mode);
   const std::string words = printable(mode_words(map.tower, mode));
   const std::string parameters = printable(parameter_words(map));
@@ -327,6 +330,10 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
   std::vector<Entry> entries = legend_of(map, groups);
   const std::vector<PlacedView> views = placed_views(map, top);
   const double bottom = place_legend(entries, top + views.front().height + 8);
+
+  std::string reasons;
+  for (const SurfaceGroup& group : groups) reasons += group.why + " ";
+  const double height = bottom + (sketch == nullptr ? 0 : sketch_height) + page_margin;
 
   const auto draw = [&](const Context& context) {
     context->set_source_rgb(1, 1, 1);
@@ -345,11 +352,15 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
       for (int i = 0; i < 3; ++i) draw_axis(context, map, placed.view, i);
     }
     for (const Entry& entry : entries) draw_entry(context, entry);
+    if (sketch == nullptr) return;
+    set_ink(context, ink);
+    write_text(context, sample_posture_words, page_margin, bottom + 14, legend_font);
+    draw_alone(context, {page_margin, bottom + 14, width - 2 * page_margin, sketch_height - 14}, *sketch, reasons);
   };
   std::string description;
   for (const SurfaceGroup& group : groups)
     description += group.what + (group.why.empty() ? "" : " — " + group.why) + "\n";
-  return render({width, std::ceil(bottom + page_margin), title, description}, format, draw);
+  return render({width, std::ceil(height), title, description}, format, draw);
 }
 
 }  // namespace clearloci::report

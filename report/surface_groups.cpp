@@ -15,8 +15,9 @@ std::string reason_words(const core::LocusSurface& surface) {
   if (!surface.cause.empty()) return printable(surface.cause);
   constexpr int readable = 44;
   if (!surface.factor.empty() && columns(surface.factor) <= readable) return printable(surface.factor) + " = 0";
+  const std::string words = report::reason_words(surface.kind, surface.vanishing, surface.factor, "", 0);
   const int degree = core::total_degree(surface.implicit);
-  return degree > 0 ? "surface of degree " + std::to_string(degree) : "";
+  return words + (degree > 0 ? ", on a surface of degree " + std::to_string(degree) : "");
 }
 
 void choose_colours(std::vector<SurfaceGroup>& groups) {

@@ -304,10 +304,14 @@ void LinesOfAction::add_balances() {
     }
     const std::string loads = loads_on(set),
                       words = loads + (loads == "the load" ? " balances about " : " balance about ");
-    for (std::size_t p = 0; p < m.points.size(); ++p)
-      if (!m.points[p].auxiliary)
-        add(difference(about_end_effector, moment(static_cast<PointIndex>(p), force)), {},
-            (words + m.points[p].name).c_str(), true);
+    const auto add_about = [&](PointIndex p) {
+      if (!m.points[place(p)].auxiliary)
+        add(difference(about_end_effector, moment(p, force)), {}, (words + m.points[place(p)].name).c_str(), true);
+    };
+    // Where they balance about several points, those of the links themselves come first.
+    for (const std::size_t i : set)
+      for (const PointIndex p : m.links[resultants_[i].link].points) add_about(p);
+    for (std::size_t p = 0; p < m.points.size(); ++p) add_about(static_cast<PointIndex>(p));
   }
 }
 

@@ -71,6 +71,24 @@ TEST(SamplePose, IsReachableWellConditionedAndOpen) {
   }
 }
 
+/// A crank in line with its coupler shows nothing of either.
+TEST(SamplePose, FoldsNoCrankOverItsCoupler) {
+  for (const char* name : {"four_bar", "slider_crank"}) {
+    const NumericModel model =
+        compile(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml"));
+    const auto mode = mechanism::working_mode(model.mechanism);
+    const auto pose = sample_pose(model, mode, model.box);
+    ASSERT_TRUE(pose.has_value());
+    const core::Sketch drawn = sketch(model, *pose, mode);
+    const auto &crank = drawn.links[0].points, &coupler = drawn.links[1].points;
+    ASSERT_EQ(crank[1], coupler[0]);
+    const core::Point2 a = {crank[0][0] - crank[1][0], crank[0][1] - crank[1][1]},
+                       b = {coupler[1][0] - crank[1][0], coupler[1][1] - crank[1][1]};
+    const double sine = (a[0] * b[1] - a[1] * b[0]) / (std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]));
+    EXPECT_GT(std::abs(sine), 0.3) << name;
+  }
+}
+
 TEST(SamplePose, IsEmptyOutOfReach) {
   const NumericModel model = compile(test::five_bar());
   const std::vector<std::array<double, 2>> far = {{5, 6}, {5, 6}};
