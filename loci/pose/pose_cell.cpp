@@ -19,6 +19,20 @@ Form enclosed_pi() {
   return own;
 }
 
+template <class Form>
+bool is_finite(const Form& x) {
+  return std::isfinite(x.c) && std::isfinite(x.radius());
+}
+
+/// Of the numbers of x that are not negative.
+template <class Form>
+Form any_root_up_to(const Form& x) {
+  const double half = 0.5 * std::sqrt(std::max(0.0, x.upper())) * (1 + 0x1p-50);
+  Form own(half);
+  own.r = half * (1 + 0x1p-50) + Form::slack(half);
+  return own;
+}
+
 /// A row's entries and what it adds up to are sums of so many roundings at most.
 double rounded_up(double sum, std::size_t terms) { return sum * (1 + static_cast<double>(terms + 8) * 0x1p-51); }
 
@@ -78,7 +92,7 @@ CellAnswers::State PoseCellOf<Form>::in_doubt(Doubt doubt, const Form& form, int
 }
 
 template <class Form>
-CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& box) {
+CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& box, std::vector<Form>* boundaries) {
   for (std::size_t i = 0; i < registers_.size(); ++i) {
     const core::PoseProgram::Step& own = statics_->program.steps[i];
     const Form& x = registers_[static_cast<std::size_t>(own.first)];
@@ -120,8 +134,13 @@ CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& 
         break;
       case Operation::square_root:
         if (x.upper() < 0) return State::outside;
-        if (!(x.lower() > 0)) return in_doubt(Doubt::workspace, x);
-        registers_[i] = square_root(x);
+        if (x.lower() > 0) {
+          registers_[i] = square_root(x);
+          break;
+        }
+        if (boundaries == nullptr || !is_finite(x)) return in_doubt(Doubt::workspace, x);
+        boundaries->push_back(x);
+        registers_[i] = any_root_up_to(x);
         break;
       case Operation::cosine:
         registers_[i] = cosine(x);
@@ -141,7 +160,9 @@ CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& 
   }
   for (const int own : statics_->positive) {
     if (step(own).upper() < 0) return State::outside;
-    if (!(step(own).lower() > 0)) return in_doubt(Doubt::workspace, step(own));
+    if (step(own).lower() > 0) continue;
+    if (boundaries == nullptr || !is_finite(step(own))) return in_doubt(Doubt::workspace, step(own));
+    boundaries->push_back(step(own));
   }
   return State::proven;
 }
@@ -342,6 +363,8 @@ bool PoseCellOf<Form>::keeps(int index) {
 template <class Form>
 CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox& box) {
   core::ensure(box.size() < Form::noises, "a cell has seven parameters at most");
+  chart_ = &chart;
+  box_ = &box;
   doubt_ = Doubt::none;
   spreads_.fill(0);
   if (const State state = run(chart, box); state != State::proven) return state;

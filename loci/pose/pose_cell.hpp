@@ -13,6 +13,9 @@
 //     |A| = 0  exactly where  s = m - q (I + E)^-1 p  does,   s z_n = N = y_n - q (I + E)^-1 y_1
 //     s g = s d + (c Y)_n N + (c Y)_1 (I + E)^-1 (s y_1 - p N)
 // so that signs of reactions are known on both sides of s = 0 where s g does not vanish (pose_sides.cpp).
+//
+// Where the workspace boundary Q = 0 passes, the root of Q is any number from 0 to that of Q's largest value: what
+// holds for all of them holds in every pose of the cell with Q >= 0, and where Q < 0 for certain there is none.
 #pragma once
 
 #include <array>
@@ -38,6 +41,8 @@ struct CellAnswers {
   /// What is known of a cell in doubt, under one load.
   struct Known {
     bool free = false;                        ///< it is proven after all
+    bool outside = false;                     ///< no pose of it can be assembled
+    bool beyond = false;                      ///< the second part is one of which no pose can be assembled
     Signs signs;                              ///< in all of the cell
     std::vector<std::pair<Doubt, int>> open;  ///< all that may vanish in it
     /// Parts of the cell that are proven, on the two sides of what may vanish: either may be empty.
@@ -75,7 +80,7 @@ class PoseCellOf : public CellAnswers {
   /// Of a proven cell: what every reaction has at least, N or N m, one a demand.
   const std::vector<double>& least_sizes() const { return least_; }
 
-  /// Of a cell in doubt; of forms of second order only.
+  /// Of a cell in doubt; of forms of second order only. The chart and the box that it was entered with must still be.
   Known known();
 
   /// Nothing where it cannot be assembled or A cannot be inverted.
@@ -87,7 +92,8 @@ class PoseCellOf : public CellAnswers {
   struct Entry {
     int row = 0, step = 0;
   };
-  State run(const PoseChart& chart, const PoseBox& box);
+  /// `boundaries`: takes the squares and limits that may vanish in the cell; without it the first of them ends the run.
+  State run(const PoseChart& chart, const PoseBox& box, std::vector<Form>* boundaries = nullptr);
   State in_doubt(Doubt doubt, const Form& form, int demand = -1);
   bool invert();
   bool is_regular();
@@ -112,9 +118,12 @@ class PoseCellOf : public CellAnswers {
   };
   void sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
   void know_near_singularity(Known& known);
+  void know_at_boundary(Known& known);
   double& inverse_at(std::size_t i, std::size_t j) { return inverse_[i * n_ + j]; }
 
   const core::PoseStatics* statics_;
+  const PoseChart* chart_ = nullptr;  ///< of the cell entered last, and its box
+  const PoseBox* box_ = nullptr;
   std::size_t n_;
   std::vector<std::vector<Entry>> columns_;  ///< of A
   std::vector<double> leasts_;               ///< asked of every demand, rounded up
@@ -144,6 +153,8 @@ template <>
 void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
 template <>
 void PoseCell::know_near_singularity(Known& known);
+template <>
+void PoseCell::know_at_boundary(Known& known);
 extern template class PoseCellOf<Affine>;
 extern template class PoseCellOf<FlatAffine>;
 

@@ -87,6 +87,31 @@ Affine widened(Affine x, double size) {
   return x;
 }
 
+constexpr double roundings = 1e-12;  // of the few sums below, as a part of the cell
+
+/// Where all forms are positive, of one direction for all.
+HalfSpace where_positive(const std::vector<Affine>& forms) {
+  const Affine first = forms.front().flattened();
+  const double length = first.linear();
+  if (!(length > 0)) return {};
+  std::array<double, Affine::noises> way{};
+  double square = 0, beyond = -1;
+  for (std::size_t p = 0; p < way.size(); ++p) {
+    way[p] = first.a[p] / length;
+    square += way[p] * way[p];
+  }
+  for (const Affine& own : forms) {
+    const Affine form = own.flattened();
+    double along = 0, off = 0;
+    for (std::size_t p = 0; p < way.size(); ++p) along += form.a[p] * way[p];
+    along /= square;
+    if (!(along > 0)) return {};
+    for (std::size_t p = 0; p < way.size(); ++p) off += std::abs(form.a[p] - along * way[p]);
+    beyond = std::max(beyond, (form.r + off - form.c) / along);
+  }
+  return HalfSpace::within(way, beyond + roundings);
+}
+
 int sign_of(const Affine& x) { return x.contains_zero() ? 0 : x.c > 0 ? 1 : -1; }
 
 }  // namespace
@@ -122,11 +147,10 @@ void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& t
     beyond[1] = std::max(beyond[1], (beside + centre) / rise);
   }
   for (std::size_t side = 0; side < 2; ++side) {
-    constexpr double slack = 1e-12;  // of the few roundings above, as a part of the cell
     std::array<double, Affine::noises> own = way;
     if (side == 1)
       for (double& value : own) value = -value;
-    known.parts[side] = HalfSpace::within(own, beyond[side] + slack);
+    known.parts[side] = HalfSpace::within(own, beyond[side] + roundings);
     Signs& signs = known.of_parts[side] = known.signs;
     const int here = side == 0 ? 1 : -1;
     int determinant = 1;
@@ -148,7 +172,7 @@ PoseCell::Known PoseCell::known() {
   Known known;
   const std::size_t demands = statics_->demands.size();
   known.signs.assign(demands + 1, 0);
-  if (doubt_ == Doubt::workspace) known.open.emplace_back(doubt_, -1);
+  if (doubt_ == Doubt::workspace) know_at_boundary(known);
   if (doubt_ == Doubt::singularity) know_near_singularity(known);
   if (doubt_ != Doubt::demand) return known;
   const int own = demand_;
@@ -175,6 +199,41 @@ PoseCell::Known PoseCell::known() {
   know_near_singularity(other);
   const auto share = [](const Known& one) { return one.free ? 1.0 : share_of(one.parts[0]) + share_of(one.parts[1]); };
   return share(other) > share(known) ? other : known;
+}
+
+/// The first part is within reach and free of all that may vanish, the second out of reach.
+template <>
+void PoseCell::know_at_boundary(Known& known) {
+  known.open.emplace_back(Doubt::workspace, -1);
+  const std::array<double, Affine::noises> spreads = spreads_;
+  std::vector<Affine> closures;
+  const State state = run(*chart_, *box_, &closures);
+  known.outside = state == State::outside;
+  if (state == State::proven && invert() && is_regular()) {
+    known.signs.back() = determinant_;
+    solve(0);
+    bool all = true;
+    for (std::size_t d = 0; d < statics_->demands.size(); ++d) {
+      const bool kept = keeps(static_cast<int>(d));
+      if (kept) known.signs[d] = kept_[d].sign;
+      all = all && kept;
+    }
+    if (all && !closures.empty()) {
+      known.parts[0] = where_positive(closures);
+      known.of_parts[0] = known.signs;
+    }
+  }
+  double most = 0;
+  for (const Affine& own : closures) {
+    const HalfSpace part = where_positive({Affine(0.0) - own});
+    if (part.empty() || share_of(part) <= most) continue;
+    most = share_of(part);
+    known.parts[1] = part;
+    known.beyond = true;
+  }
+  doubt_ = Doubt::workspace;
+  demand_ = -1;
+  spreads_ = spreads;
 }
 
 template <>

@@ -53,6 +53,7 @@ class Zones {
     const ZoneCell& own = cells_[cell];
     if (own.kind == Kind::free) return side == 0 ? &all_of_it() : nullptr;
     if (own.kind != Kind::in_doubt || !own.parts || (*own.parts)[side].empty()) return nullptr;
+    if (own.beyond && side == 1) return nullptr;
     return &(*own.parts)[side];
   }
   static std::size_t number_of(std::size_t cell, std::size_t side) { return 2 * cell + side; }
@@ -126,6 +127,11 @@ class Zones {
         continue;
       }
       doubt_[c] = size;
+      if (own.beyond) {
+        const double share = share_of((*own.parts)[1]) * size;
+        result_.outside += share;
+        doubt_[c] = std::max(0.0, size - share);
+      }
       for (std::size_t side = 0; side < 2; ++side) {
         const int z = zone(c, side);
         if (z < 0) continue;
@@ -285,7 +291,8 @@ class Zones {
         pose.push_back(place[c]);
       }
       const std::size_t leaf = tree_.leaf_at(pose);
-      int label = cells_[leaf].kind == Kind::outside ? -1 : 0;
+      const bool beyond = cells_[leaf].beyond && height((*cells_[leaf].parts)[1], cells_[leaf].box, place) > 0;
+      int label = beyond || cells_[leaf].kind == Kind::outside ? -1 : 0;
       for (std::size_t side = 0; side < 2; ++side)
         if (const int z = zone(leaf, side); z >= 0 && height(*part(leaf, side), cells_[leaf].box, place) > 0)
           label = z + 1;

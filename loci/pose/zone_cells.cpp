@@ -56,6 +56,11 @@ ZoneCell ZoneCells::looked(PoseCell& cell, PoseBox box) const {
   if (state == PoseCell::State::proven) return own;
   PoseCell::Known known = cell.known();
   if (known.free) return own;
+  if (known.outside) {
+    own.kind = ZoneCell::Kind::outside;
+    return own;
+  }
+  own.beyond = known.beyond;
   own.kind = ZoneCell::Kind::in_doubt;
   own.signs = std::move(known.signs);
   own.open = std::move(known.open);
@@ -114,6 +119,7 @@ bool ZoneCells::cut(std::size_t index, std::vector<std::size_t>& fresh) {
   }
   ZoneCell& own = cells_[index];
   own.kind = ZoneCell::Kind::cut;
+  own.beyond = false;
   own.parts.reset();
   own.of.reset();
   own.open = {};

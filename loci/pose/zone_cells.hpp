@@ -22,6 +22,7 @@ struct ZoneCell {
   std::vector<std::pair<Doubt, int>> open;             ///< what may vanish in it
   std::unique_ptr<std::array<HalfSpace, 2>> parts;     ///< of a cell in doubt that has any
   std::unique_ptr<std::array<PoseCell::Signs, 2>> of;  ///< their signs
+  bool beyond = false;                                 ///< the second part is out of reach
 
   double size() const;
   /// What is in doubt.

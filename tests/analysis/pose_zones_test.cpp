@@ -144,6 +144,78 @@ TEST(PoseZones, OfA3RprWithFreeOrientationAgreeWithAGrid) {
   expect_grid_within(map, [r](double x, double y, double phi) { return rpr_forces(x, y, phi, r); });
 }
 
+TEST(PoseZones, ThatEndAtTheWorkspaceBoundaryAgreeWithTheWitness) {
+  const Model model = example("three_rrr_orientation");
+  const PoseZones map = find_pose_zones(model, {}, 20'000);
+  // A leg of two halves of 0.5 m reaches as far as 1 m.
+  const auto reachable = [](double x, double y, double phi) {
+    const std::array<Eigen::Vector2d, 3> feet = {Eigen::Vector2d(-0.7, -0.4), {0.7, -0.4}, {0, 0.8}};
+    constexpr std::array<double, 3> turned = {210, -30, 90};
+    for (std::size_t leg = 0; leg < 3; ++leg) {
+      const double a = phi + turned[leg] * degree;
+      if ((Eigen::Vector2d(x, y) + 0.2 * Eigen::Vector2d(std::cos(a), std::sin(a)) - feet[leg]).norm() > 1)
+        return false;
+    }
+    return true;
+  };
+  ASSERT_EQ(map.grid.size(), 3U);
+  std::vector<double> poses;
+  std::vector<int> labels;
+  double outside = 0, all = 0;
+  for (std::size_t i = 0; i < map.labels.size(); i += 5) {
+    std::array<double, 3> at{};
+    std::size_t rest = i;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto n = static_cast<std::size_t>(map.grid[c]);
+      at[c] = map.lower[c] + (static_cast<double>(rest % n) + 0.5) / map.grid[c] * (map.upper[c] - map.lower[c]);
+      rest /= n;
+    }
+    ++all;
+    if (!reachable(at[0], at[1], at[2])) {
+      ++outside;
+      ASSERT_LE(map.labels[i], 0) << "no zone is out of reach";
+      continue;
+    }
+    ASSERT_GE(map.labels[i], 0) << "what is out of reach is so";
+    poses.insert(poses.end(), at.begin(), at.end());
+    labels.push_back(map.labels[i]);
+  }
+  const Reactions found = reactions(model, poses);
+  std::map<Signs, double> sampled, least, most;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    Signs signs{};
+    for (std::size_t column = 0; column < found.quantities.size(); ++column)
+      if (found.quantities[column] == Quantity::M)
+        signs[static_cast<std::size_t>(found.joints[column][1] - '1')] = found.table.columns[column][i] > 0 ? 1 : -1;
+    ++sampled[signs];
+    if (labels[i] == 0) continue;
+    for (const auto& [reaction, sign] : map.zones[static_cast<std::size_t>(labels[i] - 1)].signs)
+      if (reaction.quantity == Quantity::M) {
+        ASSERT_EQ(sign, signs[static_cast<std::size_t>(reaction.joint[1] - '1')]);
+      }
+  }
+  double whole = 1, told = map.outside + map.in_doubt;
+  for (std::size_t c = 0; c < 3; ++c) whole *= map.upper[c] - map.lower[c];
+  for (const PoseZone& zone : map.zones) {
+    Signs signs{};
+    for (const auto& [reaction, sign] : zone.signs)
+      if (reaction.quantity == Quantity::M) signs[static_cast<std::size_t>(reaction.joint[1] - '1')] = sign;
+    least[signs] += zone.at_least;
+    most[signs] += zone.at_most;
+    told += zone.at_least;
+  }
+  EXPECT_NEAR(told, whole, 1e-9 * whole);
+  const double fuzzy = 0.004;  // of the samples' own count
+  EXPECT_LT(map.outside / whole, outside / all + fuzzy);
+  EXPECT_GT((map.outside + map.in_doubt) / whole, outside / all - fuzzy);
+  for (const auto& [signs, count] : sampled) {
+    EXPECT_LT(least[signs] / whole, count / all + fuzzy);
+    if (least[signs] > 0) {
+      EXPECT_GT(most[signs] / whole, count / all - fuzzy);
+    }
+  }
+}
+
 // What is tried first must not depend on the thread that a cell falls to.
 TEST(PoseZones, AreTheSameInEveryRun) {
   const Model model = example("three_rpr_orientation");
