@@ -102,7 +102,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::Verification>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
-  const bool over_poses = mechanism::has_pose_tasks(mechanism);
+  const bool over_poses = mechanism::is_pose_task(arguments.task, mechanism);
   const std::optional<FitGoal> goal = over_poses ? std::nullopt : parse_fit(arguments.fit);
   const core::Task task = over_poses ? core::Task{} : mechanism::read_task(arguments.task, mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {

@@ -33,6 +33,9 @@ bool has_length(const Mechanism& mechanism) {
                      [](const Coordinate& c) { return !c.angle; });
 }
 
+/// Two lengths, in which a task is one over poses for the forces of a spatial mechanism alone.
+bool is_plane(const Mechanism& mechanism) { return mechanism.coordinates.size() == 2 && !has_angle(mechanism); }
+
 /// A number of the metric: a length, or an angle where there is nothing else.
 Value in_metric(Value value, const Mechanism& mechanism, bool weighted) {
   if (weighted || has_length(mechanism)) {
@@ -136,16 +139,29 @@ core::PoseMeshShape read_mesh(const Mechanism& mechanism, const Value& value) {
 
 std::pair<core::PoseShape, Value> read_shape(const Mechanism& mechanism, const Value& document, const Mapping& root,
                                              bool weighted) {
-  for (const char* key : {"circle", "polygon"})
-    if (const auto value = root.find(key))
-      throw InputError(value->where, "a " + std::string(key) + " lies in the plane of two lengths",
-                       "write a box, a ball or a path over the coordinates of " + mechanism.file);
   for (const char* key : {"tolerances", "loads_within", "pose_error"})
     if (const auto value = root.find(key))
-      throw InputError(value->where,
-                       std::string(key) + (key == std::string("pose_error") ? " is" : " are") +
-                           " asked of tasks in the plane of two lengths",
-                       "leave it out, or make the other coordinates parameters");
+      throw InputError(
+          value->where,
+          std::string(key) + (key == std::string("pose_error") ? " is" : " are") +
+              (is_plane(mechanism) ? " not asked together with loads_from in space"
+                                   : " asked of tasks in the plane of two lengths"),
+          is_plane(mechanism) ? "leave one of them out" : "leave it out, or make the other coordinates parameters");
+  for (const char* key : {"circle", "polygon"}) {
+    auto value = root.find(key);
+    if (!value) continue;
+    if (is_plane(mechanism) && key == std::string("circle")) {  // a ball of two lengths
+      value->what = "the circle";
+      for (const std::string& other : shape_keys)
+        if (const auto second = root.find(other))
+          throw InputError(second->where, "the task has both a circle and a " + other, "leave one of them out");
+      return {read_ball(mechanism, *value, weighted), *value};
+    }
+    if (is_plane(mechanism))
+      throw InputError(value->where, "loads_from is not asked of polygons in space", "write a box, a circle or a path");
+    throw InputError(value->where, "a " + std::string(key) + " lies in the plane of two lengths",
+                     "write a box, a ball or a path over the coordinates of " + mechanism.file);
+  }
   std::optional<std::pair<std::string, Value>> found;
   for (const std::string& key : shape_keys) {
     const auto value = root.find(key);
@@ -210,7 +226,7 @@ void check_inside_box(const Mechanism& mechanism, const core::PoseTask& task, co
 }
 
 core::PoseTask pose_task_of(const Value& document, const Mechanism& mechanism) {
-  if (!has_pose_tasks(mechanism))
+  if (is_plane(mechanism) && mechanism.space != Space::spatial)
     throw InputError({mechanism.file, 0, 0}, "the mechanism has two lengths free, whose tasks lie in their plane",
                      "ask for a task of the plane");
   const Mapping root(document, task_keys);
@@ -238,7 +254,16 @@ core::PoseTask pose_task_of(const Value& document, const Mechanism& mechanism) {
 
 }  // namespace
 
-bool has_pose_tasks(const Mechanism& mechanism) { return mechanism.coordinates.size() != 2 || has_angle(mechanism); }
+bool has_pose_tasks(const Mechanism& mechanism) { return !is_plane(mechanism); }
+
+bool is_pose_task(const std::string& path, const Mechanism& mechanism) {
+  if (has_pose_tasks(mechanism)) return true;
+  if (mechanism.space != Space::spatial) return false;
+  const Value document = parse_document(read_text(path, "the task file"), path);
+  if (!document.is_map()) return false;
+  const std::vector<Entry> keys = entries(document);
+  return std::any_of(keys.begin(), keys.end(), [](const Entry& own) { return own.key == "loads_from"; });
+}
 
 core::PoseTask parse_pose_task(const std::string& text, const std::string& file, const Mechanism& mechanism) {
   const Value document = parse_document(text, file);

@@ -154,8 +154,8 @@ void check_inside_box(const Mechanism& mechanism, const core::TaskShape& shape, 
 
 core::LoadRange read_planar_loads_from(const Mechanism& mechanism, const Value& value) {
   if (mechanism.space == Space::spatial)
-    throw InputError(value.where, value.what + " are forces of the plane, and " + mechanism.file + " is spatial",
-                     "leave it out and verify the task once for every load");
+    throw InputError(value.where, value.what + " are forces of the plane here, and " + mechanism.file + " is spatial",
+                     "read the file as a task over poses");
   const auto [first, last] = read_loads_from(mechanism, value);
   return {{first[0], first[1]}, {last[0], last[1]}};
 }

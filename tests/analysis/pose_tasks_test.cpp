@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -161,6 +162,58 @@ TEST(PoseTasks, ALoadMayTurnInSpace) {
   ASSERT_EQ(other.witness->load.size(), 3U);
   const Eigen::Vector3d load(other.witness->load[0], other.witness->load[1], other.witness->load[2]);
   EXPECT_LT(leg_forces(other.witness->at, load).cwiseAbs().minCoeff(), 1e-6);
+}
+
+/// The hexapod over x and y alone, its platform level at a height.
+Model slice_of_hexapod(const std::string& height) {
+  std::ifstream file(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_poses.yaml");
+  std::string text, line;
+  while (std::getline(file, line))
+    if (line.find(": {angle: ") == std::string::npos && line != "  z: [0.2, 0.8]") text += line + "\n";
+  const std::string turned = "turned: [alpha, beta, gamma]", place = "P: [x, y, z]";
+  text.replace(text.find(turned), turned.size(), "turned: [0, 0, 0]");
+  text.replace(text.find(place), place.size(), "P: [x, y, " + height + "]");
+  return Model::parse(text, "slice.yaml");
+}
+
+TEST(PoseTasks, ALoadMayTurnInASliceOfSpace) {
+  const Model slice = slice_of_hexapod("1/2");
+  const PoseTask task = parse_pose_task(
+      "format: 1\ncircle: {centre: [0, 0], radius: 0.03}\nmargin: 0.002\n"
+      "loads_from: [[100, 0, -1000], [0, 100, -1000]]\n",
+      slice);
+  ASSERT_TRUE(decide_poses(slice, task).verified());
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 3000; ++i) {
+    const double t = part(random), r = 0.032 * std::sqrt(part(random)), a = 360 * degree * part(random);
+    ASSERT_GT(leg_forces({r * std::cos(a), r * std::sin(a), 0.5, 0, 0, 0}, {100 * (1 - t), 100 * t, -1000}).minCoeff(),
+              0);
+  }
+  // From straight down to straight aside a leg loses its load on the way; so does one of 1000 N that is asked for 150.
+  for (const char* more : {"loads_from: [[0, 0, -1000], [1000, 0, 0]]\n",
+                           "min_force: 150\nloads_from: [[0, 0, -1000], [300, 0, -1000]]\n"}) {
+    const PoseVerification other = verify_poses(
+        slice, parse_pose_task(std::string("format: 1\nbox: {x: [0, 0.001], y: [0, 0.001]}\n") + more, slice));
+    ASSERT_EQ(other.verdict, Verdict::refuted) << more;
+    ASSERT_EQ(other.witness->load.size(), 3U);
+    const Eigen::Vector3d load(other.witness->load.data());
+    const Eigen::VectorXd legs =
+        leg_forces({other.witness->at[0], other.witness->at[1], 0.5, 0, 0, 0}, load).cwiseAbs();
+    if (!other.witness->size) {
+      EXPECT_LT(legs.minCoeff(), 1e-6);
+      continue;
+    }
+    // Nothing but its axial force goes through a leg.
+    const int leg = other.witness->reactions.front().joint.back() - '1';
+    EXPECT_NEAR(legs[leg], *other.witness->size, 1e-6);
+    EXPECT_LT(*other.witness->size, 150);
+  }
+  for (const char* wrong : {"path: [[0, 0], [0.01, 0]]\nloads_from: [[1, 0], [0, 1]]\n",
+                            "polygon: [[0, 0], [0.01, 0], [0, 0.01]]\nloads_from: [[1, 0, 0], [0, 1, 0]]\n",
+                            "circle: {centre: [0, 0], radius: 0.3}\nbox: {x: 0, y: 0}\n",
+                            "circle: {centre: [0, 0], radius: 0.01}\ntolerances: {base: 0.001}\n"})
+    EXPECT_THROW(parse_pose_task(std::string("format: 1\n") + wrong, slice), InputError) << wrong;
 }
 
 TEST(PoseTasks, MarginsOfLengthsAndAnglesAreApartWithoutAMetric) {
