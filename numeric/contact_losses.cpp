@@ -208,7 +208,9 @@ class LossSearch {
                                  watch.force(instant(motion_, interval, right)));
     PressingForce least = watch.pressing(lowest);
     least.rate /= period_;
-    loss.earles_wu = earles_wu(least);
+    // A force that passes through zero turns by half a turn there, at no rate; what is left of it is rounding.
+    constexpr double nothing = 1e-8;  // of the threshold
+    loss.earles_wu = force <= nothing * threshold_ ? HUGE_VAL : earles_wu(least);
   }
 
   ContactLoss& add(LossKind kind, std::size_t interval, double tau) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -79,8 +80,9 @@ std::string loss_words(const core::ContactLoss& loss, const std::string& force) 
     case core::LossKind::zero:
       return what + " = 0";
     case core::LossKind::minimum:
+      if (!std::isfinite(loss.earles_wu)) return what + " = 0";
       return what + fmt::format(" down to {} {}, turning {} rad/(N s)", engineering(loss.force, 4), force,
-                                std::isfinite(loss.earles_wu) ? engineering(loss.earles_wu, 3) : "without bound");
+                                engineering(loss.earles_wu, 3));
     case core::LossKind::jump:
       break;
   }
@@ -161,9 +163,13 @@ std::string trajectory_text(const core::TrajectoryResult& given) {
   const std::string length = shown_unit("m", result.units).name;
   text +=
       fmt::format("{:>14}{:>14}{:>8}{:>14}  {:<10}\n", "time [s]", heading, "stage", "jump [" + length + "]", "what");
+  double largest = 0;
+  for (const core::ContactLoss& loss : result.losses) largest = std::max(largest, loss.displacement);
+  constexpr double rounding = 1e-9;  // of the largest jump: what is left of one that moves other links only
   for (const core::ContactLoss& loss : result.losses)
     text += fmt::format("{:>14.9f}{:>14.6f}{:>8}{:>14}  {}\n", loss.time, shown.scale * loss.distance, loss.stage,
-                        engineering(loss.displacement, 4), loss_words(loss, force));
+                        loss.displacement <= rounding * largest ? "0" : engineering(loss.displacement, 4),
+                        loss_words(loss, force));
   return text + notes_text(result);
 }
 

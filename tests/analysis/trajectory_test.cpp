@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -136,6 +137,94 @@ TEST(FollowTrajectory, CoordinatesMayBeGivenInTime) {
                                {.velocity = {at_time(given, "q_theta_rate", 0.4)},
                                 .acceleration = {at_time(given, "q_theta_acceleration", 0.4)}});
   EXPECT_NEAR(pose.reactions.front().components.back().value, at_time(given, "MA", 0.4), 1e-9);
+}
+
+/// Where the crank stands and the coupler is this long: the rocker's pin, left of the way from crank pin to rocker's
+/// bearing (examples/four_bar.yaml).
+std::array<double, 2> rocker_pin(double bx, double by, double coupler) {
+  const double dx = 1 - bx, dy = -by, apart = std::hypot(dx, dy);
+  const double along = (coupler * coupler - 0.36 + apart * apart) / (2 * apart);
+  const double aside = std::sqrt(coupler * coupler - along * along);
+  return {bx + (along * dx - aside * dy) / apart, by + (along * dy + aside * dx) / apart};
+}
+
+/// The four-bar, closed with a pin or the motor at one end of its clearance and at the other: without the matrix, its
+/// inverse or a linear step. Where the coupler loses its force it is along its line that its pins cross.
+TEST(FollowTrajectory, JumpsAsFarAsTheClosureOfBothSidesSays) {
+  const TrajectoryResult result = follow_trajectory_text(
+      Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml"),
+      "format: 1\npath: {waypoints: [[0], [360 deg]]}\nmotion: {law: constant, speed: 0.5}\n", {.samples = 400});
+  int motors = 0, pins = 0;
+  for (const ContactLoss& loss : result.losses) {
+    const double theta = loss.distance;
+    const auto closed = [&](double turned, double longer) {
+      return rocker_pin(0.3 * std::cos(theta + turned), 0.3 * std::sin(theta + turned), 0.9 + longer);
+    };
+    std::array<double, 2> a{}, b{};
+    double part = 1;
+    if (loss.quantity == Quantity::M) {
+      ++motors;
+      a = closed(-0.5e-3, 0);
+      b = closed(0.5e-3, 0);
+    } else if (loss.joint == "B" || loss.joint == "C") {
+      ++pins;
+      a = closed(0, -10e-6);
+      b = closed(0, 10e-6);
+      // From one direction to the other, between the ends of the time below the threshold: not quite half a turn.
+      part = loss.crossed / 20e-6;
+      EXPECT_TRUE(std::isinf(loss.earles_wu)) << "the force passes through zero";
+    } else {
+      continue;
+    }
+    EXPECT_NEAR(loss.displacement, part * std::hypot(b[0] - a[0], b[1] - a[1]), 1e-8) << loss.joint;
+    EXPECT_NEAR(loss.rotation, loss.displacement / 0.6, 1e-12) << "the rocker is 0.6 m long";
+  }
+  EXPECT_EQ(motors, 4);
+  EXPECT_EQ(pins, 4);
+}
+
+/// The force of a pin at one instant, solved by itself: coordinates and their rates between the samples by Hermite.
+std::array<double, 2> force_at(const TrajectoryResult& result, const ContactLoss& loss, double time) {
+  const std::vector<double>& times = result.samples.at("time");
+  const auto right = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+  const double t0 = times[right - 1], h = times[right] - t0, s = (time - t0) / h;
+  // Quintic with the places, rates and accelerations of both samples.
+  const auto between = [&](const std::string& q) {
+    const auto &p = result.samples.at("q_" + q), &v = result.samples.at("q_" + q + "_rate"),
+               &a = result.samples.at("q_" + q + "_acceleration");
+    const double p0 = p[right - 1], p1 = p[right], v0 = h * v[right - 1], v1 = h * v[right], a0 = h * h * a[right - 1],
+                 a1 = h * h * a[right];
+    const double c3 = 10 * (p1 - p0) - 6 * v0 - 4 * v1 - 1.5 * a0 + 0.5 * a1,
+                 c4 = -15 * (p1 - p0) + 8 * v0 + 7 * v1 + 1.5 * a0 - a1,
+                 c5 = 6 * (p1 - p0) - 3 * (v0 + v1) - 0.5 * (a0 - a1);
+    return std::array{p0 + s * (v0 + s * (a0 / 2 + s * (c3 + s * (c4 + s * c5)))),
+                      (v0 + s * (a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / h,
+                      (a0 + s * (6 * c3 + s * (12 * c4 + s * 20 * c5))) / (h * h)};
+  };
+  const auto x = between("x"), y = between("y");
+  const Pose pose = solve_pose(manipulator(), {x[0], y[0]}, {.velocity = {x[1], y[1]}, .acceleration = {x[2], y[2]}});
+  for (const JointReaction& joint : pose.reactions)
+    if (joint.joint == loss.joint) return {joint.components[0].value, joint.components[1].value};
+  return {};
+}
+
+/// |f x f'| / |f|^3 from differences of the force and of nothing else.
+TEST(FollowTrajectory, TheFigureOfEarlesAndWuIsTheTurnOfTheForceOverItsSize) {
+  const TrajectoryResult result = follow_trajectory(manipulator(), folder + "path.yaml", {.samples = 400});
+  int minima = 0;
+  for (const ContactLoss& loss : result.losses) {
+    if (loss.kind != LossKind::minimum || !std::isfinite(loss.earles_wu)) continue;
+    ++minima;
+    constexpr double step = 1e-6;  // s
+    std::array<std::array<double, 2>, 3> force{};
+    for (int k = 0; k < 3; ++k) force[static_cast<std::size_t>(k)] = force_at(result, loss, loss.time + (k - 1) * step);
+    const double size = std::hypot(force[1][0], force[1][1]);
+    EXPECT_NEAR(size, loss.force, 1e-3 * size);
+    const double turn = std::remainder(std::atan2(force[2][1], force[2][0]) - std::atan2(force[0][1], force[0][0]),
+                                       2 * std::numbers::pi);
+    EXPECT_NEAR(std::abs(turn) / (2 * step) / size, loss.earles_wu, 2e-3 * loss.earles_wu) << loss.joint;
+  }
+  EXPECT_GT(minima, 0);
 }
 
 TEST(FollowTrajectory, ATableIsSplined) {
