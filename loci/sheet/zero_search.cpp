@@ -81,7 +81,6 @@ void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
   };
   if (!cell_.enter(cell.x, cell.y, live.roots) || excluded([&](int f) { return cell_.value(f); }) || known(cell))
     return;
-  if (smoothly_excluded(cell)) return;
   box_.clear();
   const std::vector<int> lifted = cell_.lifted();
   const auto is_free = [&](int c) {
@@ -111,9 +110,13 @@ void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
     if (excluded([&](int f) { return cell_.centred(f); })) return;
     ZeroCount count = krawczyk(cell_, system_, image_);
     if (count == ZeroCount::none) return;
+    // Dearer than all before, and small cells seldom need it.
+    if (count == ZeroCount::unknown && smoothly_excluded(cell)) return;
     for (int trial = 0; count == ZeroCount::unknown && trial < most_widenings; ++trial)
       count = try_wider(box_, lifted, image_);
     if (count == ZeroCount::unique && accept(box_, lifted, image_, cell)) return;
+  } else if (smoothly_excluded(cell)) {
+    return;
   }
   if (settle_touch(cell, roots, lifted) && cell_.enter(cell.x, cell.y, live.roots) && known(cell)) return;
   if (width(cell) < limits_.smallest)
