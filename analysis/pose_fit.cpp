@@ -19,7 +19,7 @@ using core::RationalPose;
 /// proofs that may be tried.
 constexpr double most_places = 1000, most_triangles = 1e6;
 constexpr std::size_t most_searched = 48, most_climbs = 4;
-constexpr int most_proofs = 12;
+constexpr int most_proofs = 12, most_looks = 60;
 /// Steps from a place that verifies towards the task: a thousandth of the way.
 constexpr int halvings = 10;
 
@@ -46,13 +46,20 @@ class Placing {
     std::size_t failed = 0, found = places.size();  // places below `failed` were passed over
     int proofs = 0;
     const auto good = [&](std::size_t i) { return judge_.verified(core::moved(task_.shape, places[i].by)); };
-    for (std::size_t i = 0, leap = 1; i < places.size() && proofs < most_proofs; ++proofs, leap *= 2) {
-      if (good(i)) {
+    const double margin = core::to_double(task_.margin);
+    int looks = 0;
+    for (std::size_t i = 0, leap = 1; i < places.size() && proofs < most_proofs && looks < most_looks;) {
+      // Where a locus is met nearby no proof is tried.
+      ++looks;
+      const bool room = judge_.room(core::moved(task_.shape, places[i].by)) > margin;
+      if (room && good(i)) {
         found = i;
         break;
       }
       failed = i + 1;
+      if (room) ++proofs;
       i += leap;
+      leap += looks % 4 == 0 ? leap : 0;
     }
     if (found == places.size()) return std::nullopt;
     while (failed < found && proofs < 2 * most_proofs) {

@@ -37,6 +37,8 @@ using mechanism::Mechanism;
 /// Of the margin and of least reactions, to how much of themselves they are proven, and the cells that this may take.
 constexpr double margin_accuracy = 0.05, least_accuracy = 0.1;
 constexpr long cells_of_a_margin = 250'000, cells_of_least = 60'000;
+/// Of each place or scale that a fit tries: beside a locus in six coordinates a proof may take all that it is given.
+constexpr long cells_of_a_trial = 60'000;
 
 std::vector<Mechanism> under_loads_of(const PoseTask& task, const Mechanism& mechanism) {
   if (!task.loads) return {mechanism};
@@ -139,7 +141,7 @@ class Verifier {
     return near.empty() ? std::numeric_limits<double>::infinity() : near.front().distance;
   }
 
-  PoseVerification verify(bool measured) {
+  PoseVerification verify(bool measured, const loci::pose::PoseEffort& most = {}) {
     PoseVerification result;
     result.task = task_;
     result.mechanism = mechanism_.name;
@@ -163,7 +165,7 @@ class Verifier {
         result.verdict = core::Verdict::refuted;
         return result;
       }
-    loci::pose::PoseEffort effort;
+    loci::pose::PoseEffort effort = most;
     effort.deadline = request_.deadline;
     const loci::pose::PoseProof proof = loci::pose::prove_poses(statics_, region_, margin_, refuted, effort);
     result.verdict = proof.verdict;
@@ -373,7 +375,7 @@ PoseVerification fit_poses(const Mechanism& mechanism, const PoseTask& task, Pos
   Verifier verifier(mechanism, task, request);
   const PoseJudge judge{[&](const core::PoseShape& shape) {
                           verifier.place(shape);
-                          return verifier.verify(false).verified();
+                          return verifier.verify(false, {.most_cells = cells_of_a_trial}).verified();
                         },
                         [&](const core::PoseShape& shape) { return verifier.looks_good(shape); },
                         [&](const core::PoseShape& shape) { return verifier.room(shape); }};
