@@ -214,7 +214,31 @@ class Conditions {
            });
   }
 
-  int factor_function(const Poly& natural) { return function_of({1, {PolyFactor{natural, 1}}}, 1); }
+  /// What a factor is but for a positive number: all that its sign is asked of.
+  int factor_function(const Poly& natural) {
+    return function_of({1, {PolyFactor{natural, 1}}}, magnitude({1, {PolyFactor{natural, 1}}}));
+  }
+
+  /// The power of two next to a product of the largest coefficients: with it for a unit the values are numbers that
+  /// doubles hold, whatever the integers that the factors are made of.
+  static Rational magnitude(const FactoredPoly& product) {
+    long exponent = 0;
+    for (const PolyFactor& factor : product.factors) {
+      const core::Polynomial plain = factor.poly.plain();
+      const Rational gained =
+          core::scaled_for_doubles(plain).terms.front().coefficient / plain.terms.front().coefficient;
+      const auto bits = [](const core::Integer& part) {
+        return static_cast<long>(mpz_sizeinbase(part.get_mpz_t(), 2));
+      };
+      exponent += factor.multiplicity * (bits(gained.get_den()) - bits(gained.get_num()));
+    }
+    Rational result = 1;
+    if (exponent >= 0)
+      result <<= static_cast<mp_bitcnt_t>(exponent);
+    else
+      result >>= static_cast<mp_bitcnt_t>(-exponent);
+    return result;
+  }
 
   /// product / unit.
   int function_of(const FactoredPoly& product, const Rational& unit) {
@@ -248,7 +272,9 @@ class Conditions {
         if (determinant_.multiplicity(factor.poly) == 0) condition.factors.push_back(factor_function(factor.poly));
     FactoredPoly denominator = determinant_;
     multiply(denominator, of_determinant, -1);
-    const Rational unit = size ? denominator.constant : all.front().constant;
+    FactoredPoly first = size ? denominator : all.front();
+    if (!size) multiply(first, shared, -1);
+    const Rational unit = (size ? denominator.constant : all.front().constant) * magnitude(first);
     if (size) condition.denominator = function_of(denominator, unit);
     bool constant = true;
     for (std::size_t i = 0; i < parts.size(); ++i) {

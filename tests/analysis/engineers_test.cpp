@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "clearloci/pose.hpp"
+#include "clearloci/verify.hpp"
 
 namespace clearloci {
 namespace {
@@ -34,28 +35,99 @@ Vector2d apex(const Vector2d& a, const Vector2d& b, double from_a, double from_b
   return a + along * u + side * std::sqrt(from_a * from_a - along * along) * turned(u);
 }
 
-TEST(Hexapod, LegForcesBalanceTheWrenchOnThePlatform) {
-  const Model model = example("hexapod.yaml");
+/// What the legs of the hexapod push with, at (x, y) of its slice.
+Eigen::Matrix<double, 6, 1> leg_forces(double x, double y) {
   const double on_base[] = {12, 108, 132, 228, 252, 348}, on_top[] = {48, 72, 168, 192, 288, 312};
   const Eigen::Matrix3d R =
       (Eigen::AngleAxisd(10 * degree, Vector3d::UnitZ()) * Eigen::AngleAxisd(5 * degree, Vector3d::UnitX()))
           .toRotationMatrix();
+  const Vector3d P(x, y, 0.45);
+  Eigen::Matrix<double, 6, 6> lines;
+  for (int i = 0; i < 6; ++i) {
+    const Vector3d A(0.35 * std::cos(on_base[i] * degree), 0.35 * std::sin(on_base[i] * degree), 0),
+        arm = R * Vector3d(0.2 * std::cos(on_top[i] * degree), 0.2 * std::sin(on_top[i] * degree), 0),
+        u = (P + arm - A).normalized();
+    lines.col(i) << u, arm.cross(u);
+  }
+  Eigen::Matrix<double, 6, 1> wrench;
+  wrench << 30, 0, -5 * 9.81, 0, 0, 0;
+  return lines.partialPivLu().solve(-wrench);
+}
+
+TEST(Hexapod, LegForcesBalanceTheWrenchOnThePlatform) {
+  const Model model = example("hexapod.yaml");
   for (const std::vector<double>& at : {std::vector<double>{0, 0}, {0.12, -0.2}, {-0.25, 0.1}}) {
-    const Vector3d P(at[0], at[1], 0.45);
-    Eigen::Matrix<double, 6, 6> lines;
-    for (int i = 0; i < 6; ++i) {
-      const Vector3d A(0.35 * std::cos(on_base[i] * degree), 0.35 * std::sin(on_base[i] * degree), 0),
-          arm = R * Vector3d(0.2 * std::cos(on_top[i] * degree), 0.2 * std::sin(on_top[i] * degree), 0),
-          u = (P + arm - A).normalized();
-      lines.col(i) << u, arm.cross(u);
-    }
-    Eigen::Matrix<double, 6, 1> wrench;
-    wrench << 30, 0, -5 * 9.81, 0, 0, 0;
-    const Eigen::Matrix<double, 6, 1> forces = lines.partialPivLu().solve(-wrench);
+    const Eigen::Matrix<double, 6, 1> forces = leg_forces(at[0], at[1]);
     const Pose pose = solve_pose(model, at);
     for (int i = 0; i < 6; ++i)
       EXPECT_NEAR(component(pose, "S" + std::to_string(i + 1), Quantity::F), forces(i), 1e-9) << i;
     EXPECT_EQ(pose.notes.size(), 1U) << "the fit of the crosses";
+  }
+}
+
+/// Its equations are made of integers of hundreds of digits: places on circles are known to 1e-30.
+TEST(Hexapod, KeepsItsLegsLoadedOverATask) {
+  const Model model = example("hexapod.yaml");
+  const Verification proven = verify_task(model, read_task(CLEARLOCI_SOURCE_DIR "/examples/tasks/hexapod.yaml", model));
+  ASSERT_EQ(proven.verdict, Verdict::verified);
+  EXPECT_GT(proven.margin, 0.1);
+  ASSERT_TRUE(proven.nearest);
+  // Leg by leg by hand: of one sign all over the task and its margin, and one of them nothing at the nearest point.
+  const Eigen::Matrix<double, 6, 1> middle = leg_forces(0, 0);
+  constexpr int n = 40;
+  for (int i = 0; i <= n; ++i)
+    for (int k = 0; k <= n; ++k) {
+      const double x = -0.12 + 0.24 * i / n, y = -0.12 + 0.24 * k / n;
+      const double beyond = std::hypot(std::max(0.0, std::abs(x) - 0.02), std::max(0.0, std::abs(y) - 0.02));
+      if (beyond > proven.margin) continue;
+      const Eigen::Matrix<double, 6, 1> here = leg_forces(x, y);
+      for (int leg = 0; leg < 6; ++leg) EXPECT_GT(here(leg) * middle(leg), 0) << x << " " << y;
+    }
+  const Eigen::Matrix<double, 6, 1> nearest = leg_forces(proven.nearest->at[0], proven.nearest->at[1]);
+  EXPECT_LT(nearest.cwiseAbs().minCoeff(), 1e-4);
+}
+
+/// The cylinders of the excavator: moments of what they hold about the pin that they turn, by hand.
+TEST(Excavator, CylindersHoldTheBucket) {
+  const Model model = example("excavator.yaml");
+  const Vector2d O(0, 0), Cb(0.4, -0.5), digging(-3e3, -20e3), weight(0, -500);
+  const auto offset = [](const Vector2d& from, const Vector2d& to, double along, double left) -> Vector2d {
+    const Vector2d u = (to - from).normalized();
+    return from + along * u + left * turned(u);
+  };
+  for (const Vector2d& W : {Vector2d(4, -1), Vector2d(5, 1), Vector2d(3, -2)}) {
+    const Vector2d K = apex(O, W, 4.0, 2.2, 1), Eb = offset(O, K, 2.0, -0.3), Ec = offset(O, K, 1.8, 0.5),
+                   Et = offset(K, W, -0.5, 0.2);
+    const Vector2d arm = (Et - Ec).normalized(), boom = (Eb - Cb).normalized();
+    const Pose pose = solve_pose(model, {W(0), W(1)});
+    EXPECT_NEAR(component(pose, "P2", Quantity::F), -cross(W - K, digging) / cross(Et - K, arm), 1e-6);
+    EXPECT_NEAR(component(pose, "P1", Quantity::F), -(cross(W, digging) + cross(K, weight)) / cross(Eb, boom), 1e-6);
+  }
+}
+
+/// The knee of the press: the ram's force up the lower bar, the pitman's across the knee, moment by moment.
+TEST(TogglePress, CrankTurnsTheKnee) {
+  const Model model = example("toggle_press.yaml");
+  constexpr double g = 9.81, F = 50e3;
+  const Vector2d O(-0.45, 0.55), T(0, 0.8), down(0, -1);
+  for (const double theta : {0.4, 1.7, 3.9, 5.6}) {
+    const Vector2d A = O + 0.04 * Vector2d(std::cos(theta), std::sin(theta)), K = apex(A, T, 0.42, 0.25, -1);
+    const Vector2d R(0, K(1) - std::sqrt(0.25 * 0.25 - K(0) * K(0)));
+    // The lower bar on the ram: up and down they balance; about the knee so does the bar itself.
+    const double up = 80 * g - F;  // of the bar at R on the ram, along y
+    const double across = (R - K)(0) * (up + 15 * g / 2) / (R - K)(1);
+    // Of the ram on the bar: (-across, -up); of the bar on the knee's pin: what is left of it and its weight.
+    const Vector2d lower(-across, -up - 15 * g);
+    // Upper bar and pin about T: the pitman's force p on the pin; pitman about A.
+    //   (K - T) x (lower + p) + (K - T)/2 x weight = 0,  (K - A) x (-p) + (K - A)/2 x weight = 0
+    Eigen::Matrix2d m;
+    m << -(K - T)(1), (K - T)(0), (K - A)(1), -(K - A)(0);
+    const Vector2d p = m.partialPivLu().solve(
+        Vector2d(-cross(K - T, lower) - cross((K - T) / 2, 15 * g * down), -cross((K - A) / 2, 9 * g * down)));
+    const Vector2d on_crank = 9 * g * down - p;
+    const double moment = -cross(A - O, on_crank) - cross((A - O) / 2, 12 * g * down);
+    EXPECT_NEAR(component(solve_pose(model, {theta}), "O", Quantity::M), moment, 1e-6 * std::abs(moment) + 1e-6)
+        << theta;
   }
 }
 
