@@ -78,11 +78,11 @@ int steeper_axis(const SheetCell& cell) {
 /// What second-order enclosures tell of a cell. False: plain ones may tell more.
 bool judge_smoothly(SmoothCell& cell, const Cell& place, Judgement& judgement) {
   const SmoothCell::Place found = cell.enter(place.x, place.y);
-  if (found == SmoothCell::Place::unknown) return false;
-  if (found == SmoothCell::Place::outside || !cell.value().contains_zero()) {
+  if (found == SmoothCell::Place::outside || cell.excludes(0)) {
     judgement.kind = LeafKind::empty;
     return true;
   }
+  if (found == SmoothCell::Place::unknown) return false;
   judgement.cut_axis = cell.slope(0).magnitude() >= cell.slope(1).magnitude() ? 0 : 1;
   double best = 0;
   for (const int along : {0, 1}) {
@@ -100,10 +100,10 @@ Judgement judge(SheetCell& cell, SmoothCell* smooth, const Cell& place, double p
   if (!cell.enter(place.x, place.y) || !cell.value(0).contains_zero()) return {LeafKind::empty};
   const double width = std::max(place.x.width(), place.y.width());
   Judgement judgement;
-  if (smooth != nullptr && width >= worth_precision * patch_size && judge_smoothly(*smooth, place, judgement))
-    return judgement;
+  const bool worthwhile = smooth != nullptr && (width >= worth_precision * patch_size || smooth->tells_of_tiny_cells());
+  if (worthwhile && judge_smoothly(*smooth, place, judgement)) return judgement;
   cell.differentiate();
-  if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
+  if (!cell.centred(0).contains_zero() || cell.is_beyond_a_rim()) return {LeafKind::empty};
   double best = 0;
   for (int c = 0; c < cell.dimension(); ++c) {
     const Interval tangent = cell.tangent(0, c);

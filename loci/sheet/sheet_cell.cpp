@@ -210,6 +210,18 @@ Interval SheetCell::centred(int function) const {
   return meet(sum, over_.value(function));
 }
 
+bool SheetCell::is_beyond_a_rim() const {
+  for (std::size_t l = 0; l < lifted_.size(); ++l) {
+    const std::size_t own = 2 + l;
+    Interval square = squared(Interval(middle_[own])) - middle_bonds_[l];
+    for (std::size_t c = 0; c < local_.size(); ++c)
+      if (c != own && !is_zero(bond_slopes_[l][c]))
+        square = square - bond_slopes_[l][c] * (local_[c] - Interval(middle_[c]));
+    if (square.upper() < 0) return true;
+  }
+  return false;
+}
+
 Interval SheetCell::tangent(int function, int c) const {
   const int n = dimension();
   if (n == 2) return c == 0 ? slopes_[function][1] : -slopes_[function][0];

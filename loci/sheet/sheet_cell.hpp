@@ -55,6 +55,9 @@ class SheetCell {
   /// Mean-value form f(m) + sum slope_c (X_c - m_c), met with the plain enclosure.
   Interval centred(int function) const;
 
+  /// By the mean-value form of a lifted root's square: proven to lie outside the workspace.
+  bool is_beyond_a_rim() const;
+
   /// Tangent of the curve f = 0 along coordinate `c`: the minor of (slopes of f, slopes of G) without column c, signed.
   /// A minor free of 0 means that every value of coordinate `c` is taken at most once on the curve in the cell.
   Interval tangent(int function, int c) const;

@@ -14,25 +14,37 @@ bool is_known(const Jet& a) {
   return a.bounded && is_finite(a.value) && is_finite(a.slope[0]) && is_finite(a.slope[1]);
 }
 
+/// Not known where it may be 0, though a later root may be proven to have no value all the same: an angle is told by no
+/// enclosure where it is cut, where the root of what is left to the cut ends the workspace.
+Jet root_of(const Jet& square) {
+  if (is_known(square) && square.value.lower() > 0) return square_root(square);
+  Jet root;
+  root.bounded = false;
+  return root;
+}
+
 }  // namespace
 
 SmoothCell::SmoothCell(const SheetProgram& program, core::WorkingMode mode)
-    : program_(&program), mode_(std::move(mode)), registers_(program.registers<Jet>()) {}
+    : program_(&program),
+      mode_(std::move(mode)),
+      registers_(program.registers<Jet>()),
+      has_angles_(program.has_angles()) {}
 
 SmoothCell::Place SmoothCell::enter(const Interval& x, const Interval& y) {
   registers_.set(0, Jet(x, 0));
   registers_.set(1, Jet(y, 1));
+  bool known = true;
   for (int j = 0; j < program_->roots(); ++j) {
     registers_.run_square(j);
     const Jet& square = registers_.square(j);
-    if (!is_known(square)) return Place::unknown;
-    if (square.value.upper() < 0) return Place::outside;
-    if (square.value.lower() <= 0) return Place::unknown;
-    const Jet root = square_root(square);
+    if (square.bounded && square.value.upper() < 0) return Place::outside;
+    const Jet root = root_of(square);
+    known = known && is_known(root);
     registers_.set(2 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
   }
   registers_.run_values();
-  return is_known(registers_.value(0)) ? Place::inside : Place::unknown;
+  return known && is_known(registers_.value(0)) ? Place::inside : Place::unknown;
 }
 
 bool SmoothCell::excludes(int function) const {

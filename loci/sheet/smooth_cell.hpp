@@ -21,9 +21,14 @@ class SmoothCell {
   };
   Place enter(const Interval& x, const Interval& y);
 
+  /// On cells of every size it may tell what plain enclosures do not: where an angle is cut the workspace ends so near
+  /// to an extreme of what is left to the cut, a cosine, that plain enclosures exclude only the tiniest cells.
+  bool tells_of_tiny_cells() const { return has_angles_; }
+
   /// After Place::inside.
   const Interval& value() const { return registers_.value(0).value; }
-  /// After Place::inside: the function is proven to vanish nowhere on the cell.
+  /// After Place::inside or Place::unknown: the function is proven to vanish nowhere on the cell. It may be although a
+  /// root is not known, as one that it does not hold.
   bool excludes(int function) const;
   /// After Place::inside: the square of no root varies much over the cell.
   bool is_far_from_rims() const;
@@ -34,6 +39,7 @@ class SmoothCell {
   const SheetProgram* program_;
   core::WorkingMode mode_;
   SheetProgram::Registers<Jet> registers_;
+  bool has_angles_;
 };
 
 /// None where plain enclosures do: no root is nested, or the program is too long for the price.

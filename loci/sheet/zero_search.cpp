@@ -142,10 +142,9 @@ bool ZeroSearch::settle_touch(const Cell& cell, const std::vector<Interval>& roo
 
 bool ZeroSearch::smoothly_excluded(const Cell& cell) {
   if (!smooth_) return false;
-  const SmoothCell::Place place = smooth_->enter(cell.x, cell.y);
-  return place == SmoothCell::Place::outside ||
-         (place == SmoothCell::Place::inside && std::any_of(system_.functions.begin(), system_.functions.end(),
-                                                            [this](int f) { return smooth_->excludes(f); }));
+  return smooth_->enter(cell.x, cell.y) == SmoothCell::Place::outside ||
+         std::any_of(system_.functions.begin(), system_.functions.end(),
+                     [this](int f) { return smooth_->excludes(f); });
 }
 
 /// A root whose range makes a function vary more than the cell's extent does is cut before the cell.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/loci.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/zones.hpp"
@@ -150,6 +151,19 @@ TEST(Torsion, LeavesTheCurvesOfOthersAlone) {
         if (std::hypot(p[0], p[1]) > 1e-3) {
           EXPECT_NEAR(first_motor(p[0], p[1], 150 * degree), 0, 1e-6);
         }
+  }
+}
+
+// Random designs of which chains of cells along the cut were left open: there the workspace ends within 1e-6 of an
+// extreme of the cosine that tells it.
+TEST(Torsion, CurvesBesideTheCutAreCertified) {
+  for (const char* const name : {"torsion_at_an_elbow", "torsion_cut_meets_a_rim", "torsion_at_coaxial_bases"}) {
+    SCOPED_TRACE(name);
+    const auto file = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/springs/" + name + ".yaml";
+    const Validation validation = validate_loci(mechanism::read_mechanism(file), {}, {40, 40});
+    EXPECT_EQ(validation.report.disputed, 0U);
+    for (const LocusCurve& curve : validation.map.curves)
+      EXPECT_TRUE(curve.certified) << curve.id << " " << curve.cause;
   }
 }
 
