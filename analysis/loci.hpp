@@ -85,8 +85,8 @@ core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociReques
 /// Whether the free coordinates are x and y of the end effector's point: a picture over them then shows the mechanism.
 bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism);
 
-/// The mechanism in a sample posture of every working mode of the map, for its pictures: in the plane of the loci where the
-/// free coordinates are the place of the end effector's point, else beside them.
+/// The mechanism in a sample posture of every working mode of the map, for its pictures: in the plane of the loci where
+/// the free coordinates are the place of the end effector's point, else beside them.
 std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map);
 
 }  // namespace clearloci
