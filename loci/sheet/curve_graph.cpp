@@ -16,6 +16,8 @@ constexpr unsigned most_attempts = 4;
 // A cell edge on which the curve cannot be told apart at this size, relative to the patch, is an unlucky edge.
 constexpr double smallest_on_edge = 1e-14;
 constexpr std::size_t most_cells_on_edge = 512;
+// In a sketch an edge on which so many cells tell nothing, as where the curve runs along it, is left open.
+constexpr std::size_t most_cells_on_edge_of_a_sketch = 16;
 // Of crossings, relative to the patch: a tenth of what vertices are held to.
 constexpr double accuracy = 1e-13;
 constexpr std::size_t most_rim_cells = 8192;
@@ -102,8 +104,8 @@ class GraphBuilder {
     const Cell& domain = graph_.patches[patch].domain;
     const double size = std::max(domain.x.width(), domain.y.width());
     const Cell segment = axis == 0 ? Cell{at, {from, to}} : Cell{{from, to}, at};
-    FoundZeros found =
-        search.run({segment}, {smallest_on_edge * size, most_cells_on_edge, accuracy * size, options_.stop});
+    const std::size_t most_cells = options_.extended ? most_cells_on_edge : most_cells_on_edge_of_a_sketch;
+    FoundZeros found = search.run({segment}, {smallest_on_edge * size, most_cells, accuracy * size, options_.stop});
     if (!found.undecided.empty()) return std::nullopt;
     for (const std::vector<Interval>& zero : found.enclosures) {
       if (!inside(zero[1 - axis], Interval(from, to))) return std::nullopt;
