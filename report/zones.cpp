@@ -146,33 +146,56 @@ std::string zones_geojson(const core::ZoneMap& map) {
   return json_text(root);
 }
 
+namespace {
+
+constexpr int area_digits = 7, place_digits = 6;
+
+/// Without those of reactions that no load reaches, which a note tells.
+std::string sign_list(const core::ZoneMap& map, const core::Zone& zone) {
+  const std::vector<std::string>& notes = map.loci.notes;
+  std::string signs;
+  for (const auto& [reaction, sign] : zone.signs) {
+    const std::string unloaded = core::to_string(reaction.quantity) + reaction.joint + " is zero in every pose";
+    if (std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note.rfind(unloaded, 0) == 0; }))
+      continue;
+    signs += (signs.empty() ? "" : " ") + reaction_name(reaction) + sign_words(sign);
+  }
+  return signs;
+}
+
+}  // namespace
+
 std::string zones_table(const core::ZoneMap& in_si) {
   const core::ZoneMap map = in_file_units(in_si);
   const std::string& unit = map.loci.units.length.name;
+  int widest = 18;
+  for (const core::Zone& zone : map.zones) widest = std::max(widest, columns(sign_list(map, zone)));
+  const auto row = [&](const std::string& zone, const std::string& sign, const std::string& signs,
+                       const std::string& area, const std::string& rest) {
+    return fmt::format("{:<6} {:<4} {:<{}} {:>12}{}\n", zone, sign, signs, widest, area, rest);
+  };
   std::string out = printable(map.loci.mechanism) + "\n";
   for (const core::WorkingMode& mode : modes_of_zones(map)) {
     const std::string words = printable(mode_words(map.loci.tower, mode));
     out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";
-    out += fmt::format("{:<6} {:<4} {:<18} {:>14}  {:<36} {}\n", "zone", "|A|", "signs", "area/" + unit + "2",
-                       "largest circle/" + unit, "bounded by");
+    out += row("zone", "|A|", "signs", "area/" + unit + "2",
+               fmt::format("  {:<36} {}", "largest circle/" + unit, "bounded by"));
     double total = 0;
     for (const core::Zone& zone : map.zones) {
       if (zone.mode != mode) continue;
       total += zone.area;
-      std::string signs;
-      for (const auto& [reaction, sign] : zone.signs)
-        signs += (signs.empty() ? "" : " ") + reaction_name(reaction) + sign_words(sign);
-      const std::string circle = fmt::format("{:.6g} about ({:.6f}, {:.6f})", zone.inscribed.radius,
-                                             zone.inscribed.centre[0], zone.inscribed.centre[1]);
-      out += fmt::format("{:<6} {:<4} {:<18} {:>14.9f}  {:<36} {}\n", zone.id + (zone.certified ? "" : "*"),
-                         sign_words(zone.assembly_mode), signs, zone.area, circle, border_words(map, zone));
+      const std::string circle = fmt::format("{} about ({}, {})", engineering(zone.inscribed.radius, place_digits),
+                                             engineering(zone.inscribed.centre[0], place_digits),
+                                             engineering(zone.inscribed.centre[1], place_digits));
+      out += row(zone.id + (zone.certified ? "" : "*"), sign_words(zone.assembly_mode), sign_list(map, zone),
+                 engineering(zone.area, area_digits), fmt::format("  {:<36} {}", circle, border_words(map, zone)));
     }
-    out += fmt::format("{:<6} {:<4} {:<18} {:>14.9f}\n", "all", "", "", total);
-    for (const core::ModeArea& area : map.areas) {
-      if (area.mode != mode || area.in_doubt == 0) continue;
-      out += fmt::format("{:<6} {:<4} {:<18} {:>14.9f}  of a workspace of {:.9f}: not certified, or in no zone\n",
-                         "doubt", "", "", area.in_doubt, area.workspace);
-    }
+    out += row("all", "", "", engineering(total, area_digits), "");
+    for (const core::ModeArea& area : map.areas)
+      if (area.mode == mode && area.in_doubt != 0)
+        out += row("doubt", "", "", engineering(area.in_doubt, area_digits),
+                   fmt::format("  of a workspace of {}: not certified, or in no zone",
+                               engineering(area.workspace, area_digits)));
   }
   if (modes_of_zones(map).empty()) out += "\nno zones: the mechanism reaches nothing in the box\n";
   const bool doubtful = std::any_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return !z.certified; });

@@ -10,6 +10,7 @@
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
 #include "report/wording.hpp"
+#include "report/zones.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -46,6 +47,25 @@ TEST(FileUnits, AreThoseOfTablesCsvAndDrawings) {
   EXPECT_TRUE(has(csv(map), "closed,x (mm),y (mm)\n")) << csv(map);
   EXPECT_TRUE(has(csv(map), ",250,500\n")) << csv(map);
   EXPECT_TRUE(has(dxf(map), "$INSUNITS\n 70\n4\n"));
+}
+
+/// Columns align whatever the signs are, and a reaction that nothing loads is told by its note alone.
+TEST(ZonesTable, AlignsAndLeavesOutWhatNothingLoads) {
+  core::ZoneMap map;
+  map.loci = line_in_mm();
+  map.loci.notes = {"NS is zero in every pose: no load reaches it"};
+  core::Zone zone;
+  zone.id = "z1";
+  zone.assembly_mode = 1;
+  zone.area = 0.125;
+  zone.certified = true;
+  zone.signs = {{{"S", core::Quantity::N}, 0}};
+  for (const char* joint : {"A1", "A2", "A3", "A4"}) zone.signs.push_back({{joint, core::Quantity::M}, -1});
+  map.zones = {zone};
+  const std::string table = zones_table(map);
+  EXPECT_FALSE(has(table, "N_S")) << table;
+  EXPECT_TRUE(has(table, "M_A1- M_A2- M_A3- M_A4-       125000")) << table;
+  EXPECT_EQ(table.find("area/mm2") + 8 - table.find("zone "), table.find("125000") + 6 - table.find("z1 ")) << table;
 }
 
 TEST(FileUnits, LeaveJsonAndFilesWithoutThemInSi) {
