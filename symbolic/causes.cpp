@@ -113,7 +113,7 @@ Poly Causes::stretched(PointIndex elbow, const mechanism::DyadPoint& dyad) const
 }
 
 std::string Causes::stretched_wording(PointIndex elbow, const mechanism::DyadPoint& dyad) const {
-  if (!dyad.axis) return of(stretched(elbow, dyad));
+  if (!dyad.axis) return of_determinant(stretched(elbow, dyad));
   const auto name = [&](PointIndex i) { return geometry_->mechanism().points[static_cast<std::size_t>(i)].name; };
   return name(dyad.from) + ", " + name(elbow) + ", " + name(dyad.to) + " aligned as seen along the axis of " +
          name(elbow);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "core/errors.hpp"
 #include "mechanism/read.hpp"
@@ -44,6 +46,18 @@ TEST(LocusProblem, OneFactorBearsEveryReactionOfTheUnloadedLeg) {
   EXPECT_FALSE(has(*factor, "B2", Quantity::fy));
   EXPECT_FALSE(has(*factor, "A2", Quantity::M));
   EXPECT_TRUE(derived.notes.empty());
+}
+
+// Under a load towards A1 a stretched leg is parallel to the load, too: the workspace ends there whatever the load is.
+TEST(LocusProblem, WorkspaceBoundariesAreNotNamedByLoads) {
+  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string vertical = "force: [0, -100]";
+  text.replace(text.find(vertical), vertical.size(), "force: '30*(A1 - P)'");
+  const auto derived = locus_problem(mechanism::parse_mechanism(text, "pulled.yaml"), {});
+  EXPECT_NE(with_cause(derived.problem, FactorRole::workspace_boundary, "A1, B1, P aligned"), nullptr);
+  for (const LocusFactor& factor : derived.problem.factors)
+    EXPECT_TRUE(factor.role != FactorRole::workspace_boundary || factor.cause.find("load") == std::string::npos);
 }
 
 TEST(LocusProblem, SheetsVanishWhereTheFactorDoes) {
