@@ -6,6 +6,7 @@ set(CLEARLOCI_PYTHON "AUTO" CACHE STRING "Build the Python module: ON, OFF, or A
 option(CLEARLOCI_WORKBENCH "Build `clearloci view` and `--export html`; wants Node.js, npm and cpp-httplib" ON)
 option(CLEARLOCI_BROWSER_TESTS "Test the page of the workbench in Chromium, too, where that is found" ON)
 option(CLEARLOCI_WARNINGS_AS_ERRORS "Treat warnings in this project's code as errors" OFF)
+option(CLEARLOCI_UNITY "Compile the folders' sources eight at a time: quicker from nothing, slower after a change" OFF)
 option(CLEARLOCI_FUZZ "Build the fuzzers alone, with what they throw bytes at; wants Clang" OFF)
 set(CLEARLOCI_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined")
 
@@ -51,6 +52,13 @@ function(clearloci_folder folder)
     $<INSTALL_INTERFACE:include>)
   target_compile_features(clearloci_${folder} PUBLIC cxx_std_20)
   clearloci_warnings(clearloci_${folder})
+  set_target_properties(clearloci_${folder} PROPERTIES UNITY_BUILD ${CLEARLOCI_UNITY})
+endfunction()
+
+# clearloci_alone(<sources...>): sources of a folder that are compiled alone in any case, as they call something of
+# their own by a name that another one of the folder uses for something of its own.
+function(clearloci_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # -Wno-restrict: GCC 12 sees overlapping copies in every `"text" + std::string()` (its bug 105651, mended in 13).

@@ -11,6 +11,7 @@
 #include "core/pose_shape.hpp"
 #include "report/axis.hpp"
 #include "report/file_units.hpp"
+#include "report/mechanism_drawing.hpp"
 #include "report/pose_verification.hpp"
 #include "report/surface.hpp"
 #include "report/theme.hpp"
@@ -34,9 +35,6 @@ constexpr double most_growth = 4;
 
 const Colour& colour_of(const core::PoseVerification& result) {
   return result.verified() ? light_theme.verified : light_theme.failed;
-}
-void set_colour(const Context& context, const Colour& colour, double strength = 1) {
-  context->set_source_rgba(colour.red, colour.green, colour.blue, strength);
 }
 
 /// As on white, but covering what is below.

@@ -9,6 +9,7 @@
 
 #include "report/axis.hpp"
 #include "report/file_units.hpp"
+#include "report/mechanism_drawing.hpp"
 #include "report/pose_zones.hpp"
 #include "report/surface.hpp"
 #include "report/theme.hpp"
@@ -48,10 +49,6 @@ Scale scale_of(const core::PoseZones& map, std::size_t c) {
 
 const Colour& colour_of(int zone) {
   return light_theme.zones[static_cast<std::size_t>(zone - 1) % light_theme.zones.size()];
-}
-
-void set_colour(const Context& context, const Colour& colour) {
-  context->set_source_rgb(colour.red, colour.green, colour.blue);
 }
 
 /// Labels row after row, the first coordinate to the right.
