@@ -229,13 +229,10 @@ class Parser {
       }
     }
     const std::string literal = text_.substr(start, end - start);
-    // Bounds of what stands around it are doubles.
-    static const core::Rational largest = core::rational_from_decimal("1e300");
     try {
-      const core::Rational value = core::rational_from_decimal(literal);
-      if (value > largest) fail(start, "'" + literal + "' is larger than 1e300", "write it in m, kg, s, N and rad");
+      Expression result = Expression::number(core::rational_from_decimal(literal));
       skip(end - start);
-      return Expression::number(value);
+      return result;
     } catch (const std::invalid_argument& error) {
       fail(start, error.what(), "numbers are written 0.5, 10e-6 or 1/3");
     }

