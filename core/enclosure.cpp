@@ -54,7 +54,10 @@ struct Enclosing {
   using Value = Interval;
   const Ranges& ranges;
 
-  Interval number(const Rational& value) const { return enclosed(value); }
+  /// A number beyond the range of doubles may stand in what is small all the same, as a factor of 0.
+  Interval number(const Rational& value) const {
+    return std::isfinite(to_double(value)) ? enclosed(value) : Interval(-unbounded, unbounded);
+  }
   Interval symbol(const std::string& name) const { return ranges.at(name); }
   Interval pi() const { return enclosed_pi(); }
   Interval negate(const Interval& a) const { return -a; }
