@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
+#include "core/powers_of_two.hpp"
 
 namespace clearloci::inline core {
 namespace {
@@ -171,17 +172,7 @@ Polynomial scaled_for_doubles(const Polynomial& p) {
   if (p.is_zero()) return p;
   Rational largest = 0;
   for (const Term& term : p.terms) largest = std::max(largest, Rational(abs(term.coefficient)));
-  const auto bits = [](const Integer& value) { return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2)); };
-  const auto times_power_of_two = [](const Rational& value, long exponent) {
-    Rational result;
-    if (exponent >= 0)
-      mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-    else
-      mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-    return result;
-  };
-  // |largest| lies between 2^(difference - 1) and 2^(difference + 1).
-  long exponent = bits(largest.get_den()) - bits(largest.get_num());
+  long exponent = -binary_exponent(largest);
   if (times_power_of_two(largest, exponent) < 1) ++exponent;
   Polynomial result = p;
   for (Term& term : result.terms) term.coefficient = times_power_of_two(term.coefficient, exponent);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/powers_of_two.hpp"
+
 namespace clearloci::symbolic {
 
 using core::Polynomial;
@@ -19,25 +21,6 @@ StraightLine StraightLines::of(const Poly& natural) {
   return builder_.line(value(core::scaled_for_doubles(natural.plain())));
 }
 
-namespace {
-
-Rational power_of_two(long exponent) {
-  Rational result = 1;
-  if (exponent >= 0)
-    result <<= static_cast<mp_bitcnt_t>(exponent);
-  else
-    result >>= static_cast<mp_bitcnt_t>(-exponent);
-  return result;
-}
-
-/// Of the power of two next to a number that is not 0.
-long exponent_of(const Rational& value) {
-  const auto bits = [](const core::Integer& part) { return static_cast<long>(mpz_sizeinbase(part.get_mpz_t(), 2)); };
-  return bits(value.get_num()) - bits(value.get_den());
-}
-
-}  // namespace
-
 StraightLine StraightLines::of(const Rational& constant, const std::vector<PolyFactor>& factors) {
   // Coefficients in the range of doubles, by powers of two that the constant takes back. What it would be beyond that
   // range by, the factors share: their values are as far beyond it the other way.
@@ -51,12 +34,12 @@ StraightLine StraightLines::of(const Rational& constant, const std::vector<PolyF
     for (int i = 0; i < factor.multiplicity; ++i, ++count) scale /= gained;
   }
   constexpr long within_doubles = 256;
-  const long exponent = scale == 0 ? 0 : exponent_of(scale);
+  const long exponent = scale == 0 ? 0 : core::binary_exponent(scale);
   const long share = count > 0 && std::abs(exponent) > within_doubles ? exponent / count : 0;
-  scale *= power_of_two(-share * count);
+  scale = core::times_power_of_two(scale, -share * count);
   int product = builder_.constant(scale);
   for (std::size_t f = 0; f < factors.size(); ++f) {
-    for (core::Term& term : scaled[f].terms) term.coefficient *= power_of_two(share);
+    for (core::Term& term : scaled[f].terms) term.coefficient = core::times_power_of_two(term.coefficient, share);
     product = builder_.multiply(product, builder_.power(value(scaled[f]), factors[f].multiplicity));
   }
   return builder_.line(product);

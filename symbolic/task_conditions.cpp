@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "core/fold.hpp"
+#include "core/powers_of_two.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/algebra_turn.hpp"
@@ -227,17 +228,9 @@ class Conditions {
       const core::Polynomial plain = factor.poly.plain();
       const Rational gained =
           core::scaled_for_doubles(plain).terms.front().coefficient / plain.terms.front().coefficient;
-      const auto bits = [](const core::Integer& part) {
-        return static_cast<long>(mpz_sizeinbase(part.get_mpz_t(), 2));
-      };
-      exponent += factor.multiplicity * (bits(gained.get_den()) - bits(gained.get_num()));
+      exponent -= factor.multiplicity * core::binary_exponent(gained);
     }
-    Rational result = 1;
-    if (exponent >= 0)
-      result <<= static_cast<mp_bitcnt_t>(exponent);
-    else
-      result >>= static_cast<mp_bitcnt_t>(-exponent);
-    return result;
+    return core::times_power_of_two(1, exponent);
   }
 
   /// product / unit.
