@@ -1,7 +1,8 @@
-"""The examples of docs/mechanism-file.md that change a shipped mechanism run."""
+"""Every example of docs/mechanism-file.md runs, and so do the commands that other pages show."""
 
 import json
 import re
+import shlex
 import unittest
 
 from program import SOURCE, InOwnFolder
@@ -22,25 +23,56 @@ def sections(text):
 
 
 def changed(base, snippet):
-    """`base` with the joints of the snippet in place of its own, and with the snippet's other sections."""
+    """`base` with the joints, points and frames of the snippet in place of its own or added, and with its other sections."""
     result, more = sections(base), sections(snippet)
-    for entry in more.pop("joints", [])[1:]:
-        name = entry.split(":")[0]
-        result["joints"] = [entry if line.split(":")[0] == name else line for line in result["joints"]]
+    for section in ("joints", "points", "frames"):
+        for entry in more.pop(section, [])[1:]:
+            name = entry.split(":")[0]
+            own = result[section]
+            if any(line.split(":")[0] == name for line in own):
+                result[section] = [entry if line.split(":")[0] == name else line for line in own]
+            else:
+                own.append(entry)
     result.update(more)
     return "\n".join(line for lines in result.values() for line in lines) + "\n"
 
 
+# A pose within reach, by the file that an example changes.
+POSES = {"examples/five_bar.yaml": "0.2,-0.6", "examples/gough_stewart_poses.yaml": "0,0,0.5,0,0,0", None: "0.05,0.02"}
+
+
 class Documented(InOwnFolder):
     def test_examples_run(self):
-        blocks = re.findall(r"^```yaml\n# with (examples/\S+)\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
-        self.assertGreaterEqual(len(blocks), 4)
-        for number, (base, snippet) in enumerate(blocks):
-            with self.subTest(snippet):
+        blocks = re.findall(r"^```yaml\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
+        self.assertGreaterEqual(len(blocks), 10)
+        for number, block in enumerate(blocks):
+            with self.subTest(block):
+                named = re.match(r"# with (examples/\S+)\n", block)
+                whole = block.startswith("format: 1\n")
+                # What is a comment alone goes before any file.
+                comment = not sections(block)
+                self.assertTrue(named or whole or comment, "says which file it changes, or is one")
+                base = None if whole else named[1] if named else "examples/five_bar.yaml"
+                text = block
+                if base is not None:
+                    own = (SOURCE / base).read_text(encoding="utf-8")
+                    text = block + own if comment else changed(own, block)
                 model = self.folder / f"model{number}.yaml"
-                model.write_text(changed((SOURCE / base).read_text(encoding="utf-8"), snippet), encoding="utf-8")
-                self.run_program("pose", model, "--at", "0.2,-0.6")
-                self.run_program("loci", model, "--quiet", "-o", f"out{number}")
+                model.write_text(text, encoding="utf-8")
+                self.run_program("pose", model, "--at", POSES[base])
+                if base != "examples/gough_stewart_poses.yaml":  # loci take three coordinates at most
+                    self.run_program("loci", model, "--quiet", "-o", f"out{number}")
+
+    def test_commands_of_other_pages_run(self):
+        for page in ("certificates.md", "studies.md"):
+            text = (SOURCE / "docs" / page).read_text(encoding="utf-8")
+            blocks = re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+            commands = [line for block in blocks for line in block.splitlines() if line.startswith("clearloci ")]
+            self.assertTrue(commands, page)
+            for command in commands:
+                with self.subTest(command):
+                    words = [str(SOURCE / word) if word.startswith("examples/") else word for word in shlex.split(command)]
+                    self.run_program(*words[1:])
 
     def test_torsion_springs_are_known_to_every_command(self):
         model = self.model(lambda text: text.replace("x: [-0.5, 1.0]", "x: [0.1, 0.6]")
