@@ -6,11 +6,15 @@
 
 #include "analysis/error.hpp"
 #include "analysis/model.hpp"
+#include "analysis/pose.hpp"
+#include "analysis/reaction_rows.hpp"
 #include "analysis/singular_modes.hpp"
-#include "analysis/table_rows.hpp"
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
+#include "mechanism/idle.hpp"
+#include "numeric/error_map.hpp"
 #include "numeric/error_range.hpp"
+#include "numeric/wrench_rows.hpp"
 
 namespace clearloci {
 namespace {
@@ -20,17 +24,6 @@ using numeric::RangePose;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // How near to an event the lines are drawn, as a part of the range.
 constexpr double beside_event = 1e-9;
-
-/// The second half is the worst case.
-const std::array<ErrorComponent, 8> all_components = {
-    {{"dx", "error in x", "m"},
-     {"dy", "error in y", "m"},
-     {"dalpha", "error in orientation", "rad"},
-     {"dp", "distance from the nominal place", "m"},
-     {"worst_dx", "largest error in x under any load", "m"},
-     {"worst_dy", "largest error in y under any load", "m"},
-     {"worst_dalpha", "largest error in orientation under any load", "rad"},
-     {"worst_dp", "largest distance from the nominal place under any load", "m"}}};
 
 /// A jump this much smaller than the errors is none, but rounding.
 constexpr double least_jump = 1e-8;
@@ -69,9 +62,16 @@ std::vector<double> values_of(const std::array<double, 2>& range, int steps,
 }
 
 void put_reactions(TableRows& row, const numeric::NumericModel& model, const RangePose& pose) {
+  const mechanism::Mechanism& m = model.mechanism;
+  if (m.space == mechanism::Space::spatial) {
+    const numeric::JointReaction unknown{numeric::Vector3d::Constant(nan), numeric::Vector3d::Constant(nan), nan};
+    for (std::size_t j = 0; j < m.joints.size(); ++j)
+      put_joint_in_space(row, m, j, pose.reachable ? pose.accuracy.of_joints[j] : unknown);
+    return;
+  }
   for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
     const double value = pose.reachable ? pose.accuracy.reactions.values(static_cast<Eigen::Index>(k)) : nan;
-    row.put(mechanism::unknown_name(model.mechanism, model.unknowns[k]), core::unit_of(model.unknowns[k].quantity),
+    row.put(mechanism::unknown_name(m, model.unknowns[k]), core::unit_of(model.unknowns[k].quantity),
             std::isfinite(value) ? value : nan);
   }
 }
@@ -81,7 +81,13 @@ void put_take_up(TableRows& row, const numeric::NumericModel& model, const Range
   for (std::size_t j = 0; j < clearances.size(); ++j) {
     const std::string& name = model.mechanism.joints[j].name;
     const numeric::TakeUp* own = pose.reachable ? &pose.accuracy.take_up[j] : nullptr;
-    if (clearances[j].radial > 0) row.put("beta_" + name, "rad", own != nullptr && own->beta ? *own->beta : nan);
+    if (clearances[j].radial > 0 && model.mechanism.space == mechanism::Space::planar)
+      row.put("beta_" + name, "rad", own != nullptr && own->beta ? *own->beta : nan);
+    if (clearances[j].radial > 0 && model.mechanism.space == mechanism::Space::spatial) {
+      const bool pressed = own != nullptr && !own->force_vanishes;
+      for (const Eigen::Index c : {0, 1, 2})
+        row.put("d_" + name + "_" + "xyz"[c], "m", pressed ? own->displacement(c) : nan);
+    }
     const bool driven = own != nullptr && !own->actuator_vanishes;
     if (clearances[j].angular > 0) row.put("theta_" + name, "rad", driven ? own->turn : nan);
     if (clearances[j].axial > 0) row.put("travel_" + name, "m", driven ? own->travel : nan);
@@ -93,6 +99,19 @@ void put_take_up(TableRows& row, const numeric::NumericModel& model, const Range
   }
 }
 
+/// Of numeric::error_components.
+std::vector<double> values_of(mechanism::Space space, const numeric::Accuracy& accuracy) {
+  std::vector<double> values;
+  const auto add = [&](const auto& error, double distance) {
+    for (const Eigen::Index c : numeric::wrench_rows(space))
+      values.push_back(c < 3 ? error.dp(c) : error.dalpha(c - 3));
+    values.push_back(distance);
+  };
+  add(accuracy.error, accuracy.error.dp.norm());
+  add(accuracy.worst, accuracy.worst.distance);
+  return values;
+}
+
 core::Table table_of(const numeric::NumericModel& model, const std::vector<RangePose>& poses,
                      const std::vector<core::IsolatedPoint>& events, const std::vector<ErrorComponent>& components) {
   core::Table table;
@@ -102,10 +121,7 @@ core::Table table_of(const numeric::NumericModel& model, const std::vector<Range
     // On an event nothing is told: what has a limit there has the same one in the rows beside it.
     const bool on_event = std::any_of(events.begin(), events.end(), [&](const auto& e) { return e.at[0] == pose.at; });
     pose.reachable = pose.reachable && !on_event;
-    const numeric::PoseError& error = pose.accuracy.error;
-    const numeric::WorstCase& worst = pose.accuracy.worst;
-    const std::array values = {error.dp[0], error.dp[1], error.dalpha[2], error.dp.norm(),
-                               worst.dp[0], worst.dp[1], worst.dalpha[2], worst.distance};
+    const std::vector<double> values = values_of(model.mechanism.space, pose.accuracy);
     row.put(coordinate.name, coordinate.angle ? "rad" : "m", pose.at);
     put_reactions(row, model, pose);
     put_take_up(row, model, pose);
@@ -128,17 +144,23 @@ double free_beside(const std::vector<core::IsolatedPoint>& events, std::size_t i
 }
 
 /// The jump without what is rounding only.
-numeric::PoseError without_noise(numeric::PoseError jump, const core::Table& table) {
-  const auto largest = [&](const char* column) {
+PoseError without_noise(PoseError jump, const core::Table& table, const std::vector<core::ErrorComponent>& components) {
+  // Of the largest displacement, or rotation, in any direction. A platform that cannot turn does so by rounding: by a
+  // displacement's last digits over a metre.
+  constexpr double rounding = 1e-12;  // 1/m
+  double displaced = 0;
+  const auto drop = [&](std::vector<double>& parts, const std::string& unit) {
     double most = 0;
-    for (const double value : table.at(column))
-      if (std::isfinite(value)) most = std::max(most, std::abs(value));
-    return most;
+    for (const core::ErrorComponent& own : components)
+      if (own.is_signed && own.unit == unit)
+        for (const double value : table.at(own.name))
+          if (std::isfinite(value)) most = std::max(most, std::abs(value));
+    for (double& part : parts)
+      if (std::abs(part) <= std::max(least_jump * most, rounding * displaced)) part = 0;
+    displaced = most;
   };
-  const double place = std::max(largest("dx"), largest("dy"));
-  for (double& part : jump.dp)
-    if (std::abs(part) <= least_jump * place) part = 0;
-  if (std::abs(jump.dalpha[2]) <= least_jump * largest("dalpha")) jump.dalpha[2] = 0;
+  drop(jump.displacement, "m");
+  drop(jump.rotation, "rad");
   return jump;
 }
 
@@ -155,12 +177,13 @@ CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const 
   const numeric::NumericModel model = numeric::compile(mechanism);
   all.mechanism = mechanism.name;
   all.notes = mechanism::fit_notes(mechanism);
+  for (std::string& note : mechanism::idle_notes(mechanism)) all.notes.push_back(std::move(note));
   all.coordinate = mechanism.coordinates.front().name;
   all.angle = mechanism.coordinates.front().angle;
   all.range = model.box.front();
   all.steps = request.steps;
   for (const mechanism::Joint& joint : mechanism.joints) all.joints.push_back(joint.name);
-  all.components.assign(all_components.begin(), all_components.begin() + (request.worst_case ? 8 : 4));
+  all.components = numeric::error_components(mechanism.space, request.worst_case);
   for (const DyadSides& sides : modes) {
     CoordinateModeErrors own;
     own.mode = mode_in(all.loci, sides);
@@ -171,9 +194,10 @@ CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const 
       own.sizes.push_back(sizes_of(own.samples.at(component.name)));
     own.never_loaded = numeric::never_loaded(model, poses);
     for (std::size_t i = 0; i < events.size(); ++i) {
-      const numeric::PoseError jump = without_noise(
-          numeric::error_jump(model, sides, events[i].at.front(), free_beside(events, i, all.range)), own.samples);
-      own.events.push_back({events[i], jumps(events[i]), jump.dp[0], jump.dp[1], jump.dalpha[2]});
+      const numeric::PoseError jump =
+          numeric::error_jump(model, sides, events[i].at.front(), free_beside(events, i, all.range));
+      own.events.push_back(
+          {events[i], jumps(events[i]), without_noise(error_of(mechanism.space, jump), own.samples, all.components)});
     }
     all.modes.push_back(std::move(own));
   }

@@ -75,6 +75,7 @@ core::WorkingMode mode_in(const core::LocusMap& loci, const DyadSides& sides) {
 ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
   if (request.with_zones && !request.with_loci)
     throw core::InputError({mechanism.file}, "zones are bounded by the loci", "ask for the loci too");
+  require_coordinates(mechanism, 2, 2, "maps of errors are drawn");
   const numeric::NumericModel model = numeric::compile(mechanism);
   ErrorMap errors;
   errors.notes = mechanism::fit_notes(mechanism);

@@ -11,6 +11,7 @@
 namespace clearloci {
 
 VolumeErrors error_volume(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
+  require_coordinates(mechanism, 3, 3, "volumes of errors are filled");
   const numeric::NumericModel model = numeric::compile(mechanism);
   VolumeErrors errors;
   errors.units = mechanism.units;

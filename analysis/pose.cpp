@@ -73,10 +73,6 @@ std::vector<double> rotations(mechanism::Space space, const Eigen::Vector3d& v) 
   return space == mechanism::Space::planar ? std::vector<double>{v(2)} : std::vector<double>{v(0), v(1), v(2)};
 }
 
-PoseError error_of(mechanism::Space space, const numeric::PoseError& error) {
-  return {components(space, error.dp), rotations(space, error.dalpha)};
-}
-
 /// Of the joints with a clearance.
 std::vector<JointTakeUp> take_up_of(const mechanism::Mechanism& mechanism,
                                     const std::vector<numeric::JointContact>& contacts,
@@ -285,6 +281,10 @@ Reactions reactions_in_space(const mechanism::Mechanism& mechanism, std::span<co
 }
 
 }  // namespace
+
+PoseError error_of(mechanism::Space space, const numeric::PoseError& error) {
+  return {components(space, error.dp), rotations(space, error.dalpha)};
+}
 
 void require_values(const mechanism::Mechanism& mechanism, std::size_t count) {
   const std::size_t wanted = mechanism.coordinates.size();

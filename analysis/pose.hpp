@@ -9,6 +9,7 @@
 
 #include "clearloci/pose.hpp"
 #include "mechanism/mechanism.hpp"
+#include "numeric/pose_error.hpp"
 
 namespace clearloci {
 
@@ -20,6 +21,9 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
 /// In every working mode. Throws as the public one.
 PoseInModes solve_pose_in_modes(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                                 const PoseRequest& request = {});
+
+/// Components of the plane or of space.
+PoseError error_of(mechanism::Space space, const numeric::PoseError& error);
 
 /// {{"B1", "right"}, ...}.
 std::vector<std::pair<std::string, std::string>> named_mode(const mechanism::Mechanism& mechanism,

@@ -27,7 +27,7 @@ using core::PoseVerification;
 using core::TaskDemand;
 using loci::pose::Doubt;
 using loci::pose::NearPose;
-using loci::pose::Pose;
+using PoseAt = loci::pose::Pose;  // core::Pose is an answer
 using loci::pose::PoseCell;
 using loci::pose::PoseMetric;
 using loci::pose::PoseRegion;
@@ -98,7 +98,7 @@ class Verifier {
     side_names(mechanism, sides_);  // there is one for every dyad
     for (const Mechanism& own : loads_) models_.push_back(numeric::compile(own));
     constexpr std::size_t poses = 24;
-    std::vector<Pose> samples = region_.samples();
+    std::vector<PoseAt> samples = region_.samples();
     if (samples.size() > poses) samples.erase(samples.begin() + 1, samples.end() - (poses - 1));
     const std::vector<TaskDemand> demands =
         loaded_demands(models_, sides_, demands_of(mechanism, request_), samples, notes_);
@@ -122,7 +122,7 @@ class Verifier {
   bool looks_good(const core::PoseShape& shape) {
     constexpr std::size_t first_looks = 9, looks = 12;
     if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return false;
-    std::vector<Pose> poses = PoseRegion(shape, metrics_.asked).samples();
+    std::vector<PoseAt> poses = PoseRegion(shape, metrics_.asked).samples();
     const auto first = cell_->at(poses.front());
     if (!first) return false;
     const std::size_t stride = (poses.size() + looks - 1) / looks;
@@ -194,7 +194,7 @@ class Verifier {
     return {std::move(models), sides_, demands, region_.samples()};
   }
 
-  core::PoseTaskWitness told(const Pose& at, const numeric::TaskFailure& failure) const {
+  core::PoseTaskWitness told(const PoseAt& at, const numeric::TaskFailure& failure) const {
     using Kind = numeric::TaskFailure::Kind;
     using Told = core::TaskWitness::Kind;
     core::PoseTaskWitness own;
@@ -218,7 +218,7 @@ class Verifier {
     return own;
   }
 
-  std::optional<core::PoseTaskWitness> fails_at(const Pose& at, int demand) const {
+  std::optional<core::PoseTaskWitness> fails_at(const PoseAt& at, int demand) const {
     if (!(region_.distance(at) <= margin_ + region_.hair())) return std::nullopt;
     const auto failure = witness_->failure(at, demand);
     return failure ? std::optional(told(at, *failure)) : std::nullopt;
@@ -228,7 +228,7 @@ class Verifier {
   std::optional<core::PoseTaskWitness> confirmed(const PoseSuspect& suspect) {
     if (auto found = fails_at(suspect.at, suspect.demand)) return found;
     if (!suspect.other) return std::nullopt;
-    const std::vector<Pose> way = region_.way(*suspect.other, suspect.at);
+    const std::vector<PoseAt> way = region_.way(*suspect.other, suspect.at);
     const auto reference = cell_->at(*suspect.other);
     if (!reference) return std::nullopt;
     for (std::size_t i = 1; i < way.size(); ++i)
@@ -237,7 +237,7 @@ class Verifier {
   }
 
   /// Whether what is suspected has the sign at a pose that it has at the reference.
-  bool is_alike(const PoseCell::At& reference, const Pose& pose, const PoseSuspect& suspect) {
+  bool is_alike(const PoseCell::At& reference, const PoseAt& pose, const PoseSuspect& suspect) {
     const auto now = cell_->at(pose);
     if (!now) return false;
     if (suspect.kind == Doubt::singularity) return now->determinant == reference.determinant;
@@ -251,10 +251,10 @@ class Verifier {
     return true;
   }
 
-  std::optional<core::PoseTaskWitness> between(const PoseCell::At& reference, const Pose& from, const Pose& to,
+  std::optional<core::PoseTaskWitness> between(const PoseCell::At& reference, const PoseAt& from, const PoseAt& to,
                                                const PoseSuspect& suspect) {
     const auto at = [&](double t) {
-      Pose pose = from;
+      PoseAt pose = from;
       for (std::size_t c = 0; c < pose.size(); ++c) pose[c] = t == 1 ? to[c] : from[c] + t * (to[c] - from[c]);
       return pose;
     };
@@ -333,7 +333,7 @@ class Verifier {
     }
     progress("least reactions");
     std::vector<double> met(statics_.demands.size(), std::numeric_limits<double>::infinity());
-    for (const Pose& pose : region_.samples())
+    for (const PoseAt& pose : region_.samples())
       if (const auto at = cell_->at(pose))
         for (std::size_t d = 0; d < met.size(); ++d) met[d] = std::min(met[d], PoseCell::size_of(at->components[d]));
     effort.most_cells = cells_of_least;

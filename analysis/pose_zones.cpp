@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/model.hpp"
+#include "analysis/pose.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
@@ -71,7 +72,7 @@ class Ends {
       : statics_(statics), model_(model), sides_(sides), cell_(statics) {
     const bool clearances = std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
                                         [](const mechanism::Joint& joint) { return joint.clearance.has_value(); });
-    jumps_ = mechanism.space == mechanism::Space::planar && clearances && all_loaded;
+    jumps_ = clearances && all_loaded;
   }
 
   void add(const loci::pose::CellZone& cells, const PoseZones& map, PoseZone& zone) {
@@ -124,12 +125,20 @@ class Ends {
     const numeric::ErrorSamples errors = numeric::error_samples(model_, poses, sides_, true, false);
     // A difference this much smaller than the errors is no jump, but rounding and the way between the two poses.
     constexpr double least_jump = 1e-6;
-    const numeric::PoseError &first = errors.error[0], &second = errors.error[1];
-    const auto jump = [&](double across, double scale) { return std::abs(across) < least_jump * scale ? 0.0 : across; };
-    own.dx = jump(second.dp.x() - first.dp.x(), first.dp.norm());
-    own.dy = jump(second.dp.y() - first.dp.y(), first.dp.norm());
-    own.dalpha = jump(second.dalpha.z() - first.dalpha.z(), first.dalpha.norm());
-    own.jumps = std::isfinite(own.dx + own.dy + own.dalpha);
+    const mechanism::Space space = model_.mechanism.space;
+    const PoseError first = error_of(space, errors.error[0]);
+    PoseError jump = error_of(space, errors.error[1]);
+    bool finite = true;
+    const auto subtract = [&](std::vector<double>& parts, const std::vector<double>& first_parts, double scale) {
+      for (std::size_t c = 0; c < parts.size(); ++c) {
+        parts[c] -= first_parts[c];
+        if (std::abs(parts[c]) < least_jump * scale) parts[c] = 0;
+        finite = finite && std::isfinite(parts[c]);
+      }
+    };
+    subtract(jump.displacement, first.displacement, errors.error[0].dp.norm());
+    subtract(jump.rotation, first.rotation, errors.error[0].dalpha.norm());
+    if (finite) own.jump = std::move(jump);
   }
 
   const core::PoseStatics& statics_;

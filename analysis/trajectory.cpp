@@ -7,11 +7,10 @@
 
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
+#include "analysis/reaction_rows.hpp"
 #include "analysis/singular_modes.hpp"
-#include "analysis/table_rows.hpp"
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
-#include "mechanism/joint_traits.hpp"
 #include "numeric/period_sweep.hpp"
 
 namespace clearloci {
@@ -64,31 +63,14 @@ void put_motion(TableRows& row, const numeric::Motion& motion, const Instant& at
   for (std::size_t c = 0; c < dimension(motion); ++c) put(axis_named("p", c), "m", p[c]);
 }
 
-/// Forces and couples in Cartesian components, an actuator's share apart.
-void put_joints_in_space(TableRows& row, const numeric::Motion& motion, const Instant& at, const Eigen::VectorXd& w) {
-  using core::Quantity;
-  const mechanism::Mechanism& m = motion.model.mechanism;
-  const std::vector<numeric::JointReaction> of_joints = numeric::joint_reactions(motion, at, w);
-  for (std::size_t j = 0; j < of_joints.size(); ++j) {
-    const auto put = [&](Quantity quantity, double value) {
-      row.put(mechanism::unknown_name(m, {static_cast<mechanism::JointIndex>(j), quantity}), core::unit_of(quantity),
-              value);
-    };
-    const Eigen::Vector3d &f = of_joints[j].force, &couple = of_joints[j].couple;
-    for (const auto& [quantity, value] : {std::pair(Quantity::fx, f(0)), {Quantity::fy, f(1)}, {Quantity::fz, f(2)}})
-      put(quantity, value);
-    if (mechanism::traits(m.joints[j]).couple != mechanism::BorneCouple::none)
-      for (const auto& [quantity, value] :
-           {std::pair(Quantity::mx, couple(0)), {Quantity::my, couple(1)}, {Quantity::mz, couple(2)}})
-        put(quantity, value);
-    if (m.joints[j].actuated) put(mechanism::actuator_quantity(m.joints[j]), of_joints[j].actuator);
-  }
-}
-
 void put_joints(TableRows& row, const numeric::Motion& motion, const Instant& at, double period,
                 const std::vector<numeric::TakeUp>& take_up) {
   const Eigen::VectorXd w = at.reactions(period), rates = at.reaction_rates(period);
-  if (motion.model.mechanism.space == mechanism::Space::spatial) return put_joints_in_space(row, motion, at, w);
+  if (motion.model.mechanism.space == mechanism::Space::spatial) {
+    const std::vector<numeric::JointReaction> of_joints = numeric::joint_reactions(motion, at, w);
+    for (std::size_t j = 0; j < of_joints.size(); ++j) put_joint_in_space(row, motion.model.mechanism, j, of_joints[j]);
+    return;
+  }
   for (std::size_t k = 0; k < motion.model.unknowns.size(); ++k)
     row.put(mechanism::unknown_name(motion.model.mechanism, motion.model.unknowns[k]),
             core::unit_of(motion.model.unknowns[k].quantity), w(static_cast<Eigen::Index>(k)));

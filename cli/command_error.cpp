@@ -120,6 +120,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "error.json", incomplete_body(name, "the errors were"));
   });
+  require_coordinates(mechanism, 1, 3, "errors are mapped");
   if (mechanism.coordinates.size() == 1) return run_over_coordinate(arguments, formats, mechanism, limit);
   if (mechanism.coordinates.size() == 3) return run_over_volume(arguments, formats, mechanism, limit);
   constexpr const char* usual_grid = "400x400";

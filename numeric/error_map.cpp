@@ -64,31 +64,14 @@ struct RowErrors {
   std::vector<bool> reachable;
 };
 
-std::vector<core::Field> fields_of(bool spatial, bool under_load, bool worst_case, std::size_t cells) {
-  struct Component {
-    const char *name, *label, *unit;
-  };
-  const std::vector<Component> components =
-      spatial ? std::vector<Component>{{"dx", "error in x", "m"},
-                                       {"dy", "error in y", "m"},
-                                       {"dz", "error in z", "m"},
-                                       {"dalpha_x", "rotation about x", "rad"},
-                                       {"dalpha_y", "rotation about y", "rad"},
-                                       {"dalpha_z", "rotation about z", "rad"}}
-              : std::vector<Component>{
-                    {"dx", "error in x", "m"}, {"dy", "error in y", "m"}, {"dalpha", "error in orientation", "rad"}};
+std::vector<core::Field> fields_of(mechanism::Space space, bool under_load, bool worst_case, std::size_t cells) {
+  const std::vector<core::ErrorComponent> components = error_components(space, worst_case);
+  const std::size_t first = under_load ? 0 : error_components(space, false).size();
   std::vector<core::Field> fields;
-  const auto add = [&](const std::string& name, const std::string& label, const char* unit, bool is_signed) {
-    fields.push_back({name, label, unit, is_signed, std::vector<double>(cells, nan)});
-  };
-  if (under_load) {
-    for (const Component& c : components) add(c.name, c.label, c.unit, true);
-    add("dp", "distance from the nominal place", "m", false);
+  for (std::size_t c = first; c < components.size(); ++c) {
+    const core::ErrorComponent& own = components[c];
+    fields.push_back({own.name, own.label, own.unit, own.is_signed, std::vector<double>(cells, nan)});
   }
-  if (!worst_case) return fields;
-  for (const Component& c : components)
-    add(std::string("worst_") + c.name, std::string("largest ") + c.label + " under any load", c.unit, false);
-  add("worst_dp", "largest distance from the nominal place under any load", "m", false);
   return fields;
 }
 
@@ -119,7 +102,7 @@ RowErrors row_of(const NumericModel& model, std::span<const double> poses, std::
 class FieldRows {
  public:
   FieldRows(const NumericModel& model, std::span<const int> mode, const VolumeGrid& grid)
-      : model_(model), mode_(mode), grid_(grid), spatial_(model.mechanism.space == mechanism::Space::spatial) {
+      : model_(model), mode_(mode), grid_(grid) {
     for (const int n : grid.cells)
       if (n < 1) throw core::InputError({}, "the grid has no cells", "ask for 1x1 at least");
   }
@@ -131,7 +114,7 @@ class FieldRows {
     const int columns = grid_.cells[0];
     const std::size_t lines = static_cast<std::size_t>(grid_.cells[1]) * static_cast<std::size_t>(grid_.cells[2]);
     std::vector<core::Field>& fields = result.volume.fields;
-    fields = fields_of(spatial_, under_load, grid_.worst_case, lines * static_cast<std::size_t>(columns));
+    fields = fields_of(model_.mechanism.space, under_load, grid_.worst_case, lines * static_cast<std::size_t>(columns));
     std::vector<std::array<std::size_t, 2>> counts(lines);  // reachable, undefined
     tbb::task_arena arena(grid_.threads > 0 ? grid_.threads : tbb::task_arena::automatic);
     arena.execute([&] {
@@ -195,10 +178,27 @@ class FieldRows {
   const NumericModel& model_;
   std::span<const int> mode_;
   const VolumeGrid& grid_;
-  bool spatial_;
 };
 
 }  // namespace
+
+std::vector<core::ErrorComponent> error_components(mechanism::Space space, bool worst_case) {
+  std::vector<core::ErrorComponent> components = {{"dx", "error in x", "m", true}, {"dy", "error in y", "m", true}};
+  if (space == mechanism::Space::planar) {
+    components.push_back({"dalpha", "error in orientation", "rad", true});
+  } else {
+    components.push_back({"dz", "error in z", "m", true});
+    for (const std::string axis : {"x", "y", "z"})
+      components.push_back({"dalpha_" + axis, "rotation about " + axis, "rad", true});
+  }
+  components.push_back({"dp", "distance from the nominal place", "m"});
+  const std::size_t under_load = components.size();
+  for (std::size_t c = 0; worst_case && c < under_load; ++c) {
+    const core::ErrorComponent own = components[c];
+    components.push_back({"worst_" + own.name, "largest " + own.label + " under any load", own.unit});
+  }
+  return components;
+}
 
 ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid) {
   check_model(model, 2, "an error map needs two");

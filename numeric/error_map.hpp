@@ -13,6 +13,10 @@
 
 namespace clearloci::numeric {
 
+/// Of the plane dx, dy, dalpha, dp, of space dx, dy, dz, dalpha_x, dalpha_y, dalpha_z, dp; with the worst case worst_
+/// of each behind them.
+std::vector<core::ErrorComponent> error_components(mechanism::Space space, bool worst_case);
+
 struct ErrorGrid {
   int nx = 400, ny = 400;
   int threads = 0;                    ///< 0: as many as the machine has

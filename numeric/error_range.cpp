@@ -35,10 +35,6 @@ PoseError one_sided(const NumericModel& model, std::span<const int> mode, double
 }  // namespace
 
 std::vector<RangePose> error_range(const NumericModel& model, std::span<const int> mode, std::span<const double> at) {
-  if (model.mechanism.space != mechanism::Space::planar)
-    throw core::InputError({.file = model.mechanism.file},
-                           "errors over a single coordinate are those of planar mechanisms",
-                           "free a second coordinate, or solve single poses with clearloci pose");
   if (model.box.size() != 1)
     throw core::InputError({.file = model.mechanism.file}, "errors over a range need one free coordinate",
                            "write the others as parameters");

@@ -12,6 +12,7 @@
 #include "report/file_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/pose.hpp"
 #include "report/table_json.hpp"
 #include "report/wording.hpp"
 
@@ -39,10 +40,8 @@ Json mode_json(const core::CoordinateErrors& result, const core::CoordinateModeE
     if (!event.jumps) continue;
     jumps.push_back({{"at", event.point.at},
                      {"kind", core::to_string(event.point.kind)},
-                     {"vanishing", vanishing_array(event.point.vanishing)},
-                     {"dx", number_json(event.dx)},
-                     {"dy", number_json(event.dy)},
-                     {"dalpha", number_json(event.dalpha)}});
+                     {"vanishing", vanishing_array(event.point.vanishing)}});
+    jumps.back().update(pose_error_object(event.jump));
   }
   return {{"working_mode", mode_object(result.loci.tower, mode.mode)},
           {"never_loaded", mode.never_loaded},
@@ -65,12 +64,22 @@ std::string jumps_text(const core::CoordinateErrors& result, const core::Coordin
   const ShownUnit length = shown_unit("m", result.loci.units), turn = shown_unit("rad", result.loci.units);
   for (const core::ErrorEvent& event : mode.events) {
     if (!event.jumps) continue;
-    if (text.empty())
-      text = fmt::format("{:>14}{:>14}{:>14}{:>16}  what lets go\n", shown_coordinate(result),
-                         "jump in x/" + length.name, "jump in y/" + length.name, "turn/" + turn.name);
-    text += fmt::format("{:>14.9g}{:>14.4g}{:>14.4g}{:>16.4g}  {}\n", shown(result) * event.point.at.front(),
-                        event.dx * length.per_si, event.dy * length.per_si, event.dalpha * turn.per_si,
-                        vanishing_words(event.point.kind, event.point.vanishing));
+    const std::vector<double>&places = event.jump.displacement, &turns = event.jump.rotation;
+    std::string head = fmt::format("{:>14}", shown_coordinate(result));
+    std::string line = fmt::format("{:>14.9g}", shown(result) * event.point.at.front());
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      head += fmt::format("{:>14}", fmt::format("jump in {}/{}", "xyz"[c], length.name));
+      line += fmt::format("{:>14.4g}", places[c] * length.per_si);
+    }
+    const int width = turns.size() == 1 ? 16 : 19;
+    for (std::size_t c = 0; c < turns.size(); ++c) {
+      head += fmt::format(
+          "{:>{}}", turns.size() == 1 ? "turn/" + turn.name : fmt::format("turn about {}/{}", "xyz"[c], turn.name),
+          width);
+      line += fmt::format("{:>{}.4g}", turns[c] * turn.per_si, width);
+    }
+    if (text.empty()) text = head + "  what lets go\n";
+    text += line + "  " + vanishing_words(event.point.kind, event.point.vanishing) + "\n";
   }
   return text.empty() ? text : text + "\n";
 }

@@ -34,22 +34,24 @@ class ModePlots {
 
   Plot error() const {
     Plot plot = frame("pose error");
-    const auto add = [&](const char* column, const char* label, const ShownUnit& unit, int number) {
+    int number = 0;
+    for (const core::ErrorComponent& component : result_.components) {
+      if (!component.is_signed) continue;
+      const std::string& column = component.name;
+      const ShownUnit& unit = component.unit == "m" ? length_ : angle_;
       PlotPanel panel;
       panel.y_label = unit.name;
-      const std::string worst = std::string("worst_") + column;
+      const std::string worst = "worst_" + column;
       if (errors_.samples.has(worst)) {
         core::Polyline above = line(at_, errors_.samples.at(worst), unit.per_si), below = above;
         for (core::Point2& point : below) point[1] = -point[1];
         panel.series.push_back({"bound under any load", {std::move(above), std::move(below)}, -1, true});
       }
-      panel.series.push_back({label, {line(at_, errors_.samples.at(column), unit.per_si)}, number});
+      panel.series.push_back({component.label, {line(at_, errors_.samples.at(column), unit.per_si)}, number++});
       panel.y_range = clipped_range(panel);
       plot.panels.push_back(std::move(panel));
-    };
-    add("dx", "error in x", length_, 0);
-    add("dy", "error in y", length_, 1);
-    add("dalpha", "error in orientation", angle_, 2);
+    }
+    if (plot.panels.size() > 3) plot.panel_height = 110;
     return plot;
   }
 
@@ -58,6 +60,7 @@ class ModePlots {
     for (std::size_t j = 0; j < result_.joints.size(); ++j) {
       const std::string& name = result_.joints[j];
       add_take_up(plot, "beta_" + name, "β of " + name, {"β (deg)", 0}, static_cast<int>(j));
+      add_displacement(plot, name);
       add_take_up(plot, "theta_" + name, "play of the drive " + name, angle_, static_cast<int>(j));
       add_take_up(plot, "travel_" + name, "play of the drive " + name, small_length_, static_cast<int>(j));
       add_take_up(plot, "normal_" + name, "across the guide " + name, small_length_, static_cast<int>(j));
@@ -73,8 +76,9 @@ class ModePlots {
     for (std::size_t j = 0; j < result_.joints.size(); ++j) {
       const std::string& name = result_.joints[j];
       if (errors_.samples.has("f" + name + "x")) {
-        const std::vector<double> size =
-            lengths(errors_.samples.at("f" + name + "x"), errors_.samples.at("f" + name + "y"));
+        std::vector<double> size = lengths(errors_.samples.at("f" + name + "x"), errors_.samples.at("f" + name + "y"));
+        if (const std::string fz = "f" + name + "z"; errors_.samples.has(fz))
+          size = lengths(size, errors_.samples.at(fz));
         forces.push_back({"f_" + name, {line(at_, size, force_.per_si)}, static_cast<int>(j)});
       }
       const auto add = [&](std::vector<PlotSeries>& series, const std::string& quantity, double factor) {
@@ -158,6 +162,24 @@ class ModePlots {
       plot.panels[i].y_range = clipped_range(plot.panels[i]);
       plot.panels[i].y_label = quantities_of(own) + " (" + unit + ")";
     }
+  }
+
+  /// In space a panel for where a joint is pressed to, a line a component.
+  void add_displacement(Plot& plot, const std::string& joint) const {
+    if (!errors_.samples.has("d_" + joint + "_x")) return;
+    PlotPanel panel;
+    panel.y_label = small_length_.name;
+    double most = 0;
+    for (int c = 0; c < 3; ++c) {
+      const std::string axis(1, "xyz"[c]);
+      const std::vector<double>& values = errors_.samples.at("d_" + joint + "_" + axis);
+      panel.series.push_back({"d" + axis + " of " + joint, {line(at_, values, small_length_.per_si)}, c});
+      for (const double value : values)
+        if (std::isfinite(value)) most = std::max(most, small_length_.per_si * std::abs(value));
+    }
+    panel.y_range = {-1.25 * most, 1.25 * most};
+    if (most <= rounding) panel.y_range = {-1, 1};
+    plot.panels.push_back(std::move(panel));
   }
 
   /// A panel where the joint has that take-up; a unit without size: an angle to be drawn in degrees.

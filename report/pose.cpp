@@ -36,8 +36,6 @@ Json error_json(const std::vector<double>& displacement, const std::vector<doubl
   return error;
 }
 
-Json error_json(const core::PoseError& error) { return error_json(error.displacement, error.rotation); }
-
 /// null where the take-up is undefined.
 Json take_up_json(const std::vector<core::JointTakeUp>& take_up) {
   Json all = Json::object();
@@ -57,14 +55,16 @@ Json take_up_json(const std::vector<core::JointTakeUp>& take_up) {
 }
 
 Json actual_json(const core::ActualPose& actual) {
-  return {{"pose_error", error_json(actual.error)},
-          {"beyond_linear", error_json(actual.beyond_linear)},
+  return {{"pose_error", pose_error_object(actual.error)},
+          {"beyond_linear", pose_error_object(actual.beyond_linear)},
           {"take_up", take_up_json(actual.take_up)},
           {"iterations", actual.iterations},
           {"residual", actual.residual}};
 }
 
 }  // namespace
+
+Json pose_error_object(const core::PoseError& error) { return error_json(error.displacement, error.rotation); }
 
 Json pose_object(const core::Pose& pose) {
   Json mode = Json::object(), points = Json::object(), reactions = Json::object();
@@ -86,7 +86,7 @@ Json pose_object(const core::Pose& pose) {
                  {"determinant", pose.determinant},
                  {"condition", number_json(pose.condition)},
                  {"take_up", take_up_json(pose.take_up)},
-                 {"pose_error", pose.error ? error_json(*pose.error) : Json(nullptr)},
+                 {"pose_error", pose.error ? pose_error_object(*pose.error) : Json(nullptr)},
                  {"undefined_take_up", pose.undefined},
                  {"vanishing", vanishing_array(pose.vanishing)},
                  {"singular", pose.singular},

@@ -8,6 +8,9 @@
 
 namespace clearloci::report {
 
+/// {"dalpha", "dx", "dy"}, in space {"dx", "dy", "dz", "dalpha_x", "dalpha_y", "dalpha_z"}.
+nlohmann::ordered_json pose_error_object(const core::PoseError& error);
+
 /// Required, here and below: the pose is within reach, and where it was iterated it converged.
 nlohmann::ordered_json pose_object(const core::Pose& pose);
 

@@ -13,6 +13,7 @@
 #include "report/file_units.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
+#include "report/pose.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -34,7 +35,7 @@ Json zone_object(const core::PoseZone& zone) {
   for (const core::PoseZoneEnd& own : zone.ends) {
     ends.push_back(
         {{"at", own.at}, {"kind", core::to_string(own.kind)}, {"vanishing", vanishing_array(own.reactions)}});
-    if (own.jumps) ends.back()["jump"] = {{"dx", own.dx}, {"dy", own.dy}, {"dalpha", own.dalpha}};
+    if (own.jump) ends.back()["jump"] = pose_error_object(*own.jump);
   }
   if (zone.at_side) bounds.push_back({{"kind", "box"}, {"vanishing", Json::array()}});
   return {{"id", zone.id},
@@ -115,9 +116,15 @@ std::string end_words(const core::PoseZones& map, const Places& places, const co
   std::string words = fmt::format("{}: {}{}{}", places.value(0, end.at), kind_words(end.kind),
                                   end.reactions.empty() ? "" : " ", reaction_names(end.reactions));
   const ShownUnit unit = shown_unit("m", map.units);
-  if (end.jumps && std::isfinite(end.dx + end.dy + end.dalpha))
-    words += fmt::format("; the end effector jumps by ({:.3g}, {:.3g}) {} and {:.3g} rad", end.dx * unit.per_si,
-                         end.dy * unit.per_si, unit.name, end.dalpha);
+  if (end.jump) {
+    const auto numbers = [](const std::vector<double>& parts, double factor) {
+      std::string list;
+      for (const double part : parts) list += fmt::format("{}{:.3g}", list.empty() ? "" : ", ", part * factor);
+      return parts.size() == 1 ? list : "(" + list + ")";
+    };
+    words += fmt::format("; the end effector jumps by {} {} and {} rad", numbers(end.jump->displacement, unit.per_si),
+                         unit.name, numbers(end.jump->rotation, 1));
+  }
   return words;
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "clearloci/loci.hpp"
+#include "clearloci/pose.hpp"
 #include "clearloci/table.hpp"
 #include "clearloci/zones.hpp"
 
@@ -129,16 +130,15 @@ struct VolumeErrors {
 /// Something that happens at one value of the coordinate, and by how much the end effector jumps there.
 struct ErrorEvent {
   IsolatedPoint point;
-  bool jumps = false;     ///< a reaction vanishes that decides a take-up; else `dx` to `dalpha` say nothing
-  double dx = 0, dy = 0;  ///< behind minus before, m; NaN where the error has no limit on both sides
-  double dalpha = 0;      ///< rad, likewise
+  bool jumps = false;  ///< a reaction vanishes that decides a take-up; else `jump` says nothing
+  PoseError jump;      ///< behind minus before; NaN where the error has no limit on both sides
 };
 
 struct CoordinateModeErrors {
   WorkingMode mode;
   /// The coordinate; the reactions; of the joints' take-up beta_J (direction of the pin's displacement), theta_J and
-  /// travel_J (play of a turning and of a sliding actuator), normal_J and tilt_J (in a guide); dx, dy, dalpha, dp; with
-  /// the worst case worst_dx, worst_dy, worst_dalpha, worst_dp. In steps, and on both sides of every event; the row at
+  /// travel_J (play of a turning and of a sliding actuator), normal_J and tilt_J (in a guide), in space d_J_x, d_J_y,
+  /// d_J_z in the place of beta_J; the components of the error. In steps, and on both sides of every event; the row at
   /// an event itself has no values, so that lines are broken there.
   Table samples;
   std::vector<std::optional<ErrorSizes>> sizes;  ///< of each of CoordinateErrors::components, over the rows
@@ -146,9 +146,10 @@ struct CoordinateModeErrors {
   std::vector<ErrorEvent> events;                ///< ascending
 };
 
-/// A component of the error over a single coordinate: dx, dy, dalpha, dp and their worst cases.
+/// A component of the error over a single coordinate: those of ModeErrors::map.
 struct ErrorComponent {
   std::string name, label, unit;
+  bool is_signed = false;  ///< else a magnitude
 };
 
 struct CoordinateErrors {
@@ -186,7 +187,7 @@ ErrorMap error_map(const Model& model, const ErrorRequest& request = {});
 /// Over three free coordinates. Throws likewise; LimitReached where the deadline comes first.
 VolumeErrors error_volume(const Model& model, const ErrorRequest& request = {});
 
-/// Over the one free coordinate of a planar mechanism. Throws likewise.
+/// Over the one free coordinate. Throws likewise.
 CoordinateErrors coordinate_errors(const Model& model, const ErrorRequest& request = {});
 
 }  // namespace clearloci

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "clearloci/loci.hpp"
+#include "clearloci/pose.hpp"
 
 namespace clearloci::inline core {
 
@@ -26,8 +27,7 @@ struct PoseZoneEnd {
   double at = 0;
   LocusKind kind = LocusKind::contact_loss;
   std::vector<Vanishing> reactions;
-  bool jumps = false;                 ///< in the plane, with clearances; else `dx` to `dalpha` say nothing
-  double dx = 0, dy = 0, dalpha = 0;  ///< behind minus before, m and rad
+  std::optional<PoseError> jump = {};  ///< behind minus before, where joints have clearances and both sides have errors
 };
 
 struct PoseZoneBall {

@@ -13,6 +13,7 @@
 
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
+#include "clearloci/pose.hpp"
 
 namespace clearloci::python {
 
@@ -32,6 +33,9 @@ py::array_t<double> array_of(const Polyline& points);
 /// "contact-loss f_A1": a vanishing reaction as its name.
 std::string name_of(const Vanishing& reaction);
 std::vector<std::string> names_of(const std::vector<Vanishing>& reactions);
+
+/// Adds dx, dy and dalpha, in space dx, dy, dz and dalpha_x, dalpha_y, dalpha_z.
+void put_error(py::dict& to, const PoseError& error);
 
 /// The keyword arguments of the command line as a request: working_mode ("all", "right,left" or a list), quantity
 /// ("f,M" or a list), joint, min_force, min_couple, tolerance, mesh_size, engine, time_limit (s).

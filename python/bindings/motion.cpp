@@ -125,9 +125,7 @@ py::dict dict_of(const CoordinateErrors& errors) {
       one["kind"] = to_string(event.point.kind);
       one["vanishing"] = names_of(event.point.vanishing);
       one["jumps"] = event.jumps;
-      one["dx"] = event.dx;
-      one["dy"] = event.dy;
-      one["dalpha"] = event.dalpha;
+      put_error(one, event.jump);
       events.append(one);
     }
     py::dict one;
@@ -248,6 +246,17 @@ DyadSides only_mode(const Model& model, const py::kwargs& options) {
 }
 
 }  // namespace
+
+void put_error(py::dict& to, const PoseError& error) {
+  const auto put = [&](const std::string& name, const std::vector<double>& parts) {
+    for (std::size_t c = 0; c < parts.size(); ++c) to[py::str(name + "xyz"[c])] = parts[c];
+  };
+  put("d", error.displacement);
+  if (error.rotation.size() == 1)
+    to["dalpha"] = error.rotation.front();
+  else
+    put("dalpha_", error.rotation);
+}
 
 void bind_motion(py::module_& module) {
   bind_answer<Pose>(module, "Pose", [](const Pose& own) { return dict_of(own); });

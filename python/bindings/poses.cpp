@@ -66,10 +66,12 @@ py::dict dict_of(const PoseZone& zone) {
   py::list bounds, ends, faces;
   for (const PoseZoneBound& own : zone.bounds)
     bounds.append(py::dict(py::arg("kind") = to_string(own.kind), py::arg("reactions") = names_of(own.reactions)));
-  for (const PoseZoneEnd& own : zone.ends)
-    ends.append(py::dict(py::arg("at") = own.at, py::arg("kind") = to_string(own.kind),
-                         py::arg("reactions") = names_of(own.reactions), py::arg("jumps") = own.jumps,
-                         py::arg("dx") = own.dx, py::arg("dy") = own.dy, py::arg("dalpha") = own.dalpha));
+  for (const PoseZoneEnd& own : zone.ends) {
+    py::dict end(py::arg("at") = own.at, py::arg("kind") = to_string(own.kind),
+                 py::arg("reactions") = names_of(own.reactions), py::arg("jumps") = own.jump.has_value());
+    if (own.jump) put_error(end, *own.jump);
+    ends.append(end);
+  }
   for (const auto& own : zone.faces) {
     py::array_t<double> corners({static_cast<py::ssize_t>(own.size()), py::ssize_t{3}});
     double* to = corners.mutable_data();

@@ -83,7 +83,7 @@ core::PoseZones two_intervals() {
   map.grid = {8};
   map.labels = {1, 1, 1, 1, 2, 2, 2, 2};
   core::PoseZoneEnd end{0.5 * std::numbers::pi, core::LocusKind::backlash, {{"O", core::Quantity::M, 1}}};
-  end.jumps = true, end.dx = 1e-5;
+  end.jump = core::PoseError{{1e-5, 0}, {0}};
   core::PoseZone zone;
   zone.id = "z1", zone.assembly_mode = 1, zone.lower = {0}, zone.upper = {end.at - 1e-9}, zone.ends = {end};
   zone.ends.front().at = zone.upper.front();
