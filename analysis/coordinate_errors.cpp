@@ -14,7 +14,6 @@
 #include "mechanism/idle.hpp"
 #include "numeric/error_map.hpp"
 #include "numeric/error_range.hpp"
-#include "numeric/wrench_rows.hpp"
 
 namespace clearloci {
 namespace {
@@ -102,13 +101,14 @@ void put_take_up(TableRows& row, const numeric::NumericModel& model, const Range
 /// Of numeric::error_components.
 std::vector<double> values_of(mechanism::Space space, const numeric::Accuracy& accuracy) {
   std::vector<double> values;
-  const auto add = [&](const auto& error, double distance) {
-    for (const Eigen::Index c : numeric::wrench_rows(space))
-      values.push_back(c < 3 ? error.dp(c) : error.dalpha(c - 3));
+  const auto add = [&](const numeric::PoseError& error, double distance) {
+    const PoseError parts = error_of(space, error);
+    values.insert(values.end(), parts.displacement.begin(), parts.displacement.end());
+    values.insert(values.end(), parts.rotation.begin(), parts.rotation.end());
     values.push_back(distance);
   };
   add(accuracy.error, accuracy.error.dp.norm());
-  add(accuracy.worst, accuracy.worst.distance);
+  add({accuracy.worst.dalpha, accuracy.worst.dp}, accuracy.worst.distance);
   return values;
 }
 
