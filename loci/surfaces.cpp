@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "core/errors.hpp"
 #include "loci/edge_labels.hpp"
+#include "loci/surface/isotopy.hpp"
 #include "loci/surface/march.hpp"
 #include "loci/surface/measure.hpp"
 #include "loci/surface/rim.hpp"
@@ -34,6 +36,10 @@ using surface::Point;
 constexpr int extra_levels = 4;
 /// And smaller yet where the mesh does not account for a zero that may be there.
 constexpr int closer_levels = 2;
+/// Rounds in which cells are halved where the topology of their triangles is not proven.
+constexpr int proof_rounds = 6;
+/// A part of the cells that the surface may pass: more are not halved in a round.
+constexpr double most_halved = 0.125;
 /// Halvings of a cell in the proof that no zero is in it.
 constexpr int cuts_of_a_cell = 5;
 /// A factor vanishes at a point where its zero is this near, in unit coordinates, to first order.
@@ -112,13 +118,20 @@ bool is_wanted(const LocusProblem& problem, const std::vector<Whole>& wholes, co
   return !reaction_label(problem, together).vanishing.empty();
 }
 
+/// Cells together in which the topology of a mesh is not proven.
+struct OpenCells {
+  int count = 0;
+  Point lower{}, upper{};      ///< of the box round them
+  std::vector<int> triangles;  ///< in them or in cells beside them
+};
+
 /// A mesh and what is needed to judge it.
 struct Meshed {
   Mesh mesh;
   std::optional<int> boundary;  ///< it lies on Q_j = 0
-  int undecided = 0;            ///< cells in which it may touch itself
-  int unexplained = 0;          ///< cells away from it in which a zero could not be excluded
-  Point at{};                   ///< one of them
+  std::vector<OpenCells> open;
+  int unexplained = 0;  ///< cells away from it in which a zero could not be excluded
+  Point at{};           ///< one of them
 };
 
 class ModeSurfaces {
@@ -168,7 +181,7 @@ class ModeSurfaces {
       std::vector<bool> own;
       for (const int one : component)
         own.push_back(std::find(components[i].begin(), components[i].end(), one) != components[i].end());
-      map.surfaces.push_back(finished(f, labels[i], surface::part_of(meshed.mesh, own), meshed));
+      map.surfaces.push_back(finished(f, labels[i], own, meshed));
       map.surfaces.back().components = static_cast<int>(components[i].size());
     }
     if (meshed.unexplained > 0) note(f, meshed, map);
@@ -178,27 +191,75 @@ class ModeSurfaces {
   Meshed mesh_of(Field& field) const {
     const int finest = std::min(level_ + extra_levels, surface::deepest);
     surface::Cells cells(field, {.level = level_, .finest = finest, .stop = stop_});
-    Meshed result = marched(field, cells);
-    std::vector<int> open = surface::unexplained(field, cells, level_, result.mesh, cuts_of_a_cell, stop_);
-    if (!open.empty()) {
-      cells.look_closer(open, finest + closer_levels);
-      result = marched(field, cells);
-      open = surface::unexplained(field, cells, level_, result.mesh, cuts_of_a_cell, stop_);
+    surface::Marched marched = surface::march(field, cells);
+    Meshed result = clipped(field, marched);
+    std::vector<int> away = surface::unexplained(field, cells, level_, result.mesh, cuts_of_a_cell, stop_);
+    bool cut = !away.empty();
+    if (cut) {
+      cells.look_closer(away, finest + closer_levels);
+      marched = surface::march(field, cells);
     }
-    for (const surface::OctreeCell& cell : cells.cells())
-      if (cell.active() && cell.undecided) ++result.undecided;
-    result.unexplained = static_cast<int>(open.size());
-    if (!open.empty()) result.at = surface::unit_of(cells.cells()[static_cast<std::size_t>(open.front())].middle());
+    std::vector<int> open = surface::unproven(field, cells, marched, stop_);
+    for (int round = 0; round < proof_rounds && cells.halve(worth_halving(field, cells, open), finest); ++round) {
+      cut = true;
+      marched = surface::march(field, cells);
+      open = surface::unproven(field, cells, marched, stop_);
+    }
+    if (cut) {
+      result = clipped(field, marched);
+      away = surface::unexplained(field, cells, level_, result.mesh, cuts_of_a_cell, stop_);
+    }
+    result.unexplained = static_cast<int>(away.size());
+    if (!away.empty()) result.at = surface::unit_of(cells.cells()[static_cast<std::size_t>(away.front())].middle());
+    add_open(cells, open, result);
     return result;
   }
 
-  Meshed marched(Field& field, const surface::Cells& cells) const {
+  Meshed clipped(Field& field, const surface::Marched& marched) const {
     Meshed result;
-    result.mesh = surface::march(field, cells);
     if (stop_ && stop_()) throw core::LimitReached("the time limit was reached");
-    result.boundary = surface::boundary_of(field, result.mesh);
-    result.mesh = surface::within_workspace(field, std::move(result.mesh), result.boundary);
+    result.boundary = surface::boundary_of(field, marched.mesh);
+    result.mesh = surface::within_workspace(field, marched.mesh, result.boundary);
     return result;
+  }
+
+  /// Along the workspace boundary smaller cells prove no more. Where much is open, it is for the enclosures, not for
+  /// the mesh: none.
+  static std::vector<int> worth_halving(Field& field, const surface::Cells& cells, const std::vector<int>& open) {
+    std::vector<int> result;
+    for (const int leaf : open)
+      if (field.over(cells.cells()[static_cast<std::size_t>(leaf)].box())) result.push_back(leaf);
+    const auto active = std::count_if(cells.cells().begin(), cells.cells().end(),
+                                      [](const surface::OctreeCell& cell) { return cell.active(); });
+    if (static_cast<double>(result.size()) > most_halved * static_cast<double>(active)) result.clear();
+    return result;
+  }
+
+  static void add_open(const surface::Cells& cells, const std::vector<int>& open, Meshed& meshed) {
+    if (open.empty()) return;
+    const std::vector<std::vector<int>> groups = surface::groups_of(cells, open);
+    std::map<int, std::vector<std::size_t>> near;  // the groups in or beside a leaf
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      OpenCells own{.count = static_cast<int>(groups[g].size()), .lower = {1, 1, 1}, .upper = {}, .triangles = {}};
+      for (const int leaf : groups[g]) {
+        const surface::Box box = cells.cells()[static_cast<std::size_t>(leaf)].box();
+        for (std::size_t i = 0; i < 3; ++i) {
+          own.lower[i] = std::min(own.lower[i], box[i].lower());
+          own.upper[i] = std::max(own.upper[i], box[i].upper());
+        }
+        cells.each_neighbour(leaf, [&](int beside) {
+          std::vector<std::size_t>& known = near[beside];
+          if (known.empty() || known.back() != g) known.push_back(g);
+        });
+      }
+      meshed.open.push_back(std::move(own));
+    }
+    for (std::size_t t = 0; t < meshed.mesh.triangles.size(); ++t) {
+      const Point middle = surface::middle_of(meshed.mesh, meshed.mesh.triangles[t]);
+      const auto found = near.find(cells.at(surface::place_of(middle), surface::deepest));
+      if (found == near.end()) continue;
+      for (const std::size_t g : found->second) meshed.open[g].triangles.push_back(static_cast<int>(t));
+    }
   }
 
   /// Whether a factor vanishes all over a mesh.
@@ -252,7 +313,9 @@ class ModeSurfaces {
     return labels;
   }
 
-  LocusSurface finished(std::size_t f, const EdgeLabel& label, const Mesh& part, const Meshed& meshed) {
+  /// `own`: the triangles of the mesh that are the surface's.
+  LocusSurface finished(std::size_t f, const EdgeLabel& label, const std::vector<bool>& own, const Meshed& meshed) {
+    const Mesh part = surface::part_of(meshed.mesh, own);
     const Whole& whole = wholes_[f];
     Field& field = *fields_[f];
     LocusSurface result;
@@ -272,8 +335,16 @@ class ModeSurfaces {
                                   static_cast<int>(part.triangles.size());
     result.area = surface::area(field.frame(), part);
     result.deviation = surface::deviation(field, part);
-    result.certified = meshed.unexplained == 0;
-    result.undecided = meshed.undecided;
+    result.within_resolution = meshed.unexplained == 0;
+    for (const OpenCells& open : meshed.open) {
+      // What no triangle is near may be a part that is missing: of any surface of the factor.
+      const bool concerns =
+          open.triangles.empty() || std::any_of(open.triangles.begin(), open.triangles.end(),
+                                                [&](int t) { return own[static_cast<std::size_t>(t)]; });
+      if (concerns)
+        result.open.push_back({field.frame().place(open.lower), field.frame().place(open.upper), open.count});
+    }
+    result.certified = result.within_resolution && result.open.empty();
     for (std::size_t i = 0; i < 3; ++i) result.resolution[i] = surface::resolution(level_) * field.frame().width(i);
     return result;
   }

@@ -108,8 +108,11 @@ Json surface_object(const core::LocusMap& map, const core::LocusSurface& surface
                         {"degree", core::total_degree(surface.implicit)}};
   body["working_mode"] = mode_object(map.tower, surface.mode);
   body["certified"] = surface.certified;
+  body["within_resolution"] = surface.within_resolution;
   body["resolution"] = surface.resolution;
-  body["undecided_cells"] = surface.undecided;
+  body["open"] = Json::array();
+  for (const core::LocusSurface::Open& open : surface.open)
+    body["open"].push_back({{"from", open.lower}, {"to", open.upper}, {"cells", open.cells}});
   body["components"] = surface.components;
   body["euler_characteristic"] = surface.euler_characteristic;
   body["area"] = surface.area;

@@ -233,8 +233,13 @@ std::string notes(const core::LocusMap& map) {
       std::any_of(map.isolated_points.begin(), map.isolated_points.end(), uncertain)) {
     sentences.emplace_back("*: traced, but its topology is not certified.");
   }
-  if (std::any_of(map.surfaces.begin(), map.surfaces.end(), uncertain))
+  const auto missing = [](const core::LocusSurface& surface) { return !surface.within_resolution; };
+  if (std::any_of(map.surfaces.begin(), map.surfaces.end(), missing))
     sentences.emplace_back("*: meshed; that nothing of the surface is missing is not certified.");
+  else if (std::any_of(map.surfaces.begin(), map.surfaces.end(), uncertain))
+    sentences.emplace_back(
+        "*: meshed, and nothing of the surface is missing; at some places its topology is not certified (loci.json, "
+        "open).");
   if (!map.complete) sentences.emplace_back("Incomplete: the work was stopped at its time limit.");
   std::string out;
   for (const auto& sentence : sentences) {

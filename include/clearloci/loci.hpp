@@ -125,12 +125,18 @@ struct LocusSurface {
   int euler_characteristic = 0;  ///< vertices - edges + triangles
   double area = 0;               ///< m^2 where all coordinates are lengths, else of the coordinates as they are
   double deviation = 0;          ///< largest distance of a triangle's middle from the surface, to first order, likewise
-  /// Proven: wherever else in the workspace the factor may vanish is within `resolution` of the triangles.
+  /// Proven: the triangles are isotopic to the surface, within the box and its faces, and nothing of it is missing.
   bool certified = false;
+  /// Proven: wherever in the workspace the factor may vanish is within `resolution` of the triangles.
+  bool within_resolution = false;
   Point3 resolution{};  ///< along each coordinate
-  /// Smallest cells of the search in which the surface may touch itself or its parts are too close to be told apart:
-  /// where there are such, the triangles may join there what is apart.
-  int undecided = 0;
+  /// Where the topology is open: along the workspace boundary, where the surface touches itself, and where its parts
+  /// are too close to be told apart. The triangles may join there what is apart.
+  struct Open {
+    Point3 lower{}, upper{};  ///< a box round cells that touch each other
+    int cells = 0;
+  };
+  std::vector<Open> open = {};
   bool excited = true;  ///< as of a curve
 };
 

@@ -33,6 +33,18 @@ void Cells::look_closer(const std::vector<int>& cells, int finest) {
   });
 }
 
+bool Cells::halve(const std::vector<int>& leaves, int finest) {
+  bool any = false;
+  for (const int leaf : leaves) {
+    const OctreeCell& cell = cells_[static_cast<std::size_t>(leaf)];
+    if (!cell.active() || cell.level >= std::min(finest, deepest) || examined_ > limits_.most) continue;
+    balance(leaf);
+    split(leaf);
+    any = true;
+  }
+  return any;
+}
+
 void Cells::cut(std::vector<int> front, const std::function<bool(OctreeCell&)>& wanted) {
   while (!front.empty()) {
     std::vector<int> next;
@@ -58,7 +70,6 @@ bool Cells::worth_splitting(OctreeCell& cell) {
   if (!cell.active()) return false;
   if (cell.level < limits_.level) return true;
   const Look look = look_at(cell);
-  cell.undecided = !cell.proof.one_sheet && look == Look::several;
   if (cell.level >= limits_.finest || examined_ > limits_.most) return false;
   if (cell.proof.rim) return look != Look::unseen && cell.level < limits_.level + rim_levels;
   if (look == Look::several) return !cell.proof.one_sheet;
@@ -133,6 +144,31 @@ int Cells::at(const Place& inner, int level) const {
       if (inner[i] >= middle[i]) child |= 1 << i;
     index = cell.children + child;
   }
+}
+
+void Cells::each_leaf_at(const Place& place, const std::function<void(int)>& visit) const {
+  std::vector<int> seen;
+  for (int which = 0; which < 8; ++which) {
+    Place inner = place;
+    for (std::size_t i = 0; i < 3; ++i)
+      if ((which >> i & 1) != 0) --inner[i];
+    const int leaf = at(inner, deepest);
+    if (leaf < 0 || std::find(seen.begin(), seen.end(), leaf) != seen.end()) continue;
+    seen.push_back(leaf);
+    visit(leaf);
+  }
+}
+
+/// Neighbours are at most half as large: a place beside each half of every edge meets them all.
+void Cells::each_neighbour(int leaf, const std::function<void(int)>& visit) const {
+  const OctreeCell& cell = cells_[static_cast<std::size_t>(leaf)];
+  const std::array<std::int32_t, 4> steps = {-1, 0, cell.size() / 2, cell.size()};
+  for (const std::int32_t x : steps)
+    for (const std::int32_t y : steps)
+      for (const std::int32_t z : steps) {
+        const int other = at({cell.corner[0] + x, cell.corner[1] + y, cell.corner[2] + z}, deepest);
+        if (other >= 0) visit(other);
+      }
 }
 
 bool Cells::finer_at(const Place& inner, int level) const {

@@ -3,6 +3,7 @@
 // Private to loci/surface.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -22,12 +23,19 @@ inline Point unit_of(const Place& place) {
   return {place[0] * step, place[1] * step, place[2] * step};
 }
 
+/// The place below a point of the unit cube, in every coordinate.
+inline Place place_of(const Point& unit) {
+  Place place;
+  for (std::size_t i = 0; i < 3; ++i)
+    place[i] = std::clamp(static_cast<std::int32_t>(unit[i] * lattice), std::int32_t{0}, lattice - 1);
+  return place;
+}
+
 struct OctreeCell {
   Place corner{};  ///< the lowest
   int level = 0;
   int children = -1;  ///< the first of eight; -1: a leaf
   Proof proof;
-  bool undecided = false;  ///< the surface may touch itself there, or come close to it
 
   std::int32_t size() const { return lattice >> level; }
   Place middle() const { return {corner[0] + size() / 2, corner[1] + size() / 2, corner[2] + size() / 2}; }
@@ -55,12 +63,19 @@ class Cells {
 
   /// Cuts cells further, down to the given level, wherever the surface may pass.
   void look_closer(const std::vector<int>& cells, int finest);
+  /// Cuts leaves once, those of them that are larger than the finest and that the surface may pass. False: there are
+  /// none.
+  bool halve(const std::vector<int>& leaves, int finest);
 
   const std::vector<OctreeCell>& cells() const { return cells_; }
   /// The smallest cell of at most the given level that holds a place of the lattice's interior; -1: outside the cube.
   int at(const Place& inner, int level) const;
   /// Whether the place lies inside a cell of the given level that is cut further.
   bool finer_at(const Place& inner, int level) const;
+  /// The leaves of which a place is a point, each once.
+  void each_leaf_at(const Place& place, const std::function<void(int)>& visit) const;
+  /// The leaves that share a point with a leaf, itself among them, some more than once.
+  void each_neighbour(int leaf, const std::function<void(int)>& visit) const;
 
  private:
   /// What the function's signs and gradients at some points of a cell speak for.

@@ -217,17 +217,25 @@ double Field::square_gradient(const Point& unit, int root, Point& slopes) {
   return chart.at.square(root);
 }
 
-Proof Field::examine(const Box& unit) {
+Box Field::place_of(const Box& unit) const {
   Box place;
   for (std::size_t i = 0; i < 3; ++i)
     place[i] = Interval(frame_.lower[i]) + unit[i] * (Interval(frame_.upper[i]) - Interval(frame_.lower[i]));
+  return place;
+}
+
+bool Field::meets(const Chart& chart, const Box& place) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (place[i].upper() < chart.lower[i] || place[i].lower() > chart.upper[i]) return false;
+  return true;
+}
+
+Proof Field::examine(const Box& unit) {
+  const Box place = place_of(unit);
   Proof whole{.outside = true, .zero_free = true, .one_sheet = true, .rim = false};
   int common = 0;
   for (const auto& chart : charts_) {
-    bool apart = false;
-    for (std::size_t i = 0; i < 3; ++i)
-      apart = apart || place[i].upper() < chart->lower[i] || place[i].lower() > chart->upper[i];
-    if (apart) continue;
+    if (!meets(*chart, place)) continue;
     int sign = 0;
     const Proof own = examine(*chart, place, sign);
     if (own.outside) continue;
@@ -240,8 +248,7 @@ Proof Field::examine(const Box& unit) {
   return whole;
 }
 
-Proof Field::examine(Chart& chart, const Box& place, int& sign) {
-  Proof proof;
+std::optional<Box> Field::enter(Chart& chart, const Box& place) {
   Box variables;
   for (std::size_t i = 0; i < 3; ++i) {
     variables[i] = variable_over(*chart.problem, i, place[i]);
@@ -253,11 +260,62 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
     const auto own = static_cast<std::size_t>(j);
     chart.over.run_square(j);
     const Interval& square = chart.over.square(j);
-    if (square.upper() < 0) return {.outside = true, .zero_free = true};
+    if (square.upper() < 0) return std::nullopt;
     rising_[own] = square.lower() <= 0;
     roots_[own] = mode_[own] > 0 ? square_root(square) : -square_root(square);
     chart.over.set(3 + j, roots_[own]);
   }
+  return variables;
+}
+
+Interval Field::by_unit(std::size_t i, const Interval& variable) const {
+  const Interval scaled = enclosed_[i] * (Interval(frame_.upper[i]) - Interval(frame_.lower[i]));
+  return frame_.angle[i] ? scaled * (Interval(1.0) + squared(variable)) * Interval(0.5) : scaled;
+}
+
+/// Mean-value form over coordinates alone, where no root may be 0: f(X) within f(m) + sum f_x (X - m).
+Interval Field::mean_value(Chart& chart, const Box& variables) {
+  Interval away = 0;
+  Box middle;
+  for (std::size_t i = 0; i < 3; ++i) {
+    middle[i] = Interval(variables[i].middle());
+    away = away + enclosed_[i] * (variables[i] - middle[i]);
+    chart.over.set(static_cast<int>(i), middle[i]);
+  }
+  for (int j = 0; j < roots(); ++j) {
+    chart.over.run_square(j);
+    const Interval root = square_root(chart.over.square(j));
+    chart.over.set(3 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
+  }
+  chart.over.run_values();
+  return chart.over.value(0) + away;
+}
+
+std::optional<std::vector<Field::Over>> Field::over(const Box& unit) {
+  const Box place = place_of(unit);
+  std::vector<Over> result;
+  for (const auto& chart : charts_) {
+    if (!meets(*chart, place)) continue;
+    const std::optional<Box> variables = enter(*chart, place);
+    if (!variables || std::find(rising_.begin(), rising_.end(), true) != rising_.end()) return std::nullopt;
+    chart->over.run_values();
+    Proof none;
+    differentiate(*chart, none);
+    const Interval sign(chart->sign);
+    Over own;
+    own.value = sign * chart->over.value(0);
+    for (std::size_t i = 0; i < 3; ++i) own.gradient[i] = sign * by_unit(i, (*variables)[i]);
+    if (own.value.sign() == 0) own.value = meet(own.value, sign * (mean_value(*chart, *variables)));
+    result.push_back(own);
+  }
+  return result;
+}
+
+Proof Field::examine(Chart& chart, const Box& place, int& sign) {
+  Proof proof;
+  const std::optional<Box> entered = enter(chart, place);
+  if (!entered) return {.outside = true, .zero_free = true};
+  const Box& variables = *entered;
   chart.over.run_values();
   sign = chart.sign * chart.over.value(0).sign();
   proof.zero_free = sign != 0;
@@ -266,8 +324,7 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
   differentiate(chart, proof);
   Interval product = 0, away = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    Interval scaled = enclosed_[i] * Interval(frame_.width(i));
-    if (frame_.angle[i]) scaled = scaled * (Interval(1.0) + squared(variables[i])) * Interval(0.5);
+    const Interval scaled = by_unit(i, variables[i]);
     product = product + scaled * scaled;
     const double middle = variables[i].middle();
     away = away + enclosed_[i] * (variables[i] - Interval(middle));

@@ -78,6 +78,14 @@ class Field {
   /// With intervals, rounded outwards.
   Proof examine(const Box& unit);
 
+  /// The function over a box as one chart has it, by unit coordinates.
+  struct Over {
+    core::Interval value;
+    std::array<core::Interval, 3> gradient;
+  };
+  /// Of every chart that meets the box; nothing where the workspace boundary may pass through it.
+  std::optional<std::vector<Over>> over(const Box& unit);
+
  private:
   struct Chart {
     Chart(const Part& part, const core::WorkingMode& mode);
@@ -94,6 +102,13 @@ class Field {
   /// `sign`: proven of the function where the cell is free of zeros.
   Proof examine(Chart& chart, const Box& place, int& sign);
   void differentiate(Chart& chart, Proof& proof);
+  Box place_of(const Box& unit) const;
+  static bool meets(const Chart& chart, const Box& place);
+  /// Sets coordinates and roots; returns the variables of the coordinates, nothing where no pose of the mode is.
+  std::optional<Box> enter(Chart& chart, const Box& place);
+  core::Interval mean_value(Chart& chart, const Box& variables);
+  /// Of `enclosed_`: by a unit coordinate instead of its variable.
+  core::Interval by_unit(std::size_t i, const core::Interval& variable) const;
 
   Frame frame_;
   core::WorkingMode mode_;

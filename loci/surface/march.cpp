@@ -18,40 +18,22 @@ constexpr int most_repairs = 8;
 class Marcher {
  public:
   Marcher(Field& field, const Cells& cells) : field_(field), cells_(cells), cut_(tetrahedra_of(cells)) {
-    for (const Place& place : cut_.corners) {
-      corners_.push_back({unit_of(place), 0, 0, false});
-      Corner& corner = corners_.back();
-      corner.value = field_.value(corner.at);
-      corner.sign = corner.value < 0 ? -1 : 1;
-    }
+    for (const Place& place : cut_.corners) corners_.emplace_back(unit_of(place), field_.value(unit_of(place)));
   }
 
-  Mesh run() {
+  Marched run() {
     find_crossings();
     move_corners();
     Mesh mesh = triangles();
     for (int round = 0; round < most_repairs && repair(mesh); ++round) mesh = triangles();
-    return compact(mesh);
+    return {compact(mesh), {std::move(cut_.corners), std::move(corners_), std::move(crossings_)}};
   }
 
  private:
-  struct Corner {
-    Point at{};
-    double value = 0;
-    int sign = 0;
-    bool stays = false;
-  };
-  struct Crossing {
-    int a = 0, b = 0;
-    Point at{};
-    double part = 0;  ///< of the way from a to b
-  };
+  using Corner = Complex::Corner;
+  using Crossing = Complex::Crossing;
 
   Corner& corner(int i) { return corners_[static_cast<std::size_t>(i)]; }
-
-  static std::uint64_t key(int a, int b) {
-    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b));
-  }
 
   /// Illinois' rule between two signs.
   Crossing solve(int a, int b) {
@@ -86,7 +68,7 @@ class Marcher {
   }
 
   int crossing(int a, int b) {
-    const auto [known, fresh] = crossing_of_.try_emplace(key(a, b), static_cast<int>(crossings_.size()));
+    const auto [known, fresh] = crossing_of_.try_emplace(Complex::key(a, b), static_cast<int>(crossings_.size()));
     if (fresh) crossings_.push_back(solve(std::min(a, b), std::max(a, b)));
     return known->second;
   }
@@ -110,14 +92,10 @@ class Marcher {
   /// Cells outside the workspace are not cut, though the surface goes on in them: a corner of theirs that moved would
   /// take a piece of the surface away.
   bool touches_outside(const Place& place) const {
-    for (int which = 0; which < 8; ++which) {
-      Place inner = place;
-      for (std::size_t i = 0; i < 3; ++i)
-        if ((which >> i & 1) != 0) --inner[i];
-      const int cell = cells_.at(inner, deepest);
-      if (cell >= 0 && cells_.cells()[static_cast<std::size_t>(cell)].proof.outside) return true;
-    }
-    return false;
+    bool result = false;
+    cells_.each_leaf_at(
+        place, [&](int leaf) { result = result || cells_.cells()[static_cast<std::size_t>(leaf)].proof.outside; });
+    return result;
   }
 
   void move_corners() {
@@ -271,6 +249,6 @@ class Marcher {
 
 }  // namespace
 
-Mesh march(Field& field, const Cells& cells) { return Marcher(field, cells).run(); }
+Marched march(Field& field, const Cells& cells) { return Marcher(field, cells).run(); }
 
 }  // namespace clearloci::loci::surface

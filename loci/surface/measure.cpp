@@ -48,8 +48,8 @@ double deviation(Field& field, const Mesh& mesh) {
   const Frame& frame = field.frame();
   double most = 0;
   for (const Triangle& t : mesh.triangles) {
-    Point middle{}, slopes{};
-    for (const int corner : t) middle = middle + 1.0 / 3 * mesh.points[static_cast<std::size_t>(corner)];
+    const Point middle = middle_of(mesh, t);
+    Point slopes{};
     if (!field.inside(middle)) continue;
     const double value = field.gradient(middle, slopes);
     for (std::size_t i = 0; i < 3; ++i) slopes[i] /= frame.width(i);
@@ -74,8 +74,7 @@ std::vector<int> unexplained(Field& field, const Cells& cells, int level, const 
   const auto flag = [&](int x, int y, int z) { return (static_cast<std::size_t>(x) * side + y) * side + z; };
   for (const Triangle& t : mesh.triangles) {
     // Triangles are no larger than a cell: their middles are as near as need be.
-    Point middle{};
-    for (const int corner : t) middle = middle + 1.0 / 3 * mesh.points[static_cast<std::size_t>(corner)];
+    const Point middle = middle_of(mesh, t);
     const int x = bin(middle[0]), y = bin(middle[1]), z = bin(middle[2]);
     for (int i = std::max(0, x - 1); i <= std::min(side - 1, x + 1); ++i)
       for (int j = std::max(0, y - 1); j <= std::min(side - 1, y + 1); ++j)

@@ -23,6 +23,11 @@ inline Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+inline Point middle_of(const Mesh& mesh, const Triangle& triangle) {
+  const auto at = [&](std::size_t i) { return mesh.points[static_cast<std::size_t>(triangle[i])]; };
+  return 1.0 / 3 * (at(0) + at(1) + at(2));
+}
+
 /// Without the points that no triangle has; the others keep their order.
 Mesh compact(const Mesh& mesh);
 

@@ -9,15 +9,20 @@ class Cutter {
  public:
   explicit Cutter(const Cells& cells) : cells_(cells) {}
 
-  Tetrahedra run() {
-    for (const OctreeCell& cell : cells_.cells())
-      if (cell.active())
-        for (int axis = 0; axis < 3; ++axis)
-          for (const int side : {-1, 1}) add_face(cell, axis, side);
+  Tetrahedra run(const std::vector<int>& others) {
+    for (std::size_t i = 0; i < cells_.cells().size(); ++i)
+      if (cells_.cells()[i].active()) add(static_cast<int>(i));
+    for (const int cell : others) add(cell);
     return std::move(result_);
   }
 
  private:
+  void add(int cell) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int side : {-1, 1}) add_face(cells_.cells()[static_cast<std::size_t>(cell)], axis, side);
+    result_.cell_of.resize(result_.tetrahedra.size(), cell);
+  }
+
   int corner(const Place& place) {
     std::uint64_t key = 0;
     for (const std::int32_t coordinate : place) key = key << 20 | static_cast<std::uint64_t>(coordinate);
@@ -74,6 +79,6 @@ class Cutter {
 
 }  // namespace
 
-Tetrahedra tetrahedra_of(const Cells& cells) { return Cutter(cells).run(); }
+Tetrahedra tetrahedra_of(const Cells& cells, const std::vector<int>& others) { return Cutter(cells).run(others); }
 
 }  // namespace clearloci::loci::surface

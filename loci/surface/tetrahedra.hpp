@@ -11,9 +11,11 @@ namespace clearloci::loci::surface {
 
 struct Tetrahedra {
   std::vector<Place> corners;
-  std::vector<std::array<int, 4>> tetrahedra;
+  std::vector<std::array<int, 4>> tetrahedra;  ///< those of one cell in a row
+  std::vector<int> cell_of;                    ///< of each tetrahedron
 };
 
-Tetrahedra tetrahedra_of(const Cells& cells);
+/// `others`: leaves that are not active and are cut too, after the active ones.
+Tetrahedra tetrahedra_of(const Cells& cells, const std::vector<int>& others = {});
 
 }  // namespace clearloci::loci::surface

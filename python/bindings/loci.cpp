@@ -58,6 +58,16 @@ py::dict dict_of(const LocusMap& map, const LocusSurface& surface) {
   one["cause"] = surface.cause;
   one["working_mode"] = mode_of(map.tower, surface.mode);
   one["certified"] = surface.certified;
+  one["within_resolution"] = surface.within_resolution;
+  py::list open;
+  for (const LocusSurface::Open& place : surface.open) {
+    py::dict box;
+    box["from"] = place.lower;
+    box["to"] = place.upper;
+    box["cells"] = place.cells;
+    open.append(box);
+  }
+  one["open"] = open;
   one["vertices"] = vertices;
   one["triangles"] = triangles;
   return one;

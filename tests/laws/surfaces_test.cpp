@@ -146,6 +146,7 @@ TEST(SurfaceVertices, GoughStewartAgainstTheWitness) {
       most = std::max(most, std::abs(posture.reactions[joint(leg)].actuator) / any);
     }
     EXPECT_LT(most, 1e-7) << surface.id;
+    EXPECT_TRUE(surface.certified) << surface.id;
   }
   EXPECT_EQ(legs, 6);
 }

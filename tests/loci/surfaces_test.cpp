@@ -164,7 +164,7 @@ TEST(Surfaces, TwoCloserThanTheMeshStayApart) {
   EXPECT_EQ(surface.euler_characteristic, 4);
   EXPECT_EQ(edges_of(problem, surface).rim, 0);
   EXPECT_TRUE(surface.certified);
-  EXPECT_EQ(surface.undecided, 0);
+  EXPECT_TRUE(surface.open.empty());
   const double area = 4 * std::numbers::pi * (0.36 + 0.49);
   EXPECT_NEAR(surface.area, area, 0.01 * area);
 }
@@ -173,7 +173,12 @@ TEST(Surfaces, TwoTooCloseForTheMeshAreSaidToBe) {
   LocusProblem problem = box_problem(1);
   add_singularity(problem, sphere(0, 0, 0, Rational(3, 5)) * sphere(0, 0, 0, Rational(601, 1000)));
   const LocusMap map = trace(problem, 1.0 / 16);
-  for (const LocusSurface& surface : map.surfaces) EXPECT_GT(surface.undecided, 100);
+  for (const LocusSurface& surface : map.surfaces) {
+    EXPECT_FALSE(surface.certified);
+    int cells = 0;
+    for (const LocusSurface::Open& open : surface.open) cells += open.cells;
+    EXPECT_GT(cells, 100);
+  }
   EXPECT_FALSE(map.surfaces.empty() && map.notes.empty());
 }
 
@@ -188,10 +193,69 @@ TEST(Surfaces, ASmallPieceIsFoundOrItsPlaceIsNamed) {
     ASSERT_EQ(map.surfaces.size(), 1U);
     const bool found = map.surfaces.front().components == 2;
     EXPECT_TRUE(found || !map.surfaces.front().certified);
-    EXPECT_EQ(map.notes.empty(), map.surfaces.front().certified);
+    EXPECT_EQ(map.notes.empty(), map.surfaces.front().within_resolution);
     if (thousandths >= 4) {
       EXPECT_TRUE(found);
     }
+  }
+}
+
+/// x y - c: two sheets of a hyperbola, of which the one for c = 0 crosses itself along the axis z.
+Polynomial hyperbola(const Rational& c) { return {3, {term(1, {1, 1, 0}), term(-c, {0, 0, 0})}}; }
+
+TEST(Surfaces, TopologyIsOpenWhereASurfaceCrossesItselfAndNowhereElse) {
+  LocusProblem problem = box_problem(1);
+  add_singularity(problem, hyperbola(0));
+  const LocusMap map = trace(problem);
+  ASSERT_EQ(map.surfaces.size(), 1U);
+  const LocusSurface& surface = map.surfaces.front();
+  EXPECT_TRUE(surface.within_resolution);
+  EXPECT_FALSE(surface.certified);
+  ASSERT_EQ(surface.open.size(), 1U);
+  for (const std::size_t i : {0, 1}) {
+    EXPECT_LT(surface.open[0].lower[i], 0);
+    EXPECT_GT(surface.open[0].upper[i], 0);
+    EXPECT_LT(surface.open[0].upper[i] - surface.open[0].lower[i], 0.3);
+  }
+  EXPECT_EQ(surface.open[0].lower[2], -1);
+  EXPECT_EQ(surface.open[0].upper[2], 1);
+}
+
+TEST(Surfaces, TopologyIsProvenWhereSheetsComeNearEachOther) {
+  LocusProblem problem = box_problem(1);
+  add_singularity(problem, hyperbola(Rational(1, 400)));  // 0.1 m apart
+  const LocusMap map = trace(problem);
+  ASSERT_EQ(map.surfaces.size(), 1U);
+  EXPECT_TRUE(map.surfaces.front().certified);
+  EXPECT_EQ(map.surfaces.front().components, 2);
+  EXPECT_EQ(map.surfaces.front().euler_characteristic, 2);
+}
+
+TEST(Surfaces, TopologyHoldsWhereCornersOfCellsLieOnTheSurface) {
+  // Planes through corners, edges and faces of cells.
+  for (const Polynomial& p :
+       {Polynomial{3, {term(1, {1, 0, 0})}}, Polynomial{3, {term(1, {1, 0, 0}), term(-2, {0, 1, 0})}},
+        Polynomial{3, {term(1, {1, 0, 0}), term(1, {0, 1, 0}), term(1, {0, 0, 1})}},
+        Polynomial{3, {term(1, {1, 0, 0}), term(Rational(-1, 1000000000), {0, 0, 0})}}}) {
+    LocusProblem problem = box_problem(1);
+    add_singularity(problem, p);
+    const LocusMap map = trace(problem);
+    ASSERT_EQ(map.surfaces.size(), 1U);
+    EXPECT_TRUE(map.surfaces.front().certified) << core::to_string(p, std::vector<std::string>{"x", "y", "z"});
+    EXPECT_EQ(map.surfaces.front().euler_characteristic, 1);
+  }
+}
+
+TEST(Surfaces, TopologyIsOpenWhereASurfaceTouchesTheBoxOrHoldsAnEdgeOfIt) {
+  for (const Polynomial& p : {Polynomial{3, {term(1, {2, 0, 0}), term(1, {0, 2, 0}), term(-1, {0, 0, 0})}},
+                              Polynomial{3, {term(1, {1, 0, 0}), term(-1, {0, 1, 0})}}}) {
+    LocusProblem problem = box_problem(1);
+    add_singularity(problem, p);
+    const LocusMap map = trace(problem, 1.0 / 8);
+    ASSERT_FALSE(map.surfaces.empty());
+    EXPECT_FALSE(map.surfaces.front().certified);
+    for (const LocusSurface::Open& open : map.surfaces.front().open)
+      EXPECT_TRUE(open.lower[0] == -1 || open.upper[0] == 1 || open.lower[1] == -1 || open.upper[1] == 1);
   }
 }
 
@@ -224,6 +288,14 @@ TEST(Surfaces, CubicsAtRandomEndOnTheBoxAlone) {
       EXPECT_EQ(edges.inner, 0);
       EXPECT_EQ(edges.branch, 0);
       for (const Point3& at : surface.vertices) EXPECT_NEAR(value(p, at), 0, 1e-8);
+    }
+    const LocusMap coarse = trace(problem, 1.0 / 10);
+    ASSERT_EQ(map.surfaces.size(), coarse.surfaces.size());
+    for (std::size_t i = 0; i < map.surfaces.size(); ++i) {
+      EXPECT_TRUE(map.surfaces[i].certified);
+      EXPECT_TRUE(coarse.surfaces[i].certified);
+      EXPECT_EQ(map.surfaces[i].components, coarse.surfaces[i].components);
+      EXPECT_EQ(map.surfaces[i].euler_characteristic, coarse.surfaces[i].euler_characteristic);
     }
     const LocusMap again = trace(problem, 1.0 / 24);
     ASSERT_EQ(map.surfaces.size(), again.surfaces.size());

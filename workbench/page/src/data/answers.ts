@@ -29,7 +29,7 @@ export interface Curve {
 }
 
 export interface Surface extends Omit<Curve, "arcs" | "closed_form"> {
-  undecided_cells: number;
+  within_resolution: boolean;
   area: number;
 }
 

@@ -1,0 +1,281 @@
+#include "loci/surface/isotopy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include "core/errors.hpp"
+#include "loci/surface/tetrahedra.hpp"
+
+namespace clearloci::loci::surface {
+namespace {
+
+using core::Interval;
+
+constexpr int clock_every = 64;  // cells between two looks at the clock
+
+/// A corner of a tetrahedron and the value of g there.
+struct Node {
+  Point at{};
+  double value = 0;
+};
+using Nodes = std::array<Node, 4>;
+using Vector = std::array<Interval, 3>;
+
+Vector way(const Point& from, const Point& to) {
+  return {Interval(to[0]) - Interval(from[0]), Interval(to[1]) - Interval(from[1]),
+          Interval(to[2]) - Interval(from[2])};
+}
+
+Vector cross_product(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Interval product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Six times the volume of a tetrahedron with the sign of its orientation, and as many times the gradient of g.
+struct Slope {
+  Interval volume;
+  Vector gradient;
+};
+
+Slope slope_of(const Nodes& nodes) {
+  const Vector a = way(nodes[0].at, nodes[1].at), b = way(nodes[0].at, nodes[2].at), c = way(nodes[0].at, nodes[3].at);
+  const Vector bc = cross_product(b, c), ca = cross_product(c, a), ab = cross_product(a, b);
+  const auto rise = [&](std::size_t i) { return Interval(nodes[i].value) - Interval(nodes[0].value); };
+  Slope result;
+  result.volume = product(a, bc);
+  for (std::size_t k = 0; k < 3; ++k) result.gradient[k] = rise(1) * bc[k] + rise(2) * ca[k] + rise(3) * ab[k];
+  return result;
+}
+
+/// A part of a tetrahedron: itself, or what lies in some of the cube's sides.
+struct Part {
+  std::array<int, 3> sides{};  ///< along each axis: -1 below, +1 above, 0 not held
+  std::vector<Node> nodes;
+};
+
+bool lies_on(const Point& at, const std::array<int, 3>& sides) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (sides[k] != 0 && at[k] != (sides[k] < 0 ? 0 : 1)) return false;
+  return true;
+}
+
+/// Those that are as large as the sides allow: a face of the tetrahedron in one, an edge in two, a corner in three.
+std::vector<Part> parts_of(const Nodes& nodes) {
+  const auto beside_a_side = [](const Node& node) {
+    return std::any_of(node.at.begin(), node.at.end(), [](double x) { return x == 0 || x == 1; });
+  };
+  if (std::none_of(nodes.begin(), nodes.end(), beside_a_side)) return {{{}, {nodes.begin(), nodes.end()}}};
+  std::vector<Part> result;
+  std::array<int, 3> sides{};
+  for (sides[0] = -1; sides[0] <= 1; ++sides[0])
+    for (sides[1] = -1; sides[1] <= 1; ++sides[1])
+      for (sides[2] = -1; sides[2] <= 1; ++sides[2]) {
+        Part part{sides, {}};
+        std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(part.nodes),
+                     [&](const Node& node) { return lies_on(node.at, sides); });
+        const auto held = 3 - std::count(sides.begin(), sides.end(), 0);
+        if (static_cast<std::ptrdiff_t>(part.nodes.size()) >= 4 - held) result.push_back(std::move(part));
+      }
+  return result;
+}
+
+template <class Range>
+Box box_of(const Range& nodes) {
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box[i] = Interval(nodes[0].at[i]);
+    for (const Node& node : nodes) box[i] = hull(box[i], Interval(node.at[i]));
+  }
+  return box;
+}
+
+/// +1 or -1 where all nodes have that sign.
+int sign_of(const std::vector<Node>& nodes) {
+  const auto sign = [](const Node& node) { return node.value > 0 ? 1 : node.value < 0 ? -1 : 0; };
+  const int first = sign(nodes.front());
+  return std::all_of(nodes.begin(), nodes.end(), [&](const Node& node) { return sign(node) == first; }) ? first : 0;
+}
+
+/// Whether the homotopy has no zero on a part, or is regular there. `over`: f on a box that holds it. `orientation`: of
+/// the tetrahedron.
+bool is_regular(const Part& part, const Slope& g, const std::vector<Field::Over>& over, int orientation) {
+  const int sign = sign_of(part.nodes);
+  return std::all_of(over.begin(), over.end(), [&](const Field::Over& f) {
+    if (sign != 0 && f.value.sign() == sign) return true;
+    Interval sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (part.sides[k] == 0) sum = sum + g.gradient[k] * f.gradient[k];
+    return g.volume.sign() == orientation && sum.sign() == orientation;
+  });
+}
+
+class Homotopy {
+ public:
+  Homotopy(Field& field, const Cells& cells, const Marched& marched)
+      : field_(field), cells_(cells), complex_(marched.complex) {
+    for (std::size_t i = 0; i < complex_.crossings.size(); ++i)
+      crossing_of_.emplace(Complex::key(complex_.crossings[i].a, complex_.crossings[i].b), static_cast<int>(i));
+  }
+
+  std::vector<int> run(const std::function<bool()>& stop) {
+    const Tetrahedra all = tetrahedra_of(cells_, cells_beside_moved_corners());
+    place_corners(all);
+    std::vector<int> open;
+    for (std::size_t first = 0, last = 0; first < all.tetrahedra.size(); first = last) {
+      const int cell = all.cell_of[first];
+      while (last < all.tetrahedra.size() && all.cell_of[last] == cell) ++last;
+      if (stop && ++examined_ % clock_every == 0 && stop()) throw core::LimitReached("the time limit was reached");
+      if (!is_regular_in(all, first, last)) open.push_back(cell);
+    }
+    std::sort(open.begin(), open.end());
+    return open;
+  }
+
+ private:
+  /// Cells free of zeros into which the tetrahedra of moved corners reach.
+  std::vector<int> cells_beside_moved_corners() const {
+    std::vector<int> result;
+    for (std::size_t i = 0; i < complex_.corners.size(); ++i)
+      if (complex_.corners[i].on_surface())
+        cells_.each_leaf_at(complex_.places[i], [&](int cell) {
+          if (!cells_.cells()[static_cast<std::size_t>(cell)].active()) result.push_back(cell);
+        });
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  /// The marcher's corners come first, in its order: the active cells are cut first.
+  void place_corners(const Tetrahedra& all) {
+    for (std::size_t i = 0; i < all.corners.size(); ++i) {
+      if (i < complex_.corners.size()) {
+        const Complex::Corner& own = complex_.corners[i];
+        nodes_.push_back({own.at, own.signed_value()});
+      } else {
+        const Point at = unit_of(all.corners[i]);
+        nodes_.push_back({at, Complex::Corner(at, field_.value(at)).signed_value()});
+      }
+    }
+  }
+
+  bool is_regular_in(const Tetrahedra& all, std::size_t first, std::size_t last) {
+    Box box = cells_.cells()[static_cast<std::size_t>(all.cell_of[first])].box();
+    for (std::size_t t = first; t < last; ++t) {
+      const Box own = box_of(nodes_of(all.tetrahedra[t]));
+      for (std::size_t i = 0; i < 3; ++i) box[i] = hull(box[i], own[i]);
+    }
+    const std::optional<std::vector<Field::Over>> over = field_.over(box);
+    if (!over) return false;
+    for (std::size_t t = first; t < last; ++t)
+      if (!is_regular_in(all.tetrahedra[t], *over, orientation(all, all.tetrahedra[t]))) return false;
+    return true;
+  }
+
+  Nodes nodes_of(const std::array<int, 4>& corners) const {
+    Nodes nodes;
+    for (std::size_t i = 0; i < 4; ++i) nodes[i] = nodes_[static_cast<std::size_t>(corners[i])];
+    return nodes;
+  }
+
+  /// Of a tetrahedron before its corners were moved.
+  static int orientation(const Tetrahedra& all, const std::array<int, 4>& corners) {
+    Nodes nodes;
+    for (std::size_t i = 0; i < 4; ++i) nodes[i].at = unit_of(all.corners[static_cast<std::size_t>(corners[i])]);
+    return slope_of(nodes).volume.sign();
+  }
+
+  /// With f over the whole cell, then, where that does not do, over the part's own box.
+  bool is_regular_in(const std::array<int, 4>& corners, const std::vector<Field::Over>& over, int orientation) {
+    std::vector<Nodes> pieces = {nodes_of(corners)};
+    const std::optional<std::vector<int>> crossings = crossings_of(corners);
+    if (!crossings) return false;
+    for (const int crossing : *crossings) cut(pieces, complex_.crossings[static_cast<std::size_t>(crossing)]);
+    for (const Nodes& piece : pieces) {
+      const Slope g = slope_of(piece);
+      for (const Part& part : parts_of(piece)) {
+        if (is_regular(part, g, over, orientation)) continue;
+        const std::optional<std::vector<Field::Over>> closer = field_.over(box_of(part.nodes));
+        if (!closer || !is_regular(part, g, *closer, orientation)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Of its edges, ascending: tetrahedra that share a face then cut it alike. Nothing where the marcher knows of none.
+  std::optional<std::vector<int>> crossings_of(const std::array<int, 4>& corners) const {
+    std::vector<int> result;
+    const auto below = [&](std::size_t i) { return nodes_[static_cast<std::size_t>(corners[i])].value < 0; };
+    const auto above = [&](std::size_t i) { return nodes_[static_cast<std::size_t>(corners[i])].value > 0; };
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = i + 1; k < 4; ++k) {
+        if (!(below(i) && above(k)) && !(above(i) && below(k))) continue;
+        const auto known = crossing_of_.find(Complex::key(corners[i], corners[k]));
+        if (known == crossing_of_.end()) return std::nullopt;
+        result.push_back(known->second);
+      }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  /// Cuts every piece that has the crossing's edge in two.
+  void cut(std::vector<Nodes>& pieces, const Complex::Crossing& crossing) const {
+    const Point& a = nodes_[static_cast<std::size_t>(crossing.a)].at;
+    const Point& b = nodes_[static_cast<std::size_t>(crossing.b)].at;
+    const std::size_t before = pieces.size();
+    for (std::size_t p = 0; p < before; ++p) {
+      const auto place_of = [&](const Point& at) {
+        std::size_t i = 0;
+        while (i < 4 && pieces[p][i].at != at) ++i;
+        return i;
+      };
+      const std::size_t from = place_of(a), to = place_of(b);
+      if (from == 4 || to == 4) continue;
+      Nodes other = pieces[p];
+      pieces[p][from] = other[to] = {crossing.at, 0};
+      pieces.push_back(other);
+    }
+  }
+
+  Field& field_;
+  const Cells& cells_;
+  const Complex& complex_;
+  std::vector<Node> nodes_;
+  std::unordered_map<std::uint64_t, int> crossing_of_;
+  int examined_ = 0;
+};
+
+}  // namespace
+
+std::vector<int> unproven(Field& field, const Cells& cells, const Marched& marched, const std::function<bool()>& stop) {
+  return Homotopy(field, cells, marched).run(stop);
+}
+
+std::vector<std::vector<int>> groups_of(const Cells& cells, const std::vector<int>& leaves) {
+  std::vector<std::vector<int>> groups;
+  std::vector<bool> taken(leaves.size(), false);
+  const auto position = [&](int leaf) {
+    const auto found = std::lower_bound(leaves.begin(), leaves.end(), leaf);
+    return found != leaves.end() && *found == leaf ? found - leaves.begin() : std::ptrdiff_t{-1};
+  };
+  for (std::size_t first = 0; first < leaves.size(); ++first) {
+    if (taken[first]) continue;
+    std::vector<int> group = {leaves[first]};
+    taken[first] = true;
+    for (std::size_t i = 0; i < group.size(); ++i)
+      cells.each_neighbour(group[i], [&](int neighbour) {
+        const std::ptrdiff_t place = position(neighbour);
+        if (place < 0 || taken[static_cast<std::size_t>(place)]) return;
+        taken[static_cast<std::size_t>(place)] = true;
+        group.push_back(neighbour);
+      });
+    std::sort(group.begin(), group.end());
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+}  // namespace clearloci::loci::surface
