@@ -61,6 +61,18 @@ class Outward {
     surface.area = area_of(surface);
   }
 
+  void move(core::SpaceCurve& curve) const {
+    for (core::SpaceArc& arc : curve.arcs) {
+      for (core::Point3& at : arc.points)
+        for (std::size_t i = 0; i < 3; ++i) at[i] = value(at[i], i);
+      arc.length = 0;
+      for (std::size_t k = 1; k < arc.points.size(); ++k) {
+        const core::Point3 &a = arc.points[k - 1], &b = arc.points[k];
+        arc.length += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+      }
+    }
+  }
+
   /// Places in notes are written as "(x, y)".
   std::string note(const std::string& text) const {
     static const std::regex place(R"(\((-?[0-9.]+(?:e[-+]?[0-9]+)?)((?:, -?[0-9.]+(?:e[-+]?[0-9]+)?)+)\))");
@@ -167,6 +179,7 @@ core::LocusMap from_frame(core::LocusMap map, const mechanism::Mechanism& mechan
   for (std::string& note : map.notes) note = outward.note(note);
   for (core::LocusCurve& curve : map.curves) outward.move(curve);
   for (core::LocusSurface& surface : map.surfaces) outward.move(surface);
+  for (core::SpaceCurve& curve : map.space_curves) outward.move(curve);
   for (core::IsolatedPoint& point : map.isolated_points)
     for (std::size_t i = 0; i < point.at.size(); ++i) point.at[i] = outward.value(point.at[i], i);
   for (core::WorkspaceRegion& region : map.workspace)

@@ -91,6 +91,8 @@ core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symb
   }
   int number = 0;
   for (core::LocusSurface& surface : joined->surfaces) surface.id = "s" + std::to_string(++number);
+  number = 0;
+  for (core::SpaceCurve& curve : joined->space_curves) curve.id = "c" + std::to_string(++number);
   return std::move(*joined);
 }
 
@@ -403,6 +405,7 @@ std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechan
   for (const core::WorkspaceRegion& region : map.workspace) add(region.mode);
   for (const core::ReachableInterval& interval : map.reachable) add(interval.mode);
   for (const core::LocusSurface& surface : map.surfaces) add(surface.mode);
+  for (const core::SpaceCurve& curve : map.space_curves) add(curve.mode);
   for (const core::WorkingMode& mode : modes) {
     const std::vector<int> sides = numeric::dyad_signs(model, map.tower, mode);
     if (const std::optional<std::vector<double>> pose = numeric::sample_pose(model, sides, model.box))

@@ -84,6 +84,7 @@ void drop_own_roots(LocusMap& map) {
   map.tower.roots.erase(first_own, map.tower.roots.end());
   for (LocusCurve& curve : map.curves) curve.mode.resize(kept, 1);
   for (core::LocusSurface& surface : map.surfaces) surface.mode.resize(kept, 1);
+  for (core::SpaceCurve& curve : map.space_curves) curve.mode.resize(kept, 1);
   for (core::IsolatedPoint& point : map.isolated_points) point.mode.resize(kept, 1);
   for (core::WorkspaceRegion& region : map.workspace) region.mode.resize(kept, 1);
   for (core::ReachableInterval& interval : map.reachable) interval.mode.resize(kept, 1);
@@ -95,6 +96,7 @@ void append_sheets(LocusMap& joined, LocusMap map) {
     if (std::find(joined.notes.begin(), joined.notes.end(), note) == joined.notes.end()) joined.notes.push_back(note);
   for (LocusCurve& curve : map.curves) joined.curves.push_back(std::move(curve));
   for (core::LocusSurface& surface : map.surfaces) joined.surfaces.push_back(std::move(surface));
+  for (core::SpaceCurve& curve : map.space_curves) joined.space_curves.push_back(std::move(curve));
   // Both sides of a fold have found what is on it.
   const double near = 1e-12 * box_size(joined);
   for (core::IsolatedPoint& point : map.isolated_points)

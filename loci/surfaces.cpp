@@ -13,6 +13,7 @@
 
 #include "core/errors.hpp"
 #include "loci/edge_labels.hpp"
+#include "loci/space_curves.hpp"
 #include "loci/surface/isotopy.hpp"
 #include "loci/surface/march.hpp"
 #include "loci/surface/measure.hpp"
@@ -380,29 +381,6 @@ class ModeSurfaces {
   std::vector<std::optional<Meshed>> meshed_;  ///< nothing: not wanted, or not done in time
 };
 
-/// Forces that are several components vanish on curves or at points of the three coordinates, which are not traced.
-void note_forces(const LocusProblem& problem, LocusMap& map) {
-  if (std::find(problem.quantities.begin(), problem.quantities.end(), core::Quantity::f) == problem.quantities.end())
-    return;
-  std::string names;
-  for (const std::string& joint : problem.joints) {
-    const bool has = std::any_of(map.surfaces.begin(), map.surfaces.end(), [&](const LocusSurface& one) {
-      return std::any_of(one.vanishing.begin(), one.vanishing.end(),
-                         [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == core::Quantity::f; });
-    });
-    const std::vector<core::Quantity> components = core::force_components(problem, joint);
-    const auto zero = [&](core::Quantity component) {
-      return std::any_of(problem.always_zero.begin(), problem.always_zero.end(),
-                         [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == component; });
-    };
-    if (has || components.empty() || std::all_of(components.begin(), components.end(), zero)) continue;
-    names += (names.empty() ? "" : ", ") + joint;
-  }
-  if (!names.empty())
-    map.notes.push_back("The contact force of " + names +
-                        " vanishes on no surface in the box, at most along curves or at points: these are not traced.");
-}
-
 void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
   const auto key = [&](const LocusSurface& one) {
     return std::tuple(std::find(modes.begin(), modes.end(), one.mode) - modes.begin(), one.kind);
@@ -411,6 +389,8 @@ void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
                    [&](const LocusSurface& a, const LocusSurface& b) { return key(a) < key(b); });
   int number = 0;
   for (LocusSurface& one : map.surfaces) one.id = "s" + std::to_string(++number);
+  number = 0;
+  for (core::SpaceCurve& one : map.space_curves) one.id = "c" + std::to_string(++number);
 }
 
 /// All factors of all modes, on as many threads as the machine has. False: the time was over before.
@@ -461,7 +441,12 @@ LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const Su
   map.complete = mesh_all(modes, options.trace, stop);
   for (const auto& mode : modes)
     for (std::size_t f = 0; f < mode->size(); ++f) mode->add(f, map);
-  if (map.complete) note_forces(problem, map);
+  try {
+    for (const core::WorkingMode& mode : problem.modes)
+      if (map.complete) add_space_curves(charts, mode, stop, map);
+  } catch (const core::LimitReached&) {
+    map.complete = false;
+  }
   map.tower = names_of(problem.tower);
   map.lower = problem.lower;
   map.upper = problem.upper;

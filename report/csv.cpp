@@ -41,6 +41,9 @@ void angles_in_file_units(core::LocusMap& map) {
     for (core::LocusCurve& curve : map.curves)
       for (core::Arc& arc : curve.arcs)
         for (core::Point2& at : arc.points) at[c] *= per_rad;
+    for (core::SpaceCurve& curve : map.space_curves)
+      for (core::SpaceArc& arc : curve.arcs)
+        for (core::Point3& at : arc.points) at[c] *= per_rad;
     for (core::LocusSurface& surface : map.surfaces)
       for (core::Point3& at : surface.vertices) at[c] *= per_rad;
     for (core::IsolatedPoint& point : map.isolated_points) point.at[c] *= per_rad;
@@ -56,7 +59,7 @@ std::string csv(const core::LocusMap& in_si) {
   for (std::size_t c = 0; c < map.tower.coordinates.size(); ++c)
     out += "," + field(column_head(map.tower.coordinates[c], is_angle(map, c) ? "rad" : "m", map.units));
   out += '\n';
-  for (const auto& curve : map.curves) {
+  const auto append = [&](const auto& curve) {
     const std::string what = field(core::to_string(curve.kind)) + "," + field(reaction_names(curve.vanishing)) + "," +
                              field(mode_words(map.tower, curve.mode));
     for (std::size_t i = 0; i < curve.arcs.size(); ++i) {
@@ -64,7 +67,9 @@ std::string csv(const core::LocusMap& in_si) {
           field(curve.id) + "," + std::to_string(i + 1) + "," + what + (curve.arcs[i].closed ? ",true" : ",false");
       for (const auto& point : curve.arcs[i].points) append_row(out, start, point);
     }
-  }
+  };
+  for (const auto& curve : map.curves) append(curve);
+  for (const auto& curve : map.space_curves) append(curve);
   for (const auto& surface : map.surfaces) {
     const std::string start = field(surface.id) + ",," + field(core::to_string(surface.kind)) + "," +
                               field(reaction_names(surface.vanishing)) + "," +

@@ -116,6 +116,11 @@ core::LocusMap in_file_units(core::LocusMap map) {
     scaling.place(surface.resolution);
     for (core::Point3& at : surface.vertices) scaling.place(at);
   }
+  for (core::SpaceCurve& curve : map.space_curves)
+    for (core::SpaceArc& arc : curve.arcs) {
+      arc.length = scaling.length(arc.length);
+      for (core::Point3& at : arc.points) scaling.place(at);
+    }
   for (core::IsolatedPoint& point : map.isolated_points) scaling.place(point.at);
   for (core::WorkspaceRegion& region : map.workspace)
     for (core::Polyline& ring : region.rings) scaling.line(ring);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "report/exports.hpp"
 #include "report/wording.hpp"
@@ -65,10 +66,12 @@ Json closed_form_object(const core::ClosedForm& form) {
   return nullptr;
 }
 
-Json arc_object(const core::Arc& arc) {
+template <class Arc>
+Json arc_object(const Arc& arc) {
   Json body;
   body["closed"] = arc.closed;
   body["ends"] = arc.closed ? Json::array() : Json::array({core::to_string(arc.ends[0]), core::to_string(arc.ends[1])});
+  if constexpr (std::is_same_v<Arc, core::SpaceArc>) body["certified"] = arc.certified;
   body["length"] = arc.length;
   body["points"] = arc.points;
   return body;
@@ -90,6 +93,22 @@ Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
   body["working_mode"] = mode_object(map.tower, curve.mode);
   body["certified"] = curve.certified;
   if (curve.kind == core::LocusKind::direct_singularity) body["excited"] = curve.excited;
+  body["arcs"] = Json::array();
+  for (const auto& arc : curve.arcs) body["arcs"].push_back(arc_object(arc));
+  return body;
+}
+
+Json space_curve_object(const core::LocusMap& map, const core::SpaceCurve& curve) {
+  Json body;
+  body["id"] = curve.id;
+  body["kind"] = core::to_string(curve.kind);
+  body["vanishing"] = vanishing_array(curve.vanishing);
+  body["factor"] = printable(curve.factor);
+  body["cause"] = printable(curve.cause);
+  body["implicit"] = nullptr;
+  body["closed_form"] = nullptr;
+  body["working_mode"] = mode_object(map.tower, curve.mode);
+  body["certified"] = curve.certified;
   body["arcs"] = Json::array();
   for (const auto& arc : curve.arcs) body["arcs"].push_back(arc_object(arc));
   return body;
@@ -200,10 +219,11 @@ Json loci_object(const core::LocusMap& map) {
     root["units"] = "SI";  // whatever the file is written in
   }
   root["box"] = box_array(map);
-  if (map.tower.coordinates.size() != 3) root["tolerance"] = map.tolerance;  // of arcs
+  if (map.tower.coordinates.size() != 3 || !map.space_curves.empty()) root["tolerance"] = map.tolerance;  // of arcs
   root["complete"] = map.complete;
   root["curves"] = Json::array();
   for (const auto& curve : map.curves) root["curves"].push_back(curve_object(map, curve));
+  for (const auto& curve : map.space_curves) root["curves"].push_back(space_curve_object(map, curve));
   if (map.tower.coordinates.size() == 3) {
     root["surfaces"] = Json::array();
     for (const auto& surface : map.surfaces) root["surfaces"].push_back(surface_object(map, surface));

@@ -192,6 +192,24 @@ std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mod
   return rows.empty() ? "no surfaces\n" : format_rows(heading, rows);
 }
 
+/// Besides the surfaces: curves, and points with their coordinates.
+std::string space_curve_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
+  const std::vector<Column> heading = {{"curve", 8},
+                                       {"kind", 18},
+                                       {"what vanishes", 52},
+                                       {"arcs", 6, true},
+                                       {has_angles(map) ? "length" : "length/" + map.units.length.name, 10, true}};
+  std::vector<Row> rows;
+  for (const auto& curve : map.space_curves) {
+    if (curve.mode != mode) continue;
+    double length = 0;
+    for (const auto& arc : curve.arcs) length += arc.length;
+    rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind),
+                    what_vanishes(curve.vanishing), std::to_string(curve.arcs.size()), fmt::format("{:.4f}", length)});
+  }
+  return rows.empty() ? "" : "\n" + format_rows(heading, rows);
+}
+
 bool is_angle(const core::LocusMap& map) { return !map.angles.empty() && map.angles.front(); }
 
 /// A value of the one coordinate: m, or deg.
@@ -230,6 +248,7 @@ std::string notes(const core::LocusMap& map) {
   std::vector<std::string> sentences = told_once(map.notes);
   const auto uncertain = [](const auto& one) { return !one.certified; };
   if (std::any_of(map.curves.begin(), map.curves.end(), uncertain) ||
+      std::any_of(map.space_curves.begin(), map.space_curves.end(), uncertain) ||
       std::any_of(map.isolated_points.begin(), map.isolated_points.end(), uncertain)) {
     sentences.emplace_back("*: traced, but its topology is not certified.");
   }
@@ -260,7 +279,7 @@ std::string loci_table(const core::LocusMap& in_si, bool exact) {
   std::vector<core::WorkingMode> modes = modes_of(map);
   if (modes.empty())
     out += map.tower.coordinates.size() == 1   ? "\nout of reach in the whole range\n"
-           : map.tower.coordinates.size() == 3 ? "\nno surfaces in the box\n"
+           : map.tower.coordinates.size() == 3 ? "\nnothing vanishes in the box\n"
                                                : "\nno curves\n";
   for (const auto& mode : modes) {
     const std::string words = printable(mode_words(map.tower, mode));
@@ -268,7 +287,7 @@ std::string loci_table(const core::LocusMap& in_si, bool exact) {
     if (map.tower.coordinates.size() == 1)
       out += single_coordinate_rows(map, mode);
     else if (map.tower.coordinates.size() == 3)
-      out += surface_rows(map, mode);
+      out += surface_rows(map, mode) + space_curve_rows(map, mode) + point_rows(map, mode);
     else
       out += curve_rows(map, mode, exact) + point_rows(map, mode);
   }

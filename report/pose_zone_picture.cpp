@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "report/axis.hpp"
 #include "report/file_units.hpp"
@@ -47,9 +48,7 @@ Scale scale_of(const core::PoseZones& map, std::size_t c) {
           map.upper[c] * factor, angle};
 }
 
-const Colour& colour_of(int zone) {
-  return light_theme.zones[static_cast<std::size_t>(zone - 1) % light_theme.zones.size()];
-}
+Colour colour_of(int zone) { return zone_colour(static_cast<std::size_t>(zone - 1)); }
 
 /// Labels row after row, the first coordinate to the right.
 struct Layer {
@@ -192,14 +191,14 @@ void draw_ends(const Context& context, const core::PoseZones& map, const Box& bo
 }
 
 struct LegendRow {
-  const Colour* colour = nullptr;
+  std::optional<Colour> colour = {};
   std::vector<std::string> lines;
 };
 
 std::vector<LegendRow> legend_of(const core::PoseZones& map) {
   std::vector<LegendRow> rows;
   const auto add = [&](const Colour& colour, const std::string& text) {
-    rows.push_back({&colour, wrap(text, legend_width - 16, measure_in(small_font))});
+    rows.push_back({colour, wrap(text, legend_width - 16, measure_in(small_font))});
   };
   constexpr std::size_t most = 24;
   for (std::size_t z = 0; z < map.zones.size() && z < most; ++z) {
@@ -210,10 +209,10 @@ std::vector<LegendRow> legend_of(const core::PoseZones& map) {
     add(colour_of(static_cast<int>(z) + 1),
         fmt::format("{} |A|{}{}", zone.id, zone.assembly_mode > 0 ? "+" : "\u2212", signs));
   }
-  if (map.zones.size() > most) rows.push_back({nullptr, {fmt::format("and {} more", map.zones.size() - most)}});
+  if (map.zones.size() > most) rows.push_back({std::nullopt, {fmt::format("and {} more", map.zones.size() - most)}});
   if (std::find(map.labels.begin(), map.labels.end(), 0) != map.labels.end()) add(doubtful, "in doubt");
   if (std::find(map.labels.begin(), map.labels.end(), -1) != map.labels.end())
-    rows.push_back({nullptr, {"white: out of reach"}});
+    rows.push_back({std::nullopt, {"white: out of reach"}});
   return rows;
 }
 
@@ -273,7 +272,7 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
     }
     double at = head + 8;
     for (const LegendRow& row : legend) {
-      if (row.colour != nullptr) {
+      if (row.colour) {
         set_colour(context, *row.colour);
         context->rectangle(legend_x, at - 8, 10, 9);
         context->fill();

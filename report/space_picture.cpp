@@ -235,10 +235,74 @@ void draw_surfaces(const Context& context, const core::LocusMap& map, const Plac
   context->get_target()->flush();
 }
 
+/// Curves and points on which the same reactions vanish.
+struct LineGroup {
+  std::string what;
+  Colour colour;
+  std::vector<core::Vanishing> vanishing;
+  std::vector<const core::SpaceCurve*> curves;
+  std::vector<const core::IsolatedPoint*> points;
+};
+
+/// In colours of their own, behind those of the surfaces: of the whole map, so that pictures of all modes agree.
+std::vector<LineGroup> group_lines(const core::LocusMap& map, const std::vector<SurfaceGroup>& surfaces) {
+  std::vector<LineGroup> groups;
+  const auto of = [&](core::LocusKind kind, const std::vector<core::Vanishing>& vanishing) -> LineGroup& {
+    const auto known =
+        std::find_if(groups.begin(), groups.end(), [&](const LineGroup& own) { return own.vanishing == vanishing; });
+    if (known != groups.end()) return *known;
+    groups.push_back({printable(vanishing_words(kind, vanishing)), {}, vanishing, {}, {}});
+    return groups.back();
+  };
+  for (const core::SpaceCurve& curve : map.space_curves) of(curve.kind, curve.vanishing).curves.push_back(&curve);
+  for (const core::IsolatedPoint& point : map.isolated_points) of(point.kind, point.vanishing).points.push_back(&point);
+  auto number = static_cast<int>(std::count_if(surfaces.begin(), surfaces.end(), [](const SurfaceGroup& own) {
+    return own.kind != core::LocusKind::direct_singularity && own.kind != core::LocusKind::workspace_boundary;
+  }));
+  for (LineGroup& group : groups) group.colour = palette_colour(number++);
+  return groups;
+}
+
+std::vector<LineGroup> lines_of_mode(std::vector<LineGroup> groups, const core::WorkingMode& mode) {
+  for (LineGroup& group : groups) {
+    std::erase_if(group.curves, [&](const auto* own) { return own->mode != mode; });
+    std::erase_if(group.points, [&](const auto* own) { return own->mode != mode; });
+  }
+  std::erase_if(groups, [](const LineGroup& own) { return own.curves.empty() && own.points.empty(); });
+  return groups;
+}
+
+/// Over the surfaces, with a white seam: where they pass behind one, that shines through anyway.
+void draw_lines(const Context& context, const View& view, const std::vector<LineGroup>& groups) {
+  constexpr double seam = 3.4, line = 1.8, ring = 3.2;  // pt
+  for (const bool below : {true, false})
+    for (const LineGroup& group : groups) {
+      set_ink(context, below ? Colour{1, 1, 1} : group.colour, below ? 0.85 : 1);
+      context->set_line_width(below ? seam : line);
+      for (const core::SpaceCurve* curve : group.curves)
+        for (const core::SpaceArc& arc : curve->arcs) {
+          for (const Point3& place : arc.points) {
+            const Point2 at = view.page(place);
+            if (&place == &arc.points.front())
+              context->move_to(at[0], at[1]);
+            else
+              context->line_to(at[0], at[1]);
+          }
+          context->stroke();
+        }
+      for (const core::IsolatedPoint* point : group.points) {
+        const Point2 at = view.page({point->at[0], point->at[1], point->at[2]});
+        context->arc(at[0], at[1], ring, 0, 2 * std::numbers::pi);
+        context->stroke();
+      }
+    }
+}
+
 struct Entry {
-  const SurfaceGroup* group = nullptr;  ///< null: a remark
+  const SurfaceGroup* group = nullptr;  ///< null: a remark, or lines
   std::vector<std::string> lines, reason;
   double x = 0, y = 0;
+  const LineGroup* line = nullptr;
 
   double height() const { return line_height * static_cast<double>(lines.size() + reason.size()); }
 };
@@ -285,6 +349,18 @@ void draw_entry(const Context& context, const Entry& entry) {
     context->set_line_width(0.8);
     context->stroke();
   }
+  if (entry.line != nullptr) {
+    set_ink(context, entry.line->colour);
+    context->set_line_width(1.8);
+    const double middle = entry.y + line_height / 2;
+    if (entry.line->curves.empty()) {
+      context->arc(entry.x + sample_width / 2, middle, 3.2, 0, 2 * std::numbers::pi);
+    } else {
+      context->move_to(entry.x, middle);
+      context->line_to(entry.x + sample_width, middle);
+    }
+    context->stroke();
+  }
   double baseline = entry.y + 8.5;
   const auto write = [&](const std::vector<std::string>& lines, const Colour& colour) {
     set_ink(context, colour);
@@ -297,7 +373,8 @@ void draw_entry(const Context& context, const Entry& entry) {
   write(entry.reason, grey);
 }
 
-std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<SurfaceGroup>& groups) {
+std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<SurfaceGroup>& groups,
+                             const std::vector<LineGroup>& lines) {
   std::vector<Entry> entries;
   for (const SurfaceGroup& group : groups) {
     Entry entry;
@@ -306,10 +383,16 @@ std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<Surfac
     if (!group.why.empty()) entry.reason = {group.why};
     entries.push_back(std::move(entry));
   }
+  for (const LineGroup& own : lines) {
+    Entry entry;
+    entry.lines = {own.what + (own.curves.empty() ? ", at points" : ", along curves")};
+    entry.line = &own;
+    entries.push_back(std::move(entry));
+  }
   if (!groups.empty())
     entries.push_back(
         {nullptr, {"thin lines: equal " + printable(map.tower.coordinates[2]) + ", at the ticks of its axis"}, {}});
-  if (groups.empty()) entries.push_back({nullptr, {"no surfaces in the box"}, {}});
+  if (groups.empty() && lines.empty()) entries.push_back({nullptr, {"no surfaces in the box"}, {}});
   if (!map.complete) entries.push_back({nullptr, {"incomplete: stopped at the time limit"}, {}});
   return entries;
 }
@@ -318,7 +401,8 @@ std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<Surfac
 
 std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
                           PictureFormat format) {
-  const std::vector<SurfaceGroup> groups = groups_of_mode(group_surfaces(map), mode);
+  const std::vector<SurfaceGroup> all = group_surfaces(map), groups = groups_of_mode(all, mode);
+  const std::vector<LineGroup> lines = lines_of_mode(group_lines(map, all), mode);
   const std::string words = printable(mode_words(map.tower, mode));
   const std::string parameters = printable(parameter_words(map));
   const std::string title = printable(map.mechanism);
@@ -327,7 +411,7 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
   const double width = 2 * page_margin + 2 * view_side + view_gap;
   const std::vector<std::string> under_title = wrap(subtitle, width - 2 * page_margin, measure_in(subtitle_font));
   const double top = page_margin + 18 + 12 * static_cast<double>(under_title.size());
-  std::vector<Entry> entries = legend_of(map, groups);
+  std::vector<Entry> entries = legend_of(map, groups, lines);
   const std::vector<PlacedView> views = placed_views(map, top);
   const double bottom = place_legend(entries, top + views.front().height + 8);
 
@@ -348,6 +432,7 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
     for (const PlacedView& placed : views) {
       draw_box(context, map, placed.view, true);
       draw_surfaces(context, map, placed, groups);
+      draw_lines(context, placed.view, lines);
       draw_box(context, map, placed.view, false);
       for (int i = 0; i < 3; ++i) draw_axis(context, map, placed.view, i);
     }
@@ -360,6 +445,7 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
   std::string description;
   for (const SurfaceGroup& group : groups)
     description += group.what + (group.why.empty() ? "" : " — " + group.why) + "\n";
+  for (const LineGroup& group : lines) description += group.what + "\n";
   return render({width, std::ceil(height), title, description}, format, draw);
 }
 

@@ -46,6 +46,15 @@ Cells cells_of(const core::LocusMap& map, const std::vector<core::WorkingMode>& 
                              mode_index(curve.mode), arc.closed, arc.points.size()});
     }
   }
+  for (std::size_t c = 0; c < map.space_curves.size(); ++c) {
+    const core::SpaceCurve& curve = map.space_curves[c];
+    for (std::size_t a = 0; a < curve.arcs.size(); ++a) {
+      const core::SpaceArc& arc = curve.arcs[a];
+      for (const auto& point : arc.points) append_point(cells, point[0], point[1], point[2]);
+      cells.lines.push_back({static_cast<int>(map.surfaces.size() + c), static_cast<int>(a),
+                             static_cast<int>(curve.kind), mode_index(curve.mode), arc.closed, arc.points.size()});
+    }
+  }
   for (std::size_t s = 0; s < map.surfaces.size(); ++s) {
     const core::LocusSurface& surface = map.surfaces[s];
     const std::size_t first = cells.points;
@@ -133,6 +142,7 @@ std::string vtp(const core::LocusMap& map) {
   for (const auto& mode : modes) mode_names.push_back(mode_words(map.tower, mode));
   for (const auto& curve : map.curves) curve_names.push_back(curve.id);
   for (const auto& surface : map.surfaces) curve_names.push_back(surface.id);
+  for (const auto& curve : map.space_curves) curve_names.push_back(curve.id);
 
   std::string out =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

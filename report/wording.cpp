@@ -251,6 +251,7 @@ std::vector<core::WorkingMode> modes_of(const core::LocusMap& map) {
   for (const auto& region : map.workspace) add(region.mode);
   for (const auto& curve : map.curves) add(curve.mode);
   for (const auto& surface : map.surfaces) add(surface.mode);
+  for (const auto& curve : map.space_curves) add(curve.mode);
   for (const auto& interval : map.reachable) add(interval.mode);
   for (const auto& point : map.isolated_points) add(point.mode);
   return modes;

@@ -38,7 +38,7 @@ void draw_zones(const Context& context, const Subject& subject, const Layout& la
     add(zone.outer);
     for (const core::Polyline& hole : zone.holes) add(hole);
     context->set_fill_rule(Cairo::Context::FillRule::EVEN_ODD);
-    set_colour(context, fills[number % fills.size()], fill_strength);
+    set_colour(context, zone_colour(number), fill_strength);
     context->fill();
     context->set_fill_rule(Cairo::Context::FillRule::WINDING);
   });

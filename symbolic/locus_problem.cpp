@@ -312,8 +312,13 @@ class Derivation {
       }
       if (everywhere) want(sharing);
     }
+    // Over three coordinates they vanish together along curves and at points besides.
+    if (result_.problem.tower.coordinates.size() == 3 && components.size() > 2)
+      for (const std::vector<std::size_t>& own : components)
+        for (const std::size_t i : own) factors_[i].wanted_point = true;
     // Two equations in the plane have isolated zeros besides.
-    if (mechanism_.space == mechanism::Space::spatial) return;
+    if (mechanism_.space == mechanism::Space::spatial && result_.problem.tower.coordinates.size() != 3) return;
+    if (components.size() > 2) return;
     const auto in = [](const std::vector<std::size_t>& list, std::size_t f) {
       return std::find(list.begin(), list.end(), f) != list.end();
     };

@@ -140,6 +140,28 @@ struct LocusSurface {
   bool excited = true;  ///< as of a curve
 };
 
+struct SpaceArc {
+  bool closed = false;  ///< a closed arc repeats its first point at the end
+  std::array<ArcEnd, 2> ends = {ArcEnd::none, ArcEnd::none};
+  bool certified = false;
+  double length = 0;  ///< of the coordinates as they are
+  std::vector<Point3> points;
+};
+
+/// Over three free coordinates: where a contact force of several components vanishes though on no surface.
+struct SpaceCurve {
+  std::string id;  ///< "c1"
+  LocusKind kind = LocusKind::contact_loss;
+  std::vector<Vanishing> vanishing;
+  std::string factor;  ///< the two or three that vanish together, "; " between them
+  std::string cause;
+  WorkingMode mode;
+  /// Proven: each arc is there, and goes where it says, to its ends or round. False also where one of three equations
+  /// is known to vanish by rounding alone.
+  bool certified = false;
+  std::vector<SpaceArc> arcs;
+};
+
 struct IsolatedPoint {
   LocusKind kind = LocusKind::contact_loss;
   std::vector<Vanishing> vanishing;
@@ -172,7 +194,8 @@ struct LocusMap {
   bool complete = true;
   std::vector<std::string> notes;  ///< degenerate mathematics worth a sentence, e.g. a reaction that is zero everywhere
   std::vector<LocusCurve> curves;
-  std::vector<LocusSurface> surfaces;  ///< with three free coordinates
+  std::vector<LocusSurface> surfaces;  ///< with three free coordinates, and besides them:
+  std::vector<SpaceCurve> space_curves;
   std::vector<IsolatedPoint> isolated_points;
   std::vector<WorkspaceRegion> workspace;
   std::vector<ReachableInterval> reachable;            ///< with one free coordinate, ascending within a mode

@@ -59,7 +59,7 @@ double length_of(const std::vector<double>& v) {
 
 template <class Form>
 PoseCellOf<Form>::PoseCellOf(const core::PoseStatics& statics)
-    : statics_(&statics), n_(static_cast<std::size_t>(statics.unknowns)), columns_(n_) {
+    : statics_(&statics), point_(statics), n_(static_cast<std::size_t>(statics.unknowns)), columns_(n_) {
   for (std::size_t row = 0; row < n_; ++row)
     for (const core::LinearRow::Term& term : statics.equations[row].terms)
       columns_[static_cast<std::size_t>(term.unknown)].push_back({static_cast<int>(row), term.step});
@@ -383,27 +383,6 @@ CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox
       return State::in_doubt;
     }
   return State::proven;
-}
-
-template <class Form>
-std::optional<CellAnswers::At> PoseCellOf<Form>::at(const std::vector<double>& pose) {
-  if (run({pose, {}}, {}) != State::proven || !invert()) return std::nullopt;
-  At result;
-  result.determinant = determinant_;
-  result.logarithm = logarithm_;
-  for (const int own : closures_) result.closures.push_back(step(own).c);
-  for (std::size_t load = 0; load < statics_->loads; ++load) {
-    std::vector<double>& w = solution_[load];
-    for (std::size_t i = 0; i < n_; ++i) {
-      w[i] = 0;
-      for (std::size_t j = 0; j < n_; ++j) w[i] += inverse_at(i, j) * step(statics_->equations[j].free[load]).c;
-    }
-  }
-  for (const core::PoseDemand& demand : statics_->demands) {
-    auto& own = result.components.emplace_back();
-    for (std::size_t load = 0; load < statics_->loads; ++load) own.push_back(component_values(demand, load));
-  }
-  return result;
 }
 
 double CellAnswers::size_of(const std::vector<std::vector<double>>& by_load) {

@@ -27,6 +27,7 @@
 #include "loci/pose/affine.hpp"
 #include "loci/pose/half_space.hpp"
 #include "loci/pose/pose_chart.hpp"
+#include "loci/pose/pose_point.hpp"
 
 namespace clearloci::loci::pose {
 
@@ -50,12 +51,7 @@ struct CellAnswers {
     std::array<Signs, 2> of_parts;
   };
   /// A single pose in floating point.
-  struct At {
-    int determinant = 0;                                       ///< its sign
-    double logarithm = 0;                                      ///< of its size
-    std::vector<double> closures;                              ///< positive within the workspace, zero on its boundary
-    std::vector<std::vector<std::vector<double>>> components;  ///< demand, load, component: N, N m
-  };
+  using At = PosePoint::At;
   /// The smallest size under loads between the first and the last.
   static double size_of(const std::vector<std::vector<double>>& by_load);
 };
@@ -84,7 +80,7 @@ class PoseCellOf : public CellAnswers {
   Known known();
 
   /// Nothing where it cannot be assembled or A cannot be inverted.
-  std::optional<At> at(const std::vector<double>& pose);
+  std::optional<At> at(const std::vector<double>& pose) { return point_.at(pose); }
   const core::PoseStatics& statics() const { return *statics_; }
 
  private:
@@ -122,6 +118,7 @@ class PoseCellOf : public CellAnswers {
   double& inverse_at(std::size_t i, std::size_t j) { return inverse_[i * n_ + j]; }
 
   const core::PoseStatics* statics_;
+  PosePoint point_;
   const PoseChart* chart_ = nullptr;  ///< of the cell entered last, and its box
   const PoseBox* box_ = nullptr;
   std::size_t n_;

@@ -30,7 +30,7 @@ struct Functions {
   std::vector<Name> names;
   double logarithm = 0;
 
-  Functions(const core::PoseStatics& statics, const PoseCell::At& start) : logarithm(start.logarithm) {
+  Functions(const core::PoseStatics& statics, const PosePoint::At& start) : logarithm(start.logarithm) {
     names.push_back({Doubt::singularity, -1, 0, 0, {}});
     for (std::size_t i = 0; i < start.closures.size(); ++i) names.push_back({Doubt::workspace, -1, 0, i, {}});
     for (std::size_t d = 0; d < statics.demands.size(); ++d)
@@ -43,7 +43,7 @@ struct Functions {
       }
   }
 
-  double value(const core::PoseStatics& statics, const Name& name, const PoseCell::At& at) const {
+  double value(const core::PoseStatics& statics, const Name& name, const PosePoint::At& at) const {
     if (name.kind == Doubt::singularity) return at.determinant * std::exp(at.logarithm - logarithm);
     if (name.kind == Doubt::workspace) return at.closures[name.closure];
     const auto d = static_cast<std::size_t>(name.demand);
@@ -57,7 +57,7 @@ struct Functions {
 class Finder {
  public:
   Finder(const core::PoseStatics& statics, const PoseRegion& region)
-      : statics_(statics), region_(region), cell_(statics) {}
+      : statics_(statics), region_(region), point_(statics) {}
 
   std::vector<NearPose> find(double far) {
     std::vector<Pose> poses = region_.samples();
@@ -85,7 +85,7 @@ class Finder {
 
   /// Values and gradients of all functions at a pose; nothing where it or its neighbours are out of reach.
   std::optional<std::vector<Slope>> slopes(const Functions& functions, const Pose& pose) {
-    const auto here = cell_.at(pose);
+    const auto here = point_.at(pose);
     if (!here) return std::nullopt;
     std::vector<Slope> all;
     for (const Functions::Name& name : functions.names)
@@ -94,11 +94,11 @@ class Finder {
       const double h = difference / region_.metric().weights[c];
       Pose beside = pose;
       beside[c] += h;
-      auto there = cell_.at(beside);
+      auto there = point_.at(beside);
       double step = h;
       if (!there) {
         beside[c] = pose[c] - h;
-        there = cell_.at(beside);
+        there = point_.at(beside);
         step = -h;
       }
       if (!there) return std::nullopt;
@@ -137,10 +137,10 @@ class Finder {
     if (!std::isfinite(within)) return;
     const double step = way * within / looks / region_.metric().weights[c];
     Pose pose = region_.farthest_along(c, way);
-    auto last = cell_.at(pose);
+    auto last = point_.at(pose);
     if (!last) return;
     const Functions functions(statics_, *last);
-    const auto values = [&](const PoseCell::At& at) {
+    const auto values = [&](const PosePoint::At& at) {
       std::vector<double> all;
       for (const Functions::Name& name : functions.names) all.push_back(functions.value(statics_, name, at));
       return all;
@@ -149,7 +149,7 @@ class Finder {
     for (int k = 0; k < looks; ++k) {
       const Pose from = pose;
       pose[c] += step;
-      const auto now = cell_.at(pose);
+      const auto now = point_.at(pose);
       if (!now) return;  // out of reach: its boundary is what Newton's method looks for
       std::vector<double> here = values(*now);
       for (std::size_t f = 0; f < here.size(); ++f)
@@ -159,7 +159,7 @@ class Finder {
   }
 
   void from(const Pose& start) {
-    const auto first = cell_.at(start);
+    const auto first = point_.at(start);
     if (!first) return;
     const Functions functions(statics_, *first);
     const auto all = slopes(functions, start);
@@ -189,12 +189,12 @@ class Finder {
       const double moved = apart(*zero, at);
       // Into reach, by halves.
       Pose next = *zero;
-      for (int halving = 0; halving < 8 && !cell_.at(next); ++halving)
+      for (int halving = 0; halving < 8 && !point_.at(next); ++halving)
         for (std::size_t c = 0; c < next.size(); ++c) next[c] = 0.5 * (next[c] + at[c]);
       at = next;
       if (moved < 1e-9 * (1 + apart(at, base))) break;
     }
-    const auto last = cell_.at(at);
+    const auto last = point_.at(at);
     if (!last || !(std::abs(functions.value(statics_, name, *last)) < left_over * usual)) return;
     if (name.kind == Doubt::demand) {
       const auto d = static_cast<std::size_t>(name.demand);
@@ -216,7 +216,7 @@ class Finder {
 
   const core::PoseStatics& statics_;
   const PoseRegion& region_;
-  PoseCell cell_;
+  PosePoint point_;
   std::map<std::pair<Doubt, int>, NearPose> found_;
 };
 

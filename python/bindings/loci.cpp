@@ -39,6 +39,32 @@ py::dict dict_of(const LocusMap& map, const LocusCurve& curve) {
   return one;
 }
 
+py::dict dict_of(const LocusMap& map, const SpaceCurve& curve) {
+  py::list arcs, ends;
+  for (const SpaceArc& arc : curve.arcs) {
+    py::array_t<double> points({static_cast<py::ssize_t>(arc.points.size()), py::ssize_t{3}});
+    double* to = points.mutable_data();
+    for (const Point3& at : arc.points) to = std::copy(at.begin(), at.end(), to);
+    arcs.append(points);
+    ends.append(py::make_tuple(to_string(arc.ends[0]), to_string(arc.ends[1])));
+  }
+  py::dict one;
+  one["id"] = curve.id;
+  one["kind"] = to_string(curve.kind);
+  one["vanishing"] = names_of(curve.vanishing);
+  one["factor"] = curve.factor;
+  one["cause"] = curve.cause;
+  one["degree"] = py::none();
+  one["implicit"] = py::none();
+  one["variables"] = map.tower.coordinates;
+  one["working_mode"] = mode_of(map.tower, curve.mode);
+  one["certified"] = curve.certified;
+  one["excited"] = true;
+  one["arcs"] = arcs;
+  one["ends"] = ends;
+  return one;
+}
+
 py::dict dict_of(const LocusMap& map, const LocusSurface& surface) {
   py::array_t<double> vertices({static_cast<py::ssize_t>(surface.vertices.size()), py::ssize_t{3}});
   py::array_t<int> triangles({static_cast<py::ssize_t>(surface.triangles.size()), py::ssize_t{3}});
@@ -78,6 +104,7 @@ py::dict dict_of(const LocusMap& map, const LocusSurface& surface) {
 py::dict dict_of(const LocusMap& map) {
   py::list curves, surfaces, points, workspace, reachable;
   for (const LocusCurve& curve : map.curves) curves.append(dict_of(map, curve));
+  for (const SpaceCurve& curve : map.space_curves) curves.append(dict_of(map, curve));
   for (const LocusSurface& surface : map.surfaces) surfaces.append(dict_of(map, surface));
   for (const IsolatedPoint& point : map.isolated_points) {
     py::dict one;

@@ -35,7 +35,7 @@ class Curve:
     working_mode: dict[str, str]
     certified: bool
     excited: bool  #: of a direct singularity: some reaction grows without bound there
-    arcs: list[np.ndarray]  #: float64 (n, 2), m; of angles rad
+    arcs: list[np.ndarray]  #: float64 (n, 2), over three coordinates (n, 3), m; of angles rad
     ends: list[tuple[str, str]]
 
     def sympy(self) -> Any:
@@ -221,7 +221,7 @@ class Loci(_Answer):
         return plot_loci(self, ax, working_mode)
 
     def __repr__(self) -> str:
-        return f"<clearloci.Loci of {self.model.name!r}: {len(self.curves) or len(self.surfaces)} loci>"
+        return f"<clearloci.Loci of {self.model.name!r}: {len(self.curves) + len(self.surfaces)} loci>"
 
 
 @dataclass(frozen=True)
