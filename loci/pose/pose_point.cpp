@@ -6,11 +6,6 @@
 #include <utility>
 
 namespace clearloci::loci::pose {
-namespace {
-
-using Operation = core::PoseProgram::Operation;
-
-}  // namespace
 
 PosePoint::PosePoint(const core::PoseStatics& statics)
     : statics_(&statics),
@@ -18,6 +13,7 @@ PosePoint::PosePoint(const core::PoseStatics& statics)
       registers_(statics.program.steps.size(), 0.0),
       matrix_(n_ * n_),
       solution_(statics.loads, std::vector<double>(n_)) {
+  using Operation = core::PoseProgram::Operation;
   for (std::size_t i = 0; i < registers_.size(); ++i) {
     const core::PoseProgram::Step& own = statics.program.steps[i];
     if (own.operation == Operation::constant) registers_[i] = core::to_double(own.value);
@@ -28,6 +24,7 @@ PosePoint::PosePoint(const core::PoseStatics& statics)
 }
 
 bool PosePoint::run(const std::vector<double>& pose) {
+  using Operation = core::PoseProgram::Operation;
   for (std::size_t i = 0; i < registers_.size(); ++i) {
     const core::PoseProgram::Step& own = statics_->program.steps[i];
     const double x = step(own.first), y = step(own.second);
