@@ -77,10 +77,18 @@ bool Cells::worth_splitting(OctreeCell& cell) {
   return look == Look::bent && cell.level < limits_.level + bent_levels;
 }
 
+Cells::Seen Cells::seen_at(const Place& place) {
+  constexpr auto side = static_cast<std::uint64_t>(lattice) + 1;
+  std::uint64_t key = 0;
+  for (const std::int32_t own : place) key = key * side + static_cast<std::uint64_t>(own);
+  const auto [known, fresh] = seen_.try_emplace(key);
+  if (fresh) known->second.negative = field_->gradient(unit_of(place), known->second.gradient) < 0;
+  return known->second;
+}
+
 /// At the corners and in the middle. On the rim, where gradients are unbounded, they tell nothing.
 Cells::Look Cells::look_at(const OctreeCell& cell) {
-  Point normal{}, other{};
-  const bool sign = field_->gradient(unit_of(cell.middle()), normal) < 0;
+  const auto [sign, normal] = seen_at(cell.middle());
   const double length = std::sqrt(dot(normal, normal));
   bool changes = false;
   double least = 1;
@@ -88,7 +96,8 @@ Cells::Look Cells::look_at(const OctreeCell& cell) {
     Place place = cell.corner;
     for (std::size_t i = 0; i < 3; ++i)
       if ((which >> i & 1) != 0) place[i] += cell.size();
-    changes = (field_->gradient(unit_of(place), other) < 0) != sign || changes;
+    const auto [other_sign, other] = seen_at(place);
+    changes = other_sign != sign || changes;
     least = std::min(least, dot(normal, other) / (length * std::sqrt(dot(other, other))));
   }
   if (least < 0 && !cell.proof.rim) return Look::several;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 #include "loci/surface/field.hpp"
@@ -87,10 +88,17 @@ class Cells {
   void balance(int cell);
   bool worth_splitting(OctreeCell& cell);
   Look look_at(const OctreeCell& cell);
+  struct Seen {
+    bool negative = false;
+    Point gradient{};
+  };
+  /// Corners belong to many cells, and middles are corners of smaller ones: each is looked at once.
+  Seen seen_at(const Place& place);
 
   Field* field_;
   CellLimits limits_;
   std::vector<OctreeCell> cells_;
+  std::unordered_map<std::uint64_t, Seen> seen_;  ///< by place
   int examined_ = 0;
 };
 

@@ -2,8 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
+#include "clearloci/pose.hpp"
 
 namespace clearloci {
 namespace {
@@ -20,6 +27,72 @@ TEST(Loci, SayThatNoPoseIsReached) {
   EXPECT_THAT(notes("four_bar.yaml", {}), testing::IsEmpty());
   EXPECT_THAT(notes("three_rpr.yaml", {}), testing::Not(testing::Contains(note)));
   EXPECT_THAT(notes("gough_stewart.yaml", {}), testing::Not(testing::Contains(note)));
+}
+
+/// An example under gravity, with a mass at the end of every cylinder and rod of its three legs.
+std::string with_heavy_legs(const std::string& name, const std::string& rod, const std::string& cylinder,
+                            const std::string& gravity) {
+  std::ifstream file(CLEARLOCI_SOURCE_DIR "/examples/" + name + ".yaml");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  const auto put = [&](const std::string& what, const std::string& by) {
+    text.replace(text.find(what), what.size(), by);
+  };
+  for (const std::string leg : {"1", "2", "3"}) {
+    put("{points: [A" + leg + "]}", "{points: [A" + leg + "], masses: [{at: A" + leg + ", mass: " + cylinder + "}]}");
+    put("{points: [B" + leg + "]}", "{points: [B" + leg + "], masses: [{at: B" + leg + ", mass: " + rod + "}]}");
+  }
+  return text + "gravity: " + gravity + "\n";
+}
+
+/// The force of a joint, as a part of the largest force or couple at the pose.
+double part_of_force(const Model& model, const std::vector<double>& at, const std::string& joint) {
+  const Pose pose = solve_pose(model, at);
+  double own = 0, most = 0;
+  for (const JointReaction& reaction : pose.reactions)
+    for (const ReactionComponent& part : reaction.components) {
+      most = std::max(most, std::abs(part.value));
+      const bool force =
+          part.quantity == Quantity::fx || part.quantity == Quantity::fy || part.quantity == Quantity::fz;
+      if (reaction.joint == joint && force) own = std::max(own, std::abs(part.value));
+    }
+  return own / most;
+}
+
+TEST(SpaceCurvesOfAModel, HaveAPinWithoutForceAllAlong) {
+  const Model model = Model::parse(with_heavy_legs("three_rpr_orientation", "0.5", "0.8", "[0, -9.81]"));
+  const LocusMap map = trace_loci(model);
+  ASSERT_EQ(map.space_curves.size(), 6U)
+      << "each pin bears its leg's force and a weight: both vanish where the leg is upright";
+  for (const SpaceCurve& curve : map.space_curves) {
+    ASSERT_EQ(curve.vanishing.size(), 1U);
+    double length = 0;
+    for (const SpaceArc& arc : curve.arcs) {
+      length += arc.length;
+      ASSERT_GT(arc.points.size(), 2U);
+      for (std::size_t i = 1; i + 1 < arc.points.size(); i += 7) {
+        const Point3& at = arc.points[i];
+        EXPECT_LT(part_of_force(model, {at.begin(), at.end()}, curve.vanishing.front().joint), 1e-9);
+      }
+    }
+    EXPECT_GT(length, 0.7);
+  }
+}
+
+TEST(SpacePointsOfAModel, HaveAJointWithoutForce) {
+  std::string text = with_heavy_legs("three_upu", "1.5", "1.8", "[0, 0, -9.81]");
+  const std::string load = "[50, 20, -200]";
+  text.replace(text.find(load), load.size(), "[-80, 20, -60]");
+  const Model model = Model::parse(text);
+  const LocusMap map = trace_loci(model);
+  ASSERT_EQ(map.isolated_points.size(), 2U);
+  for (const IsolatedPoint& point : map.isolated_points) {
+    EXPECT_TRUE(point.certified);
+    // Leg 1 is upright there.
+    EXPECT_NEAR(point.at[0], 0.3, 1e-12);
+    EXPECT_NEAR(point.at[1], 0, 1e-12);
+    ASSERT_EQ(point.vanishing.size(), 1U);
+    EXPECT_LT(part_of_force(model, point.at, point.vanishing.front().joint), 1e-9);
+  }
 }
 
 }  // namespace
