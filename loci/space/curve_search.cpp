@@ -332,7 +332,7 @@ struct CurveCell {
   Cell cell;
   std::size_t parameter = 0;
   bool singular = false;
-  std::vector<Passage> passages;  ///< by the parameter; two and two bound a piece
+  std::vector<Crossing> crossings;  ///< by the parameter; two and two bound a stretch
 };
 
 class CurveSearch : public Search {
@@ -348,7 +348,7 @@ class CurveSearch : public Search {
       if (!cell) return false;
       cell->singular = singular;
       if (singular) settled_singular_.push_back(open.cell);
-      if (!cell->passages.empty()) found_.push_back(std::move(*cell));
+      if (!cell->crossings.empty()) found_.push_back(std::move(*cell));
       return true;
     });
     string_together();
@@ -379,26 +379,26 @@ class CurveSearch : public Search {
         const auto own = zeros(system, range);
         if (!own) return std::nullopt;
         for (const LiftedBox& zero : *own) {
-          Passage passage;
-          for (const Interval& d : zero) passage.at.push_back(d.middle());
+          Crossing crossing;
+          for (const Interval& d : zero) crossing.at.push_back(d.middle());
           if (face >= 3)
-            passage.end = core::ArcEnd::boundary;
+            crossing.end = core::ArcEnd::boundary;
           else if (at == (upper ? box_[face].upper() : box_[face].lower()))
-            passage.end = core::ArcEnd::box;
-          result.passages.push_back(std::move(passage));
+            crossing.end = core::ArcEnd::box;
+          result.crossings.push_back(std::move(crossing));
         }
       }
-    std::sort(result.passages.begin(), result.passages.end(),
-              [&](const Passage& a, const Passage& b) { return a.at[*parameter] < b.at[*parameter]; });
-    // On an edge of the box both of its faces have the passage.
-    const auto same_place = [&](const Passage& a, const Passage& b) {
+    std::sort(result.crossings.begin(), result.crossings.end(),
+              [&](const Crossing& a, const Crossing& b) { return a.at[*parameter] < b.at[*parameter]; });
+    // On an edge of the box both of its faces have the crossing.
+    const auto same_place = [&](const Crossing& a, const Crossing& b) {
       for (std::size_t i = 0; i < 3; ++i)
         if (std::abs(a.at[i] - b.at[i]) > one_zero * box_[i].width()) return false;
       return a.end == core::ArcEnd::box && b.end == core::ArcEnd::box;
     };
-    result.passages.erase(std::unique(result.passages.begin(), result.passages.end(), same_place),
-                          result.passages.end());
-    if (result.passages.size() % 2 != 0) return std::nullopt;
+    result.crossings.erase(std::unique(result.crossings.begin(), result.crossings.end(), same_place),
+                           result.crossings.end());
+    if (result.crossings.size() % 2 != 0) return std::nullopt;
     return result;
   }
 
@@ -407,69 +407,69 @@ class CurveSearch : public Search {
   struct Node {
     Place at{};
     core::ArcEnd end = core::ArcEnd::none;
-    std::vector<std::size_t> pieces;
+    std::vector<std::size_t> stretches;
   };
-  struct Piece {
-    std::size_t cell = 0, passage = 0;  ///< and the next
+  struct Stretch {
+    std::size_t cell = 0, crossing = 0;  ///< and the next
     std::array<std::size_t, 2> nodes{};
   };
 
-  std::size_t node_at(const Passage& passage) {
-    const Place at = {passage.at[0], passage.at[1], passage.at[2]};
+  std::size_t node_at(const Crossing& crossing) {
+    const Place at = {crossing.at[0], crossing.at[1], crossing.at[2]};
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       bool equal = true;
       for (std::size_t i = 0; i < 3; ++i)
         equal = equal && std::abs(nodes_[n].at[i] - at[i]) <= one_zero * box_[i].width();
       if (equal) return n;
     }
-    nodes_.push_back({at, passage.end, {}});
+    nodes_.push_back({at, crossing.end, {}});
     return nodes_.size() - 1;
   }
 
   void string_together() {
     for (std::size_t c = 0; c < found_.size(); ++c)
-      for (std::size_t p = 0; p + 1 < found_[c].passages.size(); p += 2) {
-        Piece piece{c, p, {node_at(found_[c].passages[p]), node_at(found_[c].passages[p + 1])}};
-        for (const std::size_t node : piece.nodes) nodes_[node].pieces.push_back(pieces_.size());
-        pieces_.push_back(piece);
+      for (std::size_t p = 0; p + 1 < found_[c].crossings.size(); p += 2) {
+        Stretch stretch{c, p, {node_at(found_[c].crossings[p]), node_at(found_[c].crossings[p + 1])}};
+        for (const std::size_t node : stretch.nodes) nodes_[node].stretches.push_back(stretches_.size());
+        stretches_.push_back(stretch);
       }
-    used_.assign(pieces_.size(), false);
+    used_.assign(stretches_.size(), false);
     // Open ones from their ends, then what is left closes.
     for (std::size_t n = 0; n < nodes_.size(); ++n)
-      if (nodes_[n].pieces.size() != 2)
-        for (const std::size_t piece : nodes_[n].pieces)
-          if (!used_[piece]) follow(piece, n);
-    for (std::size_t p = 0; p < pieces_.size(); ++p)
-      if (!used_[p]) follow(p, pieces_[p].nodes[0]);
+      if (nodes_[n].stretches.size() != 2)
+        for (const std::size_t stretch : nodes_[n].stretches)
+          if (!used_[stretch]) follow(stretch, n);
+    for (std::size_t p = 0; p < stretches_.size(); ++p)
+      if (!used_[p]) follow(p, stretches_[p].nodes[0]);
   }
 
-  void follow(std::size_t piece, std::size_t from) {
+  void follow(std::size_t stretch, std::size_t from) {
     ChartArc arc;
     arc.certified = true;
     arc.points = {nodes_[from].at};
     std::size_t node = from;
     while (true) {
-      used_[piece] = true;
-      const Piece& own = pieces_[piece];
+      used_[stretch] = true;
+      const Stretch& own = stretches_[stretch];
       const CurveCell& cell = found_[own.cell];
       const bool forwards = own.nodes[0] == node;
-      const Passage &first = cell.passages[own.passage + (forwards ? 0 : 1)],
-                    &last = cell.passages[own.passage + (forwards ? 1 : 0)];
+      const Crossing &first = cell.crossings[own.crossing + (forwards ? 0 : 1)],
+                     &last = cell.crossings[own.crossing + (forwards ? 1 : 0)];
       add_vertices(cell, first.at, last.at, 0, arc.points);
       arc.certified = arc.certified && !cell.singular;
       node = own.nodes[forwards ? 1 : 0];
       arc.points.push_back(nodes_[node].at);
-      const std::vector<std::size_t>& here = nodes_[node].pieces;
+      const std::vector<std::size_t>& here = nodes_[node].stretches;
       if (node == from || here.size() != 2) break;
-      const std::size_t next = here[0] == piece ? here[1] : here[0];
+      const std::size_t next = here[0] == stretch ? here[1] : here[0];
       if (used_[next]) break;
-      piece = next;
+      stretch = next;
     }
-    arc.closed = node == from && nodes_[from].pieces.size() == 2;
+    arc.closed = node == from && nodes_[from].stretches.size() == 2;
     if (!arc.closed) {
       arc.ends = {end_at(from), end_at(node)};
       for (const std::size_t n : {from, node})
-        arc.certified = arc.certified && nodes_[n].end != core::ArcEnd::none && nodes_[n].pieces.size() == 1;
+        arc.certified = arc.certified && nodes_[n].end != core::ArcEnd::none && nodes_[n].stretches.size() == 1;
     }
     if (!is_singular(arc)) cut_at_singularity(std::move(arc));
   }
@@ -484,7 +484,7 @@ class CurveSearch : public Search {
   }
 
   /// Between two points where a factor of |A| has opposite signs: where it vanishes, by Newton's method from between.
-  Place crossing(std::size_t factor, const Place& from, double before, const Place& to, double behind) {
+  Place where_singular(std::size_t factor, const Place& from, double before, const Place& to, double behind) {
     Place at{};
     const double part = before / (before - behind);
     for (std::size_t i = 0; i < 3; ++i) at[i] = from[i] + part * (to[i] - from[i]);
@@ -519,7 +519,7 @@ class CurveSearch : public Search {
       const std::vector<double> behind = determinants_at(arc.points[p]);
       for (std::size_t f = 0; f < before.size() && f < behind.size(); ++f) {
         if (!(before[f] * behind[f] < 0)) continue;
-        const Place at = crossing(f, arc.points[p - 1], before[f], arc.points[p], behind[f]);
+        const Place at = where_singular(f, arc.points[p - 1], before[f], arc.points[p], behind[f]);
         parts.back().points.push_back(at);
         parts.back().ends[1] = core::ArcEnd::direct_singularity;
         parts.push_back({false, {core::ArcEnd::direct_singularity, arc.ends[1]}, arc.certified, {at}});
@@ -560,7 +560,7 @@ class CurveSearch : public Search {
                               arc.points);
   }
 
-  /// Between two points of one piece: halved along its parameter until the chords are close enough.
+  /// Between two points of one stretch: halved along its parameter until the chords are close enough.
   void add_vertices(const CurveCell& cell, const std::vector<double>& from, const std::vector<double>& to, int depth,
                     std::vector<Place>& points) {
     constexpr int most_halvings = 10;
@@ -627,7 +627,7 @@ class CurveSearch : public Search {
 
   std::vector<CurveCell> found_;
   std::vector<Node> nodes_;
-  std::vector<Piece> pieces_;
+  std::vector<Stretch> stretches_;
   std::vector<bool> used_;
   FoundCurves result_;
 };

@@ -1,6 +1,6 @@
 // Common zeros of two functions, a curve, or of three, points, on a working mode's sheet over three coordinates: boxes
-// are cut until a cell is proven to hold none, or of a curve one whose pieces are functions of one coordinate (or of a
-// root beside the workspace boundary) each, so that they are strung between the cell's faces in the order of that
+// are cut until a cell is proven to hold none, or of a curve one whose stretches are functions of one coordinate (or of
+// a root beside the workspace boundary) each, so that they are strung between the cell's faces in the order of that
 // coordinate. Private to loci/space.
 #pragma once
 
@@ -28,7 +28,7 @@ struct Equations {
 };
 
 /// Where a curve meets a face of a cell, or the workspace boundary in it.
-struct Passage {
+struct Crossing {
   std::vector<double> at;  ///< in all dimensions of its cell
   core::ArcEnd end = core::ArcEnd::none;
 };
