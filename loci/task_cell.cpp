@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "loci/task_functions.hpp"
 
@@ -16,32 +17,32 @@ using core::TaskConditions;
 }  // namespace
 
 TaskCell::TaskCell(const TaskConditions& conditions, const core::WorkingMode& mode)
-    : conditions_(conditions), program_(program_of(conditions)), cell_(program_, mode) {
+    : conditions_(conditions), program_(program_of(conditions)), side_by_side_(program_, mode) {
   for (const TaskCondition& condition : conditions.conditions)
     least_.push_back(sheet::constant_as(condition.least, static_cast<Interval*>(nullptr)));
 }
 
-void TaskCell::differentiate() {
-  if (!differentiated_) cell_.differentiate();
-  differentiated_ = true;
+bool TaskCell::differentiate() {
+  wants_slopes_ = wants_slopes_ || !has_slopes_;
+  differentiated_ = has_slopes_;
+  return has_slopes_;
 }
 
 bool TaskCell::nonzero(int function) {
-  if (cell_.value(function).sign() != 0) return true;
-  differentiate();
-  return cell_.centred(function).sign() != 0;
+  if (cell_->value(function).sign() != 0) return true;
+  return differentiate() && cell_->centred(function).sign() != 0;
 }
 
 bool TaskCell::positive(const std::vector<std::pair<Interval, int>>& sum, bool with_slopes) {
   Interval value = 0;
   for (const auto& [weight, function] : sum)
-    value = value + weight * (with_slopes ? cell_.middle_value(function) : cell_.value(function));
+    value = value + weight * (with_slopes ? cell_->middle_value(function) : cell_->value(function));
   if (!with_slopes) return value.lower() > 0;
   // The slopes of the sum, not a sum of enclosures: what cancels does so before the cell's width multiplies it.
-  for (int c = 0; c < cell_.dimension(); ++c) {
+  for (int c = 0; c < cell_->dimension(); ++c) {
     Interval slope = 0;
-    for (const auto& [weight, function] : sum) slope = slope + weight * cell_.slope(function, c);
-    value = value + slope * (cell_.local(c) - Interval(cell_.middle(c)));
+    for (const auto& [weight, function] : sum) slope = slope + weight * cell_->slope(function, c);
+    value = value + slope * (cell_->local(c) - Interval(cell_->middle(c)));
   }
   return value.lower() > 0;
 }
@@ -49,7 +50,7 @@ bool TaskCell::positive(const std::vector<std::pair<Interval, int>>& sum, bool w
 std::vector<double> TaskCell::values(const std::vector<int>& functions) const {
   std::vector<double> list;
   for (const int f : functions)
-    list.push_back(differentiated_ ? cell_.middle_value(f).middle() : cell_.value(f).middle());
+    list.push_back(differentiated_ ? cell_->middle_value(f).middle() : cell_->value(f).middle());
   return list;
 }
 
@@ -59,7 +60,7 @@ bool TaskCell::holds(const TaskCondition& condition) {
   if (condition.parts.empty()) return true;
   const bool size = condition.least > 0;
   for (const bool with_slopes : {false, true}) {
-    if (with_slopes) differentiate();
+    if (with_slopes && !differentiate()) return false;
     const std::vector<double> a = values(condition.parts.front()), b = values(condition.parts.back());
     const double t = nearest_part(a, b);
     std::vector<double> n;
@@ -73,8 +74,9 @@ bool TaskCell::holds(const TaskCondition& condition) {
     Interval share = 0;
     if (size) {
       Interval length = square_root(square);
-      if (condition.squared_axis >= 0) length = length * square_root(cell_.value(condition.squared_axis));
-      const Interval& d = with_slopes ? cell_.middle_value(condition.denominator) : cell_.value(condition.denominator);
+      if (condition.squared_axis >= 0) length = length * square_root(cell_->value(condition.squared_axis));
+      const Interval& d =
+          with_slopes ? cell_->middle_value(condition.denominator) : cell_->value(condition.denominator);
       // The cell proves that |A| has a sign; so has D, a part of it.
       if (d.sign() == 0) continue;
       share = least_[static_cast<std::size_t>(&condition - conditions_.conditions.data())] * length *
@@ -91,23 +93,50 @@ bool TaskCell::holds(const TaskCondition& condition) {
   return false;
 }
 
-TaskCell::State TaskCell::enter(const Interval& x, const Interval& y) {
-  differentiated_ = false;
-  unmet_ = -1;
-  if (!cell_.enter(x, y)) return State::outside;
+/// Nothing where slopes are wanted that are not there.
+std::optional<TaskCell::Judgement> TaskCell::look(sheet::SheetCell& cell, bool inside, bool has_slopes) {
+  cell_ = &cell;
+  has_slopes_ = has_slopes;
+  differentiated_ = wants_slopes_ = false;
+  const auto told = [&](State state, int unmet = -1) -> std::optional<Judgement> {
+    if (wants_slopes_) return std::nullopt;
+    return Judgement{state, unmet};
+  };
+  if (!inside) return told(State::outside);
   for (int j = 0; j < program_.roots(); ++j)
-    if (cell_.square(j).sign() <= 0) return State::boundary;
+    if (cell.square(j).sign() <= 0) return told(State::boundary);
   const auto all_nonzero = [&](const std::vector<int>& functions) {
     return std::all_of(functions.begin(), functions.end(), [&](int f) { return nonzero(f); });
   };
-  if (!all_nonzero(conditions_.denominators)) return State::boundary;
-  if (!all_nonzero(conditions_.determinant)) return State::singular;
-  for (std::size_t i = 0; i < conditions_.conditions.size(); ++i) {
-    if (holds(conditions_.conditions[i])) continue;
-    unmet_ = static_cast<int>(i);
-    return State::unmet;
-  }
-  return State::proven;
+  if (!all_nonzero(conditions_.denominators)) return told(State::boundary);
+  if (!all_nonzero(conditions_.determinant)) return told(State::singular);
+  for (std::size_t i = 0; i < conditions_.conditions.size(); ++i)
+    if (!holds(conditions_.conditions[i])) return told(State::unmet, static_cast<int>(i));
+  return told(State::proven);
+}
+
+std::vector<TaskCell::Judgement> TaskCell::judge(const std::vector<std::array<Interval, 2>>& cells) {
+  constexpr std::size_t size = sheet::SheetCells::size;
+  std::vector<Judgement> judgements(cells.size());
+  std::vector<std::size_t> open;  // slopes are wanted
+  const auto judge_batch = [&](const std::size_t* indices, std::size_t count, bool with_slopes) {
+    std::array<sheet::SheetCells::Place, size> places;
+    for (std::size_t lane = 0; lane < count; ++lane) places[lane] = {cells[indices[lane]][0], cells[indices[lane]][1]};
+    side_by_side_.enter(places, count);
+    if (with_slopes) side_by_side_.differentiate();
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const auto judgement = look(side_by_side_[lane], side_by_side_.inside(lane), with_slopes);
+      judgement ? void(judgements[indices[lane]] = *judgement) : open.push_back(indices[lane]);
+    }
+  };
+  std::vector<std::size_t> all(cells.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  for (std::size_t i = 0; i < all.size(); i += size) judge_batch(all.data() + i, std::min(size, all.size() - i), false);
+  const std::vector<std::size_t> rest = std::move(open);
+  open.clear();
+  for (std::size_t i = 0; i < rest.size(); i += size)
+    judge_batch(rest.data() + i, std::min(size, rest.size() - i), true);
+  return judgements;
 }
 
 TaskPoint::TaskPoint(const TaskConditions& conditions, const core::WorkingMode& mode)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -21,25 +22,32 @@ class TaskCell {
 
   /// `outside`: no pose of the cell is within reach, for certain. The others: not proven, for what is named was not
   /// excluded.
-  State enter(const core::Interval& x, const core::Interval& y);
-
-  /// Where the state is `unmet`: the first condition that was not proven.
-  int unmet() const { return unmet_; }
+  struct Judgement {
+    State state = State::outside;
+    int unmet = -1;  ///< where the state is `unmet`: the first condition that was not proven
+  };
+  /// Of each cell, given by its ranges of x and y. Enclosures are computed for several side by side; what is told of
+  /// one does not depend on the others.
+  std::vector<Judgement> judge(const std::vector<std::array<core::Interval, 2>>& cells);
+  Judgement judge(const core::Interval& x, const core::Interval& y) { return judge({std::array{x, y}}).front(); }
 
  private:
+  std::optional<Judgement> look(sheet::SheetCell& cell, bool inside, bool has_slopes);
   bool nonzero(int function);
   bool holds(const core::TaskCondition& condition);
   /// A lower bound of sum weight_i f_i over the cell is positive.
   bool positive(const std::vector<std::pair<core::Interval, int>>& sum, bool with_slopes);
-  void differentiate();
+  /// False: slopes are not there.
+  bool differentiate();
   std::vector<double> values(const std::vector<int>& functions) const;
 
   const core::TaskConditions& conditions_;
   sheet::SheetProgram program_;
-  sheet::SheetCell cell_;
+  sheet::SheetCells side_by_side_;
   std::vector<core::Interval> least_;  ///< of every condition
-  bool differentiated_ = false;
-  int unmet_ = -1;
+  // Of the cell that is looked at:
+  sheet::SheetCell* cell_ = nullptr;
+  bool has_slopes_ = false, differentiated_ = false, wants_slopes_ = false;
 };
 
 /// The conditions at single poses, in doubles with enclosed roundings: what leads the search for a pose that fails.

@@ -5,7 +5,6 @@
 #include <deque>
 #include <limits>
 #include <numbers>
-#include <queue>
 
 #include "loci/task_cell.hpp"
 
@@ -18,7 +17,8 @@ using core::Point2;
 struct Cell {
   Interval x, y;
   int depth = 0;
-  double distance = 0;  ///< at least so far from the task
+  double distance = 0;                                ///< at least so far from the task
+  std::optional<TaskCell::Judgement> judgement = {};  ///< where it has been judged ahead of its turn
 
   Point2 middle() const { return {x.middle(), y.middle()}; }
   double width() const { return std::max(x.width(), y.width()); }
@@ -29,7 +29,10 @@ struct Cell {
     const double middle = along_x ? x.middle() : y.middle();
     (along_x ? parts[0].x : parts[0].y) = Interval((along_x ? x : y).lower(), middle);
     (along_x ? parts[1].x : parts[1].y) = Interval(middle, (along_x ? x : y).upper());
-    for (Cell& part : parts) part.depth = depth + 1;
+    for (Cell& part : parts) {
+      part.depth = depth + 1;
+      part.judgement.reset();
+    }
     return parts;
   }
 };
@@ -201,8 +204,22 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
       proof.upper[c] = first ? upper[c] : std::max(proof.upper[c], upper[c]);
     }
   };
+  // Several at a time, as they stand in the queue.
+  constexpr std::size_t cells_at_a_time = 32;
+  const auto judge_ahead = [&] {
+    std::vector<Cell*> next;
+    std::vector<std::array<Interval, 2>> places;
+    for (std::size_t i = 0; i < open.size() && next.size() < cells_at_a_time; ++i) {
+      if (region.distance(open[i].x, open[i].y) > reach) continue;
+      next.push_back(&open[i]);
+      places.push_back({open[i].x, open[i].y});
+    }
+    const std::vector<TaskCell::Judgement> judgements = judge.judge(places);
+    for (std::size_t i = 0; i < next.size(); ++i) next[i]->judgement = judgements[i];
+  };
   int proven = 0;
   while (!open.empty()) {
+    if (!open.front().judgement && region.distance(open.front().x, open.front().y) <= reach) judge_ahead();
     const Cell cell = open.front();
     if (region.distance(cell.x, cell.y) > reach) {
       open.pop_front();
@@ -213,12 +230,12 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
     if (proof.out_of_cells || proof.out_of_time) break;
     open.pop_front();
     ++proof.cells;
-    const TaskCell::State state = judge.enter(cell.x, cell.y);
-    if (state == TaskCell::State::proven) {
+    const TaskCell::Judgement judgement = *cell.judgement;
+    if (judgement.state == TaskCell::State::proven) {
       ++proven;
       continue;
     }
-    if (refutation.by_cell(cell, state, judge.unmet())) {
+    if (refutation.by_cell(cell, judgement.state, judgement.unmet)) {
       proof.verdict = core::Verdict::refuted;
       return proof;
     }
@@ -246,24 +263,47 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
   TaskCell judge(conditions, mode);
   const double hair = hair_of(region, limit), size = size_of(region, 0);
   const auto farther = [](const Cell& a, const Cell& b) { return a.distance > b.distance; };
-  std::priority_queue<Cell, std::vector<Cell>, decltype(farther)> open(farther);
-  open.push({Interval(region.lower()[0] - limit, region.upper()[0] + limit),
-             Interval(region.lower()[1] - limit, region.upper()[1] + limit)});
+  std::vector<Cell> open;  // a heap, the nearest in front
+  const auto push = [&](const Cell& cell) {
+    open.push_back(cell);
+    std::push_heap(open.begin(), open.end(), farther);
+  };
+  push({Interval(region.lower()[0] - limit, region.upper()[0] + limit),
+        Interval(region.lower()[1] - limit, region.upper()[1] + limit)});
   TaskClearance result;
   result.margin = from;
   const auto proven_to = [&](double distance) { result.margin = std::max(result.margin, distance - hair); };
+  // What the task's proof has covered.
+  const auto is_covered = [&](const Cell& cell) {
+    return region.signed_distance(cell.middle()) + 0.5 * std::hypot(cell.x.width(), cell.y.width()) <= from;
+  };
+  // The nearest, with some that are likely to come soon after it.
+  const auto judge_ahead = [&] {
+    std::vector<Cell*> next;
+    std::vector<std::array<Interval, 2>> places;
+    for (std::size_t i = 0; i < std::min<std::size_t>(open.size(), 2 * sheet::SheetCells::size); ++i) {
+      Cell& cell = open[i];
+      if (next.size() == sheet::SheetCells::size || cell.judgement || cell.distance >= limit || is_covered(cell))
+        continue;
+      next.push_back(&cell);
+      places.push_back({cell.x, cell.y});
+    }
+    const std::vector<TaskCell::Judgement> judgements = judge.judge(places);
+    for (std::size_t i = 0; i < next.size(); ++i) next[i]->judgement = judgements[i];
+  };
   for (int cells = 0; !open.empty(); ++cells) {
-    const Cell cell = open.top();
-    open.pop();
+    if (Cell& nearest = open.front(); !nearest.judgement && nearest.distance < limit && !is_covered(nearest))
+      judge_ahead();
+    std::pop_heap(open.begin(), open.end(), farther);
+    const Cell cell = open.back();
+    open.pop_back();
     if (cell.distance >= limit) break;
     if (cells >= effort.most_cells || out_of_time(effort, cells)) {
       proven_to(cell.distance);
       return result;
     }
-    // What the task's proof has covered.
-    const double half = 0.5 * std::hypot(cell.x.width(), cell.y.width());
-    if (region.signed_distance(cell.middle()) + half <= from) continue;
-    const TaskCell::State state = judge.enter(cell.x, cell.y);
+    if (!cell.judgement) continue;  // the task's proof has covered it
+    const auto [state, unmet] = *cell.judgement;
     if (state == TaskCell::State::proven) continue;
     if (cell.width() <= resolution * std::max(cell.distance, resolution * size)) {
       proven_to(cell.distance);
@@ -271,12 +311,12 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
       result.kind = state == TaskCell::State::singular ? core::LocusKind::direct_singularity
                     : state == TaskCell::State::unmet  ? core::LocusKind::contact_loss
                                                        : core::LocusKind::workspace_boundary;
-      result.condition = judge.unmet();
+      result.condition = unmet;
       return result;
     }
     for (Cell part : cell.halves()) {
       part.distance = std::max(cell.distance, region.distance(part.x, part.y));
-      open.push(part);
+      push(part);
     }
   }
   proven_to(limit);

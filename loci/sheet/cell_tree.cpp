@@ -1,7 +1,9 @@
 #include "loci/sheet/cell_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "loci/sheet/smooth_cell.hpp"
@@ -18,6 +20,8 @@ constexpr double most_slender = 32;
 // Below this size, relative to the patch, multi-precision is worth its price where rounding is what hides a sign.
 constexpr double worth_precision = 1e-4;
 constexpr int cells_between_stops = 256;
+// Enough that what is left of them after a first look fills batches again.
+constexpr std::size_t cells_at_a_time = 64;
 // Where cells cannot be decided, as along a double curve, halving all of them twice doubles their number. Where there
 // are no more than this many for each that there was, enclosures have begun to tell, and the budget is so many times as
 // large.
@@ -58,6 +62,7 @@ struct Judgement {
   LeafKind kind = LeafKind::undecided;
   int along = 0;
   int cut_axis = 0;
+  std::uint32_t rim = 0;  ///< bit j: Q_j = 0 may pass through the cell
 };
 
 /// Which axis makes the value vary more over the cell: cutting it gains most.
@@ -76,50 +81,150 @@ int steeper_axis(const SheetCell& cell) {
 }
 
 /// What second-order enclosures tell of a cell. False: plain ones may tell more.
-bool judge_smoothly(SmoothCell& cell, const Cell& place, Judgement& judgement) {
-  const SmoothCell::Place found = cell.enter(place.x, place.y);
-  if (found == SmoothCell::Place::outside || cell.excludes(0)) {
+bool judge_smoothly(const SmoothCells& cells, std::size_t lane, Judgement& judgement) {
+  if (cells.place(lane) == SmoothCell::Place::outside || cells.excludes(lane, 0)) {
     judgement.kind = LeafKind::empty;
     return true;
   }
-  if (found == SmoothCell::Place::unknown) return false;
-  judgement.cut_axis = cell.slope(0).magnitude() >= cell.slope(1).magnitude() ? 0 : 1;
+  if (cells.place(lane) == SmoothCell::Place::unknown) return false;
+  judgement.cut_axis = cells.slope(lane, 0).magnitude() >= cells.slope(lane, 1).magnitude() ? 0 : 1;
   double best = 0;
   for (const int along : {0, 1}) {
-    const Interval& slope = cell.slope(1 - along);
+    const Interval& slope = cells.slope(lane, 1 - along);
     if (slope.sign() == 0 || slope.mignitude() / slope.magnitude() <= best) continue;
     best = slope.mignitude() / slope.magnitude();
     judgement.kind = LeafKind::graph;
     judgement.along = along;
   }
-  return judgement.kind != LeafKind::undecided || cell.is_far_from_rims();
+  return judgement.kind != LeafKind::undecided || cells.is_far_from_rims(lane);
 }
 
-/// `smooth`: null where plain enclosures do.
-Judgement judge(SheetCell& cell, SmoothCell* smooth, const Cell& place, double patch_size) {
-  if (!cell.enter(place.x, place.y) || !cell.value(0).contains_zero()) return {LeafKind::empty};
-  const double width = std::max(place.x.width(), place.y.width());
-  Judgement judgement;
-  const bool worthwhile = smooth != nullptr && (width >= worth_precision * patch_size || smooth->tells_of_tiny_cells());
-  if (worthwhile && judge_smoothly(*smooth, place, judgement)) return judgement;
-  cell.differentiate();
-  if (!cell.centred(0).contains_zero() || cell.is_beyond_a_rim()) return {LeafKind::empty};
-  double best = 0;
-  for (int c = 0; c < cell.dimension(); ++c) {
-    const Interval tangent = cell.tangent(0, c);
-    if (tangent.sign() == 0) continue;
-    const double steadiness = tangent.mignitude() / tangent.magnitude();
-    if (steadiness <= best) continue;
-    best = steadiness;
-    judgement.kind = LeafKind::graph;
-    judgement.along = c < 2 ? c : 2 + cell.lifted()[c - 2];
+/// Judges cells a group at a time, for which enclosures are computed side by side: what is told of one does not depend
+/// on the others.
+class Judge {
+ public:
+  Judge(const SheetProgram& program, const core::WorkingMode& mode, double patch_size)
+      : program_(program), side_by_side_(program, mode), patch_size_(patch_size) {
+    if (is_smooth_worthwhile(program)) smooth_.emplace(program, mode);
   }
-  if (judgement.kind == LeafKind::undecided && width < worth_precision * patch_size && cell.rounding_dominates(0)) {
-    cell.sharpen_middle();
-    if (!cell.centred(0).contains_zero()) return {LeafKind::empty};
+
+  std::vector<Judgement> operator()(const std::vector<Cell>& cells) {
+    cells_ = &cells;
+    judgements_.assign(cells.size(), {});
+    std::vector<std::size_t> all(cells.size()), rest;
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    for_each_batch(all, [&](const std::vector<std::size_t>& batch) {
+      std::vector<std::size_t> open;
+      for (std::size_t lane = 0; lane < batch.size(); ++lane)
+        if (!judge_by_value(lane, batch[lane])) open.push_back(batch[lane]);
+      // A full batch goes on as it stands, others are filled first.
+      if (open.size() == SheetCells::size && !smooth_)
+        judge_by_slopes(open);
+      else
+        rest.insert(rest.end(), open.begin(), open.end());
+    });
+    if (smooth_) rest = left_by_smooth_judgement(rest);
+    for_each_batch(rest, [&](const std::vector<std::size_t>& batch) { judge_by_slopes(batch); });
+    return std::move(judgements_);
   }
-  judgement.cut_axis = steeper_axis(cell);
-  return judgement;
+
+ private:
+  template <class Use>
+  void for_each_batch(const std::vector<std::size_t>& cells, const Use& use) {
+    std::array<SheetCells::Place, SheetCells::size> places;
+    for (std::size_t first = 0; first < cells.size(); first += SheetCells::size) {
+      const std::size_t count = std::min(SheetCells::size, cells.size() - first);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const Cell& cell = (*cells_)[cells[first + lane]];
+        places[lane] = {cell.x, cell.y};
+      }
+      side_by_side_.enter(places, count);
+      use({cells.begin() + static_cast<std::ptrdiff_t>(first),
+           cells.begin() + static_cast<std::ptrdiff_t>(first + count)});
+    }
+  }
+
+  bool is_tiny(const Cell& cell) const {
+    return std::max(cell.x.width(), cell.y.width()) < worth_precision * patch_size_;
+  }
+
+  /// Those of which second-order enclosures do not tell all there is to tell.
+  std::vector<std::size_t> left_by_smooth_judgement(const std::vector<std::size_t>& cells) {
+    std::vector<std::size_t> asked, left;
+    for (const std::size_t index : cells)
+      (is_tiny((*cells_)[index]) && !smooth_->tells_of_tiny_cells() ? left : asked).push_back(index);
+    std::array<std::array<Interval, 2>, SmoothCells::size> ranges;
+    for (std::size_t first = 0; first < asked.size(); first += SmoothCells::size) {
+      const std::size_t count = std::min(SmoothCells::size, asked.size() - first);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const Cell& cell = (*cells_)[asked[first + lane]];
+        ranges[lane] = {cell.x, cell.y};
+      }
+      smooth_->enter(ranges, count);
+      for (std::size_t lane = 0; lane < count; ++lane)
+        if (!judge_smoothly(*smooth_, lane, judgements_[asked[first + lane]])) left.push_back(asked[first + lane]);
+    }
+    return left;
+  }
+
+  /// By plain enclosures of values. False: others may tell more.
+  bool judge_by_value(std::size_t lane, std::size_t index) {
+    Judgement& judgement = judgements_[index];
+    SheetCell& cell = side_by_side_[lane];
+    if (!side_by_side_.inside(lane) || !cell.value(0).contains_zero()) {
+      judgement.kind = LeafKind::empty;
+      return true;
+    }
+    for (int j = 0; j < program_.roots(); ++j)
+      if (cell.square(j).contains_zero()) judgement.rim |= 1u << j;
+    return false;
+  }
+
+  /// Of the cells that side_by_side_ has entered.
+  void judge_by_slopes(const std::vector<std::size_t>& batch) {
+    side_by_side_.differentiate();
+    for (std::size_t lane = 0; lane < batch.size(); ++lane)
+      judge_by_slopes(side_by_side_[lane], is_tiny((*cells_)[batch[lane]]), judgements_[batch[lane]]);
+  }
+
+  static void judge_by_slopes(SheetCell& cell, bool is_tiny, Judgement& judgement) {
+    if (!cell.centred(0).contains_zero() || cell.is_beyond_a_rim()) {
+      judgement.kind = LeafKind::empty;
+      return;
+    }
+    double best = 0;
+    for (int c = 0; c < cell.dimension(); ++c) {
+      const Interval tangent = cell.tangent(0, c);
+      if (tangent.sign() == 0) continue;
+      const double steadiness = tangent.mignitude() / tangent.magnitude();
+      if (steadiness <= best) continue;
+      best = steadiness;
+      judgement.kind = LeafKind::graph;
+      judgement.along = c < 2 ? c : 2 + cell.lifted()[c - 2];
+    }
+    if (judgement.kind == LeafKind::undecided && is_tiny && cell.rounding_dominates(0)) {
+      cell.sharpen_middle();
+      if (!cell.centred(0).contains_zero()) {
+        judgement.kind = LeafKind::empty;
+        return;
+      }
+    }
+    judgement.cut_axis = steeper_axis(cell);
+  }
+
+  const SheetProgram& program_;
+  SheetCells side_by_side_;
+  std::optional<SmoothCells> smooth_;
+  double patch_size_;
+  const std::vector<Cell>* cells_ = nullptr;
+  std::vector<Judgement> judgements_;
+};
+
+bool is_in_hole(const Cell& cell, const TreeOptions& options) {
+  return std::any_of(options.holes.begin(), options.holes.end(), [&](const auto& hole) {
+    return hole[0] <= cell.x.lower() && cell.x.upper() <= hole[1] && hole[2] <= cell.y.lower() &&
+           cell.y.upper() <= hole[3];
+  });
 }
 
 }  // namespace
@@ -128,13 +233,25 @@ CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, c
                    TreeOptions options) {
   nodes_.push_back({domain});
   smallest_ = options.smallest * std::max(domain.x.width(), domain.y.width());
-  SheetCell evaluator(program, mode);
-  std::optional<SmoothCell> smooth = worthwhile_smooth_cell(program, mode);
-  build(evaluator, smooth ? &*smooth : nullptr, options);
+  build(program, mode, options);
 }
 
-void CellTree::build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions& options) {
-  const double size = std::max(domain().x.width(), domain().y.width());
+void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode, const TreeOptions& options) {
+  Judge judge(program, mode, std::max(domain().x.width(), domain().y.width()));
+  std::vector<Judgement> ahead;  // of the next cells that are to be judged, in reverse
+  const auto judgement_of = [&](std::size_t index) {
+    if (ahead.empty()) {
+      std::vector<Cell> cells;
+      for (std::size_t k = index; k < nodes_.size() && cells.size() < cells_at_a_time; ++k)
+        if (Node node = nodes_[k]; !is_in_hole(node.cell, options) && !cut_at_hole(node, options))
+          cells.push_back(node.cell);
+      ahead = judge(cells);
+      std::reverse(ahead.begin(), ahead.end());
+    }
+    const Judgement next = ahead.back();
+    ahead.pop_back();
+    return next;
+  };
   bool stopped = false;
   Budget budget(options);
   // Breadth first: a budget that runs out leaves cells of one size undecided instead of one corner.
@@ -144,16 +261,12 @@ void CellTree::build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions
     if (options.stop && i % cells_between_stops == 0) stopped = stopped || options.stop();
     Leaf leaf{node.cell};
     bool split = false;
-    const bool in_hole = std::any_of(options.holes.begin(), options.holes.end(), [&](const auto& hole) {
-      return hole[0] <= node.cell.x.lower() && node.cell.x.upper() <= hole[1] && hole[2] <= node.cell.y.lower() &&
-             node.cell.y.upper() <= hole[3];
-    });
-    if (in_hole) {
+    if (is_in_hole(node.cell, options)) {
       leaf.kind = LeafKind::hole;
     } else if (cut_at_hole(node, options)) {
       split = true;
     } else {
-      const Judgement judgement = judge(evaluator, smooth, node.cell, size);
+      const Judgement judgement = judgement_of(i);
       leaf.kind = judgement.kind;
       leaf.along = judgement.along;
       const double widths[2] = {node.cell.x.width(), node.cell.y.width()};
@@ -168,9 +281,7 @@ void CellTree::build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions
         const double offset = most_offset * scatter(static_cast<unsigned>(i), options.attempt);
         node.cut = range.lower() + range.width() * (0.5 + offset);
       }
-      if (!split && leaf.kind != LeafKind::empty)
-        for (int j = 0; j < evaluator.program().roots(); ++j)
-          if (evaluator.square(j).contains_zero()) leaf.rim |= 1u << j;
+      if (!split && leaf.kind != LeafKind::empty) leaf.rim = judgement.rim;
     }
     if (split) {
       Cell halves[2] = {node.cell, node.cell};

@@ -12,8 +12,6 @@
 
 namespace clearloci::loci::sheet {
 
-class SmoothCell;
-
 enum class LeafKind : std::uint8_t {
   empty,      ///< proven: no curve, or outside the workspace
   graph,      ///< proven: every value of variable `along` is taken at most once on the curve
@@ -72,7 +70,7 @@ class CellTree {
     int leaf = -1;
   };
 
-  void build(SheetCell& evaluator, SmoothCell* smooth, const TreeOptions& options);
+  void build(const SheetProgram& program, const core::WorkingMode& mode, const TreeOptions& options);
   bool cut_at_hole(Node& node, const TreeOptions& options) const;
   void seams_inside(int node, std::vector<Seam>& result) const;
   void seams_between(int lower, int upper, int axis, double at, std::vector<Seam>& result) const;

@@ -73,50 +73,68 @@ SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode)
   core::ensure(static_cast<int>(mode_.size()) == program.roots(), "a working mode has a sign for every root");
 }
 
-bool SheetCell::enter(const Interval& x, const Interval& y, const std::vector<Interval>& ranges) {
+void SheetCell::begin(const Interval& x, const Interval& y) {
   over_.set(0, x);
   over_.set(1, y);
   lifted_.clear();
   local_.assign({x, y});
+}
+
+bool SheetCell::enter_root(int j, const std::vector<Interval>& ranges) {
+  const Interval& square = over_.square(j);
+  if (square.upper() < 0) return false;
+  Interval root = signed_root(mode_[j], square);
+  bool cut = false;
+  if (!ranges.empty()) {
+    if (disjoint(root, ranges[j])) return false;
+    // A range that says more than the cell is the better coordinate: next to Q_j = 0 curves that are far apart in s_j
+    // run side by side in (x, y).
+    cut = ranges[j].width() < worth_keeping * root.width();
+    root = meet(root, ranges[j]);
+  }
+  over_.set(2 + j, root);
+  is_lifted_[j] = cut || square.lower() <= lift_ratio * square.upper();
+  if (is_lifted_[j]) {
+    lifted_.push_back(j);
+    local_.push_back(over_.root(j));
+  }
+  return true;
+}
+
+bool SheetCell::enter(const Interval& x, const Interval& y, const std::vector<Interval>& ranges) {
+  begin(x, y);
   for (int j = 0; j < program_->roots(); ++j) {
     over_.run_square(j);
-    const Interval& square = over_.square(j);
-    if (square.upper() < 0) return false;
-    Interval root = signed_root(mode_[j], square);
-    bool cut = false;
-    if (!ranges.empty()) {
-      if (disjoint(root, ranges[j])) return false;
-      // A range that says more than the cell is the better coordinate: next to Q_j = 0 curves that are far apart in s_j
-      // run side by side in (x, y).
-      cut = ranges[j].width() < worth_keeping * root.width();
-      root = meet(root, ranges[j]);
-    }
-    over_.set(2 + j, root);
-    is_lifted_[j] = cut || square.lower() <= lift_ratio * square.upper();
-    if (is_lifted_[j]) {
-      lifted_.push_back(j);
-      local_.push_back(over_.root(j));
-    }
+    if (!enter_root(j, ranges)) return false;
   }
   over_.run_values();
   return true;
 }
 
-bool SheetCell::enter_local(const std::vector<Interval>& local, const std::vector<int>& lifted) {
+void SheetCell::begin_local(const std::vector<Interval>& local, const std::vector<int>& lifted) {
   over_.set(0, local[0]);
   over_.set(1, local[1]);
   lifted_ = lifted;
   local_ = local;
-  std::size_t next = 0;
+}
+
+bool SheetCell::enter_local_root(int j, std::size_t& l) {
+  is_lifted_[j] = l < lifted_.size() && lifted_[l] == j;
+  if (is_lifted_[j]) {
+    over_.set(2 + j, local_[2 + l++]);
+    return true;
+  }
+  if (over_.square(j).lower() <= 0) return false;
+  over_.set(2 + j, signed_root(mode_[j], over_.square(j)));
+  return true;
+}
+
+bool SheetCell::enter_local(const std::vector<Interval>& local, const std::vector<int>& lifted) {
+  begin_local(local, lifted);
+  std::size_t l = 0;
   for (int j = 0; j < program_->roots(); ++j) {
     over_.run_square(j);
-    is_lifted_[j] = next < lifted_.size() && lifted_[next] == j;
-    if (is_lifted_[j]) {
-      over_.set(2 + j, local_[2 + next++]);
-    } else {
-      if (over_.square(j).lower() <= 0) return false;
-      over_.set(2 + j, signed_root(mode_[j], over_.square(j)));
-    }
+    if (!enter_local_root(j, l)) return false;
   }
   over_.run_values();
   return true;
@@ -133,8 +151,7 @@ void SheetCell::reduce(std::vector<Interval>& gradient) const {
   }
 }
 
-void SheetCell::differentiate() {
-  over_.run_gradients();
+void SheetCell::project_slopes() {
   for (int j = 0; j < program_->roots(); ++j)
     if (!is_lifted_[j]) half_inverse_[j] = inverse(Interval(2.0) * over_.root(j));
 
@@ -154,26 +171,42 @@ void SheetCell::differentiate() {
     gradient_[2 + j] = gradient_[2 + j] + Interval(2.0) * over_.root(j);
     project(bond_slopes_[l]);
   }
+}
 
+void SheetCell::begin_middle() {
   middle_.clear();
   for (const Interval& range : local_) middle_.push_back(range.middle());
   at_middle_.set(0, middle_[0]);
   at_middle_.set(1, middle_[1]);
   middle_bonds_.resize(lifted_.size());
-  std::size_t next = 0;
+}
+
+void SheetCell::place_root_at_middle(int j, std::size_t& l) {
+  if (is_lifted_[j]) {
+    at_middle_.set(2 + j, middle_[2 + l]);
+    middle_bonds_[l] = squared(Interval(middle_[2 + l])) - at_middle_.square(j);
+    ++l;
+  } else {
+    // The cell proves Q_j > 0; rounding at the middle cannot matter beyond that.
+    at_middle_.set(2 + j, meet(signed_root(mode_[j], at_middle_.square(j)), over_.root(j)));
+  }
+}
+
+void SheetCell::take_middle_values() {
+  for (int f = 0; f < program_->functions(); ++f) middle_values_[f] = at_middle_.value(f);
+}
+
+void SheetCell::differentiate() {
+  over_.run_gradients();
+  project_slopes();
+  begin_middle();
+  std::size_t l = 0;
   for (int j = 0; j < program_->roots(); ++j) {
     at_middle_.run_square(j);
-    if (is_lifted_[j]) {
-      at_middle_.set(2 + j, middle_[2 + next]);
-      middle_bonds_[next] = squared(Interval(middle_[2 + next])) - at_middle_.square(j);
-      ++next;
-    } else {
-      // The cell proves Q_j > 0; rounding at the middle cannot matter beyond that.
-      at_middle_.set(2 + j, meet(signed_root(mode_[j], at_middle_.square(j)), over_.root(j)));
-    }
+    place_root_at_middle(j, l);
   }
   at_middle_.run_values();
-  for (int f = 0; f < program_->functions(); ++f) middle_values_[f] = at_middle_.value(f);
+  take_middle_values();
 }
 
 void SheetCell::sharpen_middle() {
@@ -235,6 +268,85 @@ Interval SheetCell::tangent(int function, int c) const {
   for (std::size_t l = 0; l < lifted_.size(); ++l) rows[l + 1] = bond_slopes_[l].data();
   const Interval value = determinant_of(rows.data(), static_cast<std::size_t>(n - 1), static_cast<std::size_t>(c));
   return c % 2 == 0 ? value : -value;
+}
+
+SheetCells::SheetCells(const SheetProgram& program, const core::WorkingMode& mode)
+    : program_(&program),
+      over_(program.registers<IntervalBatch>()),
+      at_middle_(program.registers<IntervalBatch>()),
+      cells_(size, SheetCell(program, mode)) {}
+
+void SheetCells::enter(const std::array<Place, size>& places, std::size_t count) {
+  static const std::vector<Interval> all;
+  over_.use_lanes(count);
+  at_middle_.use_lanes(count);
+  IntervalBatch x, y;
+  std::array<std::size_t, size> lifted{};
+  for (std::size_t lane = 0; lane < size; ++lane) {
+    inside_[lane] = lane < count;
+    if (!inside_[lane]) continue;
+    const Place& place = places[lane];
+    if (place.local != nullptr)
+      cells_[lane].begin_local(*place.local, *place.lifted);
+    else
+      cells_[lane].begin(place.x, place.y);
+    x.lanes[lane] = cells_[lane].local(0);
+    y.lanes[lane] = cells_[lane].local(1);
+  }
+  over_.set(0, x);
+  over_.set(1, y);
+  for (int j = 0; j < program_->roots(); ++j) {
+    over_.run_square(j);
+    IntervalBatch roots;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (!inside_[lane]) continue;
+      const Place& place = places[lane];
+      SheetCell& cell = cells_[lane];
+      cell.over_.take_square(over_, lane, j);
+      inside_[lane] = place.local != nullptr ? cell.enter_local_root(j, lifted[lane])
+                                             : cell.enter_root(j, place.ranges != nullptr ? *place.ranges : all);
+      if (inside_[lane]) roots.lanes[lane] = cell.root(j);
+    }
+    over_.set(2 + j, roots);
+  }
+  over_.run_values();
+  for (std::size_t lane = 0; lane < count; ++lane)
+    if (inside_[lane]) cells_[lane].over_.take_values(over_, lane);
+}
+
+void SheetCells::differentiate() {
+  over_.run_gradients();
+  IntervalBatch x, y;
+  std::array<std::size_t, size> lifted{};
+  for (std::size_t lane = 0; lane < size; ++lane) {
+    if (!inside_[lane]) continue;
+    SheetCell& cell = cells_[lane];
+    cell.over_.take_gradients(over_, lane);
+    cell.project_slopes();
+    cell.begin_middle();
+    x.lanes[lane] = cell.middle(0);
+    y.lanes[lane] = cell.middle(1);
+  }
+  at_middle_.set(0, x);
+  at_middle_.set(1, y);
+  for (int j = 0; j < program_->roots(); ++j) {
+    at_middle_.run_square(j);
+    IntervalBatch roots;
+    for (std::size_t lane = 0; lane < size; ++lane) {
+      if (!inside_[lane]) continue;
+      SheetCell& cell = cells_[lane];
+      cell.at_middle_.take_square(at_middle_, lane, j);
+      cell.place_root_at_middle(j, lifted[lane]);
+      roots.lanes[lane] = cell.at_middle_.root(j);
+    }
+    at_middle_.set(2 + j, roots);
+  }
+  at_middle_.run_values();
+  for (std::size_t lane = 0; lane < size; ++lane) {
+    if (!inside_[lane]) continue;
+    cells_[lane].at_middle_.take_values(at_middle_, lane);
+    cells_[lane].take_middle_values();
+  }
 }
 
 PointSign::PointSign(const SheetProgram& program, core::WorkingMode mode)

@@ -6,6 +6,8 @@
 // (x, y, lifted s_j ...), are the cell's local coordinates; slopes are derivatives with respect to them.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -63,6 +65,21 @@ class SheetCell {
   Interval tangent(int function, int c) const;
 
  private:
+  friend class SheetCells;
+
+  void begin(const Interval& x, const Interval& y);
+  /// Once its square is enclosed. False: proven to lie outside the workspace.
+  bool enter_root(int j, const std::vector<Interval>& ranges);
+  void begin_local(const std::vector<Interval>& local, const std::vector<int>& lifted);
+  /// As above; `l`: how many of the roots before it are lifted.
+  bool enter_local_root(int j, std::size_t& l);
+  /// Once gradients are enclosed.
+  void project_slopes();
+  void begin_middle();
+  /// Once its square at the middle is enclosed; `l`: how many of the roots before it are lifted.
+  void place_root_at_middle(int j, std::size_t& l);
+  /// Once values at the middle are enclosed.
+  void take_middle_values();
   void reduce(std::vector<Interval>& gradient) const;
 
   const SheetProgram* program_;
@@ -77,6 +94,37 @@ class SheetCell {
   std::vector<Interval> middle_values_, middle_bonds_;
   std::vector<Interval> half_inverse_;  // 1/(2 s_j) of the roots that are not lifted
   std::vector<Interval> gradient_;
+};
+
+/// Several cells at a time, each as it would be alone.
+class SheetCells {
+ public:
+  static constexpr std::size_t size = IntervalBatch::size;
+
+  SheetCells(const SheetProgram& program, const core::WorkingMode& mode);
+
+  /// What a cell moves to: its ranges of x and y and of roots, null where they are all that the cell allows; or else a
+  /// box in local coordinates.
+  struct Place {
+    Interval x, y;
+    const std::vector<Interval>* ranges = nullptr;
+    const std::vector<Interval>* local = nullptr;
+    const std::vector<int>* lifted = nullptr;
+  };
+  /// Moves to places [0, count), count <= size. What operator[] gives then is as after SheetCell::enter() or
+  /// enter_local(), where `inside` says so.
+  void enter(const std::array<Place, size>& places, std::size_t count);
+  bool inside(std::size_t lane) const { return inside_[lane]; }
+  /// Of those inside.
+  void differentiate();
+  /// What is asked of it is what its own enter() or differentiate() would have left.
+  SheetCell& operator[](std::size_t lane) { return cells_[lane]; }
+
+ private:
+  const SheetProgram* program_;
+  SheetProgram::Registers<IntervalBatch> over_, at_middle_;
+  std::vector<SheetCell> cells_;
+  std::array<bool, size> inside_{};
 };
 
 /// Sign of a function at a point of the sheet: +1 or -1 proven, 0 undecided; none: proven outside the workspace.

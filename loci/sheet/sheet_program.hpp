@@ -6,7 +6,7 @@
 //     det d(f, g, s_j^2 - Q_j) / d(x, y, s1..sm)
 // On the sheet it vanishes where the curve f = 0 runs along a level line of g.
 // Where a function or a square comes with its straight line, that is compiled instead of the polynomial: it is shorter
-// and its enclosures are tighter. One program serves double, Batch, Interval and MultiInterval.
+// and its enclosures are tighter. One program serves double, Batch, Interval, IntervalBatch and MultiInterval.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,9 @@
 #include "core/polynomial.hpp"
 #include "core/root_tower.hpp"
 #include "loci/sheet/batch.hpp"
+#include "loci/sheet/interval_batch.hpp"
 #include "loci/sheet/jet.hpp"
+#include "loci/sheet/jet_batch.hpp"
 #include "loci/sheet/multi_interval.hpp"
 #include "loci/sheet/sheet_code.hpp"
 
@@ -85,9 +87,31 @@ class SheetProgram {
     const T& partial(int function, int v) const { return values_[program_->code_->partials[function][v]]; }
     const T& square_partial(int root, int v) const { return values_[program_->code_->square_partials[root][v]]; }
 
+    /// Of registers side by side: the first `count` lanes alone are worth computing from now on.
+    void use_lanes(std::size_t count) { lanes_ = count; }
+
     void run_square(int root) { run(root); }
     void run_values() { run(program_->roots()); }
     void run_gradients() { run(program_->roots() + 1); }
+
+    /// What a lane of registers side by side came to: of a root's square, of all functions, of all gradients.
+    template <class Lanes>
+    void take_square(const Registers<Lanes>& from, std::size_t lane, int root) {
+      values_[program_->code_->squares[root]] = from.square(root).lanes[lane];
+    }
+    template <class Lanes>
+    void take_values(const Registers<Lanes>& from, std::size_t lane) {
+      for (int f = 0; f < program_->functions(); ++f) values_[program_->code_->values[f]] = from.value(f).lanes[lane];
+    }
+    template <class Lanes>
+    void take_gradients(const Registers<Lanes>& from, std::size_t lane) {
+      for (int v = 0; v < program_->variables(); ++v) {
+        for (int f = 0; f < program_->functions(); ++f)
+          values_[program_->code_->partials[f][v]] = from.partial(f, v).lanes[lane];
+        for (int j = 0; j < program_->roots(); ++j)
+          values_[program_->code_->square_partials[j][v]] = from.square_partial(j, v).lanes[lane];
+      }
+    }
 
    private:
     friend class SheetProgram;
@@ -96,6 +120,7 @@ class SheetProgram {
 
     const SheetProgram* program_;
     std::vector<T> values_;
+    std::size_t lanes_ = IntervalBatch::size;
   };
 
   template <class T>
@@ -129,7 +154,7 @@ SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&p
   values_.resize(program.variables() + program.constants_.size() + program.code_->instructions.size());
   for (std::size_t i = 0; i < program.constants_.size(); ++i) {
     T& own = values_[program.variables() + i];
-    if constexpr (std::is_same_v<T, Interval> || std::is_same_v<T, Jet>)
+    if constexpr (std::is_constructible_v<T, Interval>)
       own = program.enclosed_constants_[i];
     else if constexpr (std::is_same_v<T, double>)
       own = program.nearest_constants_[i];
@@ -146,32 +171,37 @@ void SheetProgram::Registers<T>::run(int stage) {
   const int end = code.stage_end[stage];
   const int offset = program_->variables() + static_cast<int>(code.constants.size());
   T* const values = values_.data();
-  for (int i = begin; i < end; ++i) {
-    const SheetCode::Instruction& instruction = code.instructions[i];
-    const T& a = values[instruction.first];
-    const T& b = values[instruction.second];
-    switch (instruction.operation) {
-      case Operation::add:
-        values[offset + i] = a + b;
-        break;
-      case Operation::subtract:
-        values[offset + i] = a - b;
-        break;
-      case Operation::multiply:
-        values[offset + i] = a * b;
-        break;
-      case Operation::square:
-        values[offset + i] = squared(a);
-        break;
-      case Operation::inverse:
-        values[offset + i] = inverse(a);
-        break;
-      case Operation::angle:
-        values[offset + i] = angle_of(a, b);
-        break;
-      case Operation::angle_slope:
-        values[offset + i] = angle_slope(a, b);
-        break;
+  if constexpr (std::is_same_v<T, IntervalBatch> || std::is_same_v<T, JetBatch>) {
+    interval_batch::run(code.instructions.data() + begin, code.instructions.data() + end, values,
+                        values + offset + begin, lanes_);
+  } else {
+    for (int i = begin; i < end; ++i) {
+      const SheetCode::Instruction& instruction = code.instructions[i];
+      const T& a = values[instruction.first];
+      const T& b = values[instruction.second];
+      switch (instruction.operation) {
+        case Operation::add:
+          values[offset + i] = a + b;
+          break;
+        case Operation::subtract:
+          values[offset + i] = a - b;
+          break;
+        case Operation::multiply:
+          values[offset + i] = a * b;
+          break;
+        case Operation::square:
+          values[offset + i] = squared(a);
+          break;
+        case Operation::inverse:
+          values[offset + i] = inverse(a);
+          break;
+        case Operation::angle:
+          values[offset + i] = angle_of(a, b);
+          break;
+        case Operation::angle_slope:
+          values[offset + i] = angle_slope(a, b);
+          break;
+      }
     }
   }
 }

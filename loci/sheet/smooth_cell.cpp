@@ -23,6 +23,13 @@ Jet root_of(const Jet& square) {
   return root;
 }
 
+bool excludes_zero(const Jet& a) { return is_known(a) && !a.value.contains_zero(); }
+
+bool varies_little(const Interval& square) {
+  constexpr double near = 0.25;
+  return square.lower() > near * square.upper();
+}
+
 }  // namespace
 
 SmoothCell::SmoothCell(const SheetProgram& program, core::WorkingMode mode)
@@ -47,20 +54,62 @@ SmoothCell::Place SmoothCell::enter(const Interval& x, const Interval& y) {
   return known && is_known(registers_.value(0)) ? Place::inside : Place::unknown;
 }
 
-bool SmoothCell::excludes(int function) const {
-  const Jet& own = registers_.value(function);
-  return is_known(own) && !own.value.contains_zero();
-}
+bool SmoothCell::excludes(int function) const { return excludes_zero(registers_.value(function)); }
 
 bool SmoothCell::is_far_from_rims() const {
-  constexpr double near = 0.25;
   for (int j = 0; j < program_->roots(); ++j)
-    if (registers_.square(j).value.lower() <= near * registers_.square(j).value.upper()) return false;
+    if (!varies_little(registers_.square(j).value)) return false;
   return true;
 }
 
+SmoothCells::SmoothCells(const SheetProgram& program, core::WorkingMode mode)
+    : program_(&program),
+      mode_(std::move(mode)),
+      registers_(program.registers<JetBatch>()),
+      has_angles_(program.has_angles()) {}
+
+void SmoothCells::enter(const std::array<std::array<Interval, 2>, size>& ranges, std::size_t count) {
+  registers_.use_lanes(count);
+  for (const int c : {0, 1}) {
+    JetBatch own;
+    for (std::size_t lane = 0; lane < count; ++lane)
+      own.set_lane(lane, Jet(ranges[lane][static_cast<std::size_t>(c)], c));
+    registers_.set(c, own);
+  }
+  places_.fill(Place::inside);
+  for (int j = 0; j < program_->roots(); ++j) {
+    registers_.run_square(j);
+    JetBatch roots;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Jet square = registers_.square(j).lane(lane);
+      if (square.bounded && square.value.upper() < 0) places_[lane] = Place::outside;
+      const Jet root = root_of(square);
+      if (places_[lane] == Place::inside && !is_known(root)) places_[lane] = Place::unknown;
+      roots.set_lane(lane, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
+    }
+    registers_.set(2 + j, roots);
+  }
+  registers_.run_values();
+  for (std::size_t lane = 0; lane < count; ++lane)
+    if (places_[lane] == Place::inside && !is_known(registers_.value(0).lane(lane))) places_[lane] = Place::unknown;
+}
+
+bool SmoothCells::excludes(std::size_t lane, int function) const {
+  return excludes_zero(registers_.value(function).lane(lane));
+}
+
+bool SmoothCells::is_far_from_rims(std::size_t lane) const {
+  for (int j = 0; j < program_->roots(); ++j)
+    if (!varies_little(registers_.square(j).value.lanes[lane])) return false;
+  return true;
+}
+
+bool is_smooth_worthwhile(const SheetProgram& program) {
+  return program.is_nested() && program.instructions() <= most_steps;
+}
+
 std::optional<SmoothCell> worthwhile_smooth_cell(const SheetProgram& program, const core::WorkingMode& mode) {
-  if (!program.is_nested() || program.instructions() > most_steps) return std::nullopt;
+  if (!is_smooth_worthwhile(program)) return std::nullopt;
   return SmoothCell(program, mode);
 }
 

@@ -3,9 +3,12 @@
 // tell something on tiny cells only.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "loci/sheet/jet.hpp"
+#include "loci/sheet/jet_batch.hpp"
 #include "loci/sheet/sheet_program.hpp"
 
 namespace clearloci::loci::sheet {
@@ -41,6 +44,35 @@ class SmoothCell {
   SheetProgram::Registers<Jet> registers_;
   bool has_angles_;
 };
+
+/// Several cells at a time, each as it would be alone.
+class SmoothCells {
+ public:
+  static constexpr std::size_t size = JetBatch::size;
+  using Place = SmoothCell::Place;
+
+  SmoothCells(const SheetProgram& program, core::WorkingMode mode);
+
+  /// `ranges`: of x and y of cells [0, count), count <= size.
+  void enter(const std::array<std::array<Interval, 2>, size>& ranges, std::size_t count);
+  Place place(std::size_t lane) const { return places_[lane]; }
+
+  bool tells_of_tiny_cells() const { return has_angles_; }
+  bool excludes(std::size_t lane, int function) const;
+  bool is_far_from_rims(std::size_t lane) const;
+  const Interval& slope(std::size_t lane, int c) const {
+    return registers_.value(0).slope[static_cast<std::size_t>(c)].lanes[lane];
+  }
+
+ private:
+  const SheetProgram* program_;
+  core::WorkingMode mode_;
+  SheetProgram::Registers<JetBatch> registers_;
+  std::array<Place, size> places_{};
+  bool has_angles_;
+};
+
+bool is_smooth_worthwhile(const SheetProgram& program);
 
 /// None where plain enclosures do: no root is nested, or the program is too long for the price.
 std::optional<SmoothCell> worthwhile_smooth_cell(const SheetProgram& program, const core::WorkingMode& mode);

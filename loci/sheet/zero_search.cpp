@@ -1,6 +1,7 @@
 #include "loci/sheet/zero_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -27,7 +28,10 @@ constexpr double near_smallest = 1e4;
 // trials say nothing for long.
 constexpr double worth_a_touch = 1e10;
 constexpr std::size_t most_touch_trials = 256;
-constexpr std::size_t cells_between_stops = 64;
+// Enough that what is left of them after a first look fills batches again.
+constexpr std::size_t cells_at_a_time = 64;
+// Fewer than these are looked at one by one.
+constexpr std::size_t few_candidates = 3;
 
 const Interval everything(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 
@@ -42,7 +46,7 @@ ZeroSearch::ZeroSearch(const SheetProgram& program, const core::WorkingMode& mod
     : program_(&program),
       system_(std::move(system)),
       cell_(program, mode),
-      smooth_(worthwhile_smooth_cell(program, mode)) {
+      is_smooth_worthwhile_(is_smooth_worthwhile(program)) {
   core::ensure(system_.functions.size() == system_.free.size(), "as many functions as unknowns");
 }
 
@@ -57,9 +61,9 @@ FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits)
   bool stopped = false;
   while (!live.empty() && !stopped && live.size() <= limits_.most_cells + seeds.size()) {
     next.clear();
-    for (std::size_t i = 0; i < live.size() && !stopped; ++i) {
-      stopped = i % cells_between_stops == 0 && limits_.stop && limits_.stop();
-      if (!stopped) examine(live[i], next);
+    for (std::size_t i = 0; i < live.size() && !stopped; i += cells_at_a_time) {
+      stopped = limits_.stop && limits_.stop();
+      if (!stopped) examine(live.data() + i, live.data() + std::min(i + cells_at_a_time, live.size()), next);
     }
     if (!stopped) std::swap(live, next);
   }
@@ -73,56 +77,141 @@ FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits)
   return result;
 }
 
-void ZeroSearch::examine(const Box& live, std::vector<Box>& next) {
-  const Cell& cell = live.cell;
-  const auto excluded = [&](auto&& enclosure) {
-    return std::any_of(system_.functions.begin(), system_.functions.end(),
-                       [&](int f) { return !enclosure(f).contains_zero(); });
-  };
-  if (!cell_.enter(cell.x, cell.y, live.roots) || excluded([&](int f) { return cell_.value(f); }) || known(cell))
-    return;
-  box_.clear();
-  const std::vector<int> lifted = cell_.lifted();
-  const auto is_free = [&](int c) {
-    return c >= 2 || std::find(system_.free.begin(), system_.free.end(), c) != system_.free.end();
-  };
-  int axis = cell.x.width() > cell.y.width() ? 0 : 1;
-  if (!lifted.empty()) {
-    cell_.differentiate();
-    if (excluded([&](int f) { return cell_.centred(f); })) return;
-    axis = axis_to_cut(cell);
-  }
-  std::vector<Interval> roots = live.roots;
-  for (const int j : lifted) {
-    roots.resize(program_->roots(), everything);
-    roots[j] = cell_.root(j);
-  }
-  for (int c = 0; c < cell_.dimension(); ++c) {
-    const double share = lifted.empty() ? inflation : c < 2 ? lifted_inflation : root_inflation;
-    box_.push_back(is_free(c) ? inflated(cell_.local(c), share) : cell_.local(c));
-  }
-  if (cell_.enter_local(box_, lifted)) {
-    cell_.differentiate();
-    if (width(cell) < near_smallest * limits_.smallest &&
-        std::any_of(system_.functions.begin(), system_.functions.end(),
-                    [&](int f) { return cell_.rounding_dominates(f); }))
-      cell_.sharpen_middle();
-    if (excluded([&](int f) { return cell_.centred(f); })) return;
-    ZeroCount count = krawczyk(cell_, system_, image_);
-    if (count == ZeroCount::none) return;
-    // Dearer than all before, and small cells seldom need it.
-    if (count == ZeroCount::unknown && smoothly_excluded(cell)) return;
-    for (int trial = 0; count == ZeroCount::unknown && trial < most_widenings; ++trial)
-      count = try_wider(box_, lifted, image_);
-    if (count == ZeroCount::unique && accept(box_, lifted, image_, cell)) return;
-  } else if (smoothly_excluded(cell)) {
+template <class Show>
+void ZeroSearch::enclose(const Group& group, Extent extent, bool with_slopes, const Show& show) {
+  constexpr std::size_t size = SheetCells::size;
+  if (group.size() < few_candidates) {
+    for (const std::size_t index : group) {
+      Candidate& candidate = candidates_[index];
+      const Box& own = *candidate.own;
+      const bool entered = extent == Extent::cell ? cell_.enter(own.cell.x, own.cell.y, own.roots)
+                                                  : cell_.enter_local(candidate.box, candidate.lifted);
+      if (entered && with_slopes) cell_.differentiate();
+      show(candidate, cell_, entered);
+    }
     return;
   }
-  if (settle_touch(cell, roots, lifted) && cell_.enter(cell.x, cell.y, live.roots) && known(cell)) return;
+  if (!side_by_side_) side_by_side_.emplace(*program_, mode());
+  for (std::size_t first = 0; first < group.size(); first += size) {
+    const std::size_t count = std::min(size, group.size() - first);
+    std::array<SheetCells::Place, size> places;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Candidate& candidate = candidates_[group[first + lane]];
+      if (extent == Extent::cell)
+        places[lane] = {candidate.own->cell.x, candidate.own->cell.y, &candidate.own->roots};
+      else
+        places[lane] = {{}, {}, nullptr, &candidate.box, &candidate.lifted};
+    }
+    side_by_side_->enter(places, count);
+    if (with_slopes) side_by_side_->differentiate();
+    for (std::size_t lane = 0; lane < count; ++lane)
+      show(candidates_[group[first + lane]], (*side_by_side_)[lane], side_by_side_->inside(lane));
+  }
+}
+
+template <class Function>
+bool ZeroSearch::excludes_zero(const Function& enclosure) const {
+  return std::any_of(system_.functions.begin(), system_.functions.end(),
+                     [&](int f) { return !enclosure(f).contains_zero(); });
+}
+
+void ZeroSearch::exclude_by_values(Candidate& candidate, const SheetCell& cell, bool inside) {
+  candidate.excluded = !inside || excludes_zero([&](int f) { return cell.value(f); });
+  if (candidate.excluded) return;
+  const Cell& place = candidate.own->cell;
+  candidate.all.assign({place.x, place.y});
+  for (int j = 0; j < program_->roots(); ++j) candidate.all.push_back(cell.root(j));
+  candidate.lifted = cell.lifted();
+  candidate.axis = place.x.width() > place.y.width() ? 0 : 1;
+  candidate.roots = candidate.own->roots;
+  for (const int j : candidate.lifted) {
+    candidate.roots.resize(static_cast<std::size_t>(program_->roots()), everything);
+    candidate.roots[static_cast<std::size_t>(j)] = cell.root(j);
+  }
+}
+
+/// Of a lifted cell.
+void ZeroSearch::exclude_by_slopes(Candidate& candidate, const SheetCell& cell) {
+  candidate.excluded = excludes_zero([&](int f) { return cell.centred(f); });
+  if (!candidate.excluded) candidate.axis = axis_to_cut(cell, candidate.own->cell);
+}
+
+void ZeroSearch::put_box_around(Candidate& candidate) const {
+  candidate.box.clear();
+  const auto is_free = [&](std::size_t c) {
+    return c >= 2 || std::find(system_.free.begin(), system_.free.end(), static_cast<int>(c)) != system_.free.end();
+  };
+  for (std::size_t c = 0; c < 2 + candidate.lifted.size(); ++c) {
+    const double share = candidate.lifted.empty() ? inflation : c < 2 ? lifted_inflation : root_inflation;
+    const Interval& local = candidate.all[c < 2 ? c : 2 + static_cast<std::size_t>(candidate.lifted[c - 2])];
+    candidate.box.push_back(is_free(c) ? inflated(local, share) : local);
+  }
+}
+
+void ZeroSearch::count_in_box(Candidate& candidate, SheetCell& cell, bool has_box) {
+  candidate.has_box = has_box;
+  candidate.count = ZeroCount::unknown;
+  if (!has_box) return;
+  if (width(candidate.own->cell) < near_smallest * limits_.smallest &&
+      std::any_of(system_.functions.begin(), system_.functions.end(),
+                  [&](int f) { return cell.rounding_dominates(f); }))
+    cell.sharpen_middle();
+  candidate.excluded = excludes_zero([&](int f) { return cell.centred(f); });
+  if (candidate.excluded) return;
+  candidate.count = krawczyk(cell, system_, candidate.image);
+  candidate.excluded = candidate.count == ZeroCount::none;
+}
+
+void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& next) {
+  const auto count = static_cast<std::size_t>(last - first);
+  candidates_.resize(std::max(candidates_.size(), count));
+  Group open(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    open[i] = i;
+    candidates_[i].own = first + i;
+  }
+  const auto those = [&](const auto& condition) {
+    Group group;
+    for (const std::size_t i : open)
+      if (condition(candidates_[i])) group.push_back(i);
+    return group;
+  };
+  const auto drop_excluded = [&] { std::erase_if(open, [&](std::size_t i) { return candidates_[i].excluded; }); };
+  enclose(open, Extent::cell, false,
+          [&](Candidate& own, const SheetCell& cell, bool inside) { exclude_by_values(own, cell, inside); });
+  for (const std::size_t i : open) candidates_[i].excluded = candidates_[i].excluded || known(candidates_[i].all);
+  drop_excluded();
+  enclose(those([](const Candidate& own) { return !own.lifted.empty(); }), Extent::cell, true,
+          [&](Candidate& own, const SheetCell& cell, bool) { exclude_by_slopes(own, cell); });
+  drop_excluded();
+  for (const std::size_t i : open) put_box_around(candidates_[i]);
+  enclose(open, Extent::box, true,
+          [&](Candidate& own, SheetCell& cell, bool has_box) { count_in_box(own, cell, has_box); });
+  drop_excluded();
+  // Dearer than all before, and small cells seldom need it.
+  exclude_smoothly(those([](const Candidate& own) { return own.count == ZeroCount::unknown; }));
+  drop_excluded();
+  for (int trial = 0; trial < most_widenings; ++trial) {
+    const Group wider =
+        those([](Candidate& own) { return own.has_box && own.count == ZeroCount::unknown && widen(own); });
+    enclose(wider, Extent::box, true, [&](Candidate& own, const SheetCell& cell, bool has_box) {
+      const ZeroCount found = has_box ? krawczyk(cell, system_, own.image) : ZeroCount::unknown;
+      own.count = found == ZeroCount::none ? ZeroCount::unknown : found;
+    });
+  }
+  for (const std::size_t i : open) settle(candidates_[i], next);
+}
+
+void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
+  const Box& own = *candidate.own;
+  const Cell& cell = own.cell;
+  if (known(candidate.all)) return;  // since those before it were settled
+  if (candidate.count == ZeroCount::unique && accept(candidate.box, candidate.lifted, candidate.image, cell)) return;
+  if (settle_touch(cell, candidate.roots, candidate.lifted) && known(candidate.all)) return;
   if (width(cell) < limits_.smallest)
     undecided_.push_back(cell);
   else
-    split({cell, std::move(roots)}, axis, next);
+    split({cell, std::move(candidate.roots)}, candidate.axis, next);
 }
 
 bool ZeroSearch::settle_touch(const Cell& cell, const std::vector<Interval>& roots, const std::vector<int>& lifted) {
@@ -140,44 +229,64 @@ bool ZeroSearch::settle_touch(const Cell& cell, const std::vector<Interval>& roo
   return true;
 }
 
-bool ZeroSearch::smoothly_excluded(const Cell& cell) {
-  if (!smooth_) return false;
-  return smooth_->enter(cell.x, cell.y) == SmoothCell::Place::outside ||
-         std::any_of(system_.functions.begin(), system_.functions.end(),
-                     [this](int f) { return smooth_->excludes(f); });
+void ZeroSearch::exclude_smoothly(const Group& group) {
+  if (!is_smooth_worthwhile_ || group.empty()) return;
+  const auto exclude = [&](Candidate& own, SmoothCell::Place place, const auto& excludes) {
+    own.excluded = place == SmoothCell::Place::outside ||
+                   std::any_of(system_.functions.begin(), system_.functions.end(), excludes);
+  };
+  if (group.size() < few_candidates) {
+    if (!smooth_) smooth_.emplace(*program_, mode());
+    for (const std::size_t i : group) {
+      const Cell& cell = candidates_[i].own->cell;
+      exclude(candidates_[i], smooth_->enter(cell.x, cell.y), [this](int f) { return smooth_->excludes(f); });
+    }
+    return;
+  }
+  constexpr std::size_t size = SmoothCells::size;
+  if (!smooth_side_by_side_) smooth_side_by_side_.emplace(*program_, mode());
+  std::array<std::array<Interval, 2>, size> ranges;
+  for (std::size_t first = 0; first < group.size(); first += size) {
+    const std::size_t count = std::min(size, group.size() - first);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Cell& cell = candidates_[group[first + lane]].own->cell;
+      ranges[lane] = {cell.x, cell.y};
+    }
+    smooth_side_by_side_->enter(ranges, count);
+    for (std::size_t lane = 0; lane < count; ++lane)
+      exclude(candidates_[group[first + lane]], smooth_side_by_side_->place(lane),
+              [&](int f) { return smooth_side_by_side_->excludes(lane, f); });
+  }
 }
 
 /// A root whose range makes a function vary more than the cell's extent does is cut before the cell.
-int ZeroSearch::axis_to_cut(const Cell& cell) const {
-  for (std::size_t l = 0; l < cell_.lifted().size(); ++l) {
-    if (cell_.local(2 + static_cast<int>(l)).width() < thinnest_root * width(cell)) continue;
+int ZeroSearch::axis_to_cut(const SheetCell& cell, const Cell& place) const {
+  for (std::size_t l = 0; l < cell.lifted().size(); ++l) {
+    if (cell.local(2 + static_cast<int>(l)).width() < thinnest_root * width(place)) continue;
     for (const int f : system_.functions) {
       double plain = 0;
-      for (const int c : system_.free) plain += cell_.slope(f, c).magnitude() * cell_.local(c).width();
+      for (const int c : system_.free) plain += cell.slope(f, c).magnitude() * cell.local(c).width();
       const int c = 2 + static_cast<int>(l);
-      if (cell_.slope(f, c).magnitude() * cell_.local(c).width() > 2 * plain) return 2 + cell_.lifted()[l];
+      if (cell.slope(f, c).magnitude() * cell.local(c).width() > 2 * plain) return 2 + cell.lifted()[l];
     }
   }
-  return cell.x.width() > cell.y.width() ? 0 : 1;
+  return place.x.width() > place.y.width() ? 0 : 1;
 }
 
 /// A box of the wrong proportions does not contract; one that also holds its image may. The box only grows, so that a
 /// count of it is one of the cell.
-ZeroCount ZeroSearch::try_wider(std::vector<Interval>& box, const std::vector<int>& lifted,
-                                std::vector<Interval>& image) {
-  if (image.empty()) return ZeroCount::unknown;
+bool ZeroSearch::widen(Candidate& candidate) {
+  std::vector<Interval>&box = candidate.box, &image = candidate.image;
+  if (image.empty()) return false;
   for (std::size_t c = 0; c < box.size(); ++c)
     if (image[c].width() > hopeless * box[c].width()) {
       image.clear();
-      return ZeroCount::unknown;
+      return false;
     }
   for (std::size_t c = 0; c < box.size(); ++c)
     if (box[c].width() > 0) box[c] = inflated(hull(box[c], image[c]), inflation);
   image.clear();
-  if (!cell_.enter_local(box, lifted)) return ZeroCount::unknown;
-  cell_.differentiate();
-  const ZeroCount count = krawczyk(cell_, system_, image);
-  return count == ZeroCount::none ? ZeroCount::unknown : count;
+  return true;
 }
 
 /// The box of `zero` holds whatever zero lies in `all` (an enclosure of all variables).
@@ -189,11 +298,8 @@ bool ZeroSearch::owns(const CertifiedZero& zero, const std::vector<Interval>& al
   return true;
 }
 
-/// All of the cell lies in the box of a zero that is known already. Required: cell_ has entered it.
-bool ZeroSearch::known(const Cell& cell) const {
-  if (zeros_.empty() && settled_.empty()) return false;
-  std::vector<Interval> all = {cell.x, cell.y};
-  for (int j = 0; j < program_->roots(); ++j) all.push_back(cell_.root(j));
+/// All of a cell lies in the box of a zero that is known already. `all`: enclosures of all variables over it.
+bool ZeroSearch::known(const std::vector<Interval>& all) const {
   const auto owns_all = [&](const CertifiedZero& zero) { return owns(zero, all); };
   return std::any_of(zeros_.begin(), zeros_.end(), owns_all) || std::any_of(settled_.begin(), settled_.end(), owns_all);
 }

@@ -2,6 +2,7 @@
 // Krawczyk's proof of existence and uniqueness.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -61,15 +62,44 @@ class ZeroSearch {
     std::vector<Interval> roots;
   };
 
-  void examine(const Box& live, std::vector<Box>& next);
+  /// A box under examination.
+  struct Candidate {
+    const Box* own = nullptr;
+    bool excluded = false;
+    std::vector<Interval> all;  ///< enclosures of all variables
+    std::vector<int> lifted;
+    std::vector<Interval> roots;       ///< ranges that its halves inherit
+    std::vector<Interval> box, image;  ///< around it, of Krawczyk's operator
+    int axis = 0;                      ///< to be cut
+    bool has_box = false;              ///< `box` is small enough to work on
+    ZeroCount count = ZeroCount::unknown;
+  };
+  /// Candidates by their place among those under examination.
+  using Group = std::vector<std::size_t>;
+
+  /// Boxes [first, last): what enclosures tell of each, which does not depend on the others; then, in turn, what is to
+  /// be done with it.
+  void examine(const Box* first, const Box* last, std::vector<Box>& next);
+  void settle(Candidate& candidate, std::vector<Box>& next);
+  void exclude_by_values(Candidate& candidate, const SheetCell& cell, bool inside);
+  void exclude_by_slopes(Candidate& candidate, const SheetCell& cell);
+  void put_box_around(Candidate& candidate) const;
+  void count_in_box(Candidate& candidate, SheetCell& cell, bool has_box);
+  /// Moves to all of each candidate's cell, or to its box, side by side where there are several, and shows its cell.
+  enum class Extent { cell, box };
+  template <class Show>
+  void enclose(const Group& group, Extent extent, bool with_slopes, const Show& show);
+  template <class Function>
+  bool excludes_zero(const Function& enclosure) const;
   /// The cell is next to a place where the curves touch or nearly do, in a box that is settled from now on.
   bool settle_touch(const Cell& cell, const std::vector<Interval>& roots, const std::vector<int>& lifted);
-  /// Second-order enclosures prove that no zero is in the cell.
-  bool smoothly_excluded(const Cell& cell);
-  int axis_to_cut(const Cell& cell) const;
-  ZeroCount try_wider(std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval>& image);
+  /// By second-order enclosures.
+  void exclude_smoothly(const Group& group);
+  int axis_to_cut(const SheetCell& cell, const Cell& place) const;
+  /// Makes the box hold its image. False: that is no use.
+  static bool widen(Candidate& candidate);
   bool owns(const CertifiedZero& zero, const std::vector<Interval>& all) const;
-  bool known(const Cell& cell) const;
+  bool known(const std::vector<Interval>& all) const;
   static void split(const Box& box, int axis, std::vector<Box>& next);
   double width(const Cell& cell) const;
   bool accept(const std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval> enclosure,
@@ -78,13 +108,16 @@ class ZeroSearch {
   const SheetProgram* program_;
   System system_;
   SheetCell cell_;
-  std::optional<SmoothCell> smooth_;
+  std::optional<SheetCells> side_by_side_;  // once there are several candidates
+  bool is_smooth_worthwhile_;
+  std::optional<SmoothCell> smooth_;                // once it is asked for
+  std::optional<SmoothCells> smooth_side_by_side_;  // likewise
   Limits limits_{};
   std::vector<CertifiedZero> zeros_;
   std::vector<CertifiedZero> settled_;  // boxes in which there is nothing else
   std::size_t touch_trials_ = 0;
   std::vector<Cell> undecided_;
-  std::vector<Interval> box_, image_;  // of the cell under examination
+  std::vector<Candidate> candidates_;  // under examination
 };
 
 }  // namespace clearloci::loci::sheet
