@@ -16,6 +16,8 @@ constexpr unsigned most_attempts = 4;
 // A cell edge on which the curve cannot be told apart at this size, relative to the patch, is an unlucky edge.
 constexpr double smallest_on_edge = 1e-14;
 constexpr std::size_t most_cells_on_edge = 512;
+// Where the curve runs along a part of a patch's border, the rest of that side is searched by so many.
+constexpr std::size_t most_cells_beside_a_run = 64;
 // In a sketch an edge on which so many cells tell nothing, as where the curve runs along it, is left open.
 constexpr std::size_t most_cells_on_edge_of_a_sketch = 16;
 // Of crossings, relative to the patch: a tenth of what vertices are held to.
@@ -98,14 +100,17 @@ class GraphBuilder {
     return static_cast<int>(graph_.crossings.size()) - 1;
   }
 
-  /// Zeros of the curve on a segment; nothing if they cannot be told apart or lie at its ends.
+  /// Zeros of the curve on a segment; nothing if they cannot be told apart or lie at its ends. `runs_along`: there is
+  /// nothing to be told apart, for no part of the segment is free of them.
   std::optional<std::vector<std::vector<Interval>>> zeros_on(int patch, ZeroSearch& search, int axis, double at,
-                                                             double from, double to) {
+                                                             double from, double to, std::size_t most_cells,
+                                                             bool* runs_along = nullptr) {
     const Cell& domain = graph_.patches[patch].domain;
     const double size = std::max(domain.x.width(), domain.y.width());
     const Cell segment = axis == 0 ? Cell{at, {from, to}} : Cell{{from, to}, at};
-    const std::size_t most_cells = options_.extended ? most_cells_on_edge : most_cells_on_edge_of_a_sketch;
     FoundZeros found = search.run({segment}, {smallest_on_edge * size, most_cells, accuracy * size, options_.stop});
+    // As many as that are left where none of all halves, halved again, was excluded.
+    if (runs_along != nullptr && found.gave_up && found.undecided.size() >= 2 * most_cells) *runs_along = true;
     if (!found.undecided.empty()) return std::nullopt;
     for (const std::vector<Interval>& zero : found.enclosures) {
       if (!inside(zero[1 - axis], Interval(from, to))) return std::nullopt;
@@ -114,6 +119,8 @@ class GraphBuilder {
     }
     return std::move(found.enclosures);
   }
+
+  std::size_t cells_on_edge() const { return options_.extended ? most_cells_on_edge : most_cells_on_edge_of_a_sketch; }
 
   ZeroSearch search_along(int patch, int axis) const {
     return ZeroSearch(*graph_.patches[patch].program, mode_, {{0}, {1 - axis}});
@@ -127,7 +134,7 @@ class GraphBuilder {
         touching_.push_back({patch, seam.lower, seam.upper});
         continue;
       }
-      auto zeros = zeros_on(patch, searches[seam.axis], seam.axis, seam.at, seam.from, seam.to);
+      auto zeros = zeros_on(patch, searches[seam.axis], seam.axis, seam.at, seam.from, seam.to, cells_on_edge());
       if (!zeros) {
         give_up_on(patch, seam.lower);
         give_up_on(patch, seam.upper);
@@ -152,15 +159,18 @@ class GraphBuilder {
         const double at = end < 0 ? range.lower() : range.upper();
         // Right and left charts find the crossings of their sides with the top and bottom ones.
         if (axis == 1 && (side == Side::top || side == Side::bottom)) continue;
+        bool runs_along = false;
         for (std::size_t l = 0; l < at_leaf_[patch].size(); ++l) {
           const int index = static_cast<int>(l);
           const Cell& cell = leaf(patch, index).cell;
           const Interval& own = axis == 0 ? cell.x : cell.y;
           if ((end < 0 ? own.lower() : own.upper()) != at || !has_curve(patch, index)) continue;
           const Interval& other = axis == 0 ? cell.y : cell.x;
-          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper());
+          const std::size_t most_cells = runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();
+          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, &runs_along);
           if (!zeros) {
             give_up_on(patch, index);
+            last_attempt_ = last_attempt_ || runs_along;  // other cuts do not move the border
             continue;
           }
           for (std::vector<Interval>& zero : *zeros) hand_over(patch, index, axis, end, std::move(zero));

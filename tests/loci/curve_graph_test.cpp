@@ -104,6 +104,23 @@ TEST(CurveGraph, CrossingCirclesMeetInTwoNodes) {
   EXPECT_EQ(nodes, 2);
 }
 
+/// Other cuts do not move a patch's border: where the curve runs along it one attempt says all there is to say.
+TEST(CurveGraph, GivesUpOnceWhereTheCurveRunsAlongTheBorder) {
+  const core::RootTower tower = testing::plane();
+  const Partition parts = partition(tower, {-2, 2, -2, 2});
+  const auto asked = [&](const core::Polynomial& curve) {
+    int questions = 0;
+    TreeOptions options;
+    options.stop = [&] { return ++questions, false; };
+    const CurveGraph graph = curve_graph(tower, {curve, {}}, {}, parts, options);
+    EXPECT_FALSE(graph.undecided.empty());
+    return questions;
+  };
+  const int along = asked(r.x() + r(2));
+  EXPECT_GT(along, 10);
+  EXPECT_LT(along, 50);  // a search asks some 30 times until it gives up
+}
+
 TEST(CurveGraph, CutsTheStretchThatHoldsAPlace) {
   CurveGraph graph = graph_of(circle(0, 1));
   const std::size_t before = graph.stretches.size();
