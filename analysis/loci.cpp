@@ -99,12 +99,13 @@ core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symb
 /// Of the pieces and sheets of one mechanism together. `parts`: those of a single piece, where there are several.
 core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociRequest& request,
                             std::vector<symbolic::DerivedProblem>& derived, const std::vector<DyadSides>& sides,
-                            std::vector<TracedSheet>& parts, core::Certificate* certificate, TraceEffort effort) {
+                            std::vector<TracedSheet>& parts, const TraceMeans& means, TraceEffort effort) {
   const loci::TraceOptions options{.engine = request.engine,
                                    .progress = request.progress,
                                    .deadline = request.deadline,
                                    .sketch = effort == TraceEffort::sketch,
-                                   .certificate = certificate};
+                                   .certificate = means.certificate,
+                                   .known = means.known};
   if (options.certificate != nullptr)
     for (const core::Root& root : derived.front().problem.tower.roots)
       if (root.square.is_constant() || root.name == core::fold_name)
@@ -145,10 +146,8 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
 }
 
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
-/// `family`: of which the mechanism is a member; may be null.
 TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                               const symbolic::LocusFamily* family, core::Certificate* certificate,
-                               TraceEffort effort) {
+                               const TraceMeans& means, TraceEffort effort) {
   const auto check_deadline = [&] {
     if (request.deadline && Clock::now() >= *request.deadline) throw core::LimitReached("the time limit was reached");
   };
@@ -161,8 +160,9 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
     check_deadline();
     symbolic::Selection selection = selection_of(request);
     selection.working_modes = sides_to_trace(mechanism, request);
-    std::vector<symbolic::DerivedProblem> derived =
-        family != nullptr ? family->problems(mechanism, selection) : symbolic::locus_problems(mechanism, selection);
+    std::vector<symbolic::DerivedProblem> derived = means.family != nullptr
+                                                        ? means.family->problems(mechanism, selection)
+                                                        : symbolic::locus_problems(mechanism, selection);
     for (symbolic::DerivedProblem& one : derived) {
       symbolic += one.symbolic_seconds;
       elimination += one.elimination_seconds;
@@ -171,10 +171,10 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
 
     start = Clock::now();
     check_deadline();
-    map = trace_pieces(mechanism, request, derived, selection.working_modes, traced.sheets, certificate, effort);
+    map = trace_pieces(mechanism, request, derived, selection.working_modes, traced.sheets, means, effort);
     tracing = seconds_since(start);
-    if (certificate != nullptr) {
-      auto& factors = certificate->problem.factors;
+    if (means.certificate != nullptr) {
+      auto& factors = means.certificate->problem.factors;
       factors.insert(factors.end(), derived.front().rest.begin(), derived.front().rest.end());
     }
     std::vector<std::string> notes;
@@ -200,12 +200,11 @@ bool closes_nowhere(const core::LocusMap& map) {
                                               [](const auto& region) { return region.rings.empty(); });
 }
 
-TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                           const symbolic::LocusFamily* family, core::Certificate* certificate,
+TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequest& request, const TraceMeans& means,
                            TraceEffort effort = TraceEffort::full) {
   require_coordinates(mechanism, 1, 3, "loci are traced");
   check_sides(mechanism, request);
-  TracedProblem traced = derive_and_trace(mechanism, request, family, certificate, effort);
+  TracedProblem traced = derive_and_trace(mechanism, request, means, effort);
   core::LocusMap& map = traced.map;
   map.mechanism = mechanism.name;
   map.units = mechanism.units;
@@ -300,20 +299,19 @@ core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociReque
                           core::Certificate* certificate) {
   // A certificate speaks of the mechanism of the file.
   if (const std::optional<Framed> own = certificate == nullptr ? framed(mechanism) : std::nullopt)
-    return from_frame(trace_member(own->mechanism, in_frame(request, own->frame), nullptr, nullptr).map, mechanism,
-                      own->frame);
-  return trace_member(mechanism, request, nullptr, certificate).map;
+    return from_frame(trace_member(own->mechanism, in_frame(request, own->frame), {}).map, mechanism, own->frame);
+  return trace_member(mechanism, request, {.certificate = certificate}).map;
 }
 
-TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                            core::Certificate* certificate, TraceEffort effort) {
-  return trace_member(mechanism, request, nullptr, certificate, effort);
+TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request, const TraceMeans& means,
+                            TraceEffort effort) {
+  return trace_member(mechanism, request, means, effort);
 }
 
 core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,
                           const LociRequest& request) {
   if (framed(member)) return trace_loci(member, request);
-  return trace_member(member, request, &family, nullptr).map;
+  return trace_member(member, request, {.family = &family}).map;
 }
 
 core::LocusMap trace_loci(const Model& model, const LociRequest& request) {

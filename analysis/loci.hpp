@@ -47,8 +47,15 @@ struct TracedProblem {
 };
 /// A sketch is for pictures and names, where something else proves what counts (loci::TraceOptions::sketch).
 enum class TraceEffort { full, sketch };
+/// What else there may be, each null where there is none: a certificate to fill in, what was found for another
+/// tolerance (loci::TraceOptions), the family that the mechanism is a member of.
+struct TraceMeans {
+  core::Certificate* certificate = nullptr;
+  loci::sheet::KnownSearches* known = nullptr;
+  const symbolic::LocusFamily* family = nullptr;
+};
 TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request = {},
-                            core::Certificate* certificate = nullptr, TraceEffort effort = TraceEffort::full);
+                            const TraceMeans& means = {}, TraceEffort effort = TraceEffort::full);
 
 /// The same for a member of a family of designs, whose equations are derived already.
 core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,

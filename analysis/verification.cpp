@@ -132,7 +132,7 @@ class Verifier {
     effort_ = effort;
     std::vector<TracedProblem> all;
     for (const LoadCase& one : cases_) {
-      all.push_back(on_sheet_of(task_, trace_problem(one.mechanism, request_, nullptr, effort)));
+      all.push_back(on_sheet_of(task_, trace_problem(one.mechanism, request_, {}, effort)));
       if (all.back().map.complete) continue;
       notes_.emplace_back("the loci could not be traced within the time limit");
       return;
@@ -374,7 +374,7 @@ void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verifi
   result.notes = verifier.notes();
   std::optional<TracedProblem> traced;
   if (result.task.loads && result.notes.empty())
-    traced = on_sheet_of(result.task, trace_problem(mechanism, verifier.request(), nullptr, verifier.effort()));
+    traced = on_sheet_of(result.task, trace_problem(mechanism, verifier.request(), {}, verifier.effort()));
   else if (verifier.traced())
     traced = verifier.traced()->front();
   if (traced && traced->map.complete) {

@@ -7,6 +7,7 @@
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "core/errors.hpp"
+#include "loci/sheet/known_searches.hpp"
 #include "loci/sheet_maps.hpp"
 #include "loci/zones.hpp"
 #include "mechanism/guide.hpp"
@@ -113,7 +114,7 @@ loci::CutZones zones_of(TracedProblem traced) {
 }  // namespace
 
 core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                         core::Certificate* certificate) {
+                         core::Certificate* certificate, const symbolic::LocusFamily* family) {
   require_coordinates(mechanism, 2, 2, "zones are cut");
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
     if (coordinate.angle)
@@ -125,8 +126,9 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
     return from_frame(find_zones(own->mechanism, in_frame(request, own->frame)), mechanism, own->frame);
   constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
   LociRequest finer = request;
+  loci::sheet::KnownSearches known;
   for (int attempt = 1;; ++attempt) {
-    TracedProblem traced = trace_problem(mechanism, finer, certificate);
+    TracedProblem traced = trace_problem(mechanism, finer, {certificate, &known, family});
     if (!traced.map.complete) throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
     loci::CutZones cut = zones_of(std::move(traced));
@@ -144,7 +146,8 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
 }
 
 ZoneMap find_zones(const Model& model, const LociRequest& request) {
-  return find_zones(model.content().mechanism, request);
+  const Model::Content& own = model.content();
+  return find_zones(own.mechanism, request, nullptr, own.member ? &own.shared->family() : nullptr);
 }
 
 }  // namespace clearloci

@@ -184,7 +184,7 @@ std::vector<FactorPair> components_of(const LocusProblem& problem, const std::st
 }  // namespace
 
 void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map,
-                             const std::function<bool()>& stop, int most_cells) {
+                             const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* known) {
   if (std::find(problem.quantities.begin(), problem.quantities.end(), Quantity::f) == problem.quantities.end()) return;
   const std::size_t first = map.isolated_points.size();
   const std::vector<sheet::Star> cones = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
@@ -200,7 +200,8 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     auto& [pair, found] = *searches[i];
     const auto& [fx, fy] = pair;
     found = sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
-                                  problem.upper, {.most_cells = most_cells, .special = cones, .stop = stop});
+                                  problem.upper,
+                                  {.most_cells = most_cells, .special = cones, .stop = stop, .known = known});
   });
   for (const std::string& joint : problem.joints) {
     for (const FactorPair& pair : components_of(problem, joint)) {

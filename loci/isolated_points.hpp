@@ -6,6 +6,7 @@
 
 #include "core/locus_map.hpp"
 #include "loci/curve_arrangement.hpp"
+#include "loci/sheet/known_searches.hpp"
 #include "loci/sheet/star.hpp"
 
 namespace clearloci::loci {
@@ -13,9 +14,9 @@ namespace clearloci::loci {
 /// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no contact-loss curve of the
 /// map. Appended to the map; what stays undecided becomes a point that is not certified.
 /// `stop`: asked now and then, may be empty; true: what is found by then is added and the map marked incomplete.
-/// `most_cells`: live ones at a time (sheet::ZeroOptions).
+/// `most_cells`: live ones at a time (sheet::ZeroOptions). `known`: as there.
 void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map,
-                             const std::function<bool()>& stop, int most_cells);
+                             const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* known);
 
 /// The points at which workspace boundaries touch and |A| vanishes though no curve of the map with |A| = 0 arrives in
 /// this mode: both legs are in line with each other there.

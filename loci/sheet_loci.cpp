@@ -453,6 +453,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
   sheet_options.certificate = options.certificate != nullptr;
+  sheet_options.known = options.known;
   if (options.sketch) {
     sheet_options.sketch = true;
     sheet_options.most_cells = patch_cells_of_a_sketch;

@@ -41,7 +41,7 @@ void add_points(const LocusProblem& problem, const TraceOptions& options, bool w
   for (const core::WorkingMode& mode : problem.modes) {
     if (stop()) throw core::LimitReached("the time limit was reached");
     add_contact_loss_points(problem, mode, map, stop,
-                            options.sketch ? sheet::cells_of_a_sketch : sheet::ZeroOptions().most_cells);
+                            options.sketch ? sheet::cells_of_a_sketch : sheet::ZeroOptions().most_cells, options.known);
     add_touching_points(problem, mode, map);
   }
   // A point that lies on an arc which is withheld looks isolated.

@@ -12,6 +12,10 @@
 
 namespace clearloci::loci {
 
+namespace sheet {
+class KnownSearches;
+}
+
 using core::Engine;
 
 struct TraceOptions {
@@ -23,6 +27,9 @@ struct TraceOptions {
   bool sketch = false;
   /// Where the adaptive engine puts what it claims of its cells; not asked for where it is null.
   core::Certificate* certificate = nullptr;
+  /// Of a problem that is traced again with another tolerance and nothing else changed: what the adaptive engine has
+  /// found that does not depend on it; may be null.
+  sheet::KnownSearches* known = nullptr;
 };
 
 /// Every curve, isolated point and workspace region of the problem's modes; over one free coordinate its points and

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/errors.hpp"
 
@@ -31,11 +32,9 @@ SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, c
   return zero;
 }
 
-}  // namespace
-
-ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& first,
-                       const SheetFunction& second, const std::vector<core::Rational>& lower,
-                       const std::vector<core::Rational>& upper, const ZeroOptions& options) {
+ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& first,
+                    const SheetFunction& second, const std::vector<core::Rational>& lower,
+                    const std::vector<core::Rational>& upper, const ZeroOptions& options) {
   const auto range = [&](int c) {
     Interval* const as_interval = nullptr;
     return hull(constant_as(lower[c], as_interval), constant_as(upper[c], as_interval));
@@ -81,6 +80,21 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   std::sort(result.zeros.begin(), result.zeros.end(),
             [](const SheetZero& a, const SheetZero& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   return result;
+}
+
+}  // namespace
+
+ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& first,
+                       const SheetFunction& second, const std::vector<core::Rational>& lower,
+                       const std::vector<core::Rational>& upper, const ZeroOptions& options) {
+  if (options.known == nullptr) return found_zeros(tower, mode, first, second, lower, upper, options);
+  KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper);
+  key.numbers.push_back(options.most_cells);
+  key.polynomials.push_back(first.polynomial);
+  key.polynomials.push_back(second.polynomial);
+  return *options.known->get<ZeroSet>(key, [&] {
+    return std::make_shared<const ZeroSet>(found_zeros(tower, mode, first, second, lower, upper, options));
+  });
 }
 
 }  // namespace clearloci::loci::sheet

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "loci/sheet/known_searches.hpp"
 #include "loci/sheet/patch.hpp"
 
 namespace clearloci::loci::sheet {
@@ -25,6 +26,7 @@ struct ZeroOptions {
   /// Stars besides the cones at rational points and the touches of the tower.
   std::vector<Star> special = {};
   std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
+  KnownSearches* known = nullptr;   ///< where the set is looked up and kept; may be null
 };
 
 /// Live cells of one size of a search that is for a picture alone (TraceOptions::sketch).

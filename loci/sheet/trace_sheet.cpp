@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "core/errors.hpp"
@@ -108,7 +109,8 @@ class Tracer {
     for (int i = 0; i < 4; ++i) wide_[i] += margin_shares[i] * box_margin * size_;
   }
 
-  SheetTrace run(const std::vector<Cutter>& cutters) {
+  /// All but vertices.
+  void find(const std::vector<Cutter>& cutters) {
     const Partition parts = parts_of(own_);
     TreeOptions tree;
     tree.most_cells = options_.most_cells;
@@ -117,7 +119,7 @@ class Tracer {
     tree.whole_or_nothing = options_.whole_or_nothing;
     own_stars_ = parts.stars;
     graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
-    if (graph_.stopped && options_.whole_or_nothing) return left_open();
+    if (graph_.stopped && options_.whole_or_nothing) return;
     for (Crossing& crossing : graph_.crossings)
       if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].singular && !cutters.empty())
         crossing.label = core::ArcEnd::direct_singularity;
@@ -129,16 +131,24 @@ class Tracer {
     add_box_cuts(cuts);
     if (!graph_.stretches.empty())
       for (const Cut& cut : cuts) apply(cut, parts);
-    SheetTrace trace;
-    settle_clusters(trace);
+    settle_clusters();
     std::vector<Chain> pieces;
     for (Chain& chain : chains(graph_)) {
       const core::Point2 inner = point_inside(graph_, chain.legs, size_);
       if (options_.colour) chain.colour = options_.colour(inner);
       if (wanted(inner, along_side(chain.colour), cuts)) pieces.push_back(std::move(chain));
     }
-    for (const Chain& chain : join_at_junctions(graph_, std::move(pieces))) trace.arcs.push_back(place(chain));
-    for (const Cell& cell : clusters(graph_.undecided))
+    pieces_ = join_at_junctions(graph_, std::move(pieces));
+  }
+
+  /// Of what was found.
+  SheetTrace trace(double tolerance) const {
+    if (graph_.stopped && options_.whole_or_nothing) return left_open();
+    SheetTrace trace;
+    trace.isolated_points = isolated_points_;
+    std::vector<Cell> undecided = graph_.undecided;
+    for (const Chain& chain : pieces_) trace.arcs.push_back(place(chain, tolerance, undecided));
+    for (const Cell& cell : clusters(std::move(undecided)))
       if (meets_box(cell)) trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
     trace.certified = trace.undecided.empty();
     // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
@@ -182,7 +192,7 @@ class Tracer {
     return claim;
   }
 
-  TracedArc place(const Chain& chain) {
+  TracedArc place(const Chain& chain, double tolerance, std::vector<Cell>& undecided) const {
     TracedArc traced;
     traced.colour = chain.colour;
     traced.inner = point_inside(graph_, chain.legs, size_);
@@ -195,8 +205,8 @@ class Tracer {
                            graph_.crossings[last.stretch->ends[last.forward ? 1 : 0].crossing].at};
       return traced;
     }
-    PlacedArc placed = place_vertices(graph_, own_.mode, chain.legs, options_.tolerance, size_);
-    graph_.undecided.insert(graph_.undecided.end(), placed.open.begin(), placed.open.end());
+    PlacedArc placed = place_vertices(graph_, own_.mode, chain.legs, tolerance, size_);
+    undecided.insert(undecided.end(), placed.open.begin(), placed.open.end());
     traced.arc.length = placed.length;
     traced.arc.points = std::move(placed.points);
     return traced;
@@ -440,7 +450,7 @@ class Tracer {
   }
 
   /// Nodes and isolated points are critical points of N with N = 0 to rounding.
-  void settle_clusters(SheetTrace& trace) {
+  void settle_clusters() {
     for (const Cluster& cluster : graph_.clusters) {
       const Patch& patch = graph_.patches[cluster.patch];
       const double width = std::max(cluster.cell.x.width(), cluster.cell.y.width());
@@ -450,7 +460,7 @@ class Tracer {
       if (!place) continue;
       const core::Point2 at = patch.chart.to_plane((*place)[0], (*place)[1]);
       if (cluster.node >= 0) graph_.crossings[cluster.node].at = at;
-      if (cluster.lonely && meets_box({at[0], at[1]})) trace.isolated_points.push_back(at);
+      if (cluster.lonely && meets_box({at[0], at[1]})) isolated_points_.push_back(at);
     }
   }
 
@@ -472,7 +482,7 @@ class Tracer {
     return true;
   }
 
-  const core::RootTower& tower_;
+  core::RootTower tower_;
   core::WorkingMode mode_;
   SheetTraceOptions options_;
   Subtower own_;
@@ -483,7 +493,31 @@ class Tracer {
   double size_ = 0;
   std::vector<Star> own_stars_;
   CurveGraph graph_;
+  std::vector<Chain> pieces_;  // point into graph_
+  std::vector<core::Point2> isolated_points_;
 };
+
+/// What a tracer of a function finds, known or not yet.
+std::shared_ptr<const Tracer> found(const core::RootTower& tower, const core::WorkingMode& mode,
+                                    const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
+                                    const SheetFunction& function, const std::vector<Cutter>& cutters,
+                                    const SheetTraceOptions& options) {
+  const auto find = [&]() -> std::shared_ptr<const Tracer> {
+    auto tracer = std::make_shared<Tracer>(tower, mode, lower, upper, function, options);
+    tracer->find(cutters);
+    return tracer;
+  };
+  if (options.known == nullptr) return find();
+  KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::curve, tower, mode, lower, upper);
+  key.numbers.push_back(options.most_cells);
+  key.numbers.push_back(options.whole_or_nothing ? 1 : 0);
+  key.polynomials.push_back(function.polynomial);
+  for (const Cutter& cutter : cutters) {
+    key.numbers.push_back(static_cast<int>(cutter.label));
+    key.polynomials.push_back(cutter.sheet.polynomial);
+  }
+  return options.known->get<Tracer>(key, find);
+}
 
 bool divisible_by_variable(const core::Polynomial& p, int variable) {
   return !p.is_zero() && std::all_of(p.terms.begin(), p.terms.end(),
@@ -549,7 +583,7 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
     }
     return all;
   }
-  return Tracer(tower, mode, lower, upper, function, options).run(cutters);
+  return found(tower, mode, lower, upper, function, cutters, options)->trace(options.tolerance);
 }
 
 }  // namespace clearloci::loci::sheet

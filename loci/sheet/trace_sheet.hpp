@@ -11,6 +11,7 @@
 #include "core/certificate.hpp"
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
+#include "loci/sheet/known_searches.hpp"
 #include "loci/sheet/sheet_program.hpp"
 #include "loci/sheet/star.hpp"
 
@@ -39,6 +40,9 @@ struct SheetTraceOptions {
   bool sketch = false;         ///< the budget is not extended, and what is left open not tried again with other cuts
   std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
   bool certificate = false;    ///< fill in SheetTrace::claims
+  /// Where what does not depend on the tolerance is looked up and kept; may be null. Required: of one `colour`,
+  /// `closed_form`, `along_side` and `special` all that is traced of one function.
+  KnownSearches* known = nullptr;
 };
 
 /// A rectangle of the plane.

@@ -107,7 +107,7 @@ TEST(Verify, DrawsWhatLociTracesWhereNothingIsDoubtful) {
     const mechanism::Mechanism mechanism =
         mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
     const core::LocusMap full = trace_problem(mechanism).map;
-    const core::LocusMap sketch = trace_problem(mechanism, {}, nullptr, TraceEffort::sketch).map;
+    const core::LocusMap sketch = trace_problem(mechanism, {}, {}, TraceEffort::sketch).map;
     EXPECT_EQ(sketch.notes, full.notes) << name;
     ASSERT_EQ(sketch.curves.size(), full.curves.size()) << name;
     for (std::size_t c = 0; c < full.curves.size(); ++c) {
