@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace clearloci::loci {
 namespace {
@@ -66,13 +68,13 @@ TEST(TaskCell, KeepsEveryLoadOfTheRange) {
       for (int k = 0; k < cells; ++k) {
         const double x = -1 + i * side, y = -1.5 + k * side;
         const Reach reach = reach_of(x, y, side);
-        const TaskCell::State state = cell.enter(Interval(x, x + side), Interval(y, y + side));
+        const auto [state, unmet] = cell.judge(Interval(x, x + side), Interval(y, y + side));
         if (state == TaskCell::State::proven) {
           ++proven;
           EXPECT_GT(reach.least, least) << x << " " << y;
         } else {
           EXPECT_EQ(state, TaskCell::State::unmet);
-          EXPECT_EQ(cell.unmet(), 0);
+          EXPECT_EQ(unmet, 0);
           EXPECT_LT(reach.least, least + 3 * side) << x << " " << y;  // else it can be told
         }
       }
@@ -80,11 +82,33 @@ TEST(TaskCell, KeepsEveryLoadOfTheRange) {
   }
 }
 
+/// What is told of a cell does not depend on those that are looked at with it.
+TEST(TaskCell, JudgesCellsTogetherAsAlone) {
+  const core::TaskConditions asked = conditions(Rational(1, 2));
+  TaskCell cell(asked, {});
+  std::vector<std::array<Interval, 2>> all;
+  for (int i = 0; i < 23; ++i)
+    for (int k = 0; k < 23; ++k)
+      all.push_back({Interval(-2.5 + 0.2 * i, -2.3 + 0.2 * i), Interval(-2 + 0.15 * k, -1.85 + 0.15 * k)});
+  const std::vector<TaskCell::Judgement> together = cell.judge(all);
+  ASSERT_EQ(together.size(), all.size());
+  std::array<int, 5> seen{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const TaskCell::Judgement alone = cell.judge(all[i][0], all[i][1]);
+    EXPECT_EQ(together[i].state, alone.state);
+    EXPECT_EQ(together[i].unmet, alone.unmet);
+    ++seen[static_cast<std::size_t>(alone.state)];
+  }
+  EXPECT_GT(seen[static_cast<std::size_t>(TaskCell::State::proven)], 50);
+  EXPECT_GT(seen[static_cast<std::size_t>(TaskCell::State::unmet)], 50);
+  EXPECT_GT(seen[static_cast<std::size_t>(TaskCell::State::singular)], 10);
+}
+
 TEST(TaskCell, NamesTheSingularity) {
   const core::TaskConditions asked = conditions(0);
   TaskCell cell(asked, {});
-  EXPECT_EQ(cell.enter(Interval(-2.1, -1.9), Interval(1, 1.1)), TaskCell::State::singular);
-  EXPECT_EQ(cell.enter(Interval(-2.5, -2.4), Interval(1, 1.1)), TaskCell::State::proven);
+  EXPECT_EQ(cell.judge(Interval(-2.1, -1.9), Interval(1, 1.1)).state, TaskCell::State::singular);
+  EXPECT_EQ(cell.judge(Interval(-2.5, -2.4), Interval(1, 1.1)).state, TaskCell::State::proven);
 }
 
 TEST(TaskPoint, StepsLeadToAPoseAndALoadThatFail) {
