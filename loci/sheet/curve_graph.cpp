@@ -166,7 +166,8 @@ class GraphBuilder {
           const Interval& own = axis == 0 ? cell.x : cell.y;
           if ((end < 0 ? own.lower() : own.upper()) != at || !has_curve(patch, index)) continue;
           const Interval& other = axis == 0 ? cell.y : cell.x;
-          const std::size_t most_cells = runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();
+          const std::size_t most_cells =
+              runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();
           auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, &runs_along);
           if (!zeros) {
             give_up_on(patch, index);
