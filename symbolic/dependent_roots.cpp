@@ -170,12 +170,10 @@ class Squares {
   }
 
   static std::optional<SquareClass> over_coordinates(const Poly& p) {
-    Rational constant;
-    Poly root(p.ring(), 1);
-    for (const PolyFactor& factor : p.factors(constant)) {
-      if (factor.multiplicity % 2 != 0) return std::nullopt;
-      root *= factor.poly.pow(static_cast<unsigned>(factor.multiplicity / 2));
-    }
+    const Poly primitive = p.primitive();
+    Poly root(p.ring());
+    if (!primitive.square_root(root)) return std::nullopt;
+    Rational constant = p.exact_quotient(primitive).constant();
     if (constant < 0) return std::nullopt;  // nowhere reachable but where the root is zero
     // Squares of small primes are taken out of the constant: numbers that people write.
     Rational size = 1;

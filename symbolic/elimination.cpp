@@ -160,23 +160,35 @@ std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with
   return result;
 }
 
-double Elimination::norm_degree(const Poly& sheet) const {
+namespace {
+
+double weighted_degree(const Poly& p, const std::vector<double>& weight) {
+  double degree = 0;
+  const core::Polynomial plain = p.plain();
+  for (const core::Term& term : plain.terms) {
+    double own = 0;
+    for (std::size_t i = 0; i < weight.size(); ++i) own += weight[i] * term.exponents[i];
+    degree = std::max(degree, own);
+  }
+  return degree;
+}
+
+}  // namespace
+
+const std::vector<double>& Elimination::degree_weights() const {
+  if (!degree_weights_.empty()) return degree_weights_;
   // A root weighs half the degree of its square; weights of nested ones add up from the first on.
-  const auto& roots = geometry_->roots();
-  std::vector<double> weight(static_cast<std::size_t>(sheet.ring().size()), 0.0);
+  std::vector<double> weight(static_cast<std::size_t>(geometry_->ring().size()), 0.0);
   for (int i = 0; i < geometry_->coordinates(); ++i) weight[static_cast<std::size_t>(i)] = 1;
-  const auto weighted = [&](const Poly& p) {
-    double degree = 0;
-    for (const core::Term& term : p.plain().terms) {
-      double own = 0;
-      for (std::size_t i = 0; i < weight.size(); ++i) own += weight[i] * term.exponents[i];
-      degree = std::max(degree, own);
-    }
-    return degree;
-  };
+  for (const TowerRoot& root : geometry_->roots())
+    weight[static_cast<std::size_t>(root.variable)] = weighted_degree(root.square, weight) / 2;
+  return degree_weights_ = std::move(weight);
+}
+
+double Elimination::norm_degree(const Poly& sheet) const {
+  const auto& roots = geometry_->roots();
   std::vector<bool> used(roots.size(), false);
-  for (const auto& root : roots) weight[static_cast<std::size_t>(root.variable)] = weighted(root.square) / 2;
-  double degree = weighted(sheet);
+  double degree = weighted_degree(sheet, degree_weights());
   // The squares of roots that occur bring in the earlier roots.
   for (std::size_t j = roots.size(); j-- > 0;) {
     used[j] = sheet.depends_on(roots[j].variable);
@@ -194,10 +206,46 @@ bool Elimination::has_angle(const Poly& sheet) const {
 }
 
 bool Elimination::is_too_heavy(const Poly& sheet) const {
-  if (has_angle(sheet)) return true;  // no polynomial has its zeros
+  return has_angle(sheet) /* no polynomial has its zeros */ || is_beyond_use(norm_degree(sheet));
+}
+
+bool Elimination::is_beyond_use(double norm_degree) const {
   // Three coordinates have many more terms of one degree than two, one has few.
-  const double bound = geometry_->coordinates() == 1 ? 400 : geometry_->coordinates() == 2 ? 140 : 40;
-  return norm_degree(sheet) > bound;
+  return norm_degree > (geometry_->coordinates() == 1 ? 400 : geometry_->coordinates() == 2 ? 140 : 40);
+}
+
+bool Elimination::is_too_heavy_over_tower(const Poly& natural) const {
+  // On a line degrees may drop, and what divides a polynomial divides it there: what is beyond use there is so
+  // anywhere.
+  if (geometry_->coordinates() > 1 && is_beyond_use(norm_degree(over_tower_on_line(natural)))) return true;
+  return is_too_heavy(over_tower(natural));
+}
+
+const Elimination::LineTower& Elimination::line_tower() const {
+  if (line_tower_) return *line_tower_;
+  LineTower line;
+  for (const TowerRoot& root : geometry_->roots()) line.squares.push_back(on_line(root.square));
+  line.substitutions = geometry_->substitutions();
+  for (Substitution& pair : line.substitutions)
+    pair.place = {on_line(pair.place.x), on_line(pair.place.y), on_line(pair.place.z), on_line(pair.place.w)};
+  for (const std::vector<Poly>* const list : {&denominator_factors_, &known_denominators_})
+    for (const Poly& denominator : *list) line.denominators.push_back(on_line(denominator));
+  return line_tower_.emplace(std::move(line));
+}
+
+Poly Elimination::over_tower_on_line(const Poly& natural) const {
+  const LineTower& line = line_tower();
+  Poly result = on_line(natural);
+  for (const Substitution& pair : line.substitutions) {
+    const int degree = Geometry::degree_in(result, pair);
+    if (degree == 0) continue;
+    result = geometry_->substituted(result, pair, degree, &line.squares);
+    Poly quotient(result.ring());
+    for (const Poly& denominator : line.denominators)
+      while (!result.is_zero() && !denominator.is_constant() && result.divides(denominator, quotient))
+        result = quotient;
+  }
+  return result;
 }
 
 std::vector<Poly> Elimination::implicit_factors(const Poly& sheet) const {
@@ -233,23 +281,24 @@ void Elimination::eliminate(Poly p, std::vector<Poly>& found) const {
     eliminate(norm, found);
 }
 
-Poly Elimination::norm_on_line(const Poly& sheet) const {
-  // The line x_i = p_i + q_i x_last with arbitrary fixed numbers.
+Poly Elimination::on_line(Poly p) const {
   const Ring& ring = geometry_->ring();
   const int last = geometry_->coordinates() - 1;
-  const auto on_line = [&](Poly p) {
-    for (int variable = 0; variable < last; ++variable) {
-      const Poly line = Poly(ring, Rational(911 + 97 * variable, 1873)) +
-                        Poly::variable(ring, last).scaled(Rational(-577, 1021 + variable));
-      Poly sum(ring), power(ring, 1);
-      for (const Poly& coefficient : p.coefficients(variable)) {
-        sum += coefficient * power;
-        power *= line;
-      }
-      p = sum;
+  for (int variable = 0; variable < last; ++variable) {
+    const Poly line = Poly(ring, Rational(911 + 97 * variable, 1873)) +
+                      Poly::variable(ring, last).scaled(Rational(-577, 1021 + variable));
+    Poly sum(ring), power(ring, 1);
+    for (const Poly& coefficient : p.coefficients(variable)) {
+      sum += coefficient * power;
+      power *= line;
     }
-    return p;
-  };
+    p = sum;
+  }
+  return p;
+}
+
+Poly Elimination::norm_on_line(const Poly& sheet) const {
+  const Ring& ring = geometry_->ring();
   Poly p = on_line(sheet);
   const auto& roots = geometry_->roots();
   for (auto next = roots.rbegin(); next != roots.rend(); ++next) {

@@ -47,6 +47,8 @@ class Elimination {
   /// Whether implicit_factors would take long and come to more than anyone can use. Traced on the sheets such factors
   /// are as well off without.
   bool is_too_heavy(const Poly& sheet) const;
+  /// The same of a natural polynomial; most that are too heavy are known to be without being put over the tower.
+  bool is_too_heavy_over_tower(const Poly& natural) const;
   /// Whether an angle is among its roots: then no polynomial has its zeros.
   bool has_angle(const Poly& sheet) const;
 
@@ -62,6 +64,10 @@ class Elimination {
   /// With numbers for the coordinates: in roots alone.
   Poly at_one_pose(Poly p) const;
   Poly over_tower_at_one_pose(const Poly& natural) const;
+  Poly over_tower_on_line(const Poly& natural) const;
+  /// The coordinates on one arbitrary line x_i = p_i + q_i x_last.
+  Poly on_line(Poly p) const;
+  bool is_beyond_use(double norm_degree) const;
   void eliminate(Poly p, std::vector<Poly>& found) const;
   /// The factors of a sheet polynomial. Over a tower elements have no unique factors, but where a root depends on
   /// earlier ones numerators and |A| share the element in whose sign it differs, and where a dyad is stretched the root
@@ -73,7 +79,19 @@ class Elimination {
   bool has_free_coordinate(const Poly& p) const;
   Poly strip_denominators(Poly p) const;
 
+  /// What over_tower needs, on the line of on_line.
+  struct LineTower {
+    std::vector<Poly> squares;
+    std::vector<Substitution> substitutions;
+    std::vector<Poly> denominators;
+  };
+  const LineTower& line_tower() const;
+  /// Of every ring variable: what it counts in a degree over the tower, a root half of its square's.
+  const std::vector<double>& degree_weights() const;
+
   const Geometry* geometry_;
+  mutable std::optional<LineTower> line_tower_;          ///< made where it is asked for
+  mutable std::vector<double> degree_weights_;           ///< likewise
   mutable std::list<std::pair<Poly, Poly>> over_tower_;  ///< what has been asked for: many numerators share factors
   std::vector<TowerRoot> independent_roots_;
   std::vector<Poly> known_denominators_;   ///< over the tower

@@ -136,8 +136,8 @@ class SheetWriter {
     Determinant result{name, product_formula(p, symbols_, language_), {}};
     for (const PolyFactor& factor : p.factors) {
       const Implicit& own = implicit(factor.poly);
-      result.factors.push_back(
-          {text(factor.poly), factor.multiplicity, cause(factor.poly, unknown), own.list, own.too_heavy});
+      const std::string words = own.constant ? "the same in every pose" : cause(factor.poly, unknown);
+      result.factors.push_back({text(factor.poly), factor.multiplicity, words, own.list, own.too_heavy});
     }
     return result;
   }
@@ -160,6 +160,7 @@ class SheetWriter {
     Poly natural;
     std::vector<ImplicitPolynomial> list;
     bool too_heavy = false;
+    bool constant = false;  ///< such as the square of a link's length, by which a couple is divided
   };
 
   /// Several numerators share factors: each is eliminated once.
@@ -167,14 +168,16 @@ class SheetWriter {
     const auto known = std::find_if(implicit_.begin(), implicit_.end(),
                                     [&](const Implicit& entry) { return entry.natural == natural; });
     if (known != implicit_.end()) return *known;
+    if (is_constant(natural)) return implicit_.emplace_back(Implicit{natural, {}, false, true});
     std::vector<ImplicitPolynomial> list;
     bool too_heavy = false;
-    const auto add = [&](const Elimination& elimination, const Poly& sheet) {
-      if (sheet.is_zero()) return;
-      if (elimination.is_too_heavy(sheet)) {
+    const auto add = [&](const Elimination& elimination, const Poly& in_its_ring) {
+      if (elimination.is_too_heavy_over_tower(in_its_ring)) {
         too_heavy = true;
         return;
       }
+      const Poly& sheet = elimination.over_tower(in_its_ring);
+      if (sheet.is_zero()) return;
       for (const Poly& curve : elimination.implicit_factors(sheet)) {
         const std::string words = text(curve);
         if (std::any_of(list.begin(), list.end(), [&](const auto& own) { return own.polynomial == words; })) continue;
@@ -187,10 +190,17 @@ class SheetWriter {
         list.push_back({words, degree, closed_form(curve, degree)});
       }
     };
-    if (sheets_.empty()) add(elimination_, elimination_.over_tower(natural));
-    for (std::size_t i = 0; i < sheets_.size(); ++i)
-      add(*eliminations_[i], eliminations_[i]->over_tower(in_ring(natural, sheets_[i]->ring())));
+    if (sheets_.empty()) add(elimination_, natural);
+    for (std::size_t i = 0; i < sheets_.size(); ++i) add(*eliminations_[i], in_ring(natural, sheets_[i]->ring()));
     return implicit_.emplace_back(Implicit{natural, std::move(list), too_heavy});
+  }
+
+  /// Whether it is the same number in every pose.
+  bool is_constant(const Poly& natural) const {
+    if (sheets_.empty()) return elimination_.constant_over_tower(natural).has_value();
+    for (std::size_t i = 0; i < sheets_.size(); ++i)
+      if (!eliminations_[i]->constant_over_tower(in_ring(natural, sheets_[i]->ring()))) return false;
+    return true;
   }
 
   /// The same polynomial in another ring of the same variables.

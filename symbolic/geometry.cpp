@@ -336,11 +336,13 @@ int Geometry::degree_in(const Poly& natural, const Substitution& pair) {
   return natural.degree(variables);
 }
 
-Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int degree) const {
+Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int degree,
+                           const std::vector<Poly>* squares) const {
+  const auto reduced = [&](const Poly& p) { return reduce(p, squares); };
   // A term of degree i in x, j in y and k in z takes X^i Y^j Z^k W^(degree - i - j - k).
   const auto powers = [&](const Poly& base) {
     std::vector<Poly> list(1, Poly(*ring_, 1));
-    for (int i = 0; i < degree; ++i) list.push_back(reduce(list.back() * base));
+    for (int i = 0; i < degree; ++i) list.push_back(reduced(list.back() * base));
     return list;
   };
   const std::vector<Poly> xs = powers(pair.place.x), ys = powers(pair.place.y), zs = powers(pair.place.z),
@@ -356,11 +358,11 @@ Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int de
       for (std::size_t k = 0; k < by_z.size(); ++k) {
         if (by_z[k].is_zero()) continue;
         const Poly& w = ws[static_cast<std::size_t>(degree) - i - j - k];
-        sum += by_z[k] * reduce(reduce(xs[i] * ys[j]) * reduce(zs[k] * w));
+        sum += by_z[k] * reduced(reduced(xs[i] * ys[j]) * reduced(zs[k] * w));
       }
     }
   }
-  return reduce(sum);
+  return reduced(sum);
 }
 
 Poly Geometry::poly(const GiNaC::ex& e) const {
@@ -386,18 +388,18 @@ Poly Geometry::poly(const GiNaC::ex& e) const {
   return poly(e.op(0)).pow(static_cast<unsigned>(GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int()));
 }
 
-Poly Geometry::reduce(const Poly& p) const {
+Poly Geometry::reduce(const Poly& p, const std::vector<Poly>* squares) const {
   Poly result = p;
   // From the last root down: a square may hold earlier roots only.
-  for (auto next = roots_.rbegin(); next != roots_.rend(); ++next) {
-    const TowerRoot& root = *next;
+  for (std::size_t next = roots_.size(); next-- > 0;) {
+    const TowerRoot& root = roots_[next];
     if (root.is_angle() || result.degree(root.variable) < 2) continue;
     const std::vector<Poly> powers = result.coefficients(root.variable);
     const Poly s = Poly::variable(*ring_, root.variable);
     Poly even(*ring_), odd(*ring_), square_power(*ring_, 1);
     for (std::size_t k = 0; k < powers.size(); ++k) {
       (k % 2 == 0 ? even : odd) += powers[k] * square_power;
-      if (k % 2 == 1) square_power *= root.square;
+      if (k % 2 == 1) square_power *= squares == nullptr ? root.square : (*squares)[next];
     }
     result = even + odd * s;
   }

@@ -350,7 +350,7 @@ class Derivation {
 
   bool is_heavy(std::size_t factor) {
     const auto [known, fresh] = heavy_.try_emplace(factor, false);
-    if (fresh) known->second = elimination_.is_too_heavy(sheet_of(factor));
+    if (fresh) known->second = elimination_.is_too_heavy_over_tower(factors_[factor].natural);
     return known->second;
   }
 

@@ -310,17 +310,23 @@ Poly gcd(const Poly& a, const Poly& b) {
 }
 
 bool Poly::square_root(Poly& root) const {
-  Rational constant;
-  const std::vector<PolyFactor> parts = factors(constant);
+  // A number times a primitive polynomial whose first coefficient is positive: a square where both are. FLINT's root
+  // gives up at the first term that does not fit, where factors of what is no square would all be found first.
+  if (is_zero()) {
+    root = *this;
+    return true;
+  }
+  Fmpq content;
+  fmpq_set(content.get(), value_->content);
+  const Rational constant = content.rational();
   if (constant < 0 || !mpz_perfect_square_p(constant.get_num_mpz_t()) ||
       !mpz_perfect_square_p(constant.get_den_mpz_t())) {
     return false;
   }
-  root = Poly(*ring_, Rational(sqrt(constant.get_num()), sqrt(constant.get_den())));
-  for (const PolyFactor& factor : parts) {
-    if (factor.multiplicity % 2 != 0) return false;
-    root *= factor.poly.pow(static_cast<unsigned>(factor.multiplicity / 2));
-  }
+  Poly found(*ring_);
+  if (fmpz_mpoly_sqrt(found.value_->zpoly, value_->zpoly, ring_->context()->zctx) == 0) return false;
+  fmpq_one(found.value_->content);
+  root = found.scaled(Rational(sqrt(constant.get_num()), sqrt(constant.get_den())));
   return true;
 }
 

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "mechanism/read.hpp"
+#include "symbolic/determinants.hpp"
+#include "symbolic/elimination.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -85,6 +88,37 @@ TEST(EquationSheet, WeightsMakeTheCoupleIrreducibleOfDegree24) {
   };
   only_factor("MA1", 24, 143);
   only_factor("fA1y", 16, 75);
+}
+
+/// What is told on a line, without putting a polynomial over the tower, is what holds there.
+TEST(Elimination, KnowsWhatIsTooHeavyWithoutPuttingItOverTheTower) {
+  const mechanism::Mechanism weights = example("five_bar_weights");
+  const Geometry geometry(weights, false);
+  const Elimination elimination(geometry);
+  const FactoredDeterminants determinants = factored_determinants(geometry);
+  const Poly& couple = determinants.numerators[10].factors.back().poly;
+  std::array<int, 2> count{};
+  for (unsigned power = 1; power <= 6; ++power) {
+    const Poly natural = couple.pow(power);
+    const bool heavy = elimination.is_too_heavy(elimination.over_tower(natural));
+    EXPECT_EQ(elimination.is_too_heavy_over_tower(natural), heavy) << power;
+    ++count[heavy ? 1 : 0];
+  }
+  EXPECT_GT(count[0], 0) << "some are not";
+  EXPECT_GT(count[1], 0) << "some are";
+}
+
+/// By the square of a rod's length a couple of a universal joint is divided: it is no place where anything happens.
+TEST(EquationSheet, SaysWhichFactorsAreTheSameInEveryPose) {
+  const EquationSheet sheet = equation_sheet(example("delta"), {});
+  int same = 0;
+  for (const Determinant& numerator : sheet.numerators)
+    for (const DeterminantFactor& factor : numerator.factors) {
+      EXPECT_FALSE(factor.cause.empty()) << factor.expression;
+      EXPECT_EQ(factor.cause.find("rod1a and rod1b perpendicular"), std::string::npos) << "these are parallel";
+      if (factor.cause == "the same in every pose") ++same;
+    }
+  EXPECT_GT(same, 0);
 }
 
 TEST(EquationSheet, InclinedCaseHasTheReferencePolynomials) {

@@ -86,6 +86,11 @@ TEST_F(RingTest, SquareRootsOfSquaresOnly) {
   EXPECT_TRUE(((x + y) * (x + y)).scaled(Rational(9, 4)).square_root(root));
   EXPECT_TRUE(root * root == ((x + y) * (x + y)).scaled(Rational(9, 4)));
   EXPECT_FALSE((x * x * y).square_root(root));
+  const Poly difference = y - x;  // a root's first coefficient is positive
+  EXPECT_TRUE((difference * difference).square_root(root));
+  EXPECT_TRUE(root == x - y);
+  EXPECT_TRUE((x - x).square_root(root));
+  EXPECT_TRUE(root.is_zero());
   EXPECT_FALSE((x * x).scaled(2).square_root(root));
   EXPECT_FALSE((x * x).scaled(-1).square_root(root));
 }
