@@ -14,6 +14,7 @@
 #include "core/errors.hpp"
 #include "loci/pose/pose_nearest.hpp"
 #include "loci/pose/pose_proof.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/read_pose_task.hpp"
 #include "numeric/pose_witness.hpp"
@@ -205,6 +206,7 @@ class Verifier {
                : failure.kind == Kind::singular  ? Told::singular
                : failure.kind == Kind::vanishing ? Told::vanishing
                                                  : Told::too_small;
+    if (failure.kind == Kind::unreachable || failure.kind == Kind::boundary) own.limit = limit_at(at);
     if (failure.kind != Kind::vanishing && failure.kind != Kind::too_small) return own;
     own.reactions = {{failure.demand.joint, failure.demand.quantity, 1}};
     if (failure.kind == Kind::too_small) {
@@ -216,6 +218,13 @@ class Verifier {
         own.load.push_back((1 - failure.load) * core::to_double(task_.loads->first[c]) +
                            failure.load * core::to_double(task_.loads->second[c]));
     return own;
+  }
+
+  /// The limit that a pose is beyond, or that passes there to some roundings; empty where it is none.
+  std::string limit_at(const PoseAt& at) const {
+    constexpr double passes = 1e-9;  // of a limit's size
+    const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(models_.front(), at, sides_);
+    return end && end->slack <= passes ? mechanism::words_of_end(mechanism_, end->limit, end->upper) : std::string();
   }
 
   std::optional<core::PoseTaskWitness> fails_at(const PoseAt& at, int demand) const {

@@ -117,10 +117,12 @@ std::string name_of(const Mechanism& mechanism, const Limit& limit) {
 }
 
 std::string words_of(const Mechanism& mechanism, const Limit& limit, bool upper) {
-  const double unit = limit.is_angle() ? 180 / std::numbers::pi : mechanism.frame ? mechanism.frame->scale_value() : 1;
+  const core::Unit& length = mechanism.units.length;
+  const double unit =
+      limit.is_angle() ? 180 / std::numbers::pi : (mechanism.frame ? mechanism.frame->scale_value() : 1) / length.size;
   char text[40];
   std::snprintf(text, sizeof text, "%.6g %s", core::to_double(upper ? limit.upper_value : limit.lower_value) * unit,
-                limit.is_angle() ? "deg" : "m");
+                limit.is_angle() ? "deg" : length.name.c_str());
   return name_of(mechanism, limit) + " at " + text;
 }
 

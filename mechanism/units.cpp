@@ -381,6 +381,7 @@ Units read_units(const std::optional<Value>& value) {
   };
   read("length", length, units.length);
   read("angle", angle, units.angle);
+  units.angle_declared = mapping.find("angle").has_value();
   read("force", force, units.force);
   read("mass", mass, units.mass);
   units.declared = true;

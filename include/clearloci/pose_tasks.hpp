@@ -66,6 +66,7 @@ struct PoseTaskWitness {
   std::optional<Rational> least;     ///< that is asked of it
   std::vector<double> load;          ///< N; of a range of loads, where it takes one
   double distance = 0;               ///< from the task
+  std::string limit = {};  ///< that it is beyond, or that passes there: "distance A1-P at 0.92 m"; may be empty
 };
 
 /// A locus that was found near the task: the margin is at most `distance`.

@@ -15,6 +15,7 @@ struct Unit {
 struct Units {
   bool declared = false;  ///< by the file; else all are SI, and tables and pictures choose what reads best
   Unit length{"m"}, angle{"rad"}, force{"N"}, mass{"kg"};
+  bool angle_declared = false;  ///< by the file; else tables show degrees
 };
 
 }  // namespace clearloci::inline core

@@ -5,7 +5,7 @@ import re
 import shlex
 import unittest
 
-from program import SOURCE, InOwnFolder
+from program import FOUR_BAR, SOURCE, InOwnFolder
 
 TEXT = (SOURCE / "docs" / "mechanism-file.md").read_text(encoding="utf-8")
 
@@ -99,10 +99,26 @@ class Documented(InOwnFolder):
         model = self.model(lambda text: text + "limits: [{distance: [A1, P], within: [0.31, 0.92]}]\n")
         refused = self.run_program("pose", model, "--at", "0.2,0.1", status=2)
         self.assertIn("distance A1-P at 0.31 m", refused.stderr)
+        in_mm = self.model(lambda text: text.replace("L: 0.5", "L: 500").replace("[-0.5, 1.0]", "[-500, 1000]")
+                           .replace("[-1.0, 1.0]", "[-1000, 1000]")
+                           + "units: {length: mm}\nlimits: [{distance: [A1, P], within: [310, 920]}]\n", name="mm.yaml")
+        refused = self.run_program("pose", in_mm, "--at", "200,100", status=2)
+        self.assertIn("distance A1-P at 310 mm", refused.stderr)
         task = self.folder / "task.yaml"
         task.write_text("format: 1\nbox: {x: [0.2, 0.3], y: [-0.95, -0.8]}\n", encoding="utf-8")
         self.assertIn("beyond the limit of the distance A1-P at 0.92 m",
                       self.run_program("verify", model, task, status=1).stdout)
+
+    def test_a_task_over_poses_names_the_limit_that_it_breaks(self):
+        model = self.folder / "limited.yaml"
+        model.write_text(FOUR_BAR.read_text(encoding="utf-8") + "limits: [{angle: [B, C, D], within: [60 deg, 140 deg]}]\n",
+                         encoding="utf-8")
+        task = self.folder / "turn.yaml"
+        task.write_text("format: 1\nbox: {theta: [5 deg, 35 deg]}\n", encoding="utf-8")
+        process = self.run_program("verify", model, task, status=1)
+        self.assertIn("beyond the limit of the angle B-C-D at 60 deg", process.stdout)
+        told = json.loads(self.run_program("verify", model, task, "--json", "--quiet", status=1).stdout)
+        self.assertEqual(told["witness"]["limit"], "angle B-C-D at 60 deg")
 
 
 if __name__ == "__main__":
