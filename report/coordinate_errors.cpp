@@ -50,41 +50,49 @@ Json mode_json(const core::CoordinateErrors& result, const core::CoordinateModeE
           {"samples", table_object(mode.samples)}};
 }
 
-/// In tables angles are in degrees.
 double shown(const core::CoordinateErrors& result) {
-  return result.angle ? 180 / std::numbers::pi : shown_unit("m", result.loci.units).per_si;
+  return table_unit(result.angle ? "rad" : "m", result.loci.units).per_si;
 }
 
 std::string shown_coordinate(const core::CoordinateErrors& result) {
-  return result.coordinate + (result.angle ? "/deg" : "/" + result.loci.units.length.name);
+  return result.coordinate + " [" + table_unit(result.angle ? "rad" : "m", result.loci.units).name + "]";
 }
 
 std::string jumps_text(const core::CoordinateErrors& result, const core::CoordinateModeErrors& mode) {
-  std::string text;
-  const ShownUnit length = shown_unit("m", result.loci.units), turn = shown_unit("rad", result.loci.units);
+  double lengths = 0, angles = 0;
+  for (const core::ErrorEvent& event : mode.events) {
+    if (!event.jumps) continue;
+    for (const double jump : event.jump.displacement)
+      if (std::isfinite(jump)) lengths = std::max(lengths, std::abs(jump));
+    for (const double jump : event.jump.rotation)
+      if (std::isfinite(jump)) angles = std::max(angles, std::abs(jump));
+  }
+  const ShownUnit length = table_unit("m", result.loci.units, lengths), turn = table_unit("rad", result.loci.units);
+  const auto size = [](double value, double beside, const ShownUnit& unit) {
+    return engineering_beside(value * unit.per_si, beside * unit.per_si, few_digits);
+  };
+  std::vector<Column> heading = {{shown_coordinate(result), 0, Alignment::point}};
+  std::vector<Row> rows;
   for (const core::ErrorEvent& event : mode.events) {
     if (!event.jumps) continue;
     const std::vector<double>&places = event.jump.displacement, &turns = event.jump.rotation;
-    std::string head = fmt::format("{:>14}", shown_coordinate(result));
-    std::string line = fmt::format("{:>14.9g}", shown(result) * event.point.at.front());
-    for (std::size_t c = 0; c < places.size(); ++c) {
-      head += fmt::format("{:>14}", fmt::format("jump in {}/{}", "xyz"[c], length.name));
-      line += fmt::format("{:>14.4g}", places[c] * length.per_si);
+    if (rows.empty()) {
+      for (std::size_t c = 0; c < places.size(); ++c)
+        heading.push_back({fmt::format("jump in {} [{}]", "xyz"[c], length.name), 0, Alignment::point});
+      for (std::size_t c = 0; c < turns.size(); ++c)
+        heading.push_back({turns.size() == 1 ? fmt::format("turn [{}]", turn.name)
+                                             : fmt::format("turn about {} [{}]", "xyz"[c], turn.name),
+                           0, Alignment::point});
+      heading.push_back({"what lets go"});
     }
-    const int width = turns.size() == 1 ? 16 : 19;
-    for (std::size_t c = 0; c < turns.size(); ++c) {
-      head += fmt::format(
-          "{:>{}}", turns.size() == 1 ? "turn/" + turn.name : fmt::format("turn about {}/{}", "xyz"[c], turn.name),
-          width);
-      line += fmt::format("{:>{}.4g}", turns[c] * turn.per_si, width);
-    }
-    if (text.empty()) text = head + "  what lets go\n";
-    text += line + "  " + vanishing_words(event.point.kind, event.point.vanishing) + "\n";
+    Row& row = rows.emplace_back(Row{engineering(shown(result) * event.point.at.front(), place_digits)});
+    for (const double jump : places) row.push_back(size(jump, lengths, length));
+    for (const double jump : turns) row.push_back(size(jump, angles, turn));
+    row.push_back(vanishing_words(event.point.kind, event.point.vanishing));
   }
-  return text.empty() ? text : text + "\n";
+  return rows.empty() ? std::string() : format_rows(heading, rows) + "\n";
 }
 
-/// Of a mode in the names of files; empty where there is one alone.
 }  // namespace
 
 Json coordinate_errors_object(const core::CoordinateErrors& result) {
@@ -107,17 +115,14 @@ std::string coordinate_errors_text(const core::CoordinateErrors& result) {
     text += fmt::format("{}: pose error over {} in {} steps{}\n\n", result.mechanism, result.coordinate, result.steps,
                         mode.empty() ? "" : "; " + mode);
     if (!one.never_loaded.empty()) text += never_loaded_words(one.never_loaded) + "\n";
-    text += fmt::format("{:<66}{:>12}{:>12}{:>12}  at {}\n", "absolute values", "median", "90 %", "largest",
-                        shown_coordinate(result));
-    for (std::size_t c = 0; c < result.components.size(); ++c) {
-      const std::optional<core::ErrorSizes>& sizes = one.sizes[c];
-      if (!sizes) continue;
-      const ShownUnit unit = shown_unit(result.components[c].unit, result.loci.units);
-      text += fmt::format("{:<66}{:>12.4g}{:>12.4g}{:>12.4g}  {:.6g}\n",
-                          fmt::format("{} [{}]", result.components[c].label, unit.name), sizes->median * unit.per_si,
-                          sizes->percentile_90 * unit.per_si, std::abs(sizes->largest) * unit.per_si,
-                          shown(result) * one.samples.columns.front()[sizes->at]);
-    }
+    std::vector<Row> rows;
+    for (std::size_t c = 0; c < result.components.size(); ++c)
+      if (const std::optional<core::ErrorSizes>& sizes = one.sizes[c])
+        rows.push_back(size_row(result.components[c].label, result.components[c].unit, *sizes, result.loci.units,
+                                engineering(shown(result) * one.samples.columns.front()[sizes->at], few_digits)));
+    std::vector<Column> heading = size_columns("absolute values");
+    heading.back() = {"at " + shown_coordinate(result), 0, Alignment::point};
+    text += format_rows(heading, rows);
     text += "\n" + jumps_text(result, one);
   }
   for (const std::string& note : result.notes) text += note + "\n";

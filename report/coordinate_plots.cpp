@@ -106,7 +106,11 @@ class ModePlots {
     plot.degrees = result_.angle;
     const std::vector<double>& values = at_;
     plot.x_range = {values.front(), values.back()};
-    plot.mark_labels = {"contact lost", "M = 0: backlash crossed", "direct singularity", "end of the reach"};
+    std::vector<core::Quantity> zeros;
+    for (const core::ErrorEvent& event : errors_.events)
+      if (event.point.kind == core::LocusKind::backlash)
+        for (const core::Vanishing& own : event.point.vanishing) zeros.push_back(own.quantity);
+    plot.mark_labels = {"contact lost", zero_words(zeros), "direct singularity", "end of the reach"};
     for (const core::ErrorEvent& event : errors_.events) {
       const core::LocusKind kind = event.point.kind;
       const int style = kind == core::LocusKind::contact_loss         ? contact_mark

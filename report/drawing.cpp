@@ -290,10 +290,7 @@ void draw_legend(const Context& context, const Layout& layout, const Subject& su
 }  // namespace
 
 void draw(const Context& context, const Subject& subject, const Layout& layout) {
-  set_colour(context, {1, 1, 1});
-  context->rectangle(0, 0, layout.width, layout.height);
-  context->fill();
-
+  draw_page_head(context, layout.head);
   context->save();
   context->rectangle(layout.plot.x, layout.plot.y, layout.plot.width, layout.plot.height);
   context->clip();
@@ -306,19 +303,13 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   draw_grid(context, layout, subject.layer == nullptr);
   if (subject.sketch != nullptr) draw_links(context, layout, *subject.sketch);
   draw_loci(context, subject, layout);
-  if (subject.sketch != nullptr) {
-    draw_link_names(context, layout, *subject.sketch, legend_reasons(layout));
-    draw_joints(context, layout, *subject.sketch);
-  }
   draw_isolated_points(context, subject, layout);
-  if (subject.sketch != nullptr) draw_loads(context, layout, *subject.sketch);
+  if (subject.sketch != nullptr) draw_joints_and_loads(context, layout, *subject.sketch, legend_reasons(layout));
   if (subject.zones != nullptr && subject.task == nullptr) draw_zone_numbers(context, subject, layout);
   if (subject.task != nullptr) draw_task(context, *subject.task, layout);
   context->restore();
 
   draw_axes(context, layout);
-  set_colour(context, ink);
-  for (const auto& line : layout.title) write_text(context, line.text, line.x, line.y, line.font);
   draw_legend(context, layout, subject);
 }
 

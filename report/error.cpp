@@ -43,41 +43,48 @@ Json sizes_json(const core::FieldMap& map, const std::vector<std::optional<core:
   return all;
 }
 
-/// `map` as it is shown; `per_si`: of the field's unit.
-std::string sizes_row(const std::string& name, const core::FieldMap& map, const core::ErrorSizes& sizes,
-                      double per_si) {
-  const core::Point2 at = place(map, sizes.at);
-  return fmt::format("{:<60}{:>12.4g}{:>12.4g}{:>12.4g}  ({:.4g}, {:.4g})\n", name, sizes.median * per_si,
-                     sizes.percentile_90 * per_si, std::abs(sizes.largest) * per_si, at[0], at[1]);
-}
-
-/// The grid in the units of the file, without its fields, which are large.
-core::FieldMap shown_grid(const core::FieldMap& map, const core::LocusMap& loci) {
-  core::FieldMap grid{map.mechanism, map.coordinates, map.lower, map.upper, map.nx, map.ny, {}};
-  return in_file_units(std::move(grid), loci.units, loci.angles);
+std::string at_words(const core::FieldMap& map, std::size_t cell, const core::LocusMap& loci) {
+  return place_words(place(map, cell), loci.angles, loci.units, few_digits);
 }
 
 /// The bound that counts where the load is not known, zone by zone.
 std::string zones_text(const core::ModeErrors& one, const core::LocusMap& loci) {
-  const core::FieldMap grid = shown_grid(one.map, loci);
   std::string text;
   for (std::size_t f = 0; f < one.map.fields.size(); ++f) {
     const core::Field& field = one.map.fields[f];
     if (field.name != "dp" && field.name != "worst_dp") continue;
-    const ShownUnit unit = shown_unit(field.unit, loci.units);
-    text += fmt::format("{:<60}{:>12}{:>12}{:>12}  at\n", fmt::format("{} [{}], zone by zone", field.label, unit.name),
-                        "median", "90 %", "largest");
+    std::vector<Row> rows;
     for (const core::ZoneErrors& zone : one.zones) {
       const std::string name = fmt::format("{}, {} cells", zone.zone, zone.cells.size());
-      text += zone.sizes[f] ? sizes_row(name, grid, *zone.sizes[f], unit.per_si)
-                            : fmt::format("{:<60}{:>12}\n", name, "none");
+      rows.push_back(zone.sizes[f] ? size_row(name, field.unit, *zone.sizes[f], loci.units,
+                                              at_words(one.map, zone.sizes[f]->at, loci))
+                                   : Row{name, "", "none", "", "", ""});
     }
-    text += "\n";
+    text += format_rows(size_columns(field.label + ", zone by zone"), rows) + "\n";
   }
   return text;
 }
 
 }  // namespace
+
+std::vector<Column> size_columns(const std::string& what) {
+  return {{what},
+          {"unit"},
+          {"median", 0, Alignment::point},
+          {"90 %", 0, Alignment::point},
+          {"largest", 0, Alignment::point},
+          {"at"}};
+}
+
+Row size_row(const std::string& label, const std::string& si, const core::ErrorSizes& sizes, const core::Units& units,
+             const std::string& at) {
+  // By the most that is typical: near a direct singularity the largest has no bound.
+  const ShownUnit unit = table_unit(si, units, sizes.percentile_90);
+  const auto shown = [&](double value) {
+    return engineering_beside(std::abs(value) * unit.per_si, std::abs(sizes.largest) * unit.per_si, few_digits);
+  };
+  return {label, unit.name, shown(sizes.median), shown(sizes.percentile_90), shown(sizes.largest), at};
+}
 
 std::string never_loaded_words(const std::vector<std::string>& joints) {
   return fmt::format("No error under the load: {} bear{} nothing in any pose, so the take-up is undefined.\n",
@@ -113,17 +120,16 @@ std::string error_text(const core::ErrorMap& errors) {
   std::string text;
   for (const core::ModeErrors& one : errors.modes) {
     const core::FieldMap& map = one.map;
-    const core::FieldMap grid = shown_grid(map, errors.loci);
     const std::string mode = mode_words(errors.loci.tower, one.mode);
     text += fmt::format("{}: pose error over {} x {} cells{}\n", map.mechanism, map.nx, map.ny,
                         mode.empty() ? "" : "; " + mode);
     if (!one.never_loaded.empty()) text += never_loaded_words(one.never_loaded);
-    text += fmt::format("\n{:<60}{:>12}{:>12}{:>12}  at\n", "absolute values", "median", "90 %", "largest");
+    std::vector<Row> rows;
     for (std::size_t f = 0; f < map.fields.size(); ++f)
-      if (one.sizes[f]) {
-        const ShownUnit unit = shown_unit(map.fields[f].unit, errors.loci.units);
-        text += sizes_row(fmt::format("{} [{}]", map.fields[f].label, unit.name), grid, *one.sizes[f], unit.per_si);
-      }
+      if (one.sizes[f])
+        rows.push_back(size_row(map.fields[f].label, map.fields[f].unit, *one.sizes[f], errors.loci.units,
+                                at_words(map, one.sizes[f]->at, errors.loci)));
+    text += "\n" + format_rows(size_columns("absolute values"), rows);
     text += fmt::format("\n{} cells in the workspace, {} on a locus to the last bit\n\n", one.reachable, one.undefined);
     if (!one.zones.empty()) text += zones_text(one, errors.loci);
   }

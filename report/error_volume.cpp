@@ -126,20 +126,14 @@ std::string error_volume_text(const core::VolumeErrors& errors) {
     text += fmt::format("{}: pose error over {} x {} x {} cells{}\n", volume.mechanism, volume.cells[0],
                         volume.cells[1], volume.cells[2], mode.empty() ? "" : "; " + mode);
     if (!one.never_loaded.empty()) text += never_loaded_words(one.never_loaded);
-    text += fmt::format("\n{:<60}{:>12}{:>12}{:>12}  at\n", "absolute values", "median", "90 %", "largest");
-    for (std::size_t f = 0; f < volume.fields.size(); ++f) {
-      const core::Field& field = volume.fields[f];
-      if (!one.sizes[f]) continue;
-      const core::ErrorSizes& sizes = *one.sizes[f];
-      const ShownUnit unit = shown_unit(field.unit, errors.units);
-      const std::array<double, 3> at = place(volume, sizes.at);
-      text += fmt::format("{:<60}{:>12.4g}{:>12.4g}{:>12.4g}  ", fmt::format("{} [{}]", field.label, unit.name),
-                          sizes.median * unit.per_si, sizes.percentile_90 * unit.per_si,
-                          std::abs(sizes.largest) * unit.per_si);
-      for (std::size_t c = 0; c < 3; ++c)
-        text += (c == 0 ? "" : ", ") + coordinate_words(volume, c, at[c], errors.units);
-      text += "\n";
-    }
+    std::vector<Row> rows;
+    for (std::size_t f = 0; f < volume.fields.size(); ++f)
+      if (one.sizes[f])
+        rows.push_back(size_row(
+            volume.fields[f].label, volume.fields[f].unit, *one.sizes[f], errors.units,
+            place_words(place(volume, one.sizes[f]->at), std::vector<bool>(volume.angles.begin(), volume.angles.end()),
+                        errors.units, few_digits)));
+    text += "\n" + format_rows(size_columns("absolute values"), rows);
     text += fmt::format("\n{} cells in the workspace, {} on a locus to the last bit\n\n", one.reachable, one.undefined);
   }
   for (const std::string& note : errors.notes) text += note + "\n";

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/rational.hpp"
+#include "report/wording.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -200,43 +202,12 @@ core::Sketch in_file_units(core::Sketch sketch, const core::Units& units) {
     scaling.place(slide.to);
   }
   for (core::SketchJoint& joint : sketch.joints) scaling.place(joint.at);
+  for (core::SketchSpring& spring : sketch.springs) {
+    scaling.place(spring.from);
+    scaling.place(spring.to);
+  }
   for (core::SketchLoad& load : sketch.loads) scaling.place(load.at);
   return sketch;
-}
-
-core::Pose in_file_units(core::Pose pose) {
-  if (!pose.units.declared) return pose;
-  const double k = 1 / pose.units.length.size, turn = 1 / pose.units.angle.size, force = 1 / pose.units.force.size;
-  const auto scale = [](std::vector<double>& values, double by) {
-    for (double& value : values) value *= by;
-  };
-  const auto scale_if = [](std::optional<double>& value, double by) {
-    if (value) *value *= by;
-  };
-  const auto scale_error = [&](core::PoseError& error) {
-    scale(error.displacement, k);
-    scale(error.rotation, turn);
-  };
-  const auto scale_take_up = [&](core::JointTakeUp& own) {
-    scale(own.displacement, k);
-    for (std::optional<double>* const part : {&own.beta, &own.rotation, &own.tilt}) scale_if(*part, turn);
-    for (std::optional<double>* const part : {&own.normal, &own.axial}) scale_if(*part, k);
-  };
-  for (core::PosePoint& point : pose.points) scale(point.at, k);
-  for (core::JointReaction& reaction : pose.reactions)
-    for (core::ReactionComponent& part : reaction.components)
-      if (is_force(part.quantity)) part.value *= force;
-  for (core::JointTakeUp& own : pose.take_up) scale_take_up(own);
-  if (pose.error) scale_error(*pose.error);
-  scale(pose.worst.displacement, k);
-  scale(pose.worst.rotation, turn);
-  pose.worst.distance *= k;
-  pose.worst.angle *= turn;
-  if (pose.actual) {
-    scale_error(pose.actual->error);
-    scale_error(pose.actual->beyond_linear);
-  }
-  return pose;
 }
 
 ShownUnit shown_unit(const std::string& si, const core::Units& units) {
@@ -250,6 +221,30 @@ ShownUnit shown_unit(const std::string& si, const core::Units& units) {
     if (si == "N" + rest) return of(units.force, rest);
   }
   return {si, 1};
+}
+
+ShownUnit table_unit(const std::string& si, const core::Units& units, double most) {
+  if (si == "rad" && !units.angle_declared) return {"deg", 180 / std::numbers::pi};
+  if (si != "m" || units.declared) return shown_unit(si, units);
+  // From a tenth of the larger unit on, which reads better: 0.2 mm, and 50 µm.
+  if (most >= 0.1 || !(most > 0)) return {"m", 1};
+  if (most >= 1e-4) return {"mm", 1e3};
+  return most >= 1e-7 ? ShownUnit{"µm", 1e6} : ShownUnit{"nm", 1e9};
+}
+
+std::string place_words(std::span<const double> at, const std::vector<bool>& angles, const core::Units& units,
+                        int digits) {
+  const ShownUnit length = table_unit("m", units), turn = table_unit("rad", units);
+  const bool mixed = std::find(angles.begin(), angles.end(), true) != angles.end();
+  double most = 0;
+  for (const double value : at) most = std::max(most, std::abs(value));
+  std::string words;
+  for (std::size_t c = 0; c < at.size(); ++c) {
+    const ShownUnit& unit = c < angles.size() && angles[c] ? turn : length;
+    words += (c == 0 ? "" : ", ") + engineering_beside(at[c] * unit.per_si, most * unit.per_si, digits);
+    if (mixed) words += " " + unit.name;
+  }
+  return "(" + words + ")" + (mixed ? "" : " " + length.name);
 }
 
 core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles) {

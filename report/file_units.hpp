@@ -4,8 +4,11 @@
 // Private to report/.
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "clearloci/error.hpp"
-#include "clearloci/pose.hpp"
 #include "clearloci/trajectory.hpp"
 #include "clearloci/verify.hpp"
 #include "core/locus_map.hpp"
@@ -17,7 +20,6 @@ core::LocusMap in_file_units(core::LocusMap map);
 core::ZoneMap in_file_units(core::ZoneMap map);
 core::Verification in_file_units(core::Verification result);
 core::Sketch in_file_units(core::Sketch sketch, const core::Units& units);
-core::Pose in_file_units(core::Pose pose);
 /// `angles` as of LocusMap. Fields in m and rad get the file's units, angles among them.
 core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles);
 /// Columns of m, rad, N and their rates.
@@ -32,6 +34,14 @@ struct ShownUnit {
   double per_si = 1;
 };
 ShownUnit shown_unit(const std::string& si, const core::Units& units);
+
+/// The same in a table: angles are in degrees unless the file says otherwise, and where it declares no units, lengths
+/// of which the largest is `most` (m) are in m, mm, µm or nm.
+ShownUnit table_unit(const std::string& si, const core::Units& units, double most = 1);
+
+/// A place by its coordinates in SI units: "(250, -700) mm", where there are angles "(0.25 m, 30 deg)".
+std::string place_words(std::span<const double> at, const std::vector<bool>& angles, const core::Units& units,
+                        int digits = 6);
 
 /// "x" and its unit as the head of a column: "x (mm)" where the file declares units, else the name alone.
 std::string column_head(const std::string& name, const std::string& si, const core::Units& units);

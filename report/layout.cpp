@@ -12,14 +12,11 @@
 namespace clearloci::report {
 namespace {
 
-constexpr double page_margin = 12;
 constexpr double longest_side = 400;   // of the plot
 constexpr double shortest_side = 130;  // a long thin box still gets a plot to look at
 constexpr double legend_column = 200;
 constexpr double legend_gap = 18;  // between plot and legend
 constexpr double entry_gap = 5.5;  // between two entries
-constexpr Font title_font{13, true, false};
-constexpr Font subtitle_font{9.5, false, false};
 
 constexpr double inset_room = 170;
 
@@ -193,22 +190,6 @@ double place_legend(std::vector<LegendEntry>& entries, double x, double y, doubl
   return lower_end;
 }
 
-/// Title lines wrapped to `width`; returns the height they take.
-double place_title(const Subject& subject, Layout& layout, double width) {
-  double y = page_margin;
-  const auto add = [&](const std::string& text, const Font& font, double line_height) {
-    if (text.empty()) return;
-    for (const auto& line : wrap(text, width, measure_in(font))) {
-      y += line_height;
-      layout.title.push_back({line, font, 0, y - 0.25 * line_height});
-    }
-  };
-  add(printable(subject.map->mechanism), title_font, 17);
-  const std::string mode = mode_words(subject.map->tower, subject.mode);
-  add(printable(mode.empty() ? "" : "Working mode: " + mode), subtitle_font, 13);
-  return y + 8;
-}
-
 double widest_label(const std::vector<Tick>& axis) {
   const Measure measure = measure_in(tick_font);
   double width = 0;
@@ -237,8 +218,10 @@ Layout lay_out(const Subject& subject) {
   layout.width =
       (beside ? layout.plot.right() + legend_gap + legend_column : std::max(layout.plot.right(), least_width)) +
       page_margin;
-  layout.plot.y = place_title(subject, layout, layout.width - left - page_margin);
-  for (auto& line : layout.title) line.x = left;
+  const std::string mode = mode_words(subject.map->tower, subject.mode);
+  layout.head = page_head(subject.map->mechanism, mode.empty() ? "" : "Working mode: " + mode, left,
+                          layout.width - left - page_margin);
+  layout.plot.y = layout.head.bottom;
   const double plot_end = layout.plot.bottom() + below_plot;
   if (beside) {
     const double end = place_legend(layout.legend, layout.plot.right() + legend_gap, layout.plot.y, legend_column, 1);

@@ -11,6 +11,7 @@
 #include "report/axis.hpp"
 #include "report/field_scale.hpp"
 #include "report/groups.hpp"
+#include "report/page_head.hpp"
 #include "report/task_mark.hpp"
 #include "report/typesetting.hpp"
 
@@ -45,12 +46,6 @@ struct LegendEntry {
   Box box;                        ///< sample and label
 };
 
-struct TitleLine {
-  std::string text;
-  Font font;
-  double x = 0, y = 0;  ///< left end of the baseline
-};
-
 /// One picture: the loci of one working mode. Axes of lengths have one scale, y points up.
 struct Layout {
   double width = 0, height = 0;
@@ -61,7 +56,7 @@ struct Layout {
   std::vector<Tick> x_ticks, y_ticks;
   std::string x_label, y_label;
   double y_label_x = 0;  ///< baseline of the upright y label
-  std::vector<TitleLine> title;
+  PageHead head;
   std::vector<LegendEntry> legend;
 
   core::Point2 page(const core::Point2& point) const {
@@ -92,9 +87,7 @@ inline constexpr const char* sample_posture_words = "mechanism in a sample postu
 /// Of a mechanism alone, all of it with its loads inside a box.
 Layout lay_out_alone(const core::Sketch& sketch, const Box& box);
 
-inline constexpr double legend_sample_width = 32;   ///< pt
-inline constexpr double legend_sample_gap = 8;      ///< pt, between a sample and its label
-inline constexpr double legend_line_height = 11.5;  ///< pt
-inline constexpr Font legend_font{8.5, false, false};
+inline constexpr double legend_sample_width = 32;  ///< pt
+inline constexpr double legend_sample_gap = 8;     ///< pt, between a sample and its label
 
 }  // namespace clearloci::report

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "report/file_units.hpp"
+#include "report/text_table.hpp"
 #include "report/wording.hpp"
 #include "report/wrap.hpp"
 
@@ -21,71 +22,6 @@ constexpr int readable_factor = 60;
 
 /// Of a direct singularity.
 constexpr const char* not_excited = "not excited by this load";
-
-struct Column {
-  std::string heading;
-  int widest = 0;  ///< cells are wrapped to this
-  bool right = false;
-};
-
-using Row = std::vector<std::string>;
-
-std::string padded(const std::string& text, int width, bool right) {
-  const std::string space(static_cast<std::size_t>(std::max(0, width - columns(text))), ' ');
-  return right ? space + text : text + space;
-}
-
-/// The lines of a cell, each wrapped to `width`.
-std::vector<std::string> wrapped(const std::string& cell, int width) {
-  const auto measure = [](std::string_view text) { return static_cast<double>(columns(text)); };
-  std::vector<std::string> lines;
-  for (std::size_t start = 0; start <= cell.size();) {
-    const std::size_t end = std::min(cell.find('\n', start), cell.size());
-    for (auto& line : wrap(std::string_view(cell).substr(start, end - start), width, measure)) {
-      lines.push_back(std::move(line));
-    }
-    start = end + 1;
-  }
-  return lines;
-}
-
-/// Columns as wide as their cells need, at most `widest`, two spaces apart, below a rule.
-std::string format_rows(const std::vector<Column>& heading, const std::vector<Row>& rows) {
-  std::vector<int> widths;
-  std::vector<std::vector<std::vector<std::string>>> cells(rows.size());
-  for (std::size_t c = 0; c < heading.size(); ++c) {
-    int width = columns(heading[c].heading);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      cells[r].push_back(wrapped(rows[r][c], heading[c].widest));
-      for (const auto& line : cells[r].back()) width = std::max(width, columns(line));
-    }
-    widths.push_back(width);
-  }
-  std::string out;
-  const auto add_line = [&](const auto& text_of) {
-    std::string line;
-    for (std::size_t c = 0; c < heading.size(); ++c) {
-      line += (c == 0 ? "" : "  ") + padded(text_of(c), widths[c], heading[c].right);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + "\n";
-  };
-  const auto rule = [&](std::size_t c) {
-    std::string line;
-    for (int i = 0; i < widths[c]; ++i) line += "─";
-    return line;
-  };
-  add_line([&](std::size_t c) { return heading[c].heading; });
-  add_line(rule);
-  for (const auto& row : cells) {
-    std::size_t height = 0;
-    for (const auto& cell : row) height = std::max(height, cell.size());
-    for (std::size_t i = 0; i < height; ++i) {
-      add_line([&](std::size_t c) { return i < row[c].size() ? row[c][i] : std::string(); });
-    }
-  }
-  return out;
-}
 
 /// "f: A1, B1, P; M: A1, A2 (no change of sign)".
 std::string what_vanishes(const std::vector<core::Vanishing>& vanishing) {
@@ -123,10 +59,10 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
   std::vector<Column> heading = {{"curve", 8},
                                  {"kind", 18},
                                  {"what vanishes, where", 0},
-                                 {"degree", 6, true},
+                                 {"degree", 6, Alignment::right},
                                  {"closed form", 0},
-                                 {"arcs", 4, true},
-                                 {has_angles(map) ? "length" : "length/" + map.units.length.name, 8, true}};
+                                 {"arcs", 4, Alignment::right},
+                                 {has_angles(map) ? "length" : "length/" + map.units.length.name, 0, Alignment::point}};
   std::vector<Row> rows;
   int closed_form = 0, identifier = columns(heading[0].heading);
   for (const auto& curve : map.curves) {
@@ -134,7 +70,7 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
     rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind), where(curve),
                     curve.implicit.is_zero() ? "-" : std::to_string(core::total_degree(curve.implicit)),
                     closed_form_words(curve.closed_form, map.tower.coordinates, exact),
-                    std::to_string(curve.arcs.size()), fmt::format("{:.4f}", total_length(curve))});
+                    std::to_string(curve.arcs.size()), engineering(total_length(curve), size_digits)});
     closed_form = std::max(closed_form, columns(rows.back()[4]));
     identifier = std::max(identifier, std::min(columns(rows.back()[0]), heading[0].widest));
   }
@@ -152,7 +88,7 @@ std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode)
   for (std::size_t i = 0; i < map.tower.coordinates.size(); ++i)
     heading.push_back({printable(map.tower.coordinates[i]) +
                            (has_angles(map) && map.angles[i] ? "/deg" : "/" + map.units.length.name),
-                       14, true});
+                       0, Alignment::point});
   std::vector<Row> rows;
   for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
     const auto& point = map.isolated_points[i];
@@ -160,7 +96,7 @@ std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode)
     Row row = {"p" + std::to_string(i + 1) + (point.certified ? "" : "*"), kind_words(point.kind),
                what_vanishes(point.vanishing)};
     for (std::size_t c = 0; c < point.at.size(); ++c)
-      row.push_back(fmt::format("{:.9f}", point.at[c] * (has_angles(map) && map.angles[c] ? degrees : 1)));
+      row.push_back(engineering(point.at[c] * (has_angles(map) && map.angles[c] ? degrees : 1), place_digits));
     rows.push_back(std::move(row));
   }
   return rows.empty() ? "" : "\nisolated points\n" + format_rows(heading, rows);
@@ -174,20 +110,21 @@ std::string where(const core::LocusSurface& surface) {
 }
 
 std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
-  const std::vector<Column> heading = {{"surface", 8},
-                                       {"kind", 18},
-                                       {"what vanishes, where", 52},
-                                       {"degree", 6, true},
-                                       {"pieces", 6, true},
-                                       {"triangles", 9, true},
-                                       {has_angles(map) ? "area" : "area/" + map.units.length.name + "^2", 9, true}};
+  const std::vector<Column> heading = {
+      {"surface", 8},
+      {"kind", 18},
+      {"what vanishes, where", 52},
+      {"degree", 6, Alignment::right},
+      {"pieces", 6, Alignment::right},
+      {"triangles", 9, Alignment::right},
+      {has_angles(map) ? "area" : "area/" + map.units.length.name + "^2", 0, Alignment::point}};
   std::vector<Row> rows;
   for (const auto& surface : map.surfaces) {
     if (surface.mode != mode) continue;
     const int degree = core::total_degree(surface.implicit);
     rows.push_back({printable(surface.id) + (surface.certified ? "" : "*"), kind_words(surface.kind), where(surface),
                     degree > 0 ? std::to_string(degree) : "-", std::to_string(surface.components),
-                    std::to_string(surface.triangles.size()), fmt::format("{:.4f}", surface.area)});
+                    std::to_string(surface.triangles.size()), engineering(surface.area, size_digits)});
   }
   return rows.empty() ? "no surfaces\n" : format_rows(heading, rows);
 }
@@ -214,7 +151,7 @@ bool is_angle(const core::LocusMap& map) { return !map.angles.empty() && map.ang
 
 /// A value of the one coordinate: m, or deg.
 std::string place(const core::LocusMap& map, double value) {
-  return fmt::format("{:.9f}", is_angle(map) ? value * degrees : value);
+  return engineering(is_angle(map) ? value * degrees : value, place_digits);
 }
 
 /// With one free coordinate: the reachable intervals, then a row a point, with the reason.
@@ -230,7 +167,7 @@ std::string single_coordinate_rows(const core::LocusMap& map, const core::Workin
   }
   out += any ? " " + unit + "\n" : "nowhere\n";
   std::vector<Column> heading = {
-      {"point", 8}, {"kind", 18}, {"what vanishes, where", 60}, {name + "/" + unit, 16, true}};
+      {"point", 8}, {"kind", 18}, {"what vanishes, where", 60}, {name + "/" + unit, 0, Alignment::point}};
   std::vector<Row> rows;
   for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
     const auto& point = map.isolated_points[i];

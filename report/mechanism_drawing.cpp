@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "report/label_places.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -108,9 +109,9 @@ void draw_ground(const Context& context, const Point2& at) {
   context->stroke();
 }
 
-/// Where a joint's name stands: the direction, of sixteen, that keeps the largest angle to the links and loads that
-/// meet there and to the bracket of a fixed joint. Unit vector, y up.
-Point2 name_direction(const core::Sketch& sketch, const core::SketchJoint& joint) {
+/// Where a joint's name may stand: of sixteen directions those first that keep the largest angle to the links and
+/// loads that meet there and to the bracket of a fixed joint. Unit vectors, y up.
+std::vector<Point2> name_directions(const core::Sketch& sketch, const core::SketchJoint& joint) {
   std::vector<double> occupied;
   const auto occupy = [&](double dx, double dy) {
     if (std::hypot(dx, dy) > 1e-12) occupied.push_back(std::atan2(dy, dx));
@@ -135,39 +136,54 @@ Point2 name_direction(const core::Sketch& sketch, const core::SketchJoint& joint
   if (joint.on_ground) {
     for (const double dx : {-0.8, 0.0, 0.8}) occupy(dx, -1);
   }
-  double best = 0, best_room = -1;
+  std::vector<std::pair<double, Point2>> by_room;
   for (const int k : {1, 0, 15, 2, 14, 7, 8, 9, 6, 10, 3, 5, 13, 11, 4, 12}) {  // readers look to the right first
     const double angle = full_turn * k / 16;
     double room = std::numbers::pi;
     for (const double other : occupied) room = std::min(room, std::abs(std::remainder(angle - other, full_turn)));
-    if (room > best_room + 0.05) {
-      best = angle;
-      best_room = room;
-    }
+    constexpr double alike = 0.05;  // rad
+    by_room.emplace_back(std::round(room / alike), Point2{std::cos(angle), std::sin(angle)});
   }
-  return {std::cos(best), std::sin(best)};
+  std::stable_sort(by_room.begin(), by_room.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Point2> directions;
+  for (const auto& [room, direction] : by_room) directions.push_back(direction);
+  return directions;
+}
+
+/// The box of a text of this size is a little wider than its letters.
+Point2 place_of(const std::string& text, const Font& font, const std::vector<Point2>& places, LabelPlaces& labels) {
+  return labels.take(places, text_width(text, font) + 6, font.size + 2);
+}
+
+void write_label(const Context& context, const std::string& text, const Font& font, const Colour& colour,
+                 const std::vector<Point2>& places, LabelPlaces& labels) {
+  const Point2 middle = place_of(text, font, places, labels);
+  write_over_lines(context, text, middle[0], middle[1] + 0.36 * font.size, font, colour, Align::centre);
 }
 
 /// Joints at one place share a label, written for the first of them.
 void write_joint_name(const Context& context, const Layout& layout, const core::Sketch& sketch,
-                      const core::SketchJoint& joint) {
+                      const core::SketchJoint& joint, LabelPlaces& labels) {
   std::string name;
   for (const auto& other : sketch.joints) {
     if (other.at != joint.at) continue;
     if (name.empty() && &other != &joint) return;
     name += (name.empty() ? "" : ", ") + printable(other.name);
   }
-  const Point2 at = layout.page(joint.at), direction = name_direction(sketch, joint);
-  const double distance = joint.actuated ? 11 : 9, width = text_width(name, name_font);
-  const double x = at[0] + direction[0] * (distance + width / 2 * std::abs(direction[0]));
-  const double y = at[1] - direction[1] * (distance + 2) + 0.36 * name_font.size;
-  const double room = width / 2 + 3;
-  write_over_lines(context, name, std::clamp(x, layout.plot.x + room, layout.plot.right() - room), y, name_font,
-                   outline, Align::centre);
+  const Point2 at = layout.page(joint.at);
+  const double width = text_width(name, name_font);
+  std::vector<Point2> places;
+  for (const double distance : {joint.actuated ? 11.0 : 9.0, 18.0, 28.0})
+    for (const Point2& direction : name_directions(sketch, joint))
+      places.push_back({at[0] + direction[0] * (distance + width / 2 * std::abs(direction[0])),
+                        at[1] - direction[1] * (distance + 2)});
+  write_label(context, name, name_font, outline, places, labels);
 }
 
+constexpr double couple_radius = 15;
+
 void draw_couple(const Context& context, const Layout& layout, const core::SketchLoad& load) {
-  constexpr double radius = 15, start = 0.6, end = 5.2;  // rad on the page, where y points down
+  constexpr double radius = couple_radius, start = 0.6, end = 5.2;  // rad on the page, where y points down
   const Point2 at = layout.page(load.at);
   const bool counter_clockwise = load.couple > 0;
   const double tip = counter_clockwise ? -end : end, side = counter_clockwise ? -1 : 1;
@@ -184,35 +200,57 @@ void draw_couple(const Context& context, const Layout& layout, const core::Sketc
   const Point2 along = {-side * std::sin(tip), side * std::cos(tip)};
   draw_load_arrow(context, {head[0] - 0.5 * along[0], head[1] - 0.5 * along[1]},
                   {head[0] + 7 * along[0], head[1] + 7 * along[1]});
-  write_over_lines(context, engineering(std::abs(load.couple), 4) + " N m", at[0], at[1] + radius + 12, load_font,
-                   load_colour, Align::centre);
 }
 
+void write_couple(const Context& context, const Layout& layout, const core::SketchLoad& load, LabelPlaces& labels) {
+  const std::string words = engineering(std::abs(load.couple), 4) + " N m";
+  const Point2 at = layout.page(load.at);
+  const double beside = couple_radius + 5 + text_width(words, load_font) / 2, above = couple_radius + 9;
+  write_label(context, words, load_font, load_colour,
+              {{at[0], at[1] + above}, {at[0], at[1] - above}, {at[0] + beside, at[1]}, {at[0] - beside, at[1]}},
+              labels);
+}
+
+/// Of a force on the page.
+struct Arrow {
+  Point2 tail{}, tip{};
+  bool ends_at_point = false;  ///< its tip is at the point of application
+};
+
 /// The arrow starts at the point of application, or ends there where it would leave the plot.
-void draw_force(const Context& context, const Layout& layout, const core::SketchLoad& load, double largest) {
+Arrow arrow_of(const Layout& layout, const core::SketchLoad& load, double largest) {
   const double size = std::hypot(load.force[0], load.force[1]);
   const double length = std::max(0.45, size / largest) * longest_arrow;
   const Point2 unit = {load.force[0] / size, -load.force[1] / size}, at = layout.page(load.at);
   constexpr double clear_of_pin = pin_radius + 2.5, room = 14;
-  Point2 tail = {at[0] + clear_of_pin * unit[0], at[1] + clear_of_pin * unit[1]};
-  Point2 tip = {tail[0] + length * unit[0], tail[1] + length * unit[1]};
+  Arrow arrow;
+  arrow.tail = {at[0] + clear_of_pin * unit[0], at[1] + clear_of_pin * unit[1]};
+  arrow.tip = {arrow.tail[0] + length * unit[0], arrow.tail[1] + length * unit[1]};
   const Box& plot = layout.plot;
-  const bool leaves =
-      tip[0] < plot.x + 4 || tip[0] > plot.right() - 4 || tip[1] < plot.y + room || tip[1] > plot.bottom() - room;
-  if (leaves) {
-    tip = {at[0] - clear_of_pin * unit[0], at[1] - clear_of_pin * unit[1]};
-    tail = {tip[0] - length * unit[0], tip[1] - length * unit[1]};
+  arrow.ends_at_point = arrow.tip[0] < plot.x + 4 || arrow.tip[0] > plot.right() - 4 || arrow.tip[1] < plot.y + room ||
+                        arrow.tip[1] > plot.bottom() - room;
+  if (arrow.ends_at_point) {
+    arrow.tip = {at[0] - clear_of_pin * unit[0], at[1] - clear_of_pin * unit[1]};
+    arrow.tail = {arrow.tip[0] - length * unit[0], arrow.tip[1] - length * unit[1]};
   }
-  draw_load_arrow(context, tail, tip);
-  // The size stands beyond the arrow's free end, inside the plot.
-  const double away = leaves ? -1 : 1;
-  const std::string words = force_words(size);
+  return arrow;
+}
+
+/// Beyond the arrow's free end, or beside the arrow.
+void write_force(const Context& context, const core::SketchLoad& load, const Arrow& arrow, LabelPlaces& labels) {
+  const std::string words = force_words(std::hypot(load.force[0], load.force[1]));
   const double half_width = text_width(words, load_font) / 2 + 3, half_height = 6;
-  const Point2 end = leaves ? tail : tip;
-  const double x = end[0] + away * unit[0] * (half_width + 5), y = end[1] + away * unit[1] * (half_height + 4);
-  write_over_lines(context, words, std::clamp(x, plot.x + half_width, plot.right() - half_width),
-                   std::clamp(y, plot.y + half_height, plot.bottom() - half_height) + 0.36 * load_font.size, load_font,
-                   load_colour, Align::centre);
+  const Point2 end = arrow.ends_at_point ? arrow.tail : arrow.tip, other = arrow.ends_at_point ? arrow.tip : arrow.tail;
+  const double length = std::hypot(end[0] - other[0], end[1] - other[1]);
+  const Point2 unit = {(end[0] - other[0]) / length, (end[1] - other[1]) / length};
+  std::vector<Point2> places = {{end[0] + unit[0] * (half_width + 5), end[1] + unit[1] * (half_height + 4)}};
+  for (const double part : {0.7, 0.4})
+    for (const double side : {1.0, -1.0}) {
+      const Point2 across = {-side * unit[1], side * unit[0]};
+      places.push_back({other[0] + part * length * unit[0] + across[0] * (half_width + 5),
+                        other[1] + part * length * unit[1] + across[1] * (half_height + 5)});
+    }
+  write_label(context, words, load_font, load_colour, places, labels);
 }
 
 }  // namespace
@@ -317,12 +355,16 @@ void draw_links(const Context& context, const Layout& layout, const core::Sketch
   }
 }
 
-void draw_joints(const Context& context, const Layout& layout, const core::Sketch& sketch) {
-  for (const auto& joint : sketch.joints) draw_pin(context, layout.page(joint.at), joint.actuated);
-  for (const auto& joint : sketch.joints) write_joint_name(context, layout, sketch, joint);
-}
-
 namespace {
+
+void draw_pins(const Context& context, const Layout& layout, const core::Sketch& sketch) {
+  // Of several at one place, that of the motor.
+  for (const auto& joint : sketch.joints) {
+    const bool actuated = std::any_of(sketch.joints.begin(), sketch.joints.end(),
+                                      [&](const auto& other) { return other.actuated && other.at == joint.at; });
+    draw_pin(context, layout.page(joint.at), actuated);
+  }
+}
 
 bool stands_in(const std::string& name, const std::string& words) {
   const auto is_letter = [&](std::size_t k) {
@@ -335,8 +377,11 @@ bool stands_in(const std::string& name, const std::string& words) {
 
 }  // namespace
 
-void draw_link_names(const Context& context, const Layout& layout, const core::Sketch& sketch,
-                     const std::string& words) {
+namespace {
+
+/// Beside the middles of links, or elsewhere along them, on either side.
+void write_link_names(const Context& context, const Layout& layout, const core::Sketch& sketch,
+                      const std::string& words, LabelPlaces& labels) {
   constexpr Font font{8.5, false, true};
   constexpr double aside = bar_width + 4;
   for (const core::SketchLink& link : sketch.links) {
@@ -352,32 +397,83 @@ void draw_link_names(const Context& context, const Layout& layout, const core::S
       v = -v;
     }
     const double half = text_width(name, font) / 2;
-    write_over_lines(context, name, (p[0] + q[0]) / 2 + u * (aside + half * std::abs(u)),
-                     (p[1] + q[1]) / 2 + v * aside + 0.36 * font.size, font, outline, Align::centre);
+    std::vector<Point2> places;
+    for (const double part : {0.5, 0.3, 0.7})
+      for (const double side : {1.0, -1.0})
+        places.push_back(
+            {p[0] + part * dx + side * u * (aside + half * std::abs(u)), p[1] + part * dy + side * v * aside});
+    write_label(context, name, font, outline, places, labels);
   }
 }
 
-void draw_loads(const Context& context, const Layout& layout, const core::Sketch& sketch) {
-  double largest = 0;
-  for (const auto& load : sketch.loads) largest = std::max(largest, std::hypot(load.force[0], load.force[1]));
-  for (const auto& load : sketch.loads) {
-    if (load.force != Point2{0, 0}) draw_force(context, layout, load, largest);
-    if (load.couple != 0) draw_couple(context, layout, load);
+/// What labels had better leave in sight: pins and brackets, arrows, and less so bars.
+LabelPlaces places_around(const Layout& layout, const core::Sketch& sketch, const std::vector<Arrow>& arrows) {
+  constexpr double of_pins = 0.6, of_bars = 0.15, of_arrows = 0.6, of_springs = 0.3;
+  LabelPlaces labels(layout.plot);
+  for (const core::SketchLink& link : sketch.links)
+    for (std::size_t i = 0; i + 1 < link.points.size() + (link.points.size() > 2 ? 1 : 0); ++i)
+      labels.occupy(layout.page(link.points[i]), layout.page(link.points[(i + 1) % link.points.size()]), bar_width,
+                    of_bars);
+  for (const core::SketchSlide& slide : sketch.slides)
+    labels.occupy(layout.page(slide.from), layout.page(slide.to), bar_width, of_bars);
+  for (const core::SketchSpring& spring : sketch.springs)
+    if (!spring.torsion) labels.occupy(layout.page(spring.from), layout.page(spring.to), bar_width, of_springs);
+  for (const core::SketchJoint& joint : sketch.joints) {
+    const Point2 at = layout.page(joint.at);
+    constexpr double r = pin_radius + 2;
+    labels.occupy({at[0] - r, at[1] - r, 2 * r, 2 * r}, of_pins);
+    if (joint.on_ground) labels.occupy({at[0] - 12, at[1] + r, 24, 14}, of_pins);
   }
+  for (const Arrow& arrow : arrows) labels.occupy(arrow.tail, arrow.tip, 4, of_arrows);
+  for (const core::SketchLoad& load : sketch.loads) {
+    const Point2 at = layout.page(load.at);
+    if (load.couple != 0)
+      labels.occupy({at[0] - couple_radius, at[1] - couple_radius, 2 * couple_radius, 2 * couple_radius}, of_bars);
+  }
+  return labels;
+}
+
+/// In the plot's corner.
+void draw_gravity(const Context& context, const Layout& layout, const core::Sketch& sketch, LabelPlaces& labels) {
   const double gravity = std::hypot(sketch.gravity[0], sketch.gravity[1]);
   if (gravity == 0) return;
   const Point2 centre = {layout.plot.right() - 22, layout.plot.y + 24};
   const Point2 half = {13 * sketch.gravity[0] / gravity, -13 * sketch.gravity[1] / gravity};
   draw_load_arrow(context, {centre[0] - half[0], centre[1] - half[1]}, {centre[0] + half[0], centre[1] + half[1]});
+  labels.occupy({centre[0] - 16, centre[1] - 14, 32, 28}, 1);
   write_over_lines(context, "g", centre[0] - 8, centre[1] + 3, {9, false, true}, load_colour, Align::right);
+}
+
+}  // namespace
+
+void draw_joints_and_loads(const Context& context, const Layout& layout, const core::Sketch& sketch,
+                           const std::string& words) {
+  draw_pins(context, layout, sketch);
+  double largest = 0;
+  for (const auto& load : sketch.loads) largest = std::max(largest, std::hypot(load.force[0], load.force[1]));
+  std::vector<Arrow> arrows;
+  for (const auto& load : sketch.loads) {
+    if (load.force != Point2{0, 0}) {
+      arrows.push_back(arrow_of(layout, load, largest));
+      draw_load_arrow(context, arrows.back().tail, arrows.back().tip);
+    }
+    if (load.couple != 0) draw_couple(context, layout, load);
+  }
+  LabelPlaces labels = places_around(layout, sketch, arrows);
+  draw_gravity(context, layout, sketch, labels);
+  for (const auto& joint : sketch.joints) write_joint_name(context, layout, sketch, joint, labels);
+  auto arrow = arrows.begin();
+  for (const auto& load : sketch.loads) {
+    if (load.force != Point2{0, 0}) write_force(context, load, *arrow++, labels);
+    if (load.couple != 0) write_couple(context, layout, load, labels);
+  }
+  write_link_names(context, layout, sketch, words, labels);
 }
 
 void draw_alone(const Context& context, const Box& box, const core::Sketch& sketch, const std::string& words) {
   const Layout alone = lay_out_alone(sketch, box);
   draw_links(context, alone, sketch);
-  draw_link_names(context, alone, sketch, words);
-  draw_joints(context, alone, sketch);
-  draw_loads(context, alone, sketch);
+  draw_joints_and_loads(context, alone, sketch, words);
 }
 
 void draw_mechanism_sample(const Context& context, double x, double y, double width) {

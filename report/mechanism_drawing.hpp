@@ -11,15 +11,10 @@ namespace clearloci::report {
 /// Links and the ground, to be drawn below the loci, which stay readable over them.
 void draw_links(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
 
-/// Joints with their names.
-void draw_joints(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
-
-/// The names of the links that occur in `words`, what the legend says, beside the middles of these links.
-void draw_link_names(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch,
-                     const std::string& words);
-
-/// Forces as arrows with their size in N, couples as turning arrows with theirs in N m, gravity in the plot's corner.
-void draw_loads(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
+/// Joints with their names, the names of the links that occur in `words`, what the legend says, forces as arrows with
+/// their size, couples as turning arrows with theirs, and gravity in the plot's corner.
+void draw_joints_and_loads(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout,
+                           const core::Sketch& sketch, const std::string& words);
 
 /// All of it in a box of its own, with the names of the links that `words` speak of.
 void draw_alone(const Cairo::RefPtr<Cairo::Context>& context, const Box& box, const core::Sketch& sketch,

@@ -9,6 +9,7 @@
 
 #include "report/axis.hpp"
 #include "report/mechanism_drawing.hpp"
+#include "report/page_head.hpp"
 #include "report/pixel_image.hpp"
 #include "report/surface.hpp"
 #include "report/typesetting.hpp"
@@ -24,9 +25,6 @@ constexpr Colour ink = light_theme.ink;
 constexpr Colour faded_ink = light_theme.faded_ink;
 constexpr Colour frame = light_theme.frame;
 constexpr Colour grid = light_theme.grid;
-constexpr Font title_font{13, true, false};
-constexpr Font subtitle_font{9.5, false, false};
-constexpr Font legend_text_font{8.5, false, false};
 
 // The colours of the loci; then what Tol's muted colours (P. Tol, Colour schemes, 2021) add to them. A line more has a
 // colour again, dashed.
@@ -45,7 +43,8 @@ constexpr std::array<Colour, 12> palette = {{light_theme.curves[0],
 const std::vector<std::vector<double>> line_dashes = {{}, {6, 2}, {2, 2}, {8, 2, 2, 2}};
 const std::vector<std::vector<double>> mark_dashes = {{4, 2}, {1, 2}, {7, 2, 1, 2}, {2, 4}};
 
-constexpr double plot_width = 430, legend_width = 150, margin = 12, gap = 14, line_height = 11.5;
+constexpr double plot_width = 430, legend_width = 150, gap = 14;
+constexpr double line_height = legend_line_height;
 
 struct Frame {
   Box box;
@@ -99,12 +98,7 @@ class PlotDrawing {
   }
 
   void draw(const Context& context) const {
-    set_colour(context, {1, 1, 1});
-    context->rectangle(0, 0, width_, height_);
-    context->fill();
-    set_colour(context, ink);
-    write_text(context, printable(plot_.title), frames_.front().box.x, margin + 13, title_font);
-    write_text(context, printable(plot_.subtitle), frames_.front().box.x, margin + 28, subtitle_font);
+    draw_page_head(context, head_);
     for (std::size_t i = 0; i < frames_.size(); ++i) draw_panel(context, i);
     const Box& last = frames_.back().box;
     write_text(context, plot_.x_label, last.x + last.width / 2, last.bottom() + 29, label_font, Align::centre);
@@ -113,8 +107,7 @@ class PlotDrawing {
  private:
   void lay_out() {
     const auto x = plot_.x_range ? *plot_.x_range : reach(plot_.panels, 0, plot_.equal_scales ? 0.04 : 0);
-    double y = margin + 40;
-    double labels = 0;
+    double y = 0, labels = 0;
     for (const PlotPanel& panel : plot_.panels) {
       Frame f;
       const auto range = panel.y_range ? *panel.y_range : reach({panel}, 1, 0.06);
@@ -127,9 +120,12 @@ class PlotDrawing {
       for (const Tick& tick : y_ticks(panel, f)) labels = std::max(labels, text_width(tick.label, tick_font));
       frames_.push_back(f);
     }
-    for (Frame& f : frames_) f.box.x = margin + 18 + labels + 8;
-    width_ = std::ceil(frames_.front().box.right() + gap + legend_width + margin);
-    height_ = std::ceil(y - gap + 34 + margin);
+    for (Frame& f : frames_) f.box.x = page_margin + 18 + labels + 8;
+    width_ = std::ceil(frames_.front().box.right() + gap + legend_width + page_margin);
+    const double left = frames_.front().box.x;
+    head_ = page_head(plot_.title, plot_.subtitle, left, width_ - left - page_margin);
+    for (Frame& f : frames_) f.box.y += head_.bottom;
+    height_ = std::ceil(head_.bottom + y - gap + 34 + page_margin);
   }
 
   /// One scale for both axes: the height follows, but a flat plot still gets a height to look at.
@@ -271,7 +267,7 @@ class PlotDrawing {
       write_text(context, tick.label, f.box.x - tick_length - 3.5, y + 3.1, tick_font, Align::right);
     }
     context->save();
-    context->translate(margin + 10, f.box.y + f.box.height / 2);
+    context->translate(page_margin + 10, f.box.y + f.box.height / 2);
     context->rotate(-std::numbers::pi / 2);
     write_text(context, panel.y_label, 0, 0, label_font, Align::centre);
     context->restore();
@@ -282,11 +278,11 @@ class PlotDrawing {
     const Frame& f = frames_[i];
     const double x = f.box.right() + gap;
     double y = f.box.y;
-    const Measure measure = measure_in(legend_text_font);
+    const Measure measure = measure_in(legend_font);
     const auto write = [&](const std::string& label, double at, const Colour& colour) {
       for (const std::string& piece : wrap(label, legend_width - (at - x), measure)) {
         set_colour(context, colour);
-        write_text(context, piece, at, y + 0.5 * line_height + 3.1, legend_text_font);
+        write_text(context, piece, at, y + 0.5 * line_height + 3.1, legend_font);
         y += line_height;
       }
     };
@@ -320,6 +316,7 @@ class PlotDrawing {
   const Plot& plot_;
   std::vector<FieldScale> scales_;
   std::vector<Frame> frames_;
+  PageHead head_;
   double width_ = 0, height_ = 0;
 };
 

@@ -12,6 +12,7 @@
 #include "report/axis.hpp"
 #include "report/file_units.hpp"
 #include "report/mechanism_drawing.hpp"
+#include "report/page_head.hpp"
 #include "report/pose_verification.hpp"
 #include "report/surface.hpp"
 #include "report/theme.hpp"
@@ -26,9 +27,8 @@ using Context = Cairo::RefPtr<Cairo::Context>;
 using Pose = std::vector<double>;
 using Place = std::array<double, 2>;
 
-constexpr double margin = 16, panel = 190, strip = 40, gap = 58, line_height = 12, left_room = 48;  // pt
+constexpr double panel = 190, strip = 40, gap = 58, left_room = 48;  // pt
 constexpr double strip_width = 480, least_legend = 420;
-constexpr Font title_font{13, true}, text_font{9.5}, small_font{8.5};
 constexpr std::size_t columns_of_panels = 3, most_panels = 6;
 /// A locus or witness is drawn where the picture gets no more than this many times as wide by it.
 constexpr double most_growth = 4;
@@ -366,29 +366,26 @@ std::string pose_task_picture(const core::PoseVerification& result, PictureForma
   const double width = one ? strip_width : panel, height = one ? strip : panel;
   const std::size_t columns = std::min(columns_of_panels, pairs.size());
   const std::size_t rows = (pairs.size() + columns - 1) / columns;
-  const double left = margin + left_room, head = margin + 46;
+  const double left = page_margin + left_room;
   const double across = static_cast<double>(columns) * (width + gap) - gap;
   const double legend_width = std::max(across, least_legend);
-  const double below = head + static_cast<double>(rows) * (height + gap);
   std::string mode;
   for (const auto& [point, side] : result.working_mode) mode += (mode.empty() ? "; " : ", ") + point + " " + side;
   const std::string head_line = fmt::format("Task ({}) with its margin{}{}", core::kind_of(result.task.shape),
                                             one ? "" : ", seen along the other coordinates", printable(mode));
+  // Above the panels stand the names of their upright axes.
+  const PageHead page = page_head(result.mechanism, head_line, left, legend_width);
+  const double head = page.bottom + (one ? 0 : 12), below = head + static_cast<double>(rows) * (height + gap);
   std::vector<std::string> legend;
   std::string description = head_line + "\n";
   for (const std::string& fact : legend_of(result, ranges)) {
     description += fact + "\n";
-    for (const std::string& line : wrap(printable(fact), legend_width, measure_in(small_font))) legend.push_back(line);
+    for (const std::string& line : wrap(printable(fact), legend_width, measure_in(legend_font))) legend.push_back(line);
   }
   const std::string title = printable(result.mechanism);
 
   const auto draw = [&](const Context& context) {
-    context->set_source_rgb(1, 1, 1);
-    context->paint();
-    set_colour(context, light_theme.ink);
-    write_text(context, title, margin, margin + 10, title_font);
-    set_colour(context, light_theme.faded_ink);
-    write_text(context, head_line, margin, margin + 24, text_font);
+    draw_page_head(context, page);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const std::size_t row = k / columns;
       const Box box{left + static_cast<double>(k % columns) * (width + gap),
@@ -398,12 +395,12 @@ std::string pose_task_picture(const core::PoseVerification& result, PictureForma
     double at = below;
     set_colour(context, light_theme.ink);
     for (const std::string& line : legend) {
-      write_text(context, line, left, at, small_font);
-      at += line_height;
+      write_text(context, line, left, at, legend_font);
+      at += legend_line_height;
     }
   };
-  const double bottom = below + line_height * static_cast<double>(legend.size());
-  return render({left + legend_width + margin, std::ceil(bottom + margin), title, description}, format, draw);
+  const double bottom = below + legend_line_height * static_cast<double>(legend.size());
+  return render({left + legend_width + page_margin, std::ceil(bottom + page_margin), title, description}, format, draw);
 }
 
 }  // namespace clearloci::report

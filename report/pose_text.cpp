@@ -1,14 +1,16 @@
-// The tables of a pose: those of the plane and of space differ in their columns.
+// The tables of a pose. Those of the plane and of space differ in which columns have anything in them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
 #include "report/file_units.hpp"
 #include "report/pose.hpp"
+#include "report/text_table.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -23,27 +25,46 @@ void put(std::string& text, fmt::format_string<Values...> format, Values&&... va
   fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
-/// Nine digits; "unbounded" for infinities and NaN.
-std::string number(double value) {
-  constexpr int digits = 9;
-  return std::isfinite(value) ? engineering(value, digits) : "unbounded";
-}
+/// The largest finite size so far.
+class Largest {
+ public:
+  void see(double value) {
+    if (std::isfinite(value)) value_ = std::max(value_, std::abs(value));
+  }
+  void see(const std::vector<double>& values) {
+    for (const double value : values) see(value);
+  }
+  void see(const std::optional<double>& value) {
+    if (value) see(*value);
+  }
+  double value() const { return value_; }
 
-/// Of a take-up: NaN where it is undefined.
-std::string played(double value) { return std::isnan(value) ? "undefined" : number(value); }
+ private:
+  double value_ = 0;
+};
 
-std::string played(const std::optional<double>& value) { return value ? played(*value) : std::string(); }
+/// Numbers of one kind, in one unit.
+struct Scale {
+  ShownUnit unit;
+  double largest = 0;  ///< of them, SI
+
+  /// "unbounded" for infinities and NaN.
+  std::string operator()(double value) const {
+    if (!std::isfinite(value)) return "unbounded";
+    return engineering_beside(value * unit.per_si, largest * unit.per_si, size_digits);
+  }
+  /// Of a take-up: NaN where it is undefined.
+  std::string played(double value) const { return std::isnan(value) ? "undefined" : (*this)(value); }
+  std::string played(const std::optional<double>& value) const { return value ? played(*value) : std::string(); }
+  std::string head(std::string_view name) const { return fmt::format("{} [{}]", name, unit.name); }
+};
+
+Column number_column(const std::string& heading) { return {heading, 0, Alignment::point}; }
 
 const core::ReactionComponent* component(const core::JointReaction& reaction, Quantity quantity) {
   const auto& all = reaction.components;
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.quantity == quantity; });
   return found == all.end() ? nullptr : &*found;
-}
-
-/// Nothing where the joint has no such component.
-std::string entry(const core::JointReaction& reaction, Quantity quantity) {
-  const core::ReactionComponent* const own = component(reaction, quantity);
-  return own == nullptr ? std::string() : number(own->value);
 }
 
 /// Why no pose error is defined: "contact is lost at A1, B1; M = 0 at A1", or that it is a direct singularity.
@@ -64,196 +85,164 @@ std::string undefined_words(const core::Pose& pose) {
   return words;
 }
 
-void put_head(std::string& text, const core::Pose& pose, const std::string& at) {
-  put(text, "{} at ({})", pose.mechanism, at);
+void put_head(std::string& text, const core::Pose& pose) {
+  const Scale length{table_unit("m", pose.units, 1), 0};
+  constexpr double degrees = 180 / std::numbers::pi;
+  std::vector<std::string> values;
+  for (std::size_t c = 0; c < pose.at.size(); ++c)
+    values.push_back(c < pose.angles.size() && pose.angles[c] ? engineering(pose.at[c] * degrees, size_digits) + " deg"
+                                                              : length(pose.at[c]));
+  put(text, "{} at ({})", pose.mechanism, fmt::join(values, ", "));
   for (const auto& [point, side] : pose.working_mode) put(text, ", {} {}", point, side);
-  put(text, "\n\n{:<12}", "point");
+  put(text, "\n\n");
+}
+
+std::string points_table(const core::Pose& pose) {
+  Largest largest;
+  for (const core::PosePoint& point : pose.points) largest.see(point.at);
+  const Scale length{table_unit("m", pose.units, 1), largest.value()};
+  std::vector<Column> heading = {{"point"}};
   for (std::size_t c = 0; c < pose.worst.displacement.size(); ++c)
-    put(text, "{:>18}", fmt::format("{} [{}]", axes[c], pose.units.length.name));
-  put(text, "\n");
+    heading.push_back(number_column(length.head(axes.substr(c, 1))));
+  std::vector<Row> rows;
   for (const core::PosePoint& point : pose.points) {
-    put(text, "{:<12}", point.name);
-    for (const double value : point.at) put(text, "{:>18}", number(value));
-    put(text, "\n");
+    Row& row = rows.emplace_back(Row{point.name});
+    for (const double value : point.at) row.push_back(length(value));
   }
+  return format_rows(heading, rows);
 }
 
-// ---- Plane
-
-/// Of a reaction in the units of the file: couples are in N m.
-std::string unit_of(Quantity quantity, const core::Units& units) {
-  const std::string si = core::unit_of(quantity);
-  return si == "N" ? units.force.name : si;
-}
-
-/// "dx [mm]".
-std::string head(std::string_view name, const std::string& unit) { return fmt::format("{} [{}]", name, unit); }
-
-/// "N 12.5 N, T 0 N m, F 3 N".
-void put_prismatic(std::string& text, const core::JointReaction& reaction, const core::Units& units) {
-  std::vector<std::string> parts;
-  for (const core::ReactionComponent& c : reaction.components)
-    parts.push_back(fmt::format("{} {} {}", core::to_string(c.quantity), number(c.value), unit_of(c.quantity, units)));
-  put(text, "{:<12}      {}\n", reaction.joint, fmt::join(parts, ", "));
-}
-
-void put_reactions(std::string& text, const core::Pose& pose) {
-  const std::string& force = pose.units.force.name;
-  put(text, "\n{:<12}{:>18}{:>18}{:>18}{:>18}\n", "joint", head("fx", force), head("fy", force), head("|f|", force),
-      "M [N m]");
-  for (const core::JointReaction& reaction : pose.reactions) {
-    const core::ReactionComponent *const fx = component(reaction, Quantity::fx), *const fy =
-                                                                                     component(reaction, Quantity::fy);
-    if (fx == nullptr || fy == nullptr) {
-      put_prismatic(text, reaction, pose.units);
+/// Where no joint has the component, or it is 0 in all that have, its column is left out; the latter is said below.
+std::string reactions_table(const core::Pose& pose) {
+  const std::vector<Quantity> shown = {Quantity::fx, Quantity::fy, Quantity::fz, Quantity::f,
+                                       Quantity::mx, Quantity::my, Quantity::mz, Quantity::N,
+                                       Quantity::T,  Quantity::F,  Quantity::M};
+  // Mechanisms are some metres large, so that couples and forces compare.
+  Largest largest;
+  for (const core::JointReaction& reaction : pose.reactions)
+    for (const core::ReactionComponent& part : reaction.components) largest.see(part.value);
+  std::vector<Column> heading = {{"joint"}};
+  std::vector<Row> rows;
+  for (const core::JointReaction& reaction : pose.reactions) rows.push_back({reaction.joint});
+  std::string zeros;
+  for (const Quantity quantity : shown) {
+    const Scale scale{table_unit(core::unit_of(quantity), pose.units), largest.value()};
+    std::vector<std::string> cells;
+    for (const core::JointReaction& reaction : pose.reactions) {
+      const auto size = [&](Quantity of) {
+        const core::ReactionComponent* const own = component(reaction, of);
+        return own == nullptr ? 0 : own->value;
+      };
+      const bool whole = quantity == Quantity::f && component(reaction, Quantity::fx) != nullptr;
+      const core::ReactionComponent* const own = component(reaction, quantity);
+      cells.push_back(whole            ? scale(std::hypot(size(Quantity::fx), size(Quantity::fy), size(Quantity::fz)))
+                      : own == nullptr ? std::string()
+                                       : scale(own->value));
+    }
+    const auto has_none = [](const std::string& cell) { return cell.empty(); };
+    if (std::all_of(cells.begin(), cells.end(), has_none)) continue;
+    const auto is_zero = [](const std::string& cell) { return cell.empty() || cell == "0"; };
+    if (std::all_of(cells.begin(), cells.end(), is_zero)) {
+      zeros += (zeros.empty() ? "" : ", ") + core::to_string(quantity);
       continue;
     }
-    const bool finite = std::isfinite(fx->value) && std::isfinite(fy->value);
-    put(text, "{:<12}{:>18}{:>18}{:>18}{:>18}\n", reaction.joint, number(fx->value), number(fy->value),
-        finite ? number(std::hypot(fx->value, fy->value)) : "unbounded", entry(reaction, Quantity::M));
+    heading.push_back(number_column(scale.head(quantity == Quantity::f ? "|f|" : core::to_string(quantity))));
+    for (std::size_t r = 0; r < rows.size(); ++r) rows[r].push_back(cells[r]);
   }
+  std::string text = format_rows(heading, rows);
+  if (!zeros.empty()) text += zeros + " = 0 in every joint\n";
+  return text;
 }
 
-void put_error(std::string& text, const std::string& what, const std::vector<double>& displacement, double rotation) {
-  put(text, "{:<18}{:>16}{:>18}{:>18}\n", what, number(displacement[0]), number(displacement[1]), number(rotation));
-}
-
-void put_error(std::string& text, const std::string& what, const core::PoseError& error) {
-  put_error(text, what, error.displacement, error.rotation.front());
-}
-
-void put_take_up(std::string& text, const core::JointTakeUp& own, const core::Units& units) {
-  if (!own.displacement.empty()) {
-    put(text, "{:<12}{:>18}{:>18}{:>18}{:>18}\n", own.joint, played(own.displacement[0]), played(own.displacement[1]),
-        played(own.beta), played(own.rotation));
-    return;
-  }
-  std::vector<std::string> parts;
-  const auto add = [&](const char* name, const std::optional<double>& value, const std::string& unit) {
-    if (value) parts.push_back(fmt::format("{} {} {}", name, played(value), unit));
-  };
-  add("normal", own.normal, units.length.name);
-  add("tilt", own.tilt, units.angle.name);
-  add("axial", own.axial, units.length.name);
-  put(text, "{:<12}      {}\n", own.joint, fmt::join(parts, ", "));
-}
-
-/// What the errors are relative to, where it is not the ground.
-void put_base(std::string& text, const core::Pose& pose) {
-  if (!pose.relative_to.empty()) put(text, "relative to link {}\n", pose.relative_to);
-}
-
-void put_accuracy(std::string& text, const core::Pose& pose) {
-  if (pose.take_up.empty()) return;
-  const std::string &length = pose.units.length.name, &angle = pose.units.angle.name;
-  put(text, "\n{:<12}{:>18}{:>18}{:>18}{:>18}\n", "take-up", head("dx", length), head("dy", length),
-      head("beta", angle), head("dtheta", angle));
-  for (const core::JointTakeUp& own : pose.take_up) put_take_up(text, own, pose.units);
-  put(text, "\n{:<18}{:>16}{:>18}{:>18}\n", "pose error", head("dx", length), head("dy", length),
-      head("dalpha", angle));
-  put_base(text, pose);
-  if (pose.error)
-    put_error(text, "linear", *pose.error);
-  else
-    put(text, "undefined: {}\n", undefined_words(pose));
-  if (pose.actual) {
-    put_error(text, "iterated", pose.actual->error);
-    put_error(text, "  difference", pose.actual->beyond_linear);
-    put(text, "  {} iterations, closure within {:.2g}\n", pose.actual->iterations, pose.actual->residual);
-  }
-  put_error(text, "worst, any load", pose.worst.displacement, pose.worst.rotation.front());
-  put(text, "{:<18}{:>16}  largest distance\n", "", number(pose.worst.distance));
-}
-
-// ---- Space
-
-void put_space_reactions(std::string& text, const core::Pose& pose) {
-  const std::string& force = pose.units.force.name;
-  put(text, "\n{:<12}{:>16}{:>16}{:>16}{:>16}{:>16}{:>16}  actuator\n", "joint", head("fx", force), head("fy", force),
-      head("fz", force), "mx [N m]", "my [N m]", "mz [N m]");
-  for (const core::JointReaction& reaction : pose.reactions) {
-    put(text, "{:<12}", reaction.joint);
-    for (const Quantity q : {Quantity::fx, Quantity::fy, Quantity::fz, Quantity::mx, Quantity::my, Quantity::mz})
-      put(text, "{:>16}", entry(reaction, q));
-    for (const Quantity q : {Quantity::F, Quantity::M})
-      if (const core::ReactionComponent* const own = component(reaction, q))
-        put(text, "  {} {} {}", core::to_string(q), number(own->value), unit_of(q, pose.units));
-    put(text, "\n");
-  }
-}
-
-void put_space_error(std::string& text, const char* what, const std::vector<double>& displacement,
-                     const std::vector<double>& rotation) {
-  put(text, "{:<18}", what);
-  for (const std::vector<double>* const part : {&displacement, &rotation})
-    for (const double value : *part) put(text, "{:>16}", number(value));
-  put(text, "\n");
-}
-
-void put_space_accuracy(std::string& text, const core::Pose& pose) {
-  if (pose.take_up.empty()) return;
-  const std::string &length = pose.units.length.name, &angle = pose.units.angle.name;
-  put(text, "\n{:<12}{:>18}{:>18}{:>18}  actuator\n", "take-up", head("dx", length), head("dy", length),
-      head("dz", length));
+std::string take_up_table(const core::Pose& pose) {
+  Largest lengths, angles;
   for (const core::JointTakeUp& own : pose.take_up) {
-    put(text, "{:<12}", own.joint);
-    for (std::size_t c = 0; c < 3; ++c)
-      put(text, "{:>18}", own.displacement.empty() ? std::string() : played(own.displacement[c]));
-    const auto add = [&](const char* name, const std::optional<double>& value, const std::string& unit) {
-      if (value) put(text, "  {} {}{}", name, played(value), std::isnan(*value) ? "" : " " + unit);
-    };
-    add("axial", own.axial, length);
-    add("dtheta", own.rotation, angle);
-    put(text, "\n");
+    lengths.see(own.displacement);
+    lengths.see(own.normal);
+    lengths.see(own.axial);
+    angles.see(own.tilt);
+    angles.see(own.rotation);
   }
-  put(text, "\n{:<18}{:>16}{:>16}{:>16}{:>16}{:>16}{:>16}\n", "pose error", head("dx", length), head("dy", length),
-      head("dz", length), head("dalpha_x", angle), head("dalpha_y", angle), head("dalpha_z", angle));
-  put_base(text, pose);
-  if (pose.error)
-    put_space_error(text, "linear", pose.error->displacement, pose.error->rotation);
-  else
-    put(text, "undefined: {}\n", undefined_words(pose));
-  if (pose.actual) {
-    put_space_error(text, "iterated", pose.actual->error.displacement, pose.actual->error.rotation);
-    put_space_error(text, "  difference", pose.actual->beyond_linear.displacement, pose.actual->beyond_linear.rotation);
-    put(text, "  {} iterations, closure within {:.2g}\n", pose.actual->iterations, pose.actual->residual);
+  const Scale length{table_unit("m", pose.units, lengths.value()), lengths.value()};
+  const Scale angle{table_unit("rad", pose.units), angles.value()}, direction{table_unit("rad", pose.units), 1};
+  std::vector<Column> heading = {{"take-up"}};
+  for (std::size_t c = 0; c < pose.worst.displacement.size(); ++c)
+    heading.push_back(number_column(length.head("d" + std::string(axes.substr(c, 1)))));
+  for (const auto& [name, scale] :
+       {std::pair("beta", &direction), std::pair("normal", &length), std::pair("tilt", &angle),
+        std::pair("axial", &length), std::pair("dtheta", &angle)})
+    heading.push_back(number_column(scale->head(name)));
+  std::vector<Row> rows;
+  for (const core::JointTakeUp& own : pose.take_up) {
+    Row& row = rows.emplace_back(Row{own.joint});
+    for (std::size_t c = 0; c < pose.worst.displacement.size(); ++c)
+      row.push_back(own.displacement.empty() ? std::string() : length.played(own.displacement[c]));
+    row.insert(row.end(), {direction.played(own.beta), length.played(own.normal), angle.played(own.tilt),
+                           length.played(own.axial), angle.played(own.rotation)});
   }
-  put_space_error(text, "worst, any load", pose.worst.displacement, pose.worst.rotation);
-  put(text, "{:<18}{:>16} {} largest distance, {} {} largest rotation\n", "", number(pose.worst.distance), length,
-      number(pose.worst.angle), angle);
+  return format_filled_columns(heading, rows);
 }
 
-/// Components that are rounding beside the largest reaction are shown as 0; mechanisms are some metres large, so that
-/// couples and forces compare.
-void drop_rounding(core::Pose& pose) {
-  constexpr double rounding = 1e-13;
-  double largest = 0;
-  for (const core::JointReaction& reaction : pose.reactions)
-    for (const core::ReactionComponent& part : reaction.components)
-      if (std::isfinite(part.value)) largest = std::max(largest, std::abs(part.value));
-  for (core::JointReaction& reaction : pose.reactions)
-    for (core::ReactionComponent& part : reaction.components)
-      if (std::abs(part.value) <= rounding * largest) part.value = 0;
+/// The error, that beyond the linear step and the worst case, each a row.
+std::string error_table(const core::Pose& pose) {
+  const bool space = pose.worst.displacement.size() == 3;
+  Largest lengths, angles;
+  const auto see = [&](const core::PoseError& error) {
+    lengths.see(error.displacement);
+    angles.see(error.rotation);
+  };
+  if (pose.error) see(*pose.error);
+  if (pose.actual) see(pose.actual->error);
+  see({pose.worst.displacement, pose.worst.rotation});
+  lengths.see(pose.worst.distance);
+  const Scale length{table_unit("m", pose.units, lengths.value()), lengths.value()};
+  const Scale angle{table_unit("rad", pose.units), angles.value()};
+  std::vector<Column> heading = {
+      {"pose error" + (pose.relative_to.empty() ? "" : " relative to link " + pose.relative_to)}};
+  for (std::size_t c = 0; c < pose.worst.displacement.size(); ++c)
+    heading.push_back(number_column(length.head("d" + std::string(axes.substr(c, 1)))));
+  for (std::size_t c = 0; c < pose.worst.rotation.size(); ++c)
+    heading.push_back(number_column(angle.head(space ? "dalpha_" + std::string(axes.substr(c, 1)) : "dalpha")));
+  heading.push_back(number_column(length.head("distance")));
+  if (space) heading.push_back(number_column(angle.head("rotation")));
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& what, const core::PoseError& error, double distance, double turn) {
+    Row& row = rows.emplace_back(Row{what});
+    for (const double value : error.displacement) row.push_back(length(value));
+    for (const double value : error.rotation) row.push_back(angle(value));
+    row.push_back(length(distance));
+    if (space) row.push_back(angle(turn));
+  };
+  const auto size = [](const std::vector<double>& parts) {
+    return parts.size() == 3 ? std::hypot(parts[0], parts[1], parts[2]) : std::hypot(parts[0], parts[1]);
+  };
+  const auto turned = [](const std::vector<double>& parts) {
+    return parts.size() == 3 ? std::hypot(parts[0], parts[1], parts[2]) : std::abs(parts[0]);
+  };
+  if (pose.error) add("linear", *pose.error, size(pose.error->displacement), turned(pose.error->rotation));
+  if (pose.actual) {
+    const core::PoseError &actual = pose.actual->error, &beyond = pose.actual->beyond_linear;
+    add("iterated", actual, size(actual.displacement), turned(actual.rotation));
+    add("  difference", beyond, size(beyond.displacement), turned(beyond.rotation));
+  }
+  add("worst, any load", {pose.worst.displacement, pose.worst.rotation}, pose.worst.distance, pose.worst.angle);
+  std::string text = format_rows(heading, rows);
+  if (!pose.error) text += "undefined under the load: " + undefined_words(pose) + "\n";
+  if (pose.actual)
+    put(text, "iterated {} times, closure within {} m\n", pose.actual->iterations,
+        engineering(pose.actual->residual, 2));
+  return text;
 }
 
 }  // namespace
 
-std::string pose_text(const core::Pose& in_si) {
-  core::Pose pose = in_file_units(in_si);
-  drop_rounding(pose);
-  const bool space = pose.worst.displacement.size() == 3;
-  const double length = pose.units.declared ? 1 / pose.units.length.size : 1;
-  constexpr double degrees = 180 / std::numbers::pi;
-  std::vector<std::string> values;
-  for (std::size_t c = 0; c < pose.at.size(); ++c) {
-    const bool angle = c < pose.angles.size() && pose.angles[c];
-    values.push_back(number(pose.at[c] * (angle ? degrees : length)) + (angle ? " deg" : ""));
-  }
+std::string pose_text(const core::Pose& pose) {
   std::string text;
-  put_head(text, pose, fmt::format("{}", fmt::join(values, ", ")));
-  space ? put_space_reactions(text, pose) : put_reactions(text, pose);
-  put(text, "\n|A| = {}, condition number {}\n", number(pose.determinant), number(pose.condition));
-  space ? put_space_accuracy(text, pose) : put_accuracy(text, pose);
+  put_head(text, pose);
+  text += points_table(pose) + "\n" + reactions_table(pose);
+  put(text, "\n|A| = {}, condition number {}\n", engineering(pose.determinant, size_digits),
+      std::isfinite(pose.condition) ? engineering(pose.condition, few_digits) : "unbounded");
+  if (!pose.take_up.empty()) text += "\n" + take_up_table(pose) + "\n" + error_table(pose);
   for (const std::string& note : pose.notes) put(text, "{}\n", note);
   return text;
 }

@@ -55,51 +55,30 @@ std::string open_words(core::OpenTask::Reason reason) {
   return "cells stay open however small they are cut";
 }
 
-std::string unit_of(const core::Vanishing& reaction) {
-  return reaction.quantity == core::Quantity::M || reaction.quantity == core::Quantity::T ? "N m" : "N";
-}
-
-std::string witness_words(const core::PoseTaskWitness& witness) {
-  std::string words;
-  switch (witness.kind) {
-    case Kind::unreachable:
-      words = "the mechanism does not reach it";
-      break;
-    case Kind::boundary:
-      words = "the boundary of the workspace passes here";
-      break;
-    case Kind::singular:
-      words = "|A| vanishes: a direct singularity";
-      break;
-    case Kind::vanishing:
-      words = reaction_names(witness.reactions) + (witness.reactions.size() > 1 ? " vanish" : " vanishes");
-      break;
-    case Kind::too_small:
-      words = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(witness.reactions.front()), *witness.size,
-                          unit_of(witness.reactions.front()), core::to_string(*witness.least));
-      break;
-    case Kind::displaced:  // not asked for over poses in space
-      break;
-  }
-  if (!witness.load.empty()) {
-    words += " under the load (";
-    for (std::size_t c = 0; c < witness.load.size(); ++c)
-      words += fmt::format("{}{:.9g}", c == 0 ? "" : ", ", witness.load[c]);
-    words += ") N";
-  }
-  if (witness.distance > 1e-12) words += fmt::format("; {:.6g} from the task, within its margin", witness.distance);
-  return words;
-}
-
 class Words {
  public:
-  explicit Words(const core::PoseVerification& result) : result_(result) {}
+  Words(const core::PoseVerification& result, const core::Units& units) : result_(result), units_(units) {}
 
   std::string length(double metres) const {
-    const ShownUnit unit = shown_unit("m", result_.units);
-    return fmt::format("{:.6g} {}", metres * unit.per_si, unit.name);
+    const ShownUnit unit = shown_unit("m", units_);
+    return engineering(metres * unit.per_si, size_digits) + " " + unit.name;
   }
-  static std::string angle(double radians) { return fmt::format("{:.6g} deg", radians * 180 / std::numbers::pi); }
+  static std::string angle(double radians) {
+    return engineering(radians * 180 / std::numbers::pi, size_digits) + " deg";
+  }
+
+  /// "5 N", "2 N m".
+  std::string effort(const core::Vanishing& reaction, double value) const {
+    const ShownUnit unit = shown_unit(core::unit_of(reaction.quantity), units_);
+    return engineering(value * unit.per_si, size_digits) + " " + unit.name;
+  }
+  std::string force(const std::vector<double>& parts) const {
+    const ShownUnit unit = shown_unit("N", units_);
+    std::string words;
+    for (const double part : parts)
+      words += (words.empty() ? "(" : ", ") + engineering(part * unit.per_si, place_digits);
+    return words + ") " + unit.name;
+  }
 
   /// "x = 0.1 m, alpha = 5 deg".
   std::string pose(const std::vector<double>& at) const {
@@ -118,7 +97,37 @@ class Words {
 
  private:
   const core::PoseVerification& result_;
+  const core::Units& units_;
 };
+
+std::string witness_words(const core::PoseTaskWitness& witness, const Words& shown) {
+  std::string words;
+  switch (witness.kind) {
+    case Kind::unreachable:
+      words = witness.limit.empty() ? "the mechanism does not reach it" : "beyond the limit of the " + witness.limit;
+      break;
+    case Kind::boundary:
+      words = witness.limit.empty() ? "the boundary of the workspace passes here"
+                                    : "the limit of the " + witness.limit + " passes here";
+      break;
+    case Kind::singular:
+      words = "|A| vanishes: a direct singularity";
+      break;
+    case Kind::vanishing:
+      words = reaction_names(witness.reactions) + (witness.reactions.size() > 1 ? " vanish" : " vanishes");
+      break;
+    case Kind::too_small:
+      words = fmt::format("|{}| is {}, less than {}", reaction_name(witness.reactions.front()),
+                          shown.effort(witness.reactions.front(), *witness.size),
+                          shown.effort(witness.reactions.front(), core::to_double(*witness.least)));
+      break;
+    case Kind::displaced:  // not asked for over poses in space
+      break;
+  }
+  if (!witness.load.empty()) words += " under the load " + shown.force(witness.load);
+  if (witness.distance > 1e-12) words += "; " + shown.distance(witness.distance) + " from the task, within its margin";
+  return words;
+}
 
 }  // namespace
 
@@ -156,15 +165,17 @@ Json pose_verification_object(const core::PoseVerification& result) {
                        {"distance", result.nearest->distance}};
   }
   if (result.witness) {
+    const core::Units si;
     const core::PoseTaskWitness& witness = *result.witness;
     const bool small = witness.kind == Kind::too_small;
     root["witness"] = {{"at", witness.at},
                        {"load", witness.load.empty() ? Json(nullptr) : Json(witness.load)},
                        {"distance", witness.distance},
-                       {"reason", witness_words(witness)},
+                       {"reason", witness_words(witness, {result, si})},
                        {"vanishing", small ? Json::array() : vanishing_array(witness.reactions)},
                        {"too_small", small ? vanishing_array(witness.reactions) : Json::array()},
                        {"size", number(witness.size)}};
+    if (!witness.limit.empty()) root["witness"]["limit"] = witness.limit;
   }
   if (result.open)
     root["open"] = {{"lower", result.open->lower},
@@ -184,7 +195,7 @@ Json pose_verification_object(const core::PoseVerification& result) {
 }
 
 std::string pose_verification_text(const core::PoseVerification& result) {
-  const Words words(result);
+  const Words words(result, result.units);
   std::string text = fmt::format("{}: {} over", printable(result.mechanism), core::kind_of(result.task.shape));
   for (std::size_t c = 0; c < result.coordinates.size(); ++c)
     text += fmt::format("{} {}", c == 0 ? "" : ",", result.coordinates[c]);
@@ -195,14 +206,14 @@ std::string pose_verification_text(const core::PoseVerification& result) {
   const auto put = [&](const char* head, const std::string& fact) { text += fmt::format("{:<14}{}\n", head, fact); };
   text += std::string(verdict_line(result.verdict)) + "\n";
   if (result.by) put("moved by", words.pose(*result.by));
-  if (result.scale) put("scaled by", fmt::format("{:.6g}", *result.scale));
+  if (result.scale) put("scaled by", engineering(*result.scale, size_digits));
   if (result.verified()) {
     const bool apart = result.margin && result.angle_margin;
     if (result.margin)
       put("margin", fmt::format("at least {}, proven{}", words.length(*result.margin),
                                 apart ? ", with the angles of the task"
                                 : result.task.angle_length
-                                    ? fmt::format(", {:.6g} m a radian", core::to_double(*result.task.angle_length))
+                                    ? ", " + words.length(core::to_double(*result.task.angle_length)) + " a radian"
                                     : ""));
     if (result.angle_margin)
       put("margin", fmt::format("at least {}, proven{}", Words::angle(*result.angle_margin),
@@ -216,15 +227,14 @@ std::string pose_verification_text(const core::PoseVerification& result) {
                         ? fmt::format("found {} away", words.distance(result.nearest->distance))
                         : "in the task"));
   if (result.witness)
-    put("witness", fmt::format("{}: {}", words.pose(result.witness->at), witness_words(*result.witness)));
+    put("witness", fmt::format("{}: {}", words.pose(result.witness->at), witness_words(*result.witness, words)));
   if (result.open)
     put("open", fmt::format("{} cell{} from ({}) to ({}): {}; the rest is proven", result.open->cells,
                             result.open->cells == 1 ? "" : "s", words.pose(result.open->lower),
                             words.pose(result.open->upper), open_words(result.open->reason)));
   for (const core::LeastReaction& own : result.least)
-    put("least",
-        fmt::format("|{}| at least {:.6g} {} over the task, proven; {:.6g} {} met", reaction_name(own.reaction),
-                    own.proven, unit_of(own.reaction), own.met, unit_of(own.reaction)));
+    put("least", fmt::format("|{}| at least {} over the task, proven; {} met", reaction_name(own.reaction),
+                             words.effort(own.reaction, own.proven), words.effort(own.reaction, own.met)));
   for (const std::string& note : told_once(result.notes)) text += printable(note) + "\n";
   return text;
 }

@@ -11,6 +11,7 @@
 #include "report/axis.hpp"
 #include "report/file_units.hpp"
 #include "report/mechanism_drawing.hpp"
+#include "report/page_head.hpp"
 #include "report/pose_zones.hpp"
 #include "report/surface.hpp"
 #include "report/theme.hpp"
@@ -23,8 +24,8 @@ namespace {
 
 using Context = Cairo::RefPtr<Cairo::Context>;
 
-constexpr double margin = 16, gap = 46, legend_width = 190, line_height = 11;  // pt
-constexpr Font title_font{13, true}, text_font{9.5}, small_font{8.5}, number_font{9, true};
+constexpr double gap = 46, legend_width = 190;  // pt
+constexpr Font number_font{9, true};
 constexpr Colour doubtful{0.45, 0.45, 0.45};
 constexpr std::size_t layers_drawn = 6, columns_of_layers = 3;
 /// A zone gets its number where a square of it is at least this wide, pt; on a strip counts the width alone.
@@ -198,7 +199,7 @@ struct LegendRow {
 std::vector<LegendRow> legend_of(const core::PoseZones& map) {
   std::vector<LegendRow> rows;
   const auto add = [&](const Colour& colour, const std::string& text) {
-    rows.push_back({colour, wrap(text, legend_width - 16, measure_in(small_font))});
+    rows.push_back({colour, wrap(text, legend_width - 16, measure_in(legend_font))});
   };
   constexpr std::size_t most = 24;
   for (std::size_t z = 0; z < map.zones.size() && z < most; ++z) {
@@ -227,33 +228,32 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
   const double width = many ? 190 : 420, height = !y ? 40 : many ? 190 : 420;
   const std::size_t columns = std::min(columns_of_layers, layers.size());
   const std::size_t rows = (layers.size() + columns - 1) / columns;
-  const double head = margin + 44, left = margin + 36;
+  const double left = page_margin + 36;
   const double legend_x = left + static_cast<double>(columns) * (width + gap) - gap + 24;
   const std::vector<LegendRow> legend = legend_of(map);
   std::vector<std::string> ends;
   if (!y)
     for (const std::string& words : zone_end_lines(map))
-      for (const std::string& line : wrap(printable(words), width + legend_width, measure_in(small_font)))
+      for (const std::string& line : wrap(printable(words), width + legend_width, measure_in(legend_font)))
         ends.push_back(line);
-  double legend_height = 0;
-  for (const LegendRow& row : legend) legend_height += line_height * static_cast<double>(row.lines.size()) + 4;
-  const double below = head + static_cast<double>(rows) * (height + gap);
-  const double bottom = std::max(below + line_height * static_cast<double>(ends.size()), head + legend_height);
-  std::string mode, description;
+  std::string mode;
   for (const auto& [point, side] : map.working_mode) mode += (mode.empty() ? "" : ", ") + point + " " + side;
+  const double page_width = legend_x + legend_width + page_margin;
+  const PageHead page = page_head(map.mechanism, "Discontinuity-free zones" + (mode.empty() ? "" : "; " + mode), left,
+                                  page_width - left - page_margin);
+  const double head = page.bottom + (y ? 12 : 0);  // above the layers stand the names of their upright axes
+  double legend_height = 0;
+  for (const LegendRow& row : legend) legend_height += legend_line_height * static_cast<double>(row.lines.size()) + 4;
+  const double below = head + static_cast<double>(rows) * (height + gap);
+  const double bottom = std::max(below + legend_line_height * static_cast<double>(ends.size()), head + legend_height);
+  std::string description;
   for (const LegendRow& row : legend)
     for (const std::string& line : row.lines) description += line + "\n";
   for (const std::string& line : ends) description += line + "\n";
   const std::string title = printable(map.mechanism);
 
   const auto draw = [&](const Context& context) {
-    context->set_source_rgb(1, 1, 1);
-    context->paint();
-    set_colour(context, light_theme.ink);
-    write_text(context, title, margin, margin + 10, title_font);
-    set_colour(context, light_theme.faded_ink);
-    write_text(context, "Discontinuity-free zones" + (mode.empty() ? "" : "; " + printable(mode)), margin, margin + 24,
-               text_font);
+    draw_page_head(context, page);
     for (std::size_t k = 0; k < layers.size(); ++k) {
       const std::size_t row = k / columns;
       const Box box{left + static_cast<double>(k % columns) * (width + gap),
@@ -262,13 +262,13 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
       if (!y) draw_ends(context, map, box);
       draw_axes(context, box, x, y ? &*y : nullptr);
       set_colour(context, light_theme.ink);
-      write_text(context, layers[k].title, box.x + 0.5 * box.width, box.y - 5, small_font, Align::centre);
+      write_text(context, layers[k].title, box.x + 0.5 * box.width, box.y - 5, legend_font, Align::centre);
     }
     double end_at = below;
     set_colour(context, light_theme.ink);
     for (const std::string& line : ends) {
-      write_text(context, line, left, end_at, small_font);
-      end_at += line_height;
+      write_text(context, line, left, end_at, legend_font);
+      end_at += legend_line_height;
     }
     double at = head + 8;
     for (const LegendRow& row : legend) {
@@ -279,13 +279,13 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
       }
       set_colour(context, light_theme.ink);
       for (const std::string& line : row.lines) {
-        write_text(context, line, legend_x + 16, at, small_font);
-        at += line_height;
+        write_text(context, line, legend_x + 16, at, legend_font);
+        at += legend_line_height;
       }
       at += 4;
     }
   };
-  return render({legend_x + legend_width + margin, std::ceil(bottom + margin), title, description}, format, draw);
+  return render({page_width, std::ceil(bottom + page_margin), title, description}, format, draw);
 }
 
 }  // namespace clearloci::report

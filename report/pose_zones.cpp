@@ -52,15 +52,17 @@ Json zone_object(const core::PoseZone& zone) {
           {"perhaps_one_with", zone.perhaps_one_with}};
 }
 
-/// "m rad", "m3": what sizes are in.
-std::string unit_of_size(const core::PoseZones& map) {
+/// Of a zone's size, of as many dimensions as there are coordinates: "mm2 deg".
+ShownUnit unit_of_size(const core::PoseZones& map) {
   const auto angles = std::count(map.angles.begin(), map.angles.end(), true);
   const auto lengths = static_cast<std::ptrdiff_t>(map.angles.size()) - angles;
-  const auto power = [](const std::string& unit, std::ptrdiff_t count) {
-    return count == 0 ? std::string() : count == 1 ? unit : unit + std::to_string(count);
+  const ShownUnit length = table_unit("m", map.units), turn = table_unit("rad", map.units);
+  const auto power = [](const ShownUnit& unit, std::ptrdiff_t count) {
+    return count == 0 ? std::string() : count == 1 ? unit.name : unit.name + std::to_string(count);
   };
-  const std::string m = power("m", lengths), rad = power("rad", angles);
-  return m + (m.empty() || rad.empty() ? "" : " ") + rad;
+  const std::string m = power(length, lengths), rad = power(turn, angles);
+  return {m + (m.empty() || rad.empty() ? "" : " ") + rad,
+          std::pow(length.per_si, static_cast<double>(lengths)) * std::pow(turn.per_si, static_cast<double>(angles))};
 }
 
 std::string bounds_words(const core::PoseZone& zone) {
@@ -86,8 +88,8 @@ class Places {
   explicit Places(const core::PoseZones& map) : map_(map), length_(shown_unit("m", map.units)) {}
 
   std::string value(std::size_t c, double at) const {
-    if (map_.angles[c]) return fmt::format("{:.9g} deg", at * 180 / std::numbers::pi);
-    return fmt::format("{:.9g} {}", at * length_.per_si, length_.name);
+    if (map_.angles[c]) return engineering(at * 180 / std::numbers::pi, place_digits) + " deg";
+    return engineering(at * length_.per_si, place_digits) + " " + length_.name;
   }
   std::string pose(const std::vector<double>& at) const {
     std::string words;
@@ -106,24 +108,29 @@ std::string ball_words(const core::PoseZones& map, const Places& places, const c
   const bool mixed = angles > 0 && angles < static_cast<std::ptrdiff_t>(map.angles.size());
   const ShownUnit length = shown_unit("m", map.units);
   // Where lengths and angles mix, a radian counts as a metre.
-  const std::string radius = mixed        ? fmt::format("{:.4g} (m and rad alike)", ball.radius)
-                             : angles > 0 ? fmt::format("{:.4g} deg", ball.radius * 180 / std::numbers::pi)
-                                          : fmt::format("{:.4g} {}", ball.radius * length.per_si, length.name);
+  const std::string radius = mixed        ? engineering(ball.radius, few_digits) + " (m and rad alike)"
+                             : angles > 0 ? engineering(ball.radius * 180 / std::numbers::pi, few_digits) + " deg"
+                                          : engineering(ball.radius * length.per_si, few_digits) + " " + length.name;
   return fmt::format("      holds a ball of radius {} around {}\n", radius, places.pose(ball.centre));
 }
 
 std::string end_words(const core::PoseZones& map, const Places& places, const core::PoseZoneEnd& end) {
   std::string words = fmt::format("{}: {}{}{}", places.value(0, end.at), kind_words(end.kind),
                                   end.reactions.empty() ? "" : " ", reaction_names(end.reactions));
-  const ShownUnit unit = shown_unit("m", map.units);
   if (end.jump) {
+    double most = 0;
+    for (const double part : end.jump->displacement) most = std::max(most, std::abs(part));
+    const ShownUnit unit = table_unit("m", map.units, most), turn = table_unit("rad", map.units);
     const auto numbers = [](const std::vector<double>& parts, double factor) {
+      double largest = 0;
+      for (const double part : parts) largest = std::max(largest, std::abs(part));
       std::string list;
-      for (const double part : parts) list += fmt::format("{}{:.3g}", list.empty() ? "" : ", ", part * factor);
+      for (const double part : parts)
+        list += (list.empty() ? "" : ", ") + engineering_beside(part * factor, largest * factor, few_digits);
       return parts.size() == 1 ? list : "(" + list + ")";
     };
-    words += fmt::format("; the end effector jumps by {} {} and {} rad", numbers(end.jump->displacement, unit.per_si),
-                         unit.name, numbers(end.jump->rotation, 1));
+    words += fmt::format("; the end effector jumps by {} {} and {} {}", numbers(end.jump->displacement, unit.per_si),
+                         unit.name, numbers(end.jump->rotation, turn.per_si), turn.name);
   }
   return words;
 }
@@ -170,7 +177,8 @@ Json pose_zones_object(const core::PoseZones& map) {
 
 std::string pose_zones_table(const core::PoseZones& map) {
   const Places places(map);
-  const std::string unit = unit_of_size(map);
+  const ShownUnit unit = unit_of_size(map);
+  const auto size = [&](double si) { return engineering(si * unit.per_si, size_digits); };
   std::string mode;
   for (const auto& [point, side] : map.working_mode)
     mode += fmt::format("{}{} {}", mode.empty() ? "" : ", ", point, side);
@@ -188,7 +196,7 @@ std::string pose_zones_table(const core::PoseZones& map) {
     if (line)
       out += fmt::format("      {} to {}\n", places.value(0, zone.lower[0]), places.value(0, zone.upper[0]));
     else
-      out += fmt::format("      {:.6g} to {:.6g} {}; a pose of it: {}\n", zone.at_least, zone.at_most, unit,
+      out += fmt::format("      {} to {} {}; a pose of it: {}\n", size(zone.at_least), size(zone.at_most), unit.name,
                          places.pose(zone.sample));
     if (zone.ball) out += ball_words(map, places, *zone.ball);
     out += fmt::format("      beside it: {}\n", bounds_words(zone));
@@ -200,8 +208,8 @@ std::string pose_zones_table(const core::PoseZones& map) {
     }
   }
   if (map.zones.empty()) out += "no zones: nothing in the box is proven to be free of loci\n";
-  out += fmt::format("\nin doubt {:.6g} {}, out of reach {:.6g} {}; {} cells\n", map.in_doubt, unit, map.outside, unit,
-                     map.cells);
+  out += fmt::format("\nin doubt {} {}, out of reach {} {}; {} cells\n", size(map.in_doubt), unit.name,
+                     size(map.outside), unit.name, map.cells);
   if (!map.complete) out += "the time limit came first\n";
   for (const std::string& note : told_once(map.notes)) out += printable(note) + "\n";
   return out;

@@ -6,6 +6,7 @@
 
 #include "report/axis.hpp"
 #include "report/mechanism_drawing.hpp"
+#include "report/page_head.hpp"
 #include "report/surface.hpp"
 #include "report/typesetting.hpp"
 #include "report/wording.hpp"
@@ -16,11 +17,10 @@ namespace {
 
 using Context = Cairo::RefPtr<Cairo::Context>;
 
-constexpr double page_width = 640, margin = 16, label_width = 190, label_gap = 12;  // pt
-constexpr double line_height = 11, row_padding = 10, axis_height = 44;              // pt
-constexpr double sketch_height = 300;                                               // pt
-constexpr int longest_factor = 40;                                                  // columns
-const Font text_font{9}, small_font{8}, title_font{12, true};
+constexpr double page_width = 640, label_width = 190, label_gap = 12;   // pt
+constexpr double line_height = 11, row_padding = 10, axis_height = 44;  // pt
+constexpr double sketch_height = 300;                                   // pt
+constexpr int longest_factor = 40;                                      // columns
 
 struct Row {
   core::LocusKind kind = core::LocusKind::contact_loss;
@@ -38,7 +38,7 @@ Range range_of(const core::LocusMap& map) {
   const bool angle = !map.angles.empty() && map.angles.front();
   const double factor = angle ? 180 / std::numbers::pi : 1;
   return {core::to_double(map.lower.front()) * factor, core::to_double(map.upper.front()) * factor, factor,
-          printable(map.tower.coordinates.front()) + (angle ? " / deg" : " / " + map.units.length.name)};
+          printable(map.tower.coordinates.front()) + (angle ? " (deg)" : " (" + map.units.length.name + ")")};
 }
 
 std::string words_of(const core::IsolatedPoint& point) {
@@ -57,8 +57,8 @@ std::vector<Row> rows_of(const core::LocusMap& map, const core::WorkingMode& mod
     if (row == rows.end()) {
       Row fresh;
       fresh.kind = point.kind;
-      fresh.lines = wrap(words, label_width, measure_in(text_font));
-      if (reason != words) fresh.reason = wrap(reason, label_width, measure_in(small_font));
+      fresh.lines = wrap(words, label_width, measure_in(legend_font));
+      if (reason != words) fresh.reason = wrap(reason, label_width, measure_in(legend_font));
       row = rows.insert(rows.end(), {words + reason, std::move(fresh)});
     }
     row->second.at.push_back(point.at.front());
@@ -119,8 +119,13 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
                           PictureFormat format) {
   const Range range = range_of(map);
   std::vector<Row> rows = rows_of(map, mode);
-  const double left = margin + label_width + label_gap, right = page_width - margin - 8;
-  const double top = margin + 40;
+  const double left = page_margin + label_width + label_gap, right = page_width - page_margin - 8;
+  const std::string words = mode_words(map.tower, mode);
+  const PageHead head = page_head(
+      map.mechanism,
+      "Discontinuity loci over one coordinate" + (words.empty() ? "" : ": " + words) + "; shaded: within reach",
+      page_margin, page_width - 2 * page_margin);
+  const double top = head.bottom;
   double y = top;
   for (Row& row : rows) {
     row.y = y;
@@ -131,7 +136,6 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
   const auto page = [&](double value) {
     return left + (value - range.from) / (range.to - range.from) * (right - left);
   };
-  const std::string words = printable(mode_words(map.tower, mode));
   const std::string title = printable(map.mechanism);
 
   std::string reasons;
@@ -140,14 +144,7 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
   const double height = bottom + axis_height + (sketch == nullptr ? 0 : sketch_height);
 
   const auto draw = [&](const Context& context) {
-    context->set_source_rgb(1, 1, 1);
-    context->paint();
-    context->set_source_rgb(0, 0, 0);
-    write_text(context, title, margin, margin + 10, title_font);
-    write_text(
-        context,
-        "Discontinuity loci over one coordinate" + (words.empty() ? "" : ": " + words) + "; shaded: within reach",
-        margin, margin + 25, text_font);
+    draw_page_head(context, head);
     context->set_source_rgb(0.93, 0.95, 0.97);
     for (const auto& interval : map.reachable) {
       if (interval.mode != mode) continue;
@@ -158,7 +155,7 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
     context->set_line_width(0.5);
     context->set_source_rgb(0.8, 0.8, 0.8);
     for (const Row& row : rows) {
-      context->move_to(margin, row.y + row.height);
+      context->move_to(page_margin, row.y + row.height);
       context->line_to(right, row.y + row.height);
     }
     context->stroke();
@@ -175,12 +172,12 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
       context->set_source_rgb(0, 0, 0);
       double line = row.y + row_padding / 2 + 8;
       for (const std::string& text : row.lines) {
-        write_text(context, text, margin, line, text_font);
+        write_text(context, text, page_margin, line, legend_font);
         line += line_height;
       }
       context->set_source_rgb(0.42, 0.42, 0.42);
       for (const std::string& text : row.reason) {
-        write_text(context, text, margin, line, small_font);
+        write_text(context, text, page_margin, line, legend_font);
         line += line_height;
       }
       set_colour(context, row.kind);
@@ -199,11 +196,12 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
     }
     context->stroke();
     for (const Tick& tick : marks)
-      write_text(context, tick.label, page(tick.at), bottom + 15, small_font, Align::centre);
-    write_text(context, range.label, (left + right) / 2, bottom + 30, text_font, Align::centre);
+      write_text(context, tick.label, page(tick.at), bottom + 15, tick_font, Align::centre);
+    write_text(context, range.label, (left + right) / 2, bottom + 30, label_font, Align::centre);
     if (sketch == nullptr) return;
-    write_text(context, sample_posture_words, margin, bottom + axis_height + 12, text_font);
-    draw_alone(context, {margin, bottom + axis_height + 16, right - margin, sketch_height - 16}, *sketch, reasons);
+    write_text(context, sample_posture_words, page_margin, bottom + axis_height + 12, legend_font);
+    draw_alone(context, {page_margin, bottom + axis_height + 16, right - page_margin, sketch_height - 16}, *sketch,
+               reasons);
   };
   std::string description;
   for (const Row& row : rows)

@@ -8,6 +8,7 @@
 
 #include "report/axis.hpp"
 #include "report/mechanism_drawing.hpp"
+#include "report/page_head.hpp"
 #include "report/surface.hpp"
 #include "report/surface_groups.hpp"
 #include "report/view.hpp"
@@ -20,14 +21,13 @@ using Context = Cairo::RefPtr<Cairo::Context>;
 using core::Point2;
 using core::Point3;
 
-constexpr double page_margin = 14, view_side = 318, view_gap = 14;  // pt
-constexpr double label_room = 62, side_room = 66;                   // around the box of a view
+constexpr double view_side = 318, view_gap = 14;   // pt
+constexpr double label_room = 62, side_room = 66;  // around the box of a view
 constexpr double sample_width = 26, sample_gap = 8, line_height = 11.5, entry_gap = 5;
 constexpr double sketch_height = 300;
 constexpr double pixels_per_point = 2;
 constexpr double elevation = 0.4;  // rad
 constexpr std::array<double, 2> azimuths = {-1.05, 0.52};
-constexpr Font title_font{13, true}, subtitle_font{9.5};
 constexpr Colour ink = light_theme.ink, grey{0.42, 0.42, 0.42};
 
 void set_ink(const Context& context, const Colour& colour, double opacity = 1) {
@@ -403,14 +403,13 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
                           PictureFormat format) {
   const std::vector<SurfaceGroup> all = group_surfaces(map), groups = groups_of_mode(all, mode);
   const std::vector<LineGroup> lines = lines_of_mode(group_lines(map, all), mode);
-  const std::string words = printable(mode_words(map.tower, mode));
-  const std::string parameters = printable(parameter_words(map));
+  const std::string words = mode_words(map.tower, mode), parameters = parameter_words(map);
   const std::string title = printable(map.mechanism);
   const std::string subtitle = "Discontinuity loci seen from two sides" + (words.empty() ? "" : "; " + words) +
                                (parameters.empty() ? "" : "; " + parameters);
   const double width = 2 * page_margin + 2 * view_side + view_gap;
-  const std::vector<std::string> under_title = wrap(subtitle, width - 2 * page_margin, measure_in(subtitle_font));
-  const double top = page_margin + 18 + 12 * static_cast<double>(under_title.size());
+  const PageHead head = page_head(map.mechanism, subtitle, page_margin, width - 2 * page_margin);
+  const double top = head.bottom;
   std::vector<Entry> entries = legend_of(map, groups, lines);
   const std::vector<PlacedView> views = placed_views(map, top);
   const double bottom = place_legend(entries, top + views.front().height + 8);
@@ -420,15 +419,7 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
   const double height = bottom + (sketch == nullptr ? 0 : sketch_height) + page_margin;
 
   const auto draw = [&](const Context& context) {
-    context->set_source_rgb(1, 1, 1);
-    context->paint();
-    set_ink(context, ink);
-    write_text(context, title, page_margin, page_margin + 11, title_font);
-    double baseline = page_margin + 26;
-    for (const std::string& line : under_title) {
-      write_text(context, line, page_margin, baseline, subtitle_font);
-      baseline += 12;
-    }
+    draw_page_head(context, head);
     for (const PlacedView& placed : views) {
       draw_box(context, map, placed.view, true);
       draw_surfaces(context, map, placed, groups);

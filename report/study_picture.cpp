@@ -3,6 +3,7 @@
 
 #include "report/axis.hpp"
 #include "report/mechanism_drawing.hpp"
+#include "report/page_head.hpp"
 #include "report/study.hpp"
 #include "report/study_words.hpp"
 #include "report/surface.hpp"
@@ -18,8 +19,7 @@ using Context = Cairo::RefPtr<Cairo::Context>;
 using Status = StudyDesign::Status;
 
 constexpr Colour ink{0.13, 0.13, 0.13}, frame_colour{0.45, 0.45, 0.45}, plain{0.0, 0.5, 0.35};
-constexpr Font title_font{13, true, false}, subtitle_font{9.5, false, false}, legend_font{8.5, false, false};
-constexpr double margin = 12, head = 40, legend_width = 170, gap = 16;
+constexpr double legend_width = 170, gap = 16;
 /// Neighbours share their edges: softened, they would let the paper through.
 constexpr double overlap = 0.35;
 /// Feasible designs have the strong colours; reasons take pale ones in turn.
@@ -67,33 +67,29 @@ class StudyDrawing {
         if (own.status == Status::feasible && own.figures.front() > top_) top_ = own.figures.front();
       top_ *= 1.06;  // room for the mark of the best
     }
+    head_ = page_head(title(), subtitle(), page_margin + 60, plots() + gap + legend_width);
   }
 
   Page page() const {
-    const double plots = static_cast<double>(panels_) * (side_ + (panels_ > 1 ? 8 : 0));
-    const double down = panels_ == 1 ? height() : plots;
+    const double down = panels_ == 1 ? height() : plots();
     std::string description = "Designs of a study";
     for (const std::string& reason : reasons_) description += "\n" + printable(reason);
-    return {margin + 60 + plots + gap + legend_width + margin, margin + head + std::max(down, 150.0) + 46, title(),
-            description};
+    return {page_margin + 60 + plots() + gap + legend_width + page_margin, head_.bottom + std::max(down, 150.0) + 46,
+            title(), description};
   }
 
   void draw(const Context& context) const {
     const Page own = page();
-    set_colour(context, {1, 1, 1});
-    context->rectangle(0, 0, own.width, own.height);
-    context->fill();
-    set_colour(context, ink);
-    write_text(context, title(), margin + 60, margin + 13, title_font);
-    write_text(context, subtitle(), margin + 60, margin + 28, subtitle_font);
+    draw_page_head(context, head_);
     const std::size_t n = result_.parameters.size();
     for (std::size_t row = 0; row < panels_; ++row)
       for (std::size_t column = 0; column <= (n < 2 ? 0 : row); ++column)
         draw_panel(context, column, n < 2 ? std::optional<std::size_t>() : row + 1, row, column);
-    draw_legend(context, own.width - margin - legend_width, margin + head);
+    draw_legend(context, own.width - page_margin - legend_width, head_.bottom);
   }
 
  private:
+  double plots() const { return static_cast<double>(panels_) * (side_ + (panels_ > 1 ? 8 : 0)); }
   std::string title() const { return printable(result_.mechanism); }
   std::string subtitle() const {
     if (!result_.cells.empty())
@@ -140,7 +136,7 @@ class StudyDrawing {
   void draw_panel(const Context& context, std::size_t x, std::optional<std::size_t> y, std::size_t row,
                   std::size_t column) const {
     const double step = side_ + (panels_ > 1 ? 8 : 0);
-    const Box box{margin + 60 + static_cast<double>(column) * step, margin + head + static_cast<double>(row) * step,
+    const Box box{page_margin + 60 + static_cast<double>(column) * step, head_.bottom + static_cast<double>(row) * step,
                   side_, height()};
     const auto range = [&](std::size_t p) {
       const core::StudyParameter& own = result_.study.vary[p];
@@ -268,7 +264,7 @@ class StudyDrawing {
       write_text(context, tick.label, box.x - 5, box.bottom() - (tick.at - low) / (high - low) * box.height + 3,
                  tick_font, Align::right);
     context->save();
-    context->translate(margin + 12, box.y + box.height / 2);
+    context->translate(page_margin + 12, box.y + box.height / 2);
     context->rotate(-1.57079632679489662);
     write_text(context,
                y ? result_.parameters[*y] + words_of_unit(unit)
@@ -331,6 +327,7 @@ class StudyDrawing {
   std::vector<std::string> reasons_;
   std::vector<std::size_t> order_;
   FieldScale scale_;
+  PageHead head_;
   std::size_t panels_ = 1;
   double side_ = 380;
   double height_ = 0;  ///< of the only panel, where it is not a square

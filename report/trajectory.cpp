@@ -12,6 +12,7 @@
 #include "report/loci_json.hpp"
 #include "report/plot.hpp"
 #include "report/table_json.hpp"
+#include "report/text_table.hpp"
 #include "report/trajectory_plots.hpp"
 #include "report/wording.hpp"
 
@@ -140,19 +141,27 @@ std::string trajectory_text(const core::TrajectoryResult& given) {
   const core::TrajectoryResult result = in_file_units(given);
   const std::string force = shown_unit("N", result.units).name;
   const ShownDistance shown(result.distance_unit);
-  std::string text = fmt::format("{}: {}, {} law, period {:.6g} s, length {:.6g}{}\n\n", result.mechanism,
-                                 result.trajectory, result.law, result.period, shown.scale * result.length, shown.unit);
-  text += fmt::format("{:<6}{:<18}{:>12}{:>12}{:>14}{:>16}  lost last\n", "stage", "from - to", "begins [s]",
-                      "ends [s]", "carried [kg]", "free above [s]");
+  std::string text = fmt::format("{}: {}, {} law, period {} s, length {}{}\n\n", result.mechanism, result.trajectory,
+                                 result.law, engineering(result.period, size_digits),
+                                 engineering(shown.scale * result.length, size_digits), shown.unit);
+  std::vector<Row> stages;
   for (std::size_t k = 0; k < result.stages.size(); ++k) {
     const core::TrajectoryStage& s = result.stages[k];
-    const std::string critical = std::isfinite(s.critical_period) ? fmt::format("{:.6g}", s.critical_period) : "never";
-    text += fmt::format("{:<6}{:<18}{:>12.6g}{:>12.6g}{:>14.6g}{:>16}  {}\n", k + 1, s.from + " - " + s.to, s.begins,
-                        s.ends, s.carried, critical,
-                        s.lost_last ? reaction_name({s.lost_last->joint, s.lost_last->quantity}) +
-                                          fmt::format(" at {:.4g}{}", shown.scale * s.lost_last->distance, shown.unit)
-                                    : "");
+    stages.push_back({std::to_string(k + 1), s.from + " - " + s.to, engineering(s.begins, size_digits),
+                      engineering(s.ends, size_digits), engineering(s.carried, size_digits),
+                      std::isfinite(s.critical_period) ? engineering(s.critical_period, size_digits) : "never",
+                      s.lost_last ? reaction_name({s.lost_last->joint, s.lost_last->quantity}) + " at " +
+                                        engineering(shown.scale * s.lost_last->distance, few_digits) + shown.unit
+                                  : ""});
   }
+  text += format_filled_columns({{"stage"},
+                                 {"from - to"},
+                                 {"begins [s]", 0, Alignment::point},
+                                 {"ends [s]", 0, Alignment::point},
+                                 {"carried [kg]", 0, Alignment::point},
+                                 {"free above [s]", 0, Alignment::point},
+                                 {"lost last"}},
+                                stages);
   text += fmt::format(
       "\ncontact is lost where M, F or an end of a guide passes through 0 or |f| falls to {} {}: {} times\n",
       engineering(result.min_force, 4), force, result.losses.size());
@@ -160,16 +169,24 @@ std::string trajectory_text(const core::TrajectoryResult& given) {
   const std::string heading = shown.unit == " deg" ? "angle [deg]"
                               : shown.unit.empty() ? "distance"
                                                    : "distance [" + shown.unit.substr(1) + "]";
-  const std::string length = shown_unit("m", result.units).name;
-  text +=
-      fmt::format("{:>14}{:>14}{:>8}{:>14}  {:<10}\n", "time [s]", heading, "stage", "jump [" + length + "]", "what");
   double largest = 0;
   for (const core::ContactLoss& loss : result.losses) largest = std::max(largest, loss.displacement);
+  const ShownUnit jump =
+      result.units.declared ? ShownUnit{shown_unit("m", result.units).name, 1} : table_unit("m", result.units, largest);
   constexpr double rounding = 1e-9;  // of the largest jump: what is left of one that moves other links only
+  std::vector<Row> losses;
   for (const core::ContactLoss& loss : result.losses)
-    text += fmt::format("{:>14.9f}{:>14.6f}{:>8}{:>14}  {}\n", loss.time, shown.scale * loss.distance, loss.stage,
-                        loss.displacement <= rounding * largest ? "0" : engineering(loss.displacement, 4),
-                        loss_words(loss, force));
+    losses.push_back(
+        {engineering(loss.time, place_digits), engineering(shown.scale * loss.distance, place_digits),
+         std::to_string(loss.stage),
+         loss.displacement <= rounding * largest ? "0" : engineering(loss.displacement * jump.per_si, few_digits),
+         loss_words(loss, force)});
+  text += format_rows({{"time [s]", 0, Alignment::point},
+                       {heading, 0, Alignment::point},
+                       {"stage", 0, Alignment::right},
+                       {"jump [" + jump.name + "]", 0, Alignment::point},
+                       {"what"}},
+                      losses);
   return text + notes_text(result);
 }
 

@@ -50,7 +50,10 @@ std::string least_force_words(const core::TrajectoryResult& result) {
 /// Stops and contact losses, over time or distance.
 void add_marks(const core::TrajectoryResult& result, Plot& plot, bool over_time) {
   const double scale = over_time ? 1 : shown_scale(result);
-  plot.mark_labels = {"stop", "M = 0: backlash crossed", least_force_words(result), "reaction reversed at once"};
+  std::vector<core::Quantity> zeros;
+  for (const core::ContactLoss& loss : result.losses)
+    if (loss.kind == core::LossKind::zero) zeros.push_back(loss.quantity);
+  plot.mark_labels = {"stop", zero_words(zeros), least_force_words(result), "reaction reversed at once"};
   for (const core::TrajectoryStage& stage : result.stages)
     plot.marks.push_back({scale * (over_time ? stage.ends : stage.stops_at), stop_mark});
   for (const core::ContactLoss& loss : result.losses) {

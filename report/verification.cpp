@@ -84,25 +84,28 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
       words = reaction_names(witness.vanishing) + (witness.vanishing.size() > 1 ? " vanish" : " vanishes");
       break;
     case core::TaskWitness::Kind::too_small:
-      words = fmt::format("|{}| is {:.6g} {}, less than {}", reaction_name(witness.too_small.front()), *witness.size,
-                          unit_of(witness.too_small.front(), units), core::to_string(*witness.least));
+      words = fmt::format("|{}| is {} {}, less than {}", reaction_name(witness.too_small.front()),
+                          engineering(*witness.size, size_digits), unit_of(witness.too_small.front(), units),
+                          core::to_string(*witness.least));
       break;
     case core::TaskWitness::Kind::displaced:
-      words = fmt::format("the clearances displace the end effector by {:.6g} {}, more than {:.6g}", *witness.size,
-                          units.length.name, core::to_double(*witness.most));
+      words = fmt::format("the clearances displace the end effector by {} {}, more than {}",
+                          engineering(*witness.size, size_digits), units.length.name,
+                          engineering(core::to_double(*witness.most), size_digits));
       break;
   }
   if (witness.load)
-    words +=
-        fmt::format(" under the load ({:.9g}, {:.9g}) {}", (*witness.load)[0], (*witness.load)[1], units.force.name);
+    words += fmt::format(" under the load ({}, {}) {}", engineering((*witness.load)[0], place_digits),
+                         engineering((*witness.load)[1], place_digits), units.force.name);
   for (const core::WitnessLoad& own : witness.loads)
-    words += fmt::format(" under ({:.9g}, {:.9g}) N and {:.9g} N m as load {}", own.force[0], own.force[1], own.couple,
-                         own.load + 1);
+    words += fmt::format(" under ({}, {}) N and {} N m as load {}", engineering(own.force[0], place_digits),
+                         engineering(own.force[1], place_digits), engineering(own.couple, place_digits), own.load + 1);
   for (std::size_t i = 0; i < witness.design.size(); ++i)
     words += fmt::format("{}{} = {}", i == 0 ? " of the design " : ", ", witness.design[i].first,
                          exact_number(witness.design[i].second));
   if (witness.distance > rounding_of_distance)
-    words += fmt::format("; {:.6g} {} from the task, within its margin", witness.distance, units.length.name);
+    words += fmt::format("; {} {} from the task, within its margin", engineering(witness.distance, size_digits),
+                         units.length.name);
   return words;
 }
 
@@ -179,8 +182,8 @@ std::string verification_text(const core::Verification& in_si, bool fit) {
   const std::string mode = printable(mode_words(loci.tower, result.mode));
   put("{}\n\n", mode.empty() ? "" : "; " + mode);
   if (result.by)
-    put("moved by      ({:.6f}, {:.6f}) {}\n", core::to_double((*result.by)[0]), core::to_double((*result.by)[1]),
-        unit);
+    put("moved by      ({}, {}) {}\n", engineering(core::to_double((*result.by)[0]), size_digits),
+        engineering(core::to_double((*result.by)[1]), size_digits), unit);
   else if (fit)
     put("No place in the box was found that verifies; where the task lies:\n");
   put("{}\n", verdict_line(result.verdict));
@@ -194,27 +197,30 @@ std::string verification_text(const core::Verification& in_si, bool fit) {
     of += (of.empty() ? "" : ", ") + ("every load within " + many(count, "ball"));
   if (!of.empty()) put("of            {}\n", of);
   if (!result.zone.empty()) put("zone          {}\n", result.zone);
-  if (result.verified()) put("margin        at least {:.6g} {}, proven\n", result.margin, unit);
-  if (result.pose_error) put("pose error    at most {:.6g} {}, proven\n", *result.pose_error, unit);
+  if (result.verified()) put("margin        at least {} {}, proven\n", engineering(result.margin, size_digits), unit);
+  if (result.pose_error)
+    put("pose error    at most {} {}, proven\n", engineering(*result.pose_error, size_digits), unit);
   if (result.nearest) {
     const core::NearestOfTask& nearest = *result.nearest;
-    put("nearest       {}{}{}{} at ({:.6f}, {:.6f}), {}\n", kind_words(nearest.kind),
-        nearest.vanishing.empty() ? "" : " ", reaction_names(nearest.vanishing),
+    put("nearest       {}{}{}{} at ({}, {}), {}\n", kind_words(nearest.kind), nearest.vanishing.empty() ? "" : " ",
+        reaction_names(nearest.vanishing),
         nearest.isolated        ? ", an isolated point"
         : nearest.curve.empty() ? ""
         : nearest.limit.empty() ? " on " + nearest.curve
                                 : ", limit of the " + nearest.limit + ", on " + nearest.curve,
-        nearest.at[0], nearest.at[1],
-        nearest.distance > rounding_of_distance ? fmt::format("{:.6g} {} away", nearest.distance, unit)
-                                                : "in the task");
+        engineering(nearest.at[0], size_digits), engineering(nearest.at[1], size_digits),
+        nearest.distance > rounding_of_distance
+            ? fmt::format("{} {} away", engineering(nearest.distance, size_digits), unit)
+            : "in the task");
   }
   if (result.witness)
-    put("witness       ({:.9f}, {:.9f}): {}\n", result.witness->at[0], result.witness->at[1],
-        witness_words(*result.witness, result.units));
+    put("witness       ({}, {}): {}\n", engineering(result.witness->at[0], place_digits),
+        engineering(result.witness->at[1], place_digits), witness_words(*result.witness, result.units));
   if (result.open)
-    put("open          {} cell{} in [{:.9f}, {:.9f}] x [{:.9f}, {:.9f}]: {}; the rest is proven\n", result.open->cells,
-        result.open->cells == 1 ? "" : "s", result.open->lower[0], result.open->upper[0], result.open->lower[1],
-        result.open->upper[1], open_words(*result.open));
+    put("open          {} cell{} in [{}, {}] x [{}, {}]: {}; the rest is proven\n", result.open->cells,
+        result.open->cells == 1 ? "" : "s", engineering(result.open->lower[0], place_digits),
+        engineering(result.open->upper[0], place_digits), engineering(result.open->lower[1], place_digits),
+        engineering(result.open->upper[1], place_digits), open_words(*result.open));
   for (const std::string& note : told_once(result.notes)) put("{}\n", printable(note));
   return text;
 }

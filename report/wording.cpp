@@ -281,6 +281,24 @@ std::string engineering(double value, int digits) {
   return exponent == 0 ? mantissa : mantissa + "e" + std::to_string(exponent);
 }
 
+std::string engineering_beside(double value, double beside, int digits) {
+  constexpr double rounding = 1e-12;
+  return std::abs(value) <= rounding * beside ? "0" : engineering(value, digits);
+}
+
+std::string zero_words(std::span<const core::Quantity> quantities) {
+  const auto any = [&](auto... wanted) {
+    return std::any_of(quantities.begin(), quantities.end(),
+                       [&](core::Quantity own) { return ((own == wanted) || ...); });
+  };
+  std::vector<std::string> efforts, words;
+  if (any(core::Quantity::M)) efforts.emplace_back("M");
+  if (any(core::Quantity::F)) efforts.emplace_back("F");
+  if (!efforts.empty()) words.push_back(joined(efforts, " or ") + " = 0: backlash crossed");
+  if (any(core::Quantity::end_ahead, core::Quantity::end_behind)) words.emplace_back("an end of a guide lifts");
+  return joined(words, "; ");
+}
+
 std::string force_words(double newtons) {
   constexpr double kilo = 1e4, mega = 1e7;  // from where on the larger unit reads better
   const double size = std::abs(newtons);

@@ -53,9 +53,19 @@ std::vector<core::WorkingMode> modes_of(const core::LocusMap& map);
 /// The shortest decimal of at most `digits` significant digits: "0.785", "1e-05", "-2". No "-0".
 std::string short_number(double value, int digits);
 
+/// Significant digits in texts: of places and loads, which may be typed in again; of sizes; of what needs few.
+inline constexpr int place_digits = 9, size_digits = 6, few_digits = 4;
+
 /// Engineering notation: an exponent that is a multiple of three where the number is not between 0.001 and 1e6:
 /// "12.5e-6", "0.25", "1234.5". No "-0".
 std::string engineering(double value, int digits);
+
+/// Of one of several numbers whose largest is `beside`: "0" for what rounding leaves of it.
+std::string engineering_beside(double value, double beside, int digits);
+
+/// What passes through zero at the marks of a plot: "M = 0: backlash crossed", "M or F = 0: backlash crossed; an end of
+/// a guide lifts".
+std::string zero_words(std::span<const core::Quantity> quantities);
 
 /// "150 N", "20.22 kN".
 std::string force_words(double newtons);

@@ -148,7 +148,7 @@ std::string zones_geojson(const core::ZoneMap& map) {
 
 namespace {
 
-constexpr int area_digits = 7, place_digits = 6;
+constexpr int area_digits = 7;
 
 /// Without those of reactions that no load reaches, which a note tells.
 std::string sign_list(const core::ZoneMap& map, const core::Zone& zone) {
@@ -184,9 +184,9 @@ std::string zones_table(const core::ZoneMap& in_si) {
     for (const core::Zone& zone : map.zones) {
       if (zone.mode != mode) continue;
       total += zone.area;
-      const std::string circle = fmt::format("{} about ({}, {})", engineering(zone.inscribed.radius, place_digits),
-                                             engineering(zone.inscribed.centre[0], place_digits),
-                                             engineering(zone.inscribed.centre[1], place_digits));
+      const std::string circle = fmt::format("{} about ({}, {})", engineering(zone.inscribed.radius, size_digits),
+                                             engineering(zone.inscribed.centre[0], size_digits),
+                                             engineering(zone.inscribed.centre[1], size_digits));
       out += row(zone.id + (zone.certified ? "" : "*"), sign_words(zone.assembly_mode), sign_list(map, zone),
                  engineering(zone.area, area_digits), fmt::format("  {:<36} {}", circle, border_words(map, zone)));
     }

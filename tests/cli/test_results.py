@@ -196,7 +196,7 @@ class PoseError(InOwnFolder):
         self.assertIsNone(pose["pose_error"])
         self.assertIsNotNone(pose["take_up"]["A"]["beta"])
         process = self.run_program("pose", model, "--at", "0,0.06")
-        self.assertIn("undefined: M = 0 at A\n", process.stdout)
+        self.assertIn("undefined under the load: M = 0 at A\n", process.stdout)
         self.assertNotIn("contact is lost", process.stdout)
 
     def test_undefined_on_a_locus(self):
@@ -409,7 +409,7 @@ class Platform(InOwnFolder):
         for key in self.COMPONENTS:
             self.assertLessEqual(abs(pose["pose_error"][key]), pose["worst_case"][key] * (1 + 1e-9))
         text = self.run_program("pose", self.SLICE, "--at", "-0.3,-0.2").stdout
-        self.assertIn("dalpha_z [rad]", text)
+        self.assertIn("dalpha_z [deg]", text)
         self.assertNotIn("-0 ", text)
 
     def test_trajectory(self):

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "report/exports.hpp"
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
+#include "report/pose.hpp"
 #include "report/wording.hpp"
 #include "report/zones.hpp"
 
@@ -43,7 +45,7 @@ TEST(FileUnits, AreThoseOfTablesCsvAndDrawings) {
   const std::string table = loci_table(map);
   EXPECT_TRUE(has(table, "length/mm")) << table;
   EXPECT_TRUE(has(table, "circle centre (250, 0), radius 500")) << table;
-  EXPECT_TRUE(has(table, "500.0000")) << table;
+  EXPECT_TRUE(has(table, "     500\n")) << table;
   EXPECT_TRUE(has(csv(map), "closed,x (mm),y (mm)\n")) << csv(map);
   EXPECT_TRUE(has(csv(map), ",250,500\n")) << csv(map);
   EXPECT_TRUE(has(dxf(map), "$INSUNITS\n 70\n4\n"));
@@ -78,18 +80,46 @@ TEST(FileUnits, LeaveJsonAndFilesWithoutThemInSi) {
   EXPECT_TRUE(has(loci_table(map), "length/m"));
 }
 
-TEST(FileUnits, ScaleThePoseByItsParts) {
+TEST(FileUnits, AreThoseOfAPose) {
   core::Pose pose;
-  pose.units = {true, {"mm", 0.001}, {"deg", std::acos(-1.0) / 180}, {"kN", 1000}, {"kg", 1}};
+  pose.units = {true, {"mm", 0.001}, {"rad", 1}, {"kN", 1000}, {"kg", 1}};
   pose.points = {{"A", {0.25, 0}}};
-  pose.reactions = {{"A", {{core::Quantity::fx, 500}, {core::Quantity::M, 3}}}};
+  pose.reactions = {{"A", {{core::Quantity::fx, 500}, {core::Quantity::fy, 0}, {core::Quantity::M, 3}}}};
   pose.take_up = {{"A", {1e-5, 0}, std::acos(-1.0) / 2, {}, {}, {}, {}}};
-  const core::Pose shown = in_file_units(pose);
-  EXPECT_DOUBLE_EQ(shown.points[0].at[0], 250);
-  EXPECT_DOUBLE_EQ(shown.reactions[0].components[0].value, 0.5);
-  EXPECT_DOUBLE_EQ(shown.reactions[0].components[1].value, 3) << "couples stay in N m";
-  EXPECT_DOUBLE_EQ(shown.take_up[0].displacement[0], 0.01);
-  EXPECT_DOUBLE_EQ(*shown.take_up[0].beta, 90);
+  pose.worst = {{1e-5, 0}, {0}, 1e-5, 0};
+  const std::string text = pose_text(pose);
+  EXPECT_TRUE(has(text, "A         250       0\n")) << text;
+  EXPECT_TRUE(has(text, "|f| [kN]  M [N m]\n")) << text;
+  EXPECT_TRUE(has(text, "fy = 0 in every joint\n")) << text;
+  EXPECT_TRUE(has(text, "beta [deg]")) << "the file says nothing of angles\n" << text;
+  pose.units.angle_declared = true;
+  EXPECT_TRUE(has(pose_text(pose), "beta [rad]"));
+  pose.units = {};
+  EXPECT_TRUE(has(pose_text(pose), "dx [µm]")) << "what reads best where the file says nothing";
+}
+
+TEST(FileUnits, ScaleEveryPartOfASketch) {
+  core::Sketch sketch;
+  sketch.links = {{"rod", {{0.1, 0}}}};
+  sketch.slides = {{{0.1, 0}, {0.2, 0}}};
+  sketch.joints = {{"A", {0.1, 0}}};
+  core::SketchSpring spring;
+  spring.from = {0.1, 0};
+  spring.to = {0.3, 0.2};
+  sketch.springs = {spring};
+  const core::Sketch shown = in_file_units(sketch, {true, {"mm", 0.001}});
+  EXPECT_DOUBLE_EQ(shown.links[0].points[0][0], 100);
+  EXPECT_DOUBLE_EQ(shown.slides[0].to[0], 200);
+  EXPECT_DOUBLE_EQ(shown.joints[0].at[0], 100);
+  EXPECT_DOUBLE_EQ(shown.springs[0].from[0], 100);
+  EXPECT_DOUBLE_EQ(shown.springs[0].to[1], 200);
+}
+
+TEST(FileUnits, TellPlacesWithTheirAngles) {
+  const std::array<double, 2> at = {0.25, std::acos(-1.0) / 6};
+  EXPECT_EQ(place_words(at, {}, {}), "(0.25, 0.523599) m");
+  EXPECT_EQ(place_words(at, {false, true}, {}), "(0.25 m, 30 deg)");
+  EXPECT_EQ(place_words(std::array{0.25, 1e-17}, {}, {true, {"mm", 0.001}}), "(250, 0) mm");
 }
 
 TEST(Wording, IsInEngineeringNotation) {

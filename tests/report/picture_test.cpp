@@ -188,7 +188,7 @@ TEST(Layout, NothingIsClippedAndNothingOverlaps) {
     EXPECT_GE(layout.plot.x, 0);
     EXPECT_LE(layout.plot.right(), layout.width);
     EXPECT_LE(layout.plot.bottom(), layout.height);
-    for (const auto& line : layout.title) {
+    for (const auto& line : layout.head.lines) {
       EXPECT_LE(line.x + text_width(line.text, line.font), layout.width) << line.text;
       EXPECT_LT(line.y, layout.plot.y);
     }

@@ -99,7 +99,7 @@ TEST(PoseZonePicture, OfAnIntervalTellsEachEndOnceWithItsJump) {
   const std::vector<std::string> lines = zone_end_lines(map);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines.front().substr(0, 6), "89.999");
-  EXPECT_TRUE(has(lines.front(), "backlash M_O; the end effector jumps by (1e-05, 0) m and 0 rad"));
+  EXPECT_TRUE(has(lines.front(), "backlash M_O; the end effector jumps by (10, 0) µm and 0 deg"));
   const std::string svg = pose_zone_picture(map, PictureFormat::svg);
   EXPECT_TRUE(has(svg, "backlash M_O; the end effector jumps"));
 }

@@ -2,7 +2,9 @@
 // uses.
 #include <gtest/gtest.h>
 
+#include "report/label_places.hpp"
 #include "report/layout.hpp"
+#include "report/page_head.hpp"
 #include "report/picture.hpp"
 #include "tests/report/five_bar_map.hpp"
 
@@ -40,6 +42,32 @@ core::LocusMap over_an_angle(const std::string& cause) {
 
 std::string drawn(const core::LocusMap& map, const core::Sketch* sketch) {
   return picture(map, {}, sketch, PictureFormat::svg, true);
+}
+
+TEST(LabelPlaces, CoverNeitherWhatIsDrawnNorOneAnother) {
+  LabelPlaces labels({0, 0, 100, 100});
+  labels.occupy({40, 40, 20, 20}, 0.5);
+  const std::vector<core::Point2> places = {{50, 50}, {50, 20}, {50, 80}};
+  EXPECT_EQ(labels.take(places, 20, 10), (core::Point2{50, 20})) << "the first is occupied";
+  EXPECT_EQ(labels.take(places, 20, 10), (core::Point2{50, 80})) << "and the second has a label now";
+  EXPECT_EQ(labels.take({{50, 50}}, 20, 10), (core::Point2{50, 50})) << "there is no other place";
+  EXPECT_EQ(labels.take({{2, 98}}, 20, 10), (core::Point2{10, 95})) << "labels stay in the room";
+  LabelPlaces beside({0, 0, 100, 100});
+  beside.occupy({0, 50}, {100, 50}, 4, 0.5);
+  EXPECT_EQ(beside.take({{50, 50}, {50, 30}}, 20, 10), (core::Point2{50, 30})) << "a bar is left in sight";
+}
+
+TEST(PageHead, WrapsItsLinesAndSaysWhereTheyEnd) {
+  const PageHead one = page_head("Crank", "", 20, 200), two = page_head("Crank", "Working mode: B left", 20, 200);
+  ASSERT_EQ(two.lines.size(), 2U);
+  EXPECT_LT(two.lines[0].y, two.lines[1].y);
+  EXPECT_LT(two.lines[1].y, two.bottom);
+  EXPECT_LT(one.bottom, two.bottom);
+  const std::string title = "A mechanism whose name is longer than the page is wide";
+  for (const TitleLine& line : page_head(title, title, 20, 150).lines) {
+    EXPECT_EQ(line.x, 20);
+    EXPECT_LE(text_width(line.text, line.font), 150) << line.text;
+  }
 }
 
 TEST(SketchPicture, StandsBelowLociOverOneCoordinate) {
