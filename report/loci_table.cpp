@@ -131,18 +131,20 @@ std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mod
 
 /// Besides the surfaces: curves, and points with their coordinates.
 std::string space_curve_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
-  const std::vector<Column> heading = {{"curve", 8},
-                                       {"kind", 18},
-                                       {"what vanishes", 52},
-                                       {"arcs", 6, true},
-                                       {has_angles(map) ? "length" : "length/" + map.units.length.name, 10, true}};
+  const std::vector<Column> heading = {
+      {"curve", 8},
+      {"kind", 18},
+      {"what vanishes", 52},
+      {"arcs", 6, Alignment::right},
+      {has_angles(map) ? "length" : "length/" + map.units.length.name, 0, Alignment::point}};
   std::vector<Row> rows;
   for (const auto& curve : map.space_curves) {
     if (curve.mode != mode) continue;
     double length = 0;
     for (const auto& arc : curve.arcs) length += arc.length;
     rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind),
-                    what_vanishes(curve.vanishing), std::to_string(curve.arcs.size()), fmt::format("{:.4f}", length)});
+                    what_vanishes(curve.vanishing), std::to_string(curve.arcs.size()),
+                    engineering(length, size_digits)});
   }
   return rows.empty() ? "" : "\n" + format_rows(heading, rows);
 }
