@@ -137,7 +137,10 @@ class Ends {
       }
     };
     subtract(jump.displacement, first.displacement, errors.error[0].dp.norm());
-    subtract(jump.rotation, first.rotation, errors.error[0].dalpha.norm());
+    // A platform that cannot turn does so by rounding: by a displacement's last digits over a metre.
+    constexpr double least_turn = 1e-6;  // 1/m
+    subtract(jump.rotation, first.rotation,
+             std::max(errors.error[0].dalpha.norm(), least_turn * errors.error[0].dp.norm()));
     if (finite) own.jump = std::move(jump);
   }
 
