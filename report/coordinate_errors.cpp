@@ -9,6 +9,7 @@
 
 #include "report/coordinate_plots.hpp"
 #include "report/error.hpp"
+#include "report/error_sizes.hpp"
 #include "report/file_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/error_sizes.hpp"
 #include "report/field_exports.hpp"
 #include "report/file_units.hpp"
 #include "report/files.hpp"

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "report/error.hpp"
+#include "report/error_sizes.hpp"
 #include "report/field_exports.hpp"
 #include "report/file_units.hpp"
 #include "report/loci_json.hpp"
