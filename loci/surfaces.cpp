@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,10 +13,8 @@
 #include "core/errors.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/space_curves.hpp"
-#include "loci/surface/isotopy.hpp"
-#include "loci/surface/march.hpp"
 #include "loci/surface/measure.hpp"
-#include "loci/surface/rim.hpp"
+#include "loci/surface/meshed.hpp"
 #include "loci/work_queue.hpp"
 
 namespace clearloci::loci {
@@ -31,18 +28,10 @@ using core::LocusProblem;
 using core::LocusSurface;
 using surface::Field;
 using surface::Mesh;
+using surface::Meshed;
+using surface::OpenCells;
 using surface::Point;
 
-/// Cells smaller than the mesh asks for, by so many halvings, where the surface may pass through more than once.
-constexpr int extra_levels = 4;
-/// And smaller yet where the mesh does not account for a zero that may be there.
-constexpr int closer_levels = 2;
-/// Rounds in which cells are halved where the topology of their triangles is not proven.
-constexpr int proof_rounds = 6;
-/// A part of the cells that the surface may pass: more are not halved in a round.
-constexpr double most_halved = 0.125;
-/// Halvings of a cell in the proof that no zero is in it.
-constexpr int cuts_of_a_cell = 5;
 /// A factor vanishes at a point where its zero is this near, in unit coordinates, to first order.
 constexpr double vanishes_within = 1e-8;
 /// Points of a component at which other factors are looked at.
@@ -119,22 +108,6 @@ bool is_wanted(const LocusProblem& problem, const std::vector<Whole>& wholes, co
   return !reaction_label(problem, together).vanishing.empty();
 }
 
-/// Cells together in which the topology of a mesh is not proven.
-struct OpenCells {
-  int count = 0;
-  Point lower{}, upper{};      ///< of the box round them
-  std::vector<int> triangles;  ///< in them or in cells beside them
-};
-
-/// A mesh and what is needed to judge it.
-struct Meshed {
-  Mesh mesh;
-  std::optional<int> boundary;  ///< it lies on Q_j = 0
-  std::vector<OpenCells> open;
-  int unexplained = 0;  ///< cells away from it in which a zero could not be excluded
-  Point at{};           ///< one of them
-};
-
 class ModeSurfaces {
  public:
   ModeSurfaces(const std::vector<const LocusProblem*>& charts, const core::WorkingMode& mode, int level,
@@ -154,7 +127,8 @@ class ModeSurfaces {
 
   /// Meshes one factor; others may be meshed at the same time.
   void mesh(std::size_t f) {
-    if (!wholes_[f].root && is_wanted(problem_, wholes_, wholes_[f])) meshed_[f] = mesh_of(*fields_[f]);
+    if (!wholes_[f].root && is_wanted(problem_, wholes_, wholes_[f]))
+      meshed_[f] = surface::mesh_of(*fields_[f], level_, stop_);
   }
 
   /// The surfaces of one factor, once all are meshed.
@@ -189,80 +163,6 @@ class ModeSurfaces {
   }
 
  private:
-  Meshed mesh_of(Field& field) const {
-    const int finest = std::min(level_ + extra_levels, surface::deepest);
-    surface::Cells cells(field, {.level = level_, .finest = finest, .stop = stop_});
-    surface::Marched marched = surface::march(field, cells);
-    Meshed result = clipped(field, marched);
-    std::vector<int> away = surface::unexplained(field, cells, level_, result.mesh, cuts_of_a_cell, stop_);
-    bool cut = !away.empty();
-    if (cut) {
-      cells.look_closer(away, finest + closer_levels);
-      marched = surface::march(field, cells);
-    }
-    std::vector<int> open = surface::unproven(field, cells, marched, stop_);
-    for (int round = 0; round < proof_rounds && cells.halve(worth_halving(field, cells, open), finest); ++round) {
-      cut = true;
-      marched = surface::march(field, cells);
-      open = surface::unproven(field, cells, marched, stop_);
-    }
-    if (cut) {
-      result = clipped(field, marched);
-      away = surface::unexplained(field, cells, level_, result.mesh, cuts_of_a_cell, stop_);
-    }
-    result.unexplained = static_cast<int>(away.size());
-    if (!away.empty()) result.at = surface::unit_of(cells.cells()[static_cast<std::size_t>(away.front())].middle());
-    add_open(cells, open, result);
-    return result;
-  }
-
-  Meshed clipped(Field& field, const surface::Marched& marched) const {
-    Meshed result;
-    if (stop_ && stop_()) throw core::LimitReached("the time limit was reached");
-    result.boundary = surface::boundary_of(field, marched.mesh);
-    result.mesh = surface::within_workspace(field, marched.mesh, result.boundary);
-    return result;
-  }
-
-  /// Along the workspace boundary smaller cells prove no more. Where much is open, it is for the enclosures, not for
-  /// the mesh: none.
-  static std::vector<int> worth_halving(Field& field, const surface::Cells& cells, const std::vector<int>& open) {
-    std::vector<int> result;
-    for (const int leaf : open)
-      if (field.over(cells.cells()[static_cast<std::size_t>(leaf)].box())) result.push_back(leaf);
-    const auto active = std::count_if(cells.cells().begin(), cells.cells().end(),
-                                      [](const surface::OctreeCell& cell) { return cell.active(); });
-    if (static_cast<double>(result.size()) > most_halved * static_cast<double>(active)) result.clear();
-    return result;
-  }
-
-  static void add_open(const surface::Cells& cells, const std::vector<int>& open, Meshed& meshed) {
-    if (open.empty()) return;
-    const std::vector<std::vector<int>> groups = surface::groups_of(cells, open);
-    std::map<int, std::vector<std::size_t>> near;  // the groups in or beside a leaf
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      OpenCells own{.count = static_cast<int>(groups[g].size()), .lower = {1, 1, 1}, .upper = {}, .triangles = {}};
-      for (const int leaf : groups[g]) {
-        const surface::Box box = cells.cells()[static_cast<std::size_t>(leaf)].box();
-        for (std::size_t i = 0; i < 3; ++i) {
-          own.lower[i] = std::min(own.lower[i], box[i].lower());
-          own.upper[i] = std::max(own.upper[i], box[i].upper());
-        }
-        cells.each_neighbour(leaf, [&](int beside) {
-          std::vector<std::size_t>& known = near[beside];
-          if (known.empty() || known.back() != g) known.push_back(g);
-        });
-      }
-      meshed.open.push_back(std::move(own));
-    }
-    for (std::size_t t = 0; t < meshed.mesh.triangles.size(); ++t) {
-      const Point middle = surface::middle_of(meshed.mesh, meshed.mesh.triangles[t]);
-      const auto found = near.find(cells.at(surface::place_of(middle), surface::deepest));
-      if (found == near.end()) continue;
-      for (const std::size_t g : found->second) meshed.open[g].triangles.push_back(static_cast<int>(t));
-    }
-  }
-
   /// Whether a factor vanishes all over a mesh.
   bool vanishes_on(std::size_t g, const Mesh& mesh, std::optional<int> boundary) {
     if (wholes_[g].root) return wholes_[g].root == boundary;

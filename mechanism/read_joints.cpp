@@ -9,6 +9,15 @@
 namespace clearloci::mechanism {
 namespace {
 
+/// "revolute, prismatic, ... or cylindrical".
+std::string names_of_joint_types() {
+  std::string names;
+  const auto types = joint_types();
+  for (std::size_t i = 0; i < types.size(); ++i)
+    names += (i == 0 ? "" : i + 1 == types.size() ? " or " : ", ") + std::string(types[i].name);
+  return names;
+}
+
 using core::InputError;
 
 std::string link_text(const Mechanism& mechanism, LinkIndex link) {
@@ -36,7 +45,7 @@ JointType read_type(const Mechanism& mechanism, const Entry& entry) {
       static const std::vector<std::string> others = {"at", "axis", "axes", "actuated", "clearance"};
       if (std::find(others.begin(), others.end(), part.key) == others.end())
         throw InputError(part.where, "joint " + entry.key + ": '" + part.key + "' is no type of joint",
-                         "write revolute, prismatic, universal, spherical or cylindrical: [from, to]");
+                         "write " + names_of_joint_types() + ": [from, to]");
     }
   // Without any of the keys the revolute one is asked for, which says what is missing or misspelt.
   return found.value_or(JointType::revolute);

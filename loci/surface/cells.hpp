@@ -25,7 +25,7 @@ inline Point unit_of(const Place& place) {
 }
 
 /// The place below a point of the unit cube, in every coordinate.
-inline Place place_of(const Point& unit) {
+inline Place place_below(const Point& unit) {
   Place place;
   for (std::size_t i = 0; i < 3; ++i)
     place[i] = std::clamp(static_cast<std::int32_t>(unit[i] * lattice), std::int32_t{0}, lattice - 1);

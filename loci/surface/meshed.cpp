@@ -1,0 +1,102 @@
+#include "loci/surface/meshed.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/errors.hpp"
+#include "loci/surface/isotopy.hpp"
+#include "loci/surface/march.hpp"
+#include "loci/surface/measure.hpp"
+#include "loci/surface/rim.hpp"
+
+namespace clearloci::loci::surface {
+namespace {
+
+/// Cells smaller than the mesh asks for, by so many halvings, where the surface may pass through more than once.
+constexpr int extra_levels = 4;
+/// And smaller yet where the mesh does not account for a zero that may be there.
+constexpr int closer_levels = 2;
+/// Rounds in which cells are halved where the topology of their triangles is not proven.
+constexpr int proof_rounds = 6;
+/// A part of the cells that the surface may pass: more are not halved in a round.
+constexpr double most_halved = 0.125;
+/// Halvings of a cell in the proof that no zero is in it.
+constexpr int cuts_of_a_cell = 5;
+
+Meshed clipped(Field& field, const Marched& marched, const std::function<bool()>& stop) {
+  Meshed result;
+  if (stop && stop()) throw core::LimitReached("the time limit was reached");
+  result.boundary = boundary_of(field, marched.mesh);
+  result.mesh = within_workspace(field, marched.mesh, result.boundary);
+  return result;
+}
+
+/// Along the workspace boundary smaller cells prove no more. Where much is open, it is for the enclosures, not for
+/// the mesh: none.
+std::vector<int> worth_halving(Field& field, const Cells& cells, const std::vector<int>& open) {
+  std::vector<int> result;
+  for (const int leaf : open)
+    if (field.over(cells.cells()[static_cast<std::size_t>(leaf)].box())) result.push_back(leaf);
+  const auto active =
+      std::count_if(cells.cells().begin(), cells.cells().end(), [](const OctreeCell& cell) { return cell.active(); });
+  if (static_cast<double>(result.size()) > most_halved * static_cast<double>(active)) result.clear();
+  return result;
+}
+
+void add_open(const Cells& cells, const std::vector<int>& open, Meshed& meshed) {
+  if (open.empty()) return;
+  const std::vector<std::vector<int>> groups = groups_of(cells, open);
+  std::map<int, std::vector<std::size_t>> near;  // the groups in or beside a leaf
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    OpenCells own{.count = static_cast<int>(groups[g].size()), .lower = {1, 1, 1}, .upper = {}, .triangles = {}};
+    for (const int leaf : groups[g]) {
+      const Box box = cells.cells()[static_cast<std::size_t>(leaf)].box();
+      for (std::size_t i = 0; i < 3; ++i) {
+        own.lower[i] = std::min(own.lower[i], box[i].lower());
+        own.upper[i] = std::max(own.upper[i], box[i].upper());
+      }
+      cells.each_neighbour(leaf, [&](int beside) {
+        std::vector<std::size_t>& known = near[beside];
+        if (known.empty() || known.back() != g) known.push_back(g);
+      });
+    }
+    meshed.open.push_back(std::move(own));
+  }
+  for (std::size_t t = 0; t < meshed.mesh.triangles.size(); ++t) {
+    const Point middle = middle_of(meshed.mesh, meshed.mesh.triangles[t]);
+    const auto found = near.find(cells.at(place_below(middle), deepest));
+    if (found == near.end()) continue;
+    for (const std::size_t g : found->second) meshed.open[g].triangles.push_back(static_cast<int>(t));
+  }
+}
+
+}  // namespace
+
+Meshed mesh_of(Field& field, int level, const std::function<bool()>& stop) {
+  const int finest = std::min(level + extra_levels, deepest);
+  Cells cells(field, {.level = level, .finest = finest, .stop = stop});
+  Marched marched = march(field, cells);
+  Meshed result = clipped(field, marched, stop);
+  std::vector<int> away = unexplained(field, cells, level, result.mesh, cuts_of_a_cell, stop);
+  bool cut = !away.empty();
+  if (cut) {
+    cells.look_closer(away, finest + closer_levels);
+    marched = march(field, cells);
+  }
+  std::vector<int> open = unproven(field, cells, marched, stop);
+  for (int round = 0; round < proof_rounds && cells.halve(worth_halving(field, cells, open), finest); ++round) {
+    cut = true;
+    marched = march(field, cells);
+    open = unproven(field, cells, marched, stop);
+  }
+  if (cut) {
+    result = clipped(field, marched, stop);
+    away = unexplained(field, cells, level, result.mesh, cuts_of_a_cell, stop);
+  }
+  result.unexplained = static_cast<int>(away.size());
+  if (!away.empty()) result.at = unit_of(cells.cells()[static_cast<std::size_t>(away.front())].middle());
+  add_open(cells, open, result);
+  return result;
+}
+
+}  // namespace clearloci::loci::surface
