@@ -58,7 +58,9 @@ class Surface:
     factor: str
     cause: str
     working_mode: dict[str, str]
-    certified: bool
+    certified: bool  #: the triangles have the topology of the surface, and nothing of it is missing
+    within_resolution: bool  #: nothing of the surface is farther from the triangles than two cells of the search
+    open: list[dict[str, Any]]  #: where the topology is not proven: boxes "from", "to" around so many "cells"
     vertices: np.ndarray  #: float64 (n, 3), m; of angles rad
     triangles: np.ndarray  #: int32 (k, 3)
 

@@ -87,4 +87,5 @@ def test_surfaces_are_triangles():
     loci = cl.read(EXAMPLES / "gough_stewart.yaml").loci(mesh_size=1 / 8)
     assert loci.surfaces and not loci.curves
     surface = loci.surfaces[0]
+    assert surface.within_resolution and surface.certified == (not surface.open)
     assert surface.vertices.shape[1] == 3 and surface.triangles.max() < len(surface.vertices)

@@ -50,9 +50,6 @@ class WrongCalls(InOwnFolder):
             "format: 1\nbox: {x: [0, 0.1], y: [0, 0.1]}\nloads_from: [[1, 0], [0, 1]]\n", encoding="utf-8"
         )
         self.assertIn("task.yaml:3:", self.complaint("verify", platform, "task.yaml"))
-        text = platform.read_text(encoding="utf-8").replace("  y: [-0.4, 0.4]\n", "").replace("z: 0.6", "y: 0.05\n  z: 0.6")
-        (self.folder / "line.yaml").write_text(text, encoding="utf-8")
-        self.assertIn("planar", self.complaint("error", "line.yaml"))
 
     def test_wrong_tasks(self):
         self.assertIn("TASK", self.complaint("verify", FIVE_BAR))
