@@ -43,9 +43,10 @@ class ModePlots {
       panel.y_label = unit.name;
       const std::string worst = "worst_" + column;
       if (errors_.samples.has(worst)) {
-        core::Polyline above = line(at_, errors_.samples.at(worst), unit.per_si), below = above;
+        const core::Polyline above = line(at_, errors_.samples.at(worst), unit.per_si);
+        core::Polyline below = above;
         for (core::Point2& point : below) point[1] = -point[1];
-        panel.series.push_back({"bound under any load", {std::move(above), std::move(below)}, -1, true});
+        panel.series.push_back({"bound under any load", {above, std::move(below)}, -1, true});
       }
       panel.series.push_back({component.label, {line(at_, errors_.samples.at(column), unit.per_si)}, number++});
       panel.y_range = clipped_range(panel);

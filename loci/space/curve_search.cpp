@@ -119,7 +119,7 @@ class Search {
   std::optional<LiftedBox> examined(const Cell& cell) {
     if (++cells_ % asked_every == 0 && limits_.stop && limits_.stop())
       throw core::LimitReached("the time limit was reached");
-    const std::optional<LiftedBox> box = lifted_.lift(cell);
+    std::optional<LiftedBox> box = lifted_.lift(cell);
     if (!box) return std::nullopt;
     core::ensure(lifted_.enter(*box), "a cell's smooth roots are real");
     const std::size_t rows = lifted_.rows();
