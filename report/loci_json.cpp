@@ -77,14 +77,21 @@ Json arc_object(const Arc& arc) {
   return body;
 }
 
-Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
+/// What every locus has; its polynomial is not known.
+template <class Locus>
+Json named(const Locus& locus) {
   Json body;
-  body["id"] = curve.id;
-  body["kind"] = core::to_string(curve.kind);
-  body["vanishing"] = vanishing_array(curve.vanishing);
-  body["factor"] = printable(curve.factor);
-  body["cause"] = printable(curve.cause);
+  body["id"] = locus.id;
+  body["kind"] = core::to_string(locus.kind);
+  body["vanishing"] = vanishing_array(locus.vanishing);
+  body["factor"] = printable(locus.factor);
+  body["cause"] = printable(locus.cause);
   body["implicit"] = nullptr;
+  return body;
+}
+
+Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
+  Json body = named(curve);
   if (!curve.implicit.is_zero())
     body["implicit"] = {{"polynomial", core::to_string(curve.implicit, curve.variables.empty() ? map.tower.coordinates
                                                                                                : curve.variables)},
@@ -99,13 +106,7 @@ Json curve_object(const core::LocusMap& map, const core::LocusCurve& curve) {
 }
 
 Json space_curve_object(const core::LocusMap& map, const core::SpaceCurve& curve) {
-  Json body;
-  body["id"] = curve.id;
-  body["kind"] = core::to_string(curve.kind);
-  body["vanishing"] = vanishing_array(curve.vanishing);
-  body["factor"] = printable(curve.factor);
-  body["cause"] = printable(curve.cause);
-  body["implicit"] = nullptr;
+  Json body = named(curve);
   body["closed_form"] = nullptr;
   body["working_mode"] = mode_object(map.tower, curve.mode);
   body["certified"] = curve.certified;
@@ -115,13 +116,7 @@ Json space_curve_object(const core::LocusMap& map, const core::SpaceCurve& curve
 }
 
 Json surface_object(const core::LocusMap& map, const core::LocusSurface& surface) {
-  Json body;
-  body["id"] = surface.id;
-  body["kind"] = core::to_string(surface.kind);
-  body["vanishing"] = vanishing_array(surface.vanishing);
-  body["factor"] = printable(surface.factor);
-  body["cause"] = printable(surface.cause);
-  body["implicit"] = nullptr;
+  Json body = named(surface);
   if (!surface.implicit.is_zero())
     body["implicit"] = {{"polynomial", core::to_string(surface.implicit, surface.variables)},
                         {"degree", core::total_degree(surface.implicit)}};

@@ -15,6 +15,18 @@ py::dict mode_of(const TowerNames& tower, const WorkingMode& mode) { return mode
 
 namespace {
 
+/// What every locus has.
+template <class Locus>
+py::dict named(const Locus& locus) {
+  py::dict one;
+  one["id"] = locus.id;
+  one["kind"] = to_string(locus.kind);
+  one["vanishing"] = names_of(locus.vanishing);
+  one["factor"] = locus.factor;
+  one["cause"] = locus.cause;
+  return one;
+}
+
 py::dict dict_of(const LocusMap& map, const LocusCurve& curve) {
   py::list arcs, ends;
   for (const Arc& arc : curve.arcs) {
@@ -22,12 +34,7 @@ py::dict dict_of(const LocusMap& map, const LocusCurve& curve) {
     ends.append(py::make_tuple(to_string(arc.ends[0]), to_string(arc.ends[1])));
   }
   const std::vector<std::string>& variables = curve.variables.empty() ? map.tower.coordinates : curve.variables;
-  py::dict one;
-  one["id"] = curve.id;
-  one["kind"] = to_string(curve.kind);
-  one["vanishing"] = names_of(curve.vanishing);
-  one["factor"] = curve.factor;
-  one["cause"] = curve.cause;
+  py::dict one = named(curve);
   one["degree"] = curve.implicit.is_zero() ? py::object(py::none()) : py::cast(total_degree(curve.implicit));
   one["implicit"] = curve.implicit.is_zero() ? py::object(py::none()) : py::cast(to_string(curve.implicit, variables));
   one["variables"] = variables;
@@ -48,12 +55,7 @@ py::dict dict_of(const LocusMap& map, const SpaceCurve& curve) {
     arcs.append(points);
     ends.append(py::make_tuple(to_string(arc.ends[0]), to_string(arc.ends[1])));
   }
-  py::dict one;
-  one["id"] = curve.id;
-  one["kind"] = to_string(curve.kind);
-  one["vanishing"] = names_of(curve.vanishing);
-  one["factor"] = curve.factor;
-  one["cause"] = curve.cause;
+  py::dict one = named(curve);
   one["degree"] = py::none();
   one["implicit"] = py::none();
   one["variables"] = map.tower.coordinates;
@@ -76,12 +78,7 @@ py::dict dict_of(const LocusMap& map, const LocusSurface& surface) {
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
       triangle(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(c)) = surface.triangles[i][c];
-  py::dict one;
-  one["id"] = surface.id;
-  one["kind"] = to_string(surface.kind);
-  one["vanishing"] = names_of(surface.vanishing);
-  one["factor"] = surface.factor;
-  one["cause"] = surface.cause;
+  py::dict one = named(surface);
   one["working_mode"] = mode_of(map.tower, surface.mode);
   one["certified"] = surface.certified;
   one["within_resolution"] = surface.within_resolution;
