@@ -273,19 +273,26 @@ Interval Field::by_unit(std::size_t i, const Interval& variable) const {
   return frame_.angle[i] ? scaled * (Interval(1.0) + squared(variable)) * Interval(0.5) : scaled;
 }
 
-/// Mean-value form over coordinates alone, where no root may be 0: f(X) within f(m) + sum f_x (X - m).
+/// Mean-value form over the coordinates and the roots that may be 0: see differentiate.
 Interval Field::mean_value(Chart& chart, const Box& variables) {
   Interval away = 0;
-  Box middle;
   for (std::size_t i = 0; i < 3; ++i) {
-    middle[i] = Interval(variables[i].middle());
-    away = away + enclosed_[i] * (variables[i] - middle[i]);
-    chart.over.set(static_cast<int>(i), middle[i]);
+    const double middle = variables[i].middle();
+    away = away + enclosed_[i] * (variables[i] - Interval(middle));
+    chart.over.set(static_cast<int>(i), Interval(middle));
   }
   for (int j = 0; j < roots(); ++j) {
+    const auto own = static_cast<std::size_t>(j);
     chart.over.run_square(j);
-    const Interval root = square_root(chart.over.square(j));
-    chart.over.set(3 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
+    const Interval& square = chart.over.square(j);
+    if (rising_[own]) {
+      const double middle = roots_[own].middle();
+      away = away + enclosed_[3 + own] * (roots_[own] - Interval(middle));
+      chart.over.set(3 + j, Interval(middle));
+    } else {
+      const Interval root = square.upper() < 0 ? Interval(0.0) : square_root(square);
+      chart.over.set(3 + j, mode_[own] > 0 ? root : -root);
+    }
   }
   chart.over.run_values();
   return chart.over.value(0) + away;
@@ -305,7 +312,7 @@ std::optional<std::vector<Field::Over>> Field::over(const Box& unit) {
     Over own;
     own.value = sign * chart->over.value(0);
     for (std::size_t i = 0; i < 3; ++i) own.gradient[i] = sign * by_unit(i, (*variables)[i]);
-    if (own.value.sign() == 0) own.value = meet(own.value, sign * (mean_value(*chart, *variables)));
+    if (own.value.sign() == 0) own.value = meet(own.value, sign * mean_value(*chart, *variables));
     result.push_back(own);
   }
   return result;
@@ -322,30 +329,13 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
   if (proof.zero_free) return proof;
 
   differentiate(chart, proof);
-  Interval product = 0, away = 0;
+  Interval product = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Interval scaled = by_unit(i, variables[i]);
     product = product + scaled * scaled;
-    const double middle = variables[i].middle();
-    away = away + enclosed_[i] * (variables[i] - Interval(middle));
-    chart.over.set(static_cast<int>(i), Interval(middle));
   }
   proof.one_sheet = !proof.rim && product.lower() > 0;
-  for (int j = 0; j < roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
-    chart.over.run_square(j);
-    const Interval& square = chart.over.square(j);
-    if (rising_[own]) {
-      const double middle = roots_[own].middle();
-      away = away + enclosed_[3 + own] * (roots_[own] - Interval(middle));
-      chart.over.set(3 + j, Interval(middle));
-    } else {
-      const Interval root = square.upper() < 0 ? Interval(0.0) : square_root(square);
-      chart.over.set(3 + j, mode_[own] > 0 ? root : -root);
-    }
-  }
-  chart.over.run_values();
-  sign = chart.sign * (chart.over.value(0) + away).sign();
+  sign = chart.sign * mean_value(chart, variables).sign();
   proof.zero_free = sign != 0;
   return proof;
 }
