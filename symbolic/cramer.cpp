@@ -71,6 +71,7 @@ FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands)
   Poly sum(ring);
   for (const FactoredPoly& summand : summands)
     if (!summand.is_zero()) sum += without(summand, shared, ring);
+  sort_factors(shared.factors);
   FactoredPoly result = factored(sum, shared.factors);
   multiply(result, shared);
   return result;
@@ -100,7 +101,7 @@ class CramerElimination {
     if (left > most_expanded || !expand_rest()) return {};
     determinant_.constant *= permutation_sign(column_of_row_);
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) solve(*step);
-    CramerDeterminants result{determinant_, {}};
+    CramerDeterminants result{determinant_, {}, std::move(forms_)};
     for (FactoredPoly& w : solution_) {  // N_k = w_k |A|, where what divides w_k divides |A|
       if (!w.is_zero()) multiply(w, determinant_);
       result.numerators.push_back(std::move(w));
@@ -277,15 +278,36 @@ class CramerElimination {
     const FactoredPoly below = factored(minor(rest, columns, all, minors), {});
     if (below.is_zero()) return false;
     multiply(determinant_, below);
+    remember(below, rest, columns, all);
     for (std::size_t j = 0; j < rest.size(); ++j) {
       FactoredPoly& w = solution_[static_cast<std::size_t>(columns[j])];
-      w = factored(minor(rest, columns, (all & ~(1U << j)) | (all + 1), minors), below.factors);
+      const unsigned replaced = (all & ~(1U << j)) | (all + 1);
+      w = factored(minor(rest, columns, replaced, minors), below.factors);
       if (w.is_zero()) continue;
+      remember(w, rest, columns, replaced);
       if ((rest.size() - 1 - j) % 2 == 1) w.constant = -w.constant;
       multiply(w, below, -1);
       multiply(w, taken[j], -1);
     }
     return true;
+  }
+
+  /// Keeps the form of an irreducible minor that has many more terms than its entries and their products.
+  void remember(const FactoredPoly& product, const std::vector<std::size_t>& rest, const std::vector<int>& columns,
+                unsigned set) {
+    if (product.factors.size() != 1 || product.factors.front().multiplicity != 1) return;
+    DeterminantForm form{product.factors.front().poly, 1 / product.constant, {}};
+    std::size_t terms = rest.size() << rest.size();
+    for (const std::size_t i : rest) {
+      std::vector<Poly>& row = form.rows.emplace_back();
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        if ((set >> j & 1U) == 0) continue;
+        const auto entry = rows_[i].find(columns[j]);
+        row.push_back(entry == rows_[i].end() ? Poly(ring_) : entry->second);
+        terms += row.back().length();
+      }
+    }
+    if (form.value.length() > 2 * terms) forms_.push_back(std::move(form));
   }
 
   /// Of the first rows, as many as there are columns in the set, expanded along the last of them.
@@ -341,6 +363,7 @@ class CramerElimination {
   std::vector<bool> active_;
   std::vector<int> column_of_row_;
   std::vector<Step> steps_;
+  std::vector<DeterminantForm> forms_;
   FactoredPoly determinant_{1, {}};
   std::vector<FactoredPoly> solution_;  ///< w, found backwards; multiplicities of denominators are negative
 };

@@ -9,9 +9,17 @@
 
 namespace clearloci::symbolic {
 
+/// value = constant · |rows|.
+struct DeterminantForm {
+  Poly value;
+  core::Rational constant;
+  std::vector<std::vector<Poly>> rows;
+};
+
 struct CramerDeterminants {
   FactoredPoly determinant;              ///< |A|
   std::vector<FactoredPoly> numerators;  ///< |A_k|, one a column; empty where |A| = 0
+  std::vector<DeterminantForm> forms;    ///< of the factors that are computed sooner so than term by term
 };
 
 /// Constant pivots are eliminated first, which raises no degree; then short polynomial ones, each row divided by its

@@ -1,7 +1,6 @@
 #include "symbolic/determinants.hpp"
 
 #include "core/errors.hpp"
-#include "symbolic/cramer.hpp"
 
 namespace clearloci::symbolic {
 
@@ -27,7 +26,7 @@ FactoredDeterminants factored_determinants(const Geometry& geometry, const Geome
       if (k != shared.first && k != shared.first + 1 && !cramer.numerators[k].is_zero())
         multiply(cramer.numerators[k], divisor, -1);
   }
-  return {std::move(equations), std::move(cramer.determinant), std::move(cramer.numerators)};
+  return {std::move(equations), std::move(cramer.determinant), std::move(cramer.numerators), std::move(cramer.forms)};
 }
 
 }  // namespace clearloci::symbolic

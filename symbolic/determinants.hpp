@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "symbolic/cramer.hpp"
 #include "symbolic/factored_poly.hpp"
 #include "symbolic/newton_euler.hpp"
 
@@ -11,7 +12,8 @@ namespace clearloci::symbolic {
 struct FactoredDeterminants {
   NewtonEulerEquations equations;
   FactoredPoly determinant;
-  std::vector<FactoredPoly> numerators;  ///< one an unknown
+  std::vector<FactoredPoly> numerators;     ///< one an unknown
+  std::vector<DeterminantForm> forms = {};  ///< CramerDeterminants::forms
 };
 
 /// Throws core::InputError where |A| vanishes in every pose. `loaded`: the same mechanism under another load, which

@@ -66,7 +66,11 @@ Poly Elimination::over_tower_at_one_pose(const Poly& natural) const {
 }
 
 bool Elimination::vanishes_everywhere(const Poly& natural) const {
-  return over_tower_at_one_pose(natural).is_zero() && over_tower(natural).is_zero();
+  for (const auto& [asked, known] : vanishing_)
+    if (asked == natural) return known;
+  const bool vanishes = over_tower_at_one_pose(natural).is_zero() && over_tower(natural).is_zero();
+  vanishing_.emplace_back(natural, vanishes);
+  return vanishes;
 }
 
 std::optional<Rational> Elimination::constant_over_tower(const Poly& natural) const {

@@ -93,6 +93,7 @@ class Elimination {
   mutable std::optional<LineTower> line_tower_;          ///< made where it is asked for
   mutable std::vector<double> degree_weights_;           ///< likewise
   mutable std::list<std::pair<Poly, Poly>> over_tower_;  ///< what has been asked for: many numerators share factors
+  mutable std::list<std::pair<Poly, bool>> vanishing_;   ///< likewise
   std::vector<TowerRoot> independent_roots_;
   std::vector<Poly> known_denominators_;   ///< over the tower
   std::vector<Poly> denominator_factors_;  ///< irreducible, in the free coordinates

@@ -40,6 +40,7 @@ void multiply(FactoredPoly& product, const FactoredPoly& factor, int times) {
     product.factors.clear();
     return;
   }
+  const std::size_t before = product.factors.size();
   for (const PolyFactor& part : factor.factors) {
     const auto known = std::find_if(product.factors.begin(), product.factors.end(),
                                     [&](const PolyFactor& f) { return f.poly == part.poly; });
@@ -48,8 +49,9 @@ void multiply(FactoredPoly& product, const FactoredPoly& factor, int times) {
     else
       known->multiplicity += part.multiplicity * times;
   }
+  const bool in_order = product.factors.size() == before || before == 0;
   std::erase_if(product.factors, [](const PolyFactor& f) { return f.multiplicity == 0; });
-  sort_factors(product.factors);
+  if (!in_order) sort_factors(product.factors);
 }
 
 FactoredPoly common_factors(const FactoredPoly& a, const FactoredPoly& b) {

@@ -137,6 +137,7 @@ class Derivation {
         lines_(geometry_) {
     for (const Guide& guide : guides_)
       for (Reaction& end : end_reactions(guide, determinants_.determinant)) reactions_.push_back(std::move(end));
+    lines_.know(determinants_.forms);
     result_.problem.tower = lines_.tower();
     result_.problem.joints = selected_joints(m, selection);
     result_.problem.quantities = expanded(m, selection.quantities);

@@ -1,6 +1,7 @@
 #include "symbolic/straight_lines.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 
 #include "core/powers_of_two.hpp"
@@ -17,20 +18,98 @@ StraightLines::StraightLines(const Geometry& geometry) : geometry_(&geometry) {
   for (std::size_t i = 0; i < own.size(); ++i) known_[own[i]] = builder_.variable(static_cast<int>(i));
 }
 
-StraightLine StraightLines::of(const Poly& natural) {
-  return builder_.line(value(core::scaled_for_doubles(natural.plain())));
+void StraightLines::know(const std::vector<DeterminantForm>& forms) {
+  forms_.insert(forms_.end(), forms.begin(), forms.end());
+}
+
+StraightLine StraightLines::of(const Poly& natural) { return builder_.line(scaled_value(natural, 0)); }
+
+/// With coefficients in the range of doubles, times 2^exponent.
+int StraightLines::scaled_value(const Poly& natural, long exponent) {
+  const Polynomial plain = natural.plain();
+  Polynomial scaled = core::scaled_for_doubles(plain);
+  for (core::Term& term : scaled.terms) term.coefficient = core::times_power_of_two(term.coefficient, exponent);
+  const auto form =
+      std::find_if(forms_.begin(), forms_.end(), [&](const DeterminantForm& f) { return f.value == natural; });
+  if (form == forms_.end()) return value(scaled);
+  return determinant(*form, scaled.terms.front().coefficient / plain.terms.front().coefficient);
+}
+
+namespace {
+
+/// Of the last rows, expanded along the first of them.
+class Minors {
+ public:
+  Minors(core::StraightLineBuilder& builder, const std::vector<std::vector<int>>& rows)
+      : builder_(builder), rows_(rows) {}
+
+  int of(unsigned columns) {
+    if (columns == 0) return builder_.constant(1);
+    if (const auto found = known_.find(columns); found != known_.end()) return found->second;
+    const std::vector<int>& row = rows_[rows_.size() - static_cast<std::size_t>(std::popcount(columns))];
+    int sum = builder_.constant(0);
+    bool plus = true;
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      if ((columns >> j & 1U) == 0) continue;
+      if (row[j] != builder_.constant(0)) {
+        const int product = builder_.multiply(row[j], of(columns & ~(1U << j)));
+        sum = plus ? builder_.add(sum, product) : builder_.subtract(sum, product);
+      }
+      plus = !plus;
+    }
+    return known_[columns] = sum;
+  }
+
+ private:
+  core::StraightLineBuilder& builder_;
+  const std::vector<std::vector<int>>& rows_;
+  std::map<unsigned, int> known_;
+};
+
+/// The power of two that takes the largest coefficient of some entries next to 1.
+long exponent_of(const std::vector<Polynomial*>& entries) {
+  Rational largest = 0;
+  for (const Polynomial* entry : entries)
+    for (const core::Term& term : entry->terms) largest = std::max(largest, Rational(abs(term.coefficient)));
+  return largest == 0 ? 0 : core::binary_exponent(largest);
+}
+
+}  // namespace
+
+/// scale · the form's value. Columns and rows are brought to the range of doubles first.
+int StraightLines::determinant(const DeterminantForm& form, const Rational& scale) {
+  const std::size_t size = form.rows.size();
+  std::vector<std::vector<Polynomial>> entries(size);
+  for (std::size_t i = 0; i < size; ++i)
+    for (const Poly& entry : form.rows[i]) entries[i].push_back(entry.plain());
+  long taken = 0;
+  const auto take = [&taken](const std::vector<Polynomial*>& line) {
+    const long exponent = exponent_of(line);
+    for (Polynomial* entry : line)
+      for (core::Term& term : entry->terms) term.coefficient = core::times_power_of_two(term.coefficient, -exponent);
+    taken += exponent;
+  };
+  for (const bool columns : {true, false})
+    for (std::size_t i = 0; i < size; ++i) {
+      std::vector<Polynomial*> line;
+      for (std::size_t j = 0; j < size; ++j) line.push_back(columns ? &entries[j][i] : &entries[i][j]);
+      take(line);
+    }
+  std::vector<std::vector<int>> rows(size);
+  for (std::size_t i = 0; i < size; ++i)
+    for (const Polynomial& entry : entries[i]) rows[i].push_back(value(entry));
+  const Rational constant = core::times_power_of_two(form.constant * scale, taken);
+  return builder_.multiply(builder_.constant(constant), Minors(builder_, rows).of((1U << size) - 1));
 }
 
 StraightLine StraightLines::of(const Rational& constant, const std::vector<PolyFactor>& factors) {
   // Coefficients in the range of doubles, by powers of two that the constant takes back. What it would be beyond that
   // range by, the factors share: their values are as far beyond it the other way.
   Rational scale = constant;
-  std::vector<Polynomial> scaled;
   long count = 0;
   for (const PolyFactor& factor : factors) {
     const Polynomial plain = factor.poly.plain();
-    scaled.push_back(core::scaled_for_doubles(plain));
-    const Rational gained = scaled.back().terms.front().coefficient / plain.terms.front().coefficient;
+    const Rational gained = core::scaled_for_doubles(plain).terms.front().coefficient / plain.terms.front().coefficient;
     for (int i = 0; i < factor.multiplicity; ++i, ++count) scale /= gained;
   }
   constexpr long within_doubles = 256;
@@ -38,10 +117,8 @@ StraightLine StraightLines::of(const Rational& constant, const std::vector<PolyF
   const long share = count > 0 && std::abs(exponent) > within_doubles ? exponent / count : 0;
   scale = core::times_power_of_two(scale, -share * count);
   int product = builder_.constant(scale);
-  for (std::size_t f = 0; f < factors.size(); ++f) {
-    for (core::Term& term : scaled[f].terms) term.coefficient = core::times_power_of_two(term.coefficient, share);
-    product = builder_.multiply(product, builder_.power(value(scaled[f]), factors[f].multiplicity));
-  }
+  for (const PolyFactor& factor : factors)
+    product = builder_.multiply(product, builder_.power(scaled_value(factor.poly, share), factor.multiplicity));
   return builder_.line(product);
 }
 

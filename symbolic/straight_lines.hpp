@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/straight_line.hpp"
+#include "symbolic/cramer.hpp"
 #include "symbolic/geometry.hpp"
 
 namespace clearloci::symbolic {
@@ -17,6 +18,9 @@ namespace clearloci::symbolic {
 class StraightLines {
  public:
   explicit StraightLines(const Geometry& geometry);
+
+  /// From now on the values of these are computed as determinants.
+  void know(const std::vector<DeterminantForm>& forms);
 
   /// The value of a natural polynomial; the roots are those of the tower.
   core::StraightLine of(const Poly& natural);
@@ -56,6 +60,8 @@ class StraightLines {
   };
 
   int value(const core::Polynomial& p);
+  int scaled_value(const Poly& natural, long exponent);
+  int determinant(const DeterminantForm& form, const core::Rational& scale);
   int variable(int ring_variable);
   Place natural_place(mechanism::PointIndex point);
   std::optional<Dyad> dyad(mechanism::PointIndex point);
@@ -73,6 +79,7 @@ class StraightLines {
   const Geometry* geometry_;
   core::StraightLineBuilder builder_;
   std::map<int, int> known_;  ///< ring variable to step
+  std::vector<DeterminantForm> forms_;
 };
 
 }  // namespace clearloci::symbolic

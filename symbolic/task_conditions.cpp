@@ -57,6 +57,7 @@ class Conditions {
     all.insert(all.end(), forces.begin(), forces.end());
     for (const mechanism::Mechanism* load : all) {
       const FactoredDeterminants determinants = load == &mechanism_ ? factored_determinants(geometry_) : under(*load);
+      lines_.know(determinants.forms);
       reactions_.push_back(reactions(geometry_, determinants));
       for (const Guide& guide : guides(geometry_, elimination_, reactions_.back())) add_ends(guide, determinants);
       if (load == &mechanism_) determinant_ = determinants.determinant;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "analysis/verification.hpp"
 #include "analysis/zones.hpp"
@@ -57,6 +59,11 @@ TEST(SpatialSlices, LegsWithRevoluteAndCylindricalJointsHoldAgainstTheWitness) {
 TEST(SpatialSlices, ElbowsAndCarriagesThatAreBuiltHoldAgainstTheWitness) {
   std::mt19937 random(seed + 4);
   for (int i = 0; i < designs(6); ++i) hold(test::random_delta(random, i % 2 == 1, i % 6 >= 4), 40, 0.05);
+}
+
+TEST(SpatialSlices, SixElbowsHoldAgainstTheWitness) {
+  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/six_rus.yaml");
+  hold({std::istreambuf_iterator<char>(file), {}}, 40);
 }
 
 mechanism::Mechanism slice() {

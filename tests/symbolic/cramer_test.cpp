@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+
 namespace clearloci::symbolic {
 namespace {
 
@@ -91,6 +93,51 @@ TEST(Cramer, AMatrixNeedsNoConstantEntries) {
   EXPECT_TRUE(expanded(d.determinant, ring) == x * x - y * y);
   EXPECT_TRUE(expanded(d.numerators[0], ring) == x * x - y * y);
   EXPECT_TRUE(d.numerators[1].is_zero());
+}
+
+/// Seven rows of variables of their own: |A| has 5040 terms, its form 49 entries.
+TEST(Cramer, LongMinorsAreKnownAsDeterminants) {
+  constexpr std::size_t n = 7;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < n * (n + 1); ++i) names.push_back("v" + std::to_string(i));
+  const Ring ring(names);
+  std::vector<std::vector<Poly>> matrix(n);
+  std::vector<Poly> right;
+  for (std::size_t i = 0; i < n * (n + 1); ++i)
+    (i < n * n ? matrix[i / n] : right).push_back(Poly::variable(ring, static_cast<int>(i)));
+  const CramerDeterminants d = cramer_determinants(ring, matrix, right);
+  ASSERT_EQ(d.forms.size(), n + 1);
+  std::vector<FactoredPoly> products = d.numerators;
+  products.push_back(d.determinant);
+  for (const DeterminantForm& form : d.forms) {
+    EXPECT_TRUE(std::any_of(products.begin(), products.end(), [&](const FactoredPoly& product) {
+      return product.factors.size() == 1 && product.factors.front().poly == form.value;
+    }));
+    const auto at_numbers = [&](Poly p) {
+      for (int v = 0; v < ring.size(); ++v) p = p.at(v, (v * v * v + 5 * v) % 23 - 11);
+      return p.constant();
+    };
+    GiNaC::matrix numbers(n, n);
+    for (unsigned i = 0; i < n; ++i)
+      for (unsigned j = 0; j < n; ++j)
+        numbers(i, j) = GiNaC::numeric(core::to_string(at_numbers(form.rows[i][j])).c_str());
+    const GiNaC::ex whole = numbers.determinant() * GiNaC::numeric(core::to_string(form.constant).c_str());
+    EXPECT_TRUE((whole - GiNaC::numeric(core::to_string(at_numbers(form.value)).c_str())).is_zero());
+  }
+}
+
+/// The force along a link that two balls hold is one unknown; what it bears is a product throughout.
+TEST(Cramer, TwoForceMembersBecomeOneUnknown) {
+  const Ring ring({"x", "y", "z", "p", "q", "r"});
+  const auto v = [&](int i) { return Poly::variable(ring, i); };
+  const Poly zero(ring), x = v(0), y = v(1), z = v(2);
+  // (x, y, z) x f = 0 but for the row that follows from the other two, and p f1 + q f2 + r f3 = 1.
+  const CramerDeterminants d =
+      cramer_determinants(ring, {{y, -x, zero}, {zero, z, -y}, {v(3), v(4), v(5)}}, {zero, zero, Poly(ring, 1)});
+  EXPECT_TRUE(expanded(d.determinant, ring) == y * (v(3) * x + v(4) * y + v(5) * z));
+  EXPECT_TRUE(expanded(d.numerators[0], ring) == x * y);
+  EXPECT_TRUE(expanded(d.numerators[1], ring) == y * y);
+  EXPECT_TRUE(expanded(d.numerators[2], ring) == y * z);
 }
 
 }  // namespace
