@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace clearloci::report {
 namespace {
@@ -21,8 +20,14 @@ double dot(const Point3& a, const Point3& b) { return a[0] * b[0] + a[1] * b[1] 
 Point3 minus(const Point3& a, const Point3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Point3 normalised(const Point3& a) {
-  const double length = std::sqrt(dot(a, a));
-  return length > 0 ? Point3{a[0] / length, a[1] / length, a[2] / length} : Point3{0, 0, 1};
+  const double length = std::sqrt(dot(a, a)), inverse = 1 / length;
+  return length > 0 ? Point3{a[0] * inverse, a[1] * inverse, a[2] * inverse} : Point3{0, 0, 1};
+}
+
+/// value^28, the sharpness of a highlight.
+double sharpened(double value) {
+  const double square = value * value, fourth = square * square, eighth = fourth * fourth;
+  return eighth * eighth * eighth * fourth;
 }
 
 /// A piece of a surface behind one sample.
@@ -66,6 +71,7 @@ class Canvas {
     }
     std::vector<Corner> corners;
     for (std::size_t i = 0; i < normals.size(); ++i) corners.push_back(corner(surface.vertices[i], normals[i]));
+    log_transparency_ = std::log(1 - shaded.opacity);
     for (const auto& t : surface.triangles)
       fill(corners[static_cast<std::size_t>(t[0])], corners[static_cast<std::size_t>(t[1])],
            corners[static_cast<std::size_t>(t[2])], shaded);
@@ -115,12 +121,12 @@ class Canvas {
     const int to_x = std::min(width_ - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}) - 0.5)));
     const double slope_x = ((c.y - a.y) * (b.height - a.height) - (b.y - a.y) * (c.height - a.height)) / twice;
     const double slope_y = ((b.x - a.x) * (c.height - a.height) - (c.x - a.x) * (b.height - a.height)) / twice;
-    const double slope = std::hypot(slope_x, slope_y);
+    const double slope = std::sqrt(slope_x * slope_x + slope_y * slope_y), inverse = 1 / twice;
     for (int y = from_y; y <= to_y; ++y)
       for (int x = from_x; x <= to_x; ++x) {
         const double px = x + 0.5, py = y + 0.5;
-        const double of_b = ((px - a.x) * (c.y - a.y) - (c.x - a.x) * (py - a.y)) / twice;
-        const double of_c = ((b.x - a.x) * (py - a.y) - (px - a.x) * (b.y - a.y)) / twice;
+        const double of_b = ((px - a.x) * (c.y - a.y) - (c.x - a.x) * (py - a.y)) * inverse;
+        const double of_c = ((b.x - a.x) * (py - a.y) - (px - a.x) * (b.y - a.y)) * inverse;
         const double of_a = 1 - of_b - of_c;
         if (of_a < 0 || of_b < 0 || of_c < 0) continue;
         const auto mixed = [&](double u, double v, double w) { return of_a * u + of_b * v + of_c * w; };
@@ -144,7 +150,7 @@ class Canvas {
     // Both sides are shown: the normal is turned towards the eye.
     const double turn = dot(normal, view_.toward) < 0 ? -1 : 1;
     const double diffuse = std::max(0.0, turn * dot(normal, light_));
-    const double shine = 0.22 * std::pow(std::max(0.0, turn * dot(normal, half_way_)), 28);
+    const double shine = 0.22 * sharpened(std::max(0.0, turn * dot(normal, half_way_)));
     const double brightness = (0.5 + 0.56 * diffuse) * (line ? 0.62 : 1);
     Fragment fragment;
     fragment.nearness = static_cast<float>(nearness);
@@ -153,19 +159,24 @@ class Canvas {
       fragment.colour[i] = static_cast<float>(std::clamp(colour[i] * brightness + shine, 0.0, 1.0));
     // More of a sheet is looked through where it is seen at a flat angle.
     const double thickness = 1 / std::max(0.25, facing);
-    const double opacity = 1 - std::pow(1 - shaded.opacity, std::min(2.0, thickness));
+    const double opacity = 1 - std::exp(log_transparency_ * std::min(2.0, thickness));
     fragment.opacity = static_cast<float>(line ? std::max(opacity, 0.8) : opacity);
     return fragment;
   }
 
   /// The edges of a single triangle as dark lines.
   void add_rim(const core::LocusSurface& surface, const std::vector<Corner>& corners, const ShadedSurface& shaded) {
-    std::map<std::array<int, 2>, int> edges;
+    std::vector<std::array<int, 2>> edges;
     for (const auto& t : surface.triangles)
-      for (std::size_t i = 0; i < 3; ++i) ++edges[{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])}];
-    for (const auto& [edge, triangles] : edges)
-      if (triangles == 1)
-        draw_line(corners[static_cast<std::size_t>(edge[0])], corners[static_cast<std::size_t>(edge[1])], shaded);
+      for (std::size_t i = 0; i < 3; ++i)
+        edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t first = 0, next = 0; first < edges.size(); first = next) {
+      while (next < edges.size() && edges[next] == edges[first]) ++next;
+      if (next - first == 1)
+        draw_line(corners[static_cast<std::size_t>(edges[first][0])],
+                  corners[static_cast<std::size_t>(edges[first][1])], shaded);
+    }
   }
 
   void draw_line(const Corner& a, const Corner& b, const ShadedSurface& shaded) {
@@ -194,11 +205,15 @@ class Canvas {
   /// Premultiplied colour and opacity of what is behind a sample, the farthest first.
   std::array<double, 4> composed(int first) {
     order_.clear();
-    for (int i = first; i >= 0; i = fragments_[static_cast<std::size_t>(i)].next) order_.push_back(i);
-    std::sort(order_.begin(), order_.end(), [&](int a, int b) {
-      const Fragment &one = fragments_[static_cast<std::size_t>(a)], &other = fragments_[static_cast<std::size_t>(b)];
-      return one.nearness != other.nearness ? one.nearness < other.nearness : a < b;
-    });
+    // A few at most, the last drawn first: each is put in its place as it comes.
+    for (int i = first; i >= 0; i = fragments_[static_cast<std::size_t>(i)].next) {
+      const float nearness = fragments_[static_cast<std::size_t>(i)].nearness;
+      std::size_t place = order_.size();
+      order_.push_back(i);
+      for (; place > 0 && fragments_[static_cast<std::size_t>(order_[place - 1])].nearness >= nearness; --place)
+        order_[place] = order_[place - 1];
+      order_[place] = i;
+    }
     std::array<double, 4> sum{};
     for (const int i : order_) {
       const Fragment& own = fragments_[static_cast<std::size_t>(i)];
@@ -214,6 +229,7 @@ class Canvas {
   int width_, height_;
   double per_point_;
   Point3 light_{}, half_way_{};
+  double log_transparency_ = 0;  ///< of the surface that is being added
   std::vector<int> first_;
   std::vector<Fragment> fragments_;
   std::vector<int> order_;
