@@ -4,7 +4,9 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <optional>
 
+#include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "core/powers_of_two.hpp"
 
@@ -92,8 +94,10 @@ Polynomial operator+(const Polynomial& a, const Polynomial& b) { return plus_mul
 
 Polynomial operator-(const Polynomial& a, const Polynomial& b) { return plus_multiple(a, b, -1); }
 
-Polynomial operator*(const Polynomial& a, const Polynomial& b) {
-  ensure(a.variables == b.variables, "both polynomials have the same variables");
+namespace {
+
+/// Of polynomials of few terms, or of so few among those that their degrees allow that a list of all is no use.
+Polynomial sparse_product(const Polynomial& a, const Polynomial& b) {
   std::map<Exponents, Rational, std::greater<>> products;
   Exponents exponents(static_cast<std::size_t>(a.variables));
   for (const Term& s : a.terms) {
@@ -107,6 +111,29 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
   for (auto& [monomial, coefficient] : products)
     if (sgn(coefficient) != 0) result.terms.push_back({monomial, std::move(coefficient)});
   return result;
+}
+
+}  // namespace
+
+Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  ensure(a.variables == b.variables, "both polynomials have the same variables");
+  constexpr std::size_t few = 16;
+  if (a.terms.size() * b.terms.size() < few) return sparse_product(a, b);
+  Exponents highest = degrees(a);
+  const Exponents others = degrees(b);
+  std::transform(highest.begin(), highest.end(), others.begin(), highest.begin(), std::plus<>());
+  std::optional<DenseTerms> sum = DenseTerms::box(highest, a.terms.size() + b.terms.size());
+  if (!sum) return sparse_product(a, b);
+  const WholeTerms first = whole_terms(a), second = whole_terms(b);
+  std::vector<std::size_t> places;
+  for (const Term& term : b.terms) places.push_back(sum->place(term.exponents));
+  for (std::size_t i = 0; i < a.terms.size(); ++i) {
+    const std::size_t place = sum->place(a.terms[i].exponents);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      mpz_addmul((*sum)[place + places[k]].get_mpz_t(), first.coefficients[i].get_mpz_t(),
+                 second.coefficients[k].get_mpz_t());
+  }
+  return sum->polynomial(first.denominator * second.denominator);
 }
 
 int total_degree(const Polynomial& p) {

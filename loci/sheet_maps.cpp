@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
 #include "loci/sheet/star.hpp"
@@ -26,7 +27,7 @@ bool is_own(const core::RootNames& root) { return root.point.empty(); }
 /// Whether a factor is of the f of a fold.
 bool is_fold(const LocusFactor& factor, const LocusProblem& problem) {
   return std::any_of(problem.tower.roots.begin(), problem.tower.roots.end(), [&](const Root& root) {
-    return root.name == core::fold_name && sheet::exact_quotient(root.square, factor.sheet).has_value();
+    return root.name == core::fold_name && core::exact_quotient(root.square, factor.sheet).has_value();
   });
 }
 

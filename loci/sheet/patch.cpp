@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "loci/sheet/apex.hpp"
 

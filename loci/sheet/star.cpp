@@ -269,29 +269,4 @@ core::StraightLine polar_line(const Star& star, const Polynomial& around_star, i
   return builder.line(builder.polynomial(polar, variables));
 }
 
-std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& divisor) {
-  core::ensure(!divisor.is_zero(), "a divisor is not zero");
-  const core::Term& leading = divisor.terms.front();
-  Collected rest, quotient;
-  for (const core::Term& term : p.terms) rest.emplace_hint(rest.end(), term.exponents, term.coefficient);
-  while (!rest.empty()) {
-    const auto [exponents, coefficient] = *rest.begin();
-    if (coefficient == 0) {
-      rest.erase(rest.begin());
-      continue;
-    }
-    std::vector<int> factor = exponents;
-    for (std::size_t v = 0; v < factor.size(); ++v)
-      if ((factor[v] -= leading.exponents[v]) < 0) return std::nullopt;
-    const Rational scale = coefficient / leading.coefficient;
-    quotient[factor] += scale;
-    for (const core::Term& term : divisor.terms) {
-      std::vector<int> place = factor;
-      for (std::size_t v = 0; v < place.size(); ++v) place[v] += term.exponents[v];
-      rest[place] -= scale * term.coefficient;
-    }
-  }
-  return as_polynomial(p.variables, quotient);
-}
-
 }  // namespace clearloci::loci::sheet

@@ -84,7 +84,4 @@ int order_at(const Star& star, const core::Polynomial& around_star);
 /// without `order` powers of u.
 core::StraightLine polar_line(const Star& star, const core::Polynomial& around_star, int order);
 
-/// p / divisor where that is a polynomial; none: not divisible.
-std::optional<core::Polynomial> exact_quotient(const core::Polynomial& p, const core::Polynomial& divisor);
-
 }  // namespace clearloci::loci::sheet
