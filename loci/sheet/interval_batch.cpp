@@ -6,6 +6,7 @@
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
 #define CLEARLOCI_AVX2 __attribute__((target("avx2")))
+#define CLEARLOCI_AVX512 __attribute__((target("avx512f,avx512dq")))
 #endif
 
 namespace clearloci::loci::sheet::interval_batch {
@@ -92,175 +93,151 @@ void run_by_lanes(const Instruction* begin, const Instruction* end, const JetBat
 
 #if defined(CLEARLOCI_AVX2)
 
-namespace {
-
-/// Two intervals, each as its ends in core/interval.hpp: [-lower, upper].
-using Two = __m256d;
-
-CLEARLOCI_AVX2 inline Two swapped(Two a) { return _mm256_permute_pd(a, 0b0101); }
-CLEARLOCI_AVX2 inline Two magnitude(Two a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
-CLEARLOCI_AVX2 inline Two negated(Two a) { return _mm256_xor_pd(_mm256_set1_pd(-0.0), a); }
-
-CLEARLOCI_AVX2 inline Two outward(Two ends) {
-  const Two error = _mm256_add_pd(_mm256_mul_pd(magnitude(ends), _mm256_set1_pd(0x1p-52)), _mm256_set1_pd(0x1p-1000));
-  return _mm256_add_pd(ends, error);
-}
-
-CLEARLOCI_AVX2 inline Two product(Two a, Two b) {
-  const Two straight = _mm256_mul_pd(a, b), crossed = _mm256_mul_pd(a, swapped(b));
-  const Two upper = _mm256_max_pd(straight, negated(crossed)), lower = _mm256_max_pd(crossed, negated(straight));
-  return outward(_mm256_max_pd(_mm256_unpacklo_pd(lower, upper), _mm256_unpackhi_pd(lower, upper)));
-}
-
-/// Least and greatest absolute value squared; the lower end is 0 at least.
-CLEARLOCI_AVX2 inline Two square(Two a) {
-  const Two other = swapped(a);
-  const Two least = _mm256_max_pd(negated(other), _mm256_max_pd(negated(a), _mm256_setzero_pd()));
-  const Two most = _mm256_max_pd(magnitude(a), magnitude(other));
-  const Two ends = outward(_mm256_blend_pd(negated(_mm256_mul_pd(least, least)), _mm256_mul_pd(most, most), 0b1010));
-  return _mm256_blend_pd(_mm256_min_pd(ends, _mm256_set1_pd(-0.0)), ends, 0b1010);
-}
-
-CLEARLOCI_AVX2 inline Two load(const IntervalBatch& a, std::size_t half) {
-  return _mm256_load_pd(reinterpret_cast<const double*>(&a) + 4 * half);
-}
-CLEARLOCI_AVX2 inline void store(IntervalBatch& a, std::size_t half, Two value) {
-  _mm256_store_pd(reinterpret_cast<double*>(&a) + 4 * half, value);
-}
-
-CLEARLOCI_AVX2 inline Two sum(Two a, Two b) { return outward(_mm256_add_pd(a, b)); }
-
-/// As core::around and core::meet.
-CLEARLOCI_AVX2 inline Two around(Two middle, Two first, Two second) {
-  const Two one = _mm256_max_pd(first, swapped(first)), other = _mm256_max_pd(second, swapped(second));
-  return sum(sum(one, other), middle);
-}
-CLEARLOCI_AVX2 inline Two meet(Two a, Two b) {
-  const Two ends = _mm256_min_pd(a, b);
-  const Two lower = negated(_mm256_unpacklo_pd(ends, ends));
-  return _mm256_blend_pd(_mm256_max_pd(ends, lower), ends, 0b0101);
-}
-
-/// Half of a batch of jets.
-struct TwoJets {
-  Two value, middle, slope[2];
-};
-
-CLEARLOCI_AVX2 inline TwoJets load(const JetBatch& a, std::size_t half) {
-  return {load(a.value, half), load(a.middle, half), {load(a.slope[0], half), load(a.slope[1], half)}};
-}
-/// The value met with the mean-value form.
-CLEARLOCI_AVX2 inline void store_tightened(JetBatch& a, std::size_t half, const TwoJets& jets) {
-  store(a.value, half, meet(jets.value, around(jets.middle, jets.slope[0], jets.slope[1])));
-  store(a.middle, half, jets.middle);
-  for (std::size_t c = 0; c < 2; ++c) store(a.slope[c], half, jets.slope[c]);
-}
-
-CLEARLOCI_AVX2 inline TwoJets sum(const TwoJets& a, const TwoJets& b) {
-  return {sum(a.value, b.value), sum(a.middle, b.middle), {sum(a.slope[0], b.slope[0]), sum(a.slope[1], b.slope[1])}};
-}
-CLEARLOCI_AVX2 inline TwoJets negative(const TwoJets& a) {
-  return {swapped(a.value), swapped(a.middle), {swapped(a.slope[0]), swapped(a.slope[1])}};
-}
-CLEARLOCI_AVX2 inline TwoJets product(const TwoJets& a, const TwoJets& b) {
-  TwoJets result{product(a.value, b.value), product(a.middle, b.middle), {}};
-  for (std::size_t c = 0; c < 2; ++c) result.slope[c] = sum(product(a.slope[c], b.value), product(a.value, b.slope[c]));
-  return result;
-}
-CLEARLOCI_AVX2 inline TwoJets square(const TwoJets& a) {
-  TwoJets result{square(a.value), square(a.middle), {}};
-  const Two twice = product(_mm256_setr_pd(-2, 2, -2, 2), a.value);
-  for (std::size_t c = 0; c < 2; ++c) result.slope[c] = product(twice, a.slope[c]);
-  return result;
-}
-
 static_assert(sizeof(Interval) == 2 * sizeof(double) && sizeof(IntervalBatch) == 8 * sizeof(double));
 
-}  // namespace
+// Registers of either width hold intervals as their ends in core/interval.hpp: [-lower, upper]. What is done with them
+// is written once, for both.
 
-CLEARLOCI_AVX2 void run_by_avx2(const Instruction* begin, const Instruction* end, const IntervalBatch* values,
-                                IntervalBatch* results, std::size_t count) {
-  const std::size_t halves = (count + 1) / 2;
-  for (const Instruction* own = begin; own != end; ++own, ++results) {
-    const IntervalBatch& a = values[own->first];
-    const IntervalBatch& b = values[own->second];
-    switch (own->operation) {
-      case Operation::add:
-        for (std::size_t half = 0; half < halves; ++half)
-          store(*results, half, outward(_mm256_add_pd(load(a, half), load(b, half))));
-        break;
-      case Operation::subtract:
-        for (std::size_t half = 0; half < halves; ++half)
-          store(*results, half, outward(_mm256_add_pd(load(a, half), swapped(load(b, half)))));
-        break;
-      case Operation::multiply:
-        for (std::size_t half = 0; half < halves; ++half) store(*results, half, product(load(a, half), load(b, half)));
-        break;
-      case Operation::square:
-        for (std::size_t half = 0; half < halves; ++half) store(*results, half, square(load(a, half)));
-        break;
-      default:
-        run_alone(own->operation, a, b, *results, count);
-    }
-  }
+namespace by_avx2 {
+namespace {
+
+#define CLEARLOCI_WIDE CLEARLOCI_AVX2
+using Wide = __m256d;
+constexpr std::size_t width = 2;  // intervals
+
+CLEARLOCI_WIDE inline Wide all(double a) { return _mm256_set1_pd(a); }
+CLEARLOCI_WIDE inline Wide alternating(double lower, double upper) {
+  return _mm256_setr_pd(lower, upper, lower, upper);
+}
+CLEARLOCI_WIDE inline Wide load(const double* from) { return _mm256_load_pd(from); }
+CLEARLOCI_WIDE inline void store(double* to, Wide a) { _mm256_store_pd(to, a); }
+CLEARLOCI_WIDE inline Wide plus(Wide a, Wide b) { return _mm256_add_pd(a, b); }
+CLEARLOCI_WIDE inline Wide times(Wide a, Wide b) { return _mm256_mul_pd(a, b); }
+CLEARLOCI_WIDE inline Wide largest(Wide a, Wide b) { return _mm256_max_pd(a, b); }
+CLEARLOCI_WIDE inline Wide least(Wide a, Wide b) { return _mm256_min_pd(a, b); }
+CLEARLOCI_WIDE inline Wide swapped(Wide a) { return _mm256_permute_pd(a, 0b0101); }
+CLEARLOCI_WIDE inline Wide magnitude(Wide a) { return _mm256_andnot_pd(all(-0.0), a); }
+CLEARLOCI_WIDE inline Wide negated(Wide a) { return _mm256_xor_pd(all(-0.0), a); }
+CLEARLOCI_WIDE inline Wide first_ends(Wide a, Wide b) { return _mm256_unpacklo_pd(a, b); }
+CLEARLOCI_WIDE inline Wide second_ends(Wide a, Wide b) { return _mm256_unpackhi_pd(a, b); }
+CLEARLOCI_WIDE inline Wide joined(Wide lower, Wide upper) { return _mm256_blend_pd(lower, upper, 0b1010); }
+
+#include "loci/sheet/interval_batch_steps.inc"
+#undef CLEARLOCI_WIDE
+
+}  // namespace
+}  // namespace by_avx2
+
+namespace by_avx512 {
+namespace {
+
+#define CLEARLOCI_WIDE CLEARLOCI_AVX512
+using Wide = __m512d;
+constexpr std::size_t width = 4;  // intervals
+
+CLEARLOCI_WIDE inline Wide all(double a) { return _mm512_set1_pd(a); }
+CLEARLOCI_WIDE inline Wide alternating(double lower, double upper) {
+  return _mm512_setr_pd(lower, upper, lower, upper, lower, upper, lower, upper);
+}
+CLEARLOCI_WIDE inline Wide load(const double* from) { return _mm512_load_pd(from); }
+CLEARLOCI_WIDE inline void store(double* to, Wide a) { _mm512_store_pd(to, a); }
+CLEARLOCI_WIDE inline Wide plus(Wide a, Wide b) { return _mm512_add_pd(a, b); }
+CLEARLOCI_WIDE inline Wide times(Wide a, Wide b) { return _mm512_mul_pd(a, b); }
+CLEARLOCI_WIDE inline Wide largest(Wide a, Wide b) { return _mm512_max_pd(a, b); }
+CLEARLOCI_WIDE inline Wide least(Wide a, Wide b) { return _mm512_min_pd(a, b); }
+CLEARLOCI_WIDE inline Wide swapped(Wide a) { return _mm512_permute_pd(a, 0b01010101); }
+CLEARLOCI_WIDE inline Wide magnitude(Wide a) { return _mm512_andnot_pd(all(-0.0), a); }
+CLEARLOCI_WIDE inline Wide negated(Wide a) { return _mm512_xor_pd(all(-0.0), a); }
+CLEARLOCI_WIDE inline Wide first_ends(Wide a, Wide b) { return _mm512_unpacklo_pd(a, b); }
+CLEARLOCI_WIDE inline Wide second_ends(Wide a, Wide b) { return _mm512_unpackhi_pd(a, b); }
+CLEARLOCI_WIDE inline Wide joined(Wide lower, Wide upper) { return _mm512_mask_blend_pd(0b10101010, lower, upper); }
+
+#include "loci/sheet/interval_batch_steps.inc"
+#undef CLEARLOCI_WIDE
+
+}  // namespace
+}  // namespace by_avx512
+
+void run_by_avx2(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
+                 std::size_t count) {
+  by_avx2::run_wide(begin, end, values, results, count);
 }
 
-CLEARLOCI_AVX2 void run_by_avx2(const Instruction* begin, const Instruction* end, const JetBatch* values,
-                                JetBatch* results, std::size_t count) {
-  const std::size_t halves = (count + 1) / 2;
-  for (const Instruction* own = begin; own != end; ++own, ++results) {
-    const JetBatch& a = values[own->first];
-    const JetBatch& b = values[own->second];
-    switch (own->operation) {
-      case Operation::add:
-        for (std::size_t half = 0; half < halves; ++half)
-          store_tightened(*results, half, sum(load(a, half), load(b, half)));
-        break;
-      case Operation::subtract:
-        for (std::size_t half = 0; half < halves; ++half)
-          store_tightened(*results, half, sum(load(a, half), negative(load(b, half))));
-        break;
-      case Operation::multiply:
-        for (std::size_t half = 0; half < halves; ++half)
-          store_tightened(*results, half, product(load(a, half), load(b, half)));
-        break;
-      case Operation::square:
-        for (std::size_t half = 0; half < halves; ++half) store_tightened(*results, half, square(load(a, half)));
-        break;
-      default:
-        run_alone(own->operation, a, b, *results, count);
-        continue;
-    }
-    for (std::size_t l = 0; l < JetBatch::size; ++l) results->bounded[l] = a.bounded[l] && b.bounded[l];
-  }
+void run_by_avx2(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
+                 std::size_t count) {
+  by_avx2::run_wide(begin, end, values, results, count);
+}
+
+void run_by_avx512(const Instruction* begin, const Instruction* end, const IntervalBatch* values,
+                   IntervalBatch* results, std::size_t count) {
+  by_avx512::run_wide(begin, end, values, results, count);
+}
+
+void run_by_avx512(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
+                   std::size_t count) {
+  by_avx512::run_wide(begin, end, values, results, count);
 }
 
 bool has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
+bool has_avx512() { return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0; }
 
 #else
 
-void run_by_avx2(const Instruction*, const Instruction*, const IntervalBatch*, IntervalBatch*, std::size_t) {
-  core::ensure(false, "the processor has AVX2");
+namespace {
+
+template <class Batch>
+void run_wide(const Instruction*, const Instruction*, const Batch*, Batch*, std::size_t) {
+  core::ensure(false, "the processor has such registers");
 }
 
-void run_by_avx2(const Instruction*, const Instruction*, const JetBatch*, JetBatch*, std::size_t) {
-  core::ensure(false, "the processor has AVX2");
+}  // namespace
+
+void run_by_avx2(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
+                 std::size_t count) {
+  run_wide(begin, end, values, results, count);
+}
+
+void run_by_avx2(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
+                 std::size_t count) {
+  run_wide(begin, end, values, results, count);
+}
+
+void run_by_avx512(const Instruction* begin, const Instruction* end, const IntervalBatch* values,
+                   IntervalBatch* results, std::size_t count) {
+  run_wide(begin, end, values, results, count);
+}
+
+void run_by_avx512(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
+                   std::size_t count) {
+  run_wide(begin, end, values, results, count);
 }
 
 bool has_avx2() { return false; }
+bool has_avx512() { return false; }
 
 #endif
 
+namespace {
+
+/// The way that this processor has.
+template <class Batch>
+auto best_way() {
+  using Way = void (*)(const Instruction*, const Instruction*, const Batch*, Batch*, std::size_t);
+  return has_avx512() ? Way{run_by_avx512} : has_avx2() ? Way{run_by_avx2} : Way{run_by_lanes};
+}
+
+}  // namespace
+
 void run(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
          std::size_t count) {
-  static const bool wide = has_avx2();
-  wide ? run_by_avx2(begin, end, values, results, count) : run_by_lanes(begin, end, values, results, count);
+  static const auto way = best_way<IntervalBatch>();
+  way(begin, end, values, results, count);
 }
 
 void run(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
          std::size_t count) {
-  static const bool wide = has_avx2();
-  wide ? run_by_avx2(begin, end, values, results, count) : run_by_lanes(begin, end, values, results, count);
+  static const auto way = best_way<JetBatch>();
+  way(begin, end, values, results, count);
 }
 
 }  // namespace clearloci::loci::sheet::interval_batch

@@ -1,6 +1,6 @@
 // Four intervals side by side: a SheetProgram run over IntervalBatch encloses four cells for one pass through its
-// instructions. Where the processor has AVX2 two of them share a register, else each has its own; every step rounds as
-// that of one Interval does, so that a lane has the bytes that it would have alone.
+// instructions. Where the processor has AVX-512 they share a register, where it has AVX2 two of them do, else each has
+// its own; every step rounds as that of one Interval does, so that a lane has the bytes that it would have alone.
 #pragma once
 
 #include <array>
@@ -28,12 +28,15 @@ using Instruction = SheetCode::Instruction;
 void run(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
          std::size_t count);
 
-/// The ways in which it may do so: a lane at a time; two at a time, required: has_avx2().
+/// The ways in which it may do so: a lane at a time; two at a time, required: has_avx2(); all four, has_avx512().
 void run_by_lanes(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
                   std::size_t count);
 void run_by_avx2(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
                  std::size_t count);
+void run_by_avx512(const Instruction* begin, const Instruction* end, const IntervalBatch* values,
+                   IntervalBatch* results, std::size_t count);
 bool has_avx2();
+bool has_avx512();
 
 }  // namespace interval_batch
 

@@ -42,6 +42,8 @@ void run_by_lanes(const Instruction* begin, const Instruction* end, const JetBat
                   std::size_t count);
 void run_by_avx2(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
                  std::size_t count);
+void run_by_avx512(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
+                   std::size_t count);
 
 }  // namespace interval_batch
 

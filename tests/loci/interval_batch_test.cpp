@@ -44,15 +44,20 @@ using RunIntervals = void (*)(const Instruction*, const Instruction*, const Inte
                               std::size_t);
 using RunJets = void (*)(const Instruction*, const Instruction*, const JetBatch*, JetBatch*, std::size_t);
 
-class Lanes : public ::testing::TestWithParam<bool> {
+struct Way {
+  const char* name;
+  bool (*is_had)();
+  RunIntervals run_intervals;
+  RunJets run_jets;
+};
+
+class Lanes : public ::testing::TestWithParam<Way> {
  protected:
   void SetUp() override {
-    if (GetParam() && !interval_batch::has_avx2()) GTEST_SKIP() << "no AVX2";
+    if (!GetParam().is_had()) GTEST_SKIP() << "this processor does not have it";
   }
   static void run(const std::vector<Instruction>& code, const IntervalBatch* values, IntervalBatch* results) {
-    const RunIntervals run_intervals =
-        GetParam() ? RunIntervals{interval_batch::run_by_avx2} : RunIntervals{interval_batch::run_by_lanes};
-    run_intervals(code.data(), code.data() + code.size(), values, results, IntervalBatch::size);
+    GetParam().run_intervals(code.data(), code.data() + code.size(), values, results, IntervalBatch::size);
   }
 };
 
@@ -93,8 +98,7 @@ TEST_P(Lanes, AreWhatJetsAreAlone) {
         const double at = number(random);
         values[static_cast<std::size_t>(v)].set_lane(l, Jet(Interval(at, at + width(random)), v));
       }
-    const RunJets run_jets = GetParam() ? RunJets{interval_batch::run_by_avx2} : RunJets{interval_batch::run_by_lanes};
-    run_jets(code.data(), code.data() + code.size(), values.data(), values.data() + 2, JetBatch::size);
+    GetParam().run_jets(code.data(), code.data() + code.size(), values.data(), values.data() + 2, JetBatch::size);
     for (std::size_t l = 0; l < JetBatch::size; ++l) {
       const Jet a = values[0].lane(l), b = values[1].lane(l), product = a * b, reciprocal = inverse(a);
       const std::array<Jet, 8> alone = {a + b,          a - b,
@@ -113,8 +117,13 @@ TEST_P(Lanes, AreWhatJetsAreAlone) {
   EXPECT_GT(unbounded, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(, Lanes, ::testing::Bool(),
-                         [](const auto& own) { return std::string(own.param ? "ByAvx2" : "OneByOne"); });
+INSTANTIATE_TEST_SUITE_P(
+    , Lanes,
+    ::testing::Values(Way{"OneByOne", [] { return true; }, interval_batch::run_by_lanes, interval_batch::run_by_lanes},
+                      Way{"ByAvx2", interval_batch::has_avx2, interval_batch::run_by_avx2, interval_batch::run_by_avx2},
+                      Way{"ByAvx512", interval_batch::has_avx512, interval_batch::run_by_avx512,
+                          interval_batch::run_by_avx512}),
+    [](const auto& own) { return std::string(own.param.name); });
 
 /// Cells all over the workspace and its boundary, in batches of every size.
 TEST(SheetCells, AreWhatCellsAreAlone) {
