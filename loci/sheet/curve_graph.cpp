@@ -100,24 +100,36 @@ class GraphBuilder {
     return static_cast<int>(graph_.crossings.size()) - 1;
   }
 
-  /// Zeros of the curve on a segment; nothing if they cannot be told apart or lie at its ends. `runs_along`: there is
-  /// nothing to be told apart, for no part of the segment is free of them.
-  std::optional<std::vector<std::vector<Interval>>> zeros_on(int patch, ZeroSearch& search, int axis, double at,
-                                                             double from, double to, std::size_t most_cells,
-                                                             bool* runs_along = nullptr) {
+  ZeroSearch::Limits limits_on_edge(int patch, std::size_t most_cells) const {
     const Cell& domain = graph_.patches[patch].domain;
     const double size = std::max(domain.x.width(), domain.y.width());
-    const Cell segment = axis == 0 ? Cell{at, {from, to}} : Cell{{from, to}, at};
-    FoundZeros found = search.run({segment}, {smallest_on_edge * size, most_cells, accuracy * size, options_.stop});
-    // As many as that are left where none of all halves, halved again, was excluded.
-    if (runs_along != nullptr && found.gave_up && found.undecided.size() >= 2 * most_cells) *runs_along = true;
+    return {smallest_on_edge * size, most_cells, accuracy * size, options_.stop};
+  }
+
+  static Cell segment_of(int axis, double at, double from, double to) {
+    return axis == 0 ? Cell{at, {from, to}} : Cell{{from, to}, at};
+  }
+
+  /// Zeros of the curve on a segment; nothing if they cannot be told apart or lie at its ends.
+  static std::optional<std::vector<std::vector<Interval>>> told_apart(FoundZeros found, int axis,
+                                                                      const Interval& segment) {
     if (!found.undecided.empty()) return std::nullopt;
     for (const std::vector<Interval>& zero : found.enclosures) {
-      if (!inside(zero[1 - axis], Interval(from, to))) return std::nullopt;
+      if (!inside(zero[1 - axis], segment)) return std::nullopt;
       for (std::size_t v = 2; v < zero.size(); ++v)
         if (zero[v].sign() == 0) return std::nullopt;
     }
     return std::move(found.enclosures);
+  }
+
+  /// `runs_along`: there is nothing to be told apart, for no part of the segment is free of zeros.
+  std::optional<std::vector<std::vector<Interval>>> zeros_on(int patch, ZeroSearch& search, int axis, double at,
+                                                             double from, double to, std::size_t most_cells,
+                                                             bool& runs_along) {
+    FoundZeros found = search.run({segment_of(axis, at, from, to)}, limits_on_edge(patch, most_cells));
+    // As many as that are left where none of all halves, halved again, was excluded.
+    if (found.gave_up && found.undecided.size() >= 2 * most_cells) runs_along = true;
+    return told_apart(std::move(found), axis, {from, to});
   }
 
   std::size_t cells_on_edge() const { return options_.extended ? most_cells_on_edge : most_cells_on_edge_of_a_sketch; }
@@ -127,14 +139,23 @@ class GraphBuilder {
   }
 
   void meet_seams(int patch) {
-    ZeroSearch searches[2] = {search_along(patch, 0), search_along(patch, 1)};
+    std::vector<Seam> searched;
+    std::vector<std::vector<Cell>> segments[2];  // by axis
     for (const Seam& seam : graph_.patches[patch].tree->seams()) {
       if (!has_curve(patch, seam.lower) || !has_curve(patch, seam.upper)) continue;
       if (leaf(patch, seam.lower).kind == LeafKind::undecided && leaf(patch, seam.upper).kind == LeafKind::undecided) {
         touching_.push_back({patch, seam.lower, seam.upper});
         continue;
       }
-      auto zeros = zeros_on(patch, searches[seam.axis], seam.axis, seam.at, seam.from, seam.to, cells_on_edge());
+      searched.push_back(seam);
+      segments[seam.axis].push_back({segment_of(seam.axis, seam.at, seam.from, seam.to)});
+    }
+    std::vector<FoundZeros> found[2];
+    for (const int axis : {0, 1})
+      found[axis] = search_along(patch, axis).run_each(segments[axis], limits_on_edge(patch, cells_on_edge()));
+    std::size_t next[2] = {0, 0};
+    for (const Seam& seam : searched) {
+      auto zeros = told_apart(std::move(found[seam.axis][next[seam.axis]++]), seam.axis, {seam.from, seam.to});
       if (!zeros) {
         give_up_on(patch, seam.lower);
         give_up_on(patch, seam.upper);
@@ -168,7 +189,7 @@ class GraphBuilder {
           const Interval& other = axis == 0 ? cell.y : cell.x;
           const std::size_t most_cells =
               runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();
-          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, &runs_along);
+          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, runs_along);
           if (!zeros) {
             give_up_on(patch, index);
             last_attempt_ = last_attempt_ || runs_along;  // other cuts do not move the border

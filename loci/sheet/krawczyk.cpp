@@ -92,48 +92,100 @@ ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Inte
   return none ? ZeroCount::none : contracted ? ZeroCount::unique : ZeroCount::unknown;
 }
 
+Narrowing::Narrowing(const System& system, const std::vector<Interval>& box, const std::vector<int>& lifted,
+                     double accuracy, std::vector<Interval>& enclosure)
+    : system_(&system),
+      box_(&box),
+      lifted_(&lifted),
+      accuracy_(accuracy),
+      enclosure_(&enclosure),
+      point_(enclosure.size()),
+      trial_(enclosure.size()) {
+  for (std::size_t c = 0; c < enclosure.size(); ++c) point_[c] = enclosure[c].middle();
+  begin(false);
+}
+
+void Narrowing::begin(bool sharp) {
+  sharp_ = sharp;
+  stage_ = Stage::steps;
+  count_ = 0;
+  step_ = 0;
+  last_step_ = std::numeric_limits<double>::infinity();
+}
+
+void Narrowing::take(SheetCell& cell, bool entered) {
+  if (!entered) {
+    if (stage_ == Stage::steps)
+      stage_ = Stage::done;
+    else
+      end_radii(false);
+    return;
+  }
+  if (sharp_) cell.sharpen_middle();
+  const ZeroCount count = krawczyk(cell, *system_, image_);
+  stage_ == Stage::steps ? take_step() : take_trial(count);
+}
+
+void Narrowing::take_step() {
+  if (image_.empty()) {
+    stage_ = Stage::done;
+    return;
+  }
+  step_ = 0;
+  for (std::size_t c = 0; c < point_.size(); ++c) {
+    step_ = std::max(step_, std::abs(image_[c].middle() - point_[c].middle()));
+    if (!is_thin(c)) point_[c] = image_[c].middle();
+  }
+  if (step_ != 0 && step_ < 0.5 * last_step_ && ++count_ < most_newton_steps) {
+    last_step_ = step_;
+    return;
+  }
+  stage_ = Stage::radii;
+  radius_ = std::max(2 * step_, first_radius * accuracy_);
+  count_ = 0;
+  choose_trial();
+}
+
+void Narrowing::choose_trial() {
+  bool inside_box = true;
+  for (std::size_t c = 0; c < point_.size(); ++c) {
+    const double own = std::max(radius_, 0x1p-51 * point_[c].magnitude());
+    trial_[c] = is_thin(c) ? (*box_)[c] : Interval(point_[c].lower() - own, point_[c].upper() + own);
+    inside_box = inside_box && (is_thin(c) || inside(trial_[c], (*box_)[c]));
+  }
+  if (!inside_box) end_radii(false);
+}
+
+void Narrowing::take_trial(ZeroCount count) {
+  if (count != ZeroCount::unique) {
+    radius_ *= 8;
+    ++count_ < most_radii ? choose_trial() : end_radii(false);
+    return;
+  }
+  bool narrow = true;
+  std::vector<Interval>& enclosure = *enclosure_;
+  for (std::size_t c = 0; c < point_.size(); ++c) {
+    enclosure[c] = meet(image_[c], trial_[c]);
+    narrow = narrow && enclosure[c].width() <= accuracy_;
+    if (!is_thin(c)) point_[c] = enclosure[c].middle();
+  }
+  end_radii(narrow);
+}
+
+void Narrowing::end_radii(bool narrow) {
+  if (narrow || sharp_)
+    stage_ = Stage::done;
+  else
+    begin(true);
+}
+
 void narrow(SheetCell& cell, const System& system, const std::vector<Interval>& box, const std::vector<int>& lifted,
             double accuracy, std::vector<Interval>& enclosure) {
-  std::vector<Interval> point(enclosure.size()), image, trial(enclosure.size());
-  const auto is_thin = [&](std::size_t c) { return box[c].width() == 0; };
-  for (std::size_t c = 0; c < enclosure.size(); ++c) point[c] = enclosure[c].middle();
-  for (const bool sharp : {false, true}) {
-    double step = 0, last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < most_newton_steps; ++i, last = step) {
-      if (!cell.enter_local(point, lifted)) return;
-      cell.differentiate();
-      if (sharp) cell.sharpen_middle();
-      krawczyk(cell, system, image);
-      if (image.empty()) return;
-      step = 0;
-      for (std::size_t c = 0; c < point.size(); ++c) {
-        step = std::max(step, std::abs(image[c].middle() - point[c].middle()));
-        if (!is_thin(c)) point[c] = image[c].middle();
-      }
-      if (step == 0 || step >= 0.5 * last) break;
-    }
-    double radius = std::max(2 * step, first_radius * accuracy);
-    bool narrow = false;
-    for (int i = 0; i < most_radii; ++i, radius *= 8) {
-      bool inside_box = true;
-      for (std::size_t c = 0; c < point.size(); ++c) {
-        const double own = std::max(radius, 0x1p-51 * point[c].magnitude());
-        trial[c] = is_thin(c) ? box[c] : Interval(point[c].lower() - own, point[c].upper() + own);
-        inside_box = inside_box && (is_thin(c) || inside(trial[c], box[c]));
-      }
-      if (!inside_box || !cell.enter_local(trial, lifted)) break;
-      cell.differentiate();
-      if (sharp) cell.sharpen_middle();
-      if (krawczyk(cell, system, image) != ZeroCount::unique) continue;
-      narrow = true;
-      for (std::size_t c = 0; c < point.size(); ++c) {
-        enclosure[c] = meet(image[c], trial[c]);
-        narrow = narrow && enclosure[c].width() <= accuracy;
-        if (!is_thin(c)) point[c] = enclosure[c].middle();
-      }
-      break;
-    }
-    if (narrow) return;
+  Narrowing narrowing(system, box, lifted, accuracy, enclosure);
+  while (!narrowing.is_done()) {
+    const bool entered = cell.enter_local(narrowing.place(), lifted);
+    if (entered) cell.differentiate();
+    narrowing.take(cell, entered);
   }
 }
 

@@ -28,4 +28,40 @@ ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Inte
 void narrow(SheetCell& cell, const System& system, const std::vector<Interval>& box, const std::vector<int>& lifted,
             double accuracy, std::vector<Interval>& enclosure);
 
+/// The same place by place, for those who have several of them to narrow and enclose their places side by side. What is
+/// given outlives this.
+class Narrowing {
+ public:
+  Narrowing(const System& system, const std::vector<Interval>& box, const std::vector<int>& lifted, double accuracy,
+            std::vector<Interval>& enclosure);
+
+  bool is_done() const { return stage_ == Stage::done; }
+  /// The local coordinates that a cell is to enter next, and to be differentiated in; which roots are lifted there.
+  const std::vector<Interval>& place() const { return stage_ == Stage::steps ? point_ : trial_; }
+  const std::vector<int>& lifted() const { return *lifted_; }
+  /// `entered`: the cell has; otherwise the place is too wide to work on.
+  void take(SheetCell& cell, bool entered);
+
+ private:
+  enum class Stage { steps, radii, done };
+
+  bool is_thin(std::size_t c) const { return (*box_)[c].width() == 0; }
+  void begin(bool sharp);
+  void take_step();
+  void choose_trial();
+  void take_trial(ZeroCount count);
+  void end_radii(bool narrow);
+
+  const System* system_;
+  const std::vector<Interval>* box_;
+  const std::vector<int>* lifted_;
+  double accuracy_;
+  std::vector<Interval>* enclosure_;
+  std::vector<Interval> point_, trial_, image_;
+  Stage stage_ = Stage::steps;
+  bool sharp_ = false;
+  int count_ = 0;  // of steps, of radii
+  double step_ = 0, last_step_ = 0, radius_ = 0;
+};
+
 }  // namespace clearloci::loci::sheet

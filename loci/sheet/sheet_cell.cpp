@@ -173,6 +173,17 @@ void SheetCell::project_slopes() {
   }
 }
 
+/// A point is its middle.
+bool SheetCell::is_point() const {
+  return std::all_of(local_.begin(), local_.end(), [](const Interval& range) { return range.width() == 0; });
+}
+
+void SheetCell::take_point() {
+  for (int f = 0; f < program_->functions(); ++f) middle_values_[f] = over_.value(f);
+  for (std::size_t l = 0; l < lifted_.size(); ++l)
+    middle_bonds_[l] = squared(Interval(middle_[2 + l])) - over_.square(lifted_[l]);
+}
+
 void SheetCell::begin_middle() {
   middle_.clear();
   for (const Interval& range : local_) middle_.push_back(range.middle());
@@ -200,6 +211,7 @@ void SheetCell::differentiate() {
   over_.run_gradients();
   project_slopes();
   begin_middle();
+  if (is_point()) return take_point();
   std::size_t l = 0;
   for (int j = 0; j < program_->roots(); ++j) {
     at_middle_.run_square(j);
@@ -318,6 +330,7 @@ void SheetCells::differentiate() {
   over_.run_gradients();
   IntervalBatch x, y;
   std::array<std::size_t, size> lifted{};
+  bool are_points = true;
   for (std::size_t lane = 0; lane < size; ++lane) {
     if (!inside_[lane]) continue;
     SheetCell& cell = cells_[lane];
@@ -326,6 +339,12 @@ void SheetCells::differentiate() {
     cell.begin_middle();
     x.lanes[lane] = cell.middle(0);
     y.lanes[lane] = cell.middle(1);
+    are_points = are_points && cell.is_point();
+  }
+  if (are_points) {
+    for (std::size_t lane = 0; lane < size; ++lane)
+      if (inside_[lane]) cells_[lane].take_point();
+    return;
   }
   at_middle_.set(0, x);
   at_middle_.set(1, y);

@@ -76,6 +76,9 @@ class SheetCell {
   /// Once gradients are enclosed.
   void project_slopes();
   void begin_middle();
+  bool is_point() const;
+  /// Values at the middle of a point: its own.
+  void take_point();
   /// Once its square at the middle is enclosed; `l`: how many of the roots before it are lifted.
   void place_root_at_middle(int j, std::size_t& l);
   /// Once values at the middle are enclosed.

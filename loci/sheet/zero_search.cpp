@@ -51,15 +51,21 @@ ZeroSearch::ZeroSearch(const SheetProgram& program, const core::WorkingMode& mod
 }
 
 FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits) {
+  return std::move(run_each({seeds}, limits).front());
+}
+
+std::vector<FoundZeros> ZeroSearch::run_each(const std::vector<std::vector<Cell>>& seeds, const Limits& limits) {
   limits_ = limits;
-  zeros_.clear();
-  settled_.clear();
-  touch_trials_ = 0;
-  undecided_.clear();
+  states_.assign(seeds.size(), {});
   std::vector<Box> live, next;
-  for (const Cell& seed : seeds) live.push_back({seed, {}});
+  for (std::size_t search = 0; search < seeds.size(); ++search) {
+    states_[search].seeds = seeds[search].size();
+    for (const Cell& seed : seeds[search]) live.push_back({seed, {}, search});
+  }
   bool stopped = false;
-  while (!live.empty() && !stopped && live.size() <= limits_.most_cells + seeds.size()) {
+  while (!stopped) {
+    give_up(live);
+    if (live.empty()) break;
     next.clear();
     for (std::size_t i = 0; i < live.size() && !stopped; i += cells_at_a_time) {
       stopped = limits_.stop && limits_.stop();
@@ -67,13 +73,37 @@ FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits)
     }
     if (!stopped) std::swap(live, next);
   }
+  for (const Box& box : live) {
+    states_[box.search].gave_up = true;
+    states_[box.search].undecided.push_back(box.cell);
+  }
+  std::vector<FoundZeros> result;
+  for (State& state : states_) result.push_back(found(state));
+  return result;
+}
+
+void ZeroSearch::give_up(std::vector<Box>& live) {
+  for (State& state : states_) state.live = 0;
+  for (const Box& box : live) ++states_[box.search].live;
+  const auto has_too_many = [&](const Box& box) {
+    const State& own = states_[box.search];
+    return own.live > limits_.most_cells + own.seeds;
+  };
+  for (const Box& box : live)
+    if (has_too_many(box)) {
+      states_[box.search].gave_up = true;
+      states_[box.search].undecided.push_back(box.cell);
+    }
+  std::erase_if(live, has_too_many);
+}
+
+FoundZeros ZeroSearch::found(State& state) {
   FoundZeros result;
-  result.gave_up = !live.empty();
-  for (const Box& box : live) undecided_.push_back(box.cell);
-  result.undecided = std::move(undecided_);
-  for (CertifiedZero& touch : settled_)
+  result.gave_up = state.gave_up;
+  result.undecided = std::move(state.undecided);
+  for (CertifiedZero& touch : state.settled)
     if (!touch.enclosure.empty()) result.touches.push_back(std::move(touch.enclosure));
-  for (CertifiedZero& zero : zeros_) result.enclosures.push_back(std::move(zero.enclosure));
+  for (CertifiedZero& zero : state.zeros) result.enclosures.push_back(std::move(zero.enclosure));
   return result;
 }
 
@@ -179,7 +209,7 @@ void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& ne
   const auto drop_excluded = [&] { std::erase_if(open, [&](std::size_t i) { return candidates_[i].excluded; }); };
   enclose(open, Extent::cell, false,
           [&](Candidate& own, const SheetCell& cell, bool inside) { exclude_by_values(own, cell, inside); });
-  for (const std::size_t i : open) candidates_[i].excluded = candidates_[i].excluded || known(candidates_[i].all);
+  for (const std::size_t i : open) candidates_[i].excluded = candidates_[i].excluded || known(candidates_[i]);
   drop_excluded();
   enclose(those([](const Candidate& own) { return !own.lifted.empty(); }), Extent::cell, true,
           [&](Candidate& own, const SheetCell& cell, bool) { exclude_by_slopes(own, cell); });
@@ -199,33 +229,36 @@ void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& ne
       own.count = found == ZeroCount::none ? ZeroCount::unknown : found;
     });
   }
+  narrow_all(those([&](const Candidate& own) { return own.count == ZeroCount::unique && !known(own); }));
   for (const std::size_t i : open) settle(candidates_[i], next);
 }
 
 void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
   const Box& own = *candidate.own;
   const Cell& cell = own.cell;
-  if (known(candidate.all)) return;  // since those before it were settled
-  if (candidate.count == ZeroCount::unique && accept(candidate.box, candidate.lifted, candidate.image, cell)) return;
-  if (settle_touch(cell, candidate.roots, candidate.lifted) && known(candidate.all)) return;
+  if (known(candidate)) return;  // since those before it were settled
+  if (candidate.count == ZeroCount::unique && accept(candidate)) return;
+  if (settle_touch(own, candidate.roots, candidate.lifted) && known(candidate)) return;
   if (width(cell) < limits_.smallest)
-    undecided_.push_back(cell);
+    states_[own.search].undecided.push_back(cell);
   else
-    split({cell, std::move(candidate.roots)}, candidate.axis, next);
+    split({cell, std::move(candidate.roots), own.search}, candidate.axis, next);
 }
 
-bool ZeroSearch::settle_touch(const Cell& cell, const std::vector<Interval>& roots, const std::vector<int>& lifted) {
+bool ZeroSearch::settle_touch(const Box& own, const std::vector<Interval>& roots, const std::vector<int>& lifted) {
+  const Cell& cell = own.cell;
+  State& state = states_[own.search];
   if (limits_.touches == nullptr || width(cell) > worth_a_touch * limits_.smallest) return false;
-  if (touch_trials_++ >= most_touch_trials) return false;
+  if (state.touch_trials++ >= most_touch_trials) return false;
   std::vector<Interval> local = {cell.x, cell.y};
   for (const int j : lifted) local.push_back(roots[static_cast<std::size_t>(j)]);
   std::optional<Touch> touch = limits_.touches->around(local, lifted);
   if (!touch) return false;
-  const bool known = std::any_of(settled_.begin(), settled_.end(), [&](const CertifiedZero& other) {
+  const bool known = std::any_of(state.settled.begin(), state.settled.end(), [&](const CertifiedZero& other) {
     return !touch->enclosure.empty() && owns(other, touch->enclosure);
   });
   if (known) touch->enclosure.clear();
-  settled_.push_back({lifted, std::move(touch->box), std::move(touch->enclosure)});
+  state.settled.push_back({lifted, std::move(touch->box), std::move(touch->enclosure)});
   return true;
 }
 
@@ -298,10 +331,12 @@ bool ZeroSearch::owns(const CertifiedZero& zero, const std::vector<Interval>& al
   return true;
 }
 
-/// All of a cell lies in the box of a zero that is known already. `all`: enclosures of all variables over it.
-bool ZeroSearch::known(const std::vector<Interval>& all) const {
-  const auto owns_all = [&](const CertifiedZero& zero) { return owns(zero, all); };
-  return std::any_of(zeros_.begin(), zeros_.end(), owns_all) || std::any_of(settled_.begin(), settled_.end(), owns_all);
+/// All of its cell lies in the box of a zero that is known already.
+bool ZeroSearch::known(const Candidate& candidate) const {
+  const State& state = states_[candidate.own->search];
+  const auto owns_all = [&](const CertifiedZero& zero) { return owns(zero, candidate.all); };
+  return std::any_of(state.zeros.begin(), state.zeros.end(), owns_all) ||
+         std::any_of(state.settled.begin(), state.settled.end(), owns_all);
 }
 
 double ZeroSearch::width(const Cell& cell) const { return std::max(cell.x.width(), cell.y.width()); }
@@ -317,25 +352,59 @@ void ZeroSearch::split(const Box& box, int axis, std::vector<Box>& next) {
   for (Box& half : halves) next.push_back(std::move(half));
 }
 
-/// Keeps the zero in `box` if it lies in the cell and on the mode's sheet. False: rounding does not tell whether it is
-/// a new one.
-bool ZeroSearch::accept(const std::vector<Interval>& box, const std::vector<int>& lifted,
-                        std::vector<Interval> enclosure, const Cell& cell) {
-  narrow(cell_, system_, box, lifted, limits_.accuracy, enclosure);
+void ZeroSearch::narrow_all(const Group& group) {
+  if (group.size() < few_candidates) {
+    for (const std::size_t i : group) {
+      Candidate& own = candidates_[i];
+      narrow(cell_, system_, own.box, own.lifted, limits_.accuracy, own.image);
+    }
+    return;
+  }
+  std::vector<Narrowing> active;
+  for (const std::size_t i : group) {
+    Candidate& own = candidates_[i];
+    active.emplace_back(system_, own.box, own.lifted, limits_.accuracy, own.image);
+  }
+  constexpr std::size_t size = SheetCells::size;
+  if (!side_by_side_) side_by_side_.emplace(*program_, mode());
+  while (!active.empty()) {
+    for (std::size_t first = 0; first < active.size(); first += size) {
+      const std::size_t count = std::min(size, active.size() - first);
+      std::array<SheetCells::Place, size> places;
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const Narrowing& own = active[first + lane];
+        places[lane] = {{}, {}, nullptr, &own.place(), &own.lifted()};
+      }
+      side_by_side_->enter(places, count);
+      side_by_side_->differentiate();
+      for (std::size_t lane = 0; lane < count; ++lane)
+        active[first + lane].take((*side_by_side_)[lane], side_by_side_->inside(lane));
+    }
+    std::erase_if(active, [](const Narrowing& own) { return own.is_done(); });
+  }
+}
+
+/// Keeps the zero in the candidate's box if it lies in the cell and on the mode's sheet. False: rounding does not tell
+/// whether it is a new one.
+bool ZeroSearch::accept(const Candidate& candidate) {
+  const std::vector<int>& lifted = candidate.lifted;
+  const std::vector<Interval>& enclosure = candidate.image;
+  const Cell& cell = candidate.own->cell;
+  State& state = states_[candidate.own->search];
   if (disjoint(enclosure[0], cell.x) || disjoint(enclosure[1], cell.y)) return true;
   for (std::size_t l = 0; l < lifted.size(); ++l)
     if (enclosure[2 + l].sign() == -mode()[lifted[l]]) return true;
-  CertifiedZero zero{lifted, box, {enclosure[0], enclosure[1]}};
+  CertifiedZero zero{lifted, candidate.box, {enclosure[0], enclosure[1]}};
   if (!cell_.enter_local(enclosure, lifted)) return false;
   for (int j = 0; j < program_->roots(); ++j) zero.enclosure.push_back(cell_.root(j));
-  for (const CertifiedZero& place : settled_)
+  for (const CertifiedZero& place : state.settled)
     if (owns(place, zero.enclosure)) return true;
-  for (const CertifiedZero& other : zeros_) {
+  for (const CertifiedZero& other : state.zeros) {
     if (owns(other, zero.enclosure) || owns(zero, other.enclosure)) return true;
     if (!disjoint(other.enclosure[0], zero.enclosure[0]) && !disjoint(other.enclosure[1], zero.enclosure[1]))
       return false;
   }
-  zeros_.push_back(std::move(zero));
+  state.zeros.push_back(std::move(zero));
   return true;
 }
 

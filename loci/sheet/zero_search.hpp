@@ -45,6 +45,9 @@ class ZeroSearch {
 
   /// All zeros in the seeds, which are thin in the coordinates that are not free.
   FoundZeros run(const std::vector<Cell>& seeds, const Limits& limits);
+  /// The same of many searches, each with seeds of its own: what one finds does not depend on the others, but their
+  /// cells are enclosed side by side.
+  std::vector<FoundZeros> run_each(const std::vector<std::vector<Cell>>& seeds, const Limits& limits);
 
   const core::WorkingMode& mode() const { return cell_.mode(); }
 
@@ -60,6 +63,17 @@ class ZeroSearch {
   struct Box {
     Cell cell;
     std::vector<Interval> roots;
+    std::size_t search = 0;
+  };
+
+  /// What one of the searches has come to.
+  struct State {
+    std::vector<CertifiedZero> zeros;
+    std::vector<CertifiedZero> settled;  ///< boxes in which there is nothing else
+    std::size_t touch_trials = 0;
+    std::vector<Cell> undecided;
+    std::size_t seeds = 0, live = 0;  ///< how many there were, and cells there are now
+    bool gave_up = false;
   };
 
   /// A box under examination.
@@ -92,18 +106,22 @@ class ZeroSearch {
   template <class Function>
   bool excludes_zero(const Function& enclosure) const;
   /// The cell is next to a place where the curves touch or nearly do, in a box that is settled from now on.
-  bool settle_touch(const Cell& cell, const std::vector<Interval>& roots, const std::vector<int>& lifted);
+  bool settle_touch(const Box& own, const std::vector<Interval>& roots, const std::vector<int>& lifted);
   /// By second-order enclosures.
   void exclude_smoothly(const Group& group);
   int axis_to_cut(const SheetCell& cell, const Cell& place) const;
   /// Makes the box hold its image. False: that is no use.
   static bool widen(Candidate& candidate);
   bool owns(const CertifiedZero& zero, const std::vector<Interval>& all) const;
-  bool known(const std::vector<Interval>& all) const;
+  bool known(const Candidate& candidate) const;
+  /// Takes the cells of searches that have too many away.
+  void give_up(std::vector<Box>& live);
+  static FoundZeros found(State& state);
   static void split(const Box& box, int axis, std::vector<Box>& next);
   double width(const Cell& cell) const;
-  bool accept(const std::vector<Interval>& box, const std::vector<int>& lifted, std::vector<Interval> enclosure,
-              const Cell& cell);
+  /// Narrows the enclosures of the zeros that candidates have, side by side.
+  void narrow_all(const Group& group);
+  bool accept(const Candidate& candidate);
 
   const SheetProgram* program_;
   System system_;
@@ -113,10 +131,7 @@ class ZeroSearch {
   std::optional<SmoothCell> smooth_;                // once it is asked for
   std::optional<SmoothCells> smooth_side_by_side_;  // likewise
   Limits limits_{};
-  std::vector<CertifiedZero> zeros_;
-  std::vector<CertifiedZero> settled_;  // boxes in which there is nothing else
-  std::size_t touch_trials_ = 0;
-  std::vector<Cell> undecided_;
+  std::vector<State> states_;          // of the searches
   std::vector<Candidate> candidates_;  // under examination
 };
 

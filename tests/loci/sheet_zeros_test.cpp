@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "loci/sheet/isolated_zeros.hpp"
+#include "loci/sheet/zero_search.hpp"
 #include "tests/loci/sheet_cases.hpp"
 
 namespace clearloci::loci::sheet {
@@ -170,6 +171,36 @@ TEST(Stars, ChartsDescribeTheSameSheet) {
     ASSERT_TRUE(here.enter(0.0, 0.3));
     EXPECT_NE(here.value(0).sign(), 0);
   }
+}
+
+/// Along grid lines, a zero on some of them, two on others, a touch on one that cannot be told apart.
+TEST(ZeroSearch, FindsOnManySegmentsWhatItFindsOnEachAlone) {
+  const Ring r{2};
+  const auto x = r.x(), y = r.y();
+  const SheetProgram program(testing::plane(), std::vector<core::Polynomial>{(x * x + y * y - r(1)) * (y - x * x * x)});
+  std::vector<std::vector<Cell>> segments;
+  for (int i = -7; i <= 7; ++i)
+    for (int k = -6; k < 6; ++k) segments.push_back({{Interval(i / 5.0), Interval(k / 4.0, (k + 1) / 4.0)}});
+  const ZeroSearch::Limits limits{1e-14, 64, 1e-13};
+  const System along_y{{0}, {1}};
+  const std::vector<FoundZeros> together = ZeroSearch(program, {}, along_y).run_each(segments, limits);
+  ASSERT_EQ(together.size(), segments.size());
+  std::size_t zeros = 0, open = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const FoundZeros alone = ZeroSearch(program, {}, along_y).run(segments[i], limits);
+    zeros += alone.enclosures.size();
+    open += alone.undecided.empty() ? 0 : 1;
+    EXPECT_EQ(together[i].gave_up, alone.gave_up);
+    EXPECT_EQ(together[i].undecided.size(), alone.undecided.size());
+    ASSERT_EQ(together[i].enclosures.size(), alone.enclosures.size());
+    for (std::size_t z = 0; z < alone.enclosures.size(); ++z)
+      for (const std::size_t c : {0, 1}) {
+        EXPECT_EQ(together[i].enclosures[z][c].lower(), alone.enclosures[z][c].lower());
+        EXPECT_EQ(together[i].enclosures[z][c].upper(), alone.enclosures[z][c].upper());
+      }
+  }
+  EXPECT_GT(zeros, 20u);
+  EXPECT_GT(open, 0u);
 }
 
 }  // namespace
