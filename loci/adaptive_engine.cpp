@@ -168,7 +168,8 @@ void certify(const LocusProblem& problem, const std::vector<SheetShare>& shares,
 }
 
 /// Curves, points and notes of the shares, those that are open from the exact engine.
-LocusMap gathered(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares) {
+LocusMap gathered(const LocusProblem& problem, const TraceOptions& options, const CurveAlgebras& algebras,
+                  std::vector<SheetShare>& shares) {
   LocusMap map;
   for (SheetShare& share : shares) share.settled = false;
   try {
@@ -176,7 +177,7 @@ LocusMap gathered(const LocusProblem& problem, const TraceOptions& options, std:
   } catch (const core::LimitReached&) {
     map.complete = false;  // what is open stays so
   }
-  add_sheet_loci(problem, shares, map);
+  add_sheet_loci(problem, shares, algebras, map);
   return map;
 }
 
@@ -201,16 +202,17 @@ bool reopen(const LocusProblem& problem, const std::vector<WrongArc>& wrong, con
 }  // namespace
 
 Found find_adaptively(const LocusProblem& problem, const TraceOptions& options) {
-  std::vector<SheetShare> shares = trace_on_sheets(problem, options, cells_before_exact(problem, options));
+  const std::shared_ptr<const CurveAlgebras> algebras = curve_algebras(problem, options);
+  std::vector<SheetShare> shares = trace_on_sheets(problem, options, *algebras, cells_before_exact(problem, options));
   if (options.certificate != nullptr) {
     *options.certificate = {problem, {}, {}};
     for (const SheetShare& share : shares) options.certificate->open.push_back({share.mode, share.factor});
   }
-  LocusMap map = gathered(problem, options, shares);
+  LocusMap map = gathered(problem, options, *algebras, shares);
   bool withheld = false;
   // The last check. What fails it is traced again by the exact engine; what fails it then is not handed out.
   if (const std::vector<WrongArc> wrong = wrong_arcs(problem, map); !wrong.empty()) {
-    if (reopen(problem, wrong, map, shares)) map = gathered(problem, options, shares);
+    if (reopen(problem, wrong, map, shares)) map = gathered(problem, options, *algebras, shares);
     withheld = withhold_wrong_arcs(problem, map);
   }
   if (options.certificate != nullptr) certify(problem, shares, *options.certificate);

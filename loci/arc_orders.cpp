@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "core/interval.hpp"
 #include "loci/sheet/star.hpp"
@@ -64,27 +65,48 @@ std::optional<CurvePoint> curve_point(const Polynomial& curve, const std::array<
   return point;
 }
 
-const CurveAlgebra::Divided& CurveAlgebra::divided(const Polynomial& p) {
-  const auto known = std::find_if(divided_.begin(), divided_.end(), [&](const auto& own) { return own.first == p; });
-  if (known != divided_.end()) return known->second;
-  Divided own{0, core::with_variables(p, curve_.variables)};
-  while (std::optional<Polynomial> quotient = sheet::exact_quotient(own.rest, curve_)) {
-    own.rest = std::move(*quotient);
-    ++own.order;
+template <class Value, class Compute>
+const Value& CurveAlgebra::known_or(Known<Value>& known, const Polynomial& p, const Compute& compute) {
+  const auto find = [&] {
+    return std::find_if(known.begin(), known.end(), [&](const auto& own) { return own.first == p; });
+  };
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto own = find(); own != known.end()) return own->second;
   }
-  // What a curve with long coefficients leaves of a product is below what MultiInterval resolves.
-  own.rest = core::scaled_for_doubles(own.rest);
-  return divided_.emplace_back(p, std::move(own)).second;
+  Value value = compute();
+  const std::lock_guard lock(mutex_);
+  if (const auto own = find(); own != known.end()) return own->second;
+  return known.emplace_back(p, std::move(value)).second;
+}
+
+const CurveAlgebra::Divided& CurveAlgebra::divided(const Polynomial& p) {
+  return known_or(divided_, p, [&] {
+    Divided own{0, core::with_variables(p, curve_.variables)};
+    while (std::optional<Polynomial> quotient = core::exact_quotient(own.rest, curve_)) {
+      own.rest = std::move(*quotient);
+      ++own.order;
+    }
+    // What a curve with long coefficients leaves of a product is below what MultiInterval resolves.
+    own.rest = core::scaled_for_doubles(own.rest);
+    return own;
+  });
 }
 
 const Polynomial& CurveAlgebra::conjugate(const Polynomial& p, int root) {
   // A polynomial names its own root: the last that it holds.
-  const auto known =
-      std::find_if(conjugates_.begin(), conjugates_.end(), [&](const auto& own) { return own.first == p; });
-  if (known != conjugates_.end()) return known->second;
-  Polynomial product = conjugate_product(p, root, tower_);
-  if (!product.is_zero()) product = core::scaled_for_doubles(product);
-  return conjugates_.emplace_back(p, std::move(product)).second;
+  return known_or(conjugates_, p, [&] {
+    Polynomial product = conjugate_product(p, root, tower_);
+    if (!product.is_zero()) product = core::scaled_for_doubles(product);
+    return product;
+  });
+}
+
+std::shared_ptr<CurveAlgebra> CurveAlgebras::of(const Polynomial& curve) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [known, algebra] : curves_)
+    if (known == curve) return algebra;
+  return curves_.emplace_back(curve, std::make_shared<CurveAlgebra>(tower_, curve)).second;
 }
 
 ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, Polynomial curve, const CurvePoint& at)

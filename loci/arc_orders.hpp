@@ -14,6 +14,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,8 +38,8 @@ using CurvePoint = std::vector<std::pair<core::Rational, core::Rational>>;
 /// The germs of polynomials in the coordinates, on the sides +1 and -1 of a curve; nothing where it is not told.
 using CoordinateGerm = std::function<std::optional<Germ>(const core::Polynomial& p, int side)>;
 
-/// The exact algebra that orders along a curve rest on. It is the same at every point of it: computed when it is first
-/// asked for. Not for several threads at once.
+/// The exact algebra that orders along a curve rest on. It is the same at every point of it, in every mode: computed
+/// when it is first asked for. May be shared by threads.
 class CurveAlgebra {
  public:
   /// `curve`: irreducible, in the coordinates. The tower outlives this.
@@ -53,10 +54,31 @@ class CurveAlgebra {
   const core::Polynomial& conjugate(const core::Polynomial& p, int root);
 
  private:
+  template <class Value>
+  using Known = std::list<std::pair<core::Polynomial, Value>>;
+  /// What is known of p, or else what `compute` says.
+  template <class Value, class Compute>
+  const Value& known_or(Known<Value>& known, const core::Polynomial& p, const Compute& compute);
+
   const core::RootTower& tower_;
   core::Polynomial curve_;
-  std::list<std::pair<core::Polynomial, Divided>> divided_;
-  std::list<std::pair<core::Polynomial, core::Polynomial>> conjugates_;
+  std::mutex mutex_;  // of what follows
+  Known<Divided> divided_;
+  Known<core::Polynomial> conjugates_;
+};
+
+/// The algebra of the curves of a tower. May be shared by threads.
+class CurveAlgebras {
+ public:
+  explicit CurveAlgebras(core::RootTower tower) : tower_(std::move(tower)) {}
+
+  /// Not to be used longer than this. `curve`: irreducible, in the coordinates.
+  std::shared_ptr<CurveAlgebra> of(const core::Polynomial& curve) const;
+
+ private:
+  core::RootTower tower_;
+  mutable std::mutex mutex_;
+  mutable std::list<std::pair<core::Polynomial, std::shared_ptr<CurveAlgebra>>> curves_;
 };
 
 class ArcOrders {

@@ -177,12 +177,12 @@ core::Polyline close_vertices(const core::Polyline& points, const core::ClosedFo
 }
 
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
-                              sheet::SheetTraceOptions options) {
+                              const CurveAlgebras& algebras, sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
   std::vector<core::ClosedForm> forms;
   std::vector<std::shared_ptr<CurveAlgebra>> algebra;
   for (const core::Polynomial& p : factor.implicit) {
-    algebra.push_back(std::make_shared<CurveAlgebra>(problem.tower, p));
+    algebra.push_back(algebras.of(p));
     forms.push_back(core::recognise_closed_form(p));
     options.closed_form.push_back(is_line_or_circle(forms.back()));
     options.along_side.push_back(side_along(problem, p));
@@ -269,8 +269,9 @@ class VanishesAlong {
 /// Collects the arcs of one mode into curves.
 class Gathering {
  public:
-  Gathering(const LocusProblem& problem, const std::vector<const SheetShare*>& shares, LocusMap& map)
-      : problem_(problem), shares_(shares), map_(map) {}
+  Gathering(const LocusProblem& problem, const std::vector<const SheetShare*>& shares, const CurveAlgebras& algebras,
+            LocusMap& map)
+      : problem_(problem), shares_(shares), algebras_(algebras), map_(map) {}
 
   void run() {
     for (const SheetShare* share : shares_) {
@@ -317,13 +318,6 @@ class Gathering {
     }
   }
 
-  std::shared_ptr<CurveAlgebra> algebra_of(const core::Polynomial& implicit) const {
-    const auto known =
-        std::find_if(algebra_.begin(), algebra_.end(), [&](const auto& own) { return own.first == implicit; });
-    if (known != algebra_.end()) return known->second;
-    return algebra_.emplace_back(implicit, std::make_shared<CurveAlgebra>(problem_.tower, implicit)).second;
-  }
-
   /// Orders along an arc, exactly. Undecided where no point of it lends itself, or the arc's own factor is not among
   /// what vanishes there.
   ReactionOrders orders_along(const SheetShare& share, const TracedArc& traced, const core::Polynomial& implicit,
@@ -334,7 +328,7 @@ class Gathering {
     for (const Point2& at : {traced.inner, points[points.size() / 3], points[2 * points.size() / 3]}) {
       const std::optional<CurvePoint> point = point_of(problem_, implicit, at);
       if (!point) continue;
-      ArcOrders arc(problem_.tower, mode(share), algebra_of(implicit), *point);
+      ArcOrders arc(problem_.tower, mode(share), algebras_.of(implicit), *point);
       orders = reaction_orders(problem_, arc, factors_on(problem_, implicit));
       const FactorRole role = factor(share).role;
       const bool own_too = role != FactorRole::reaction && role != FactorRole::direct_singularity;
@@ -435,9 +429,9 @@ class Gathering {
 
   const LocusProblem& problem_;
   const std::vector<const SheetShare*>& shares_;
+  const CurveAlgebras& algebras_;
   LocusMap& map_;
   std::vector<LocusCurve> curves_;
-  mutable std::vector<std::pair<core::Polynomial, std::shared_ptr<CurveAlgebra>>> algebra_;  ///< known so far
 };
 
 }  // namespace
@@ -448,8 +442,16 @@ bool shares_curve(const LocusFactor& a, const LocusFactor& b) {
   });
 }
 
+std::shared_ptr<const CurveAlgebras> curve_algebras(const LocusProblem& problem, const TraceOptions& options) {
+  const auto make = [&] { return std::make_shared<const CurveAlgebras>(problem.tower); };
+  if (options.known == nullptr) return make();
+  using Key = sheet::KnownSearches::Key;
+  return options.known->get<CurveAlgebras>(sheet::KnownSearches::key(Key::Kind::algebra, problem.tower, {}, {}, {}),
+                                           make);
+}
+
 std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const TraceOptions& options,
-                                        const std::vector<int>& settled_after) {
+                                        const CurveAlgebras& algebras, const std::vector<int>& settled_after) {
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
   sheet_options.certificate = options.certificate != nullptr;
@@ -495,7 +497,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
       own.whole_or_nothing = true;
       own.most_cells = settled_after[factor];
     }
-    share.traced = trace_share(problem, problem.factors[factor], problem.modes[mode], std::move(own));
+    share.traced = trace_share(problem, problem.factors[factor], problem.modes[mode], algebras, std::move(own));
     const std::lock_guard lock(mutex);
     if (options.progress)
       options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");
@@ -503,12 +505,13 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   return shares;
 }
 
-void add_sheet_loci(const LocusProblem& problem, const std::vector<SheetShare>& shares, LocusMap& map) {
+void add_sheet_loci(const LocusProblem& problem, const std::vector<SheetShare>& shares, const CurveAlgebras& algebras,
+                    LocusMap& map) {
   for (std::size_t m = 0; m < problem.modes.size(); ++m) {
     std::vector<const SheetShare*> own;
     for (const SheetShare& share : shares)
       if (share.mode == static_cast<int>(m) && !share.settled) own.push_back(&share);
-    Gathering(problem, own, map).run();
+    Gathering(problem, own, algebras, map).run();
   }
 }
 

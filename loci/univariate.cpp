@@ -206,13 +206,20 @@ void narrow_by(RealRoot& root, int bits) {
   };
   while (won < bits && !root.exact()) {
     const Rational width = root.upper - root.lower, middle = root.lower + width / 2;
-    Rational value = 0, slope = 0;
+    // The value at n / d times d^degree, the slope times d^(degree - 1): whole numbers.
+    Integer value = 0, slope = 0, power = 1;
     for (auto c = root.polynomial.rbegin(); c != root.polynomial.rend(); ++c) {
-      slope = slope * middle + value;
-      value = value * middle + *c;
+      slope = slope * middle.get_num() + value;
+      value = value * middle.get_num() + *c * power;
+      power *= middle.get_den();
     }
     // A part of the interval about Newton's place, with ends on a grid of it.
-    Rational place = slope == 0 ? Rational(-1) : Rational((middle - value / slope - root.lower) / width);
+    Rational place = -1;
+    if (slope != 0) {
+      Rational way(value, slope * middle.get_den());
+      way.canonicalize();
+      place = (middle - way - root.lower) / width;
+    }
     if (sgn(place) <= 0 || place >= 1) {
       halve();
       continue;

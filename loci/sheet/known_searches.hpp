@@ -18,7 +18,7 @@ class KnownSearches {
  public:
   /// All that a search of one kind depends on. A function's straight line comes with its polynomial.
   struct Key {
-    enum class Kind { curve, zeros } kind = Kind::curve;
+    enum class Kind { curve, zeros, algebra } kind = Kind::curve;
     core::WorkingMode mode;
     std::vector<core::Rational> box;
     std::vector<core::Polynomial> polynomials;  ///< squares of the tower, then functions

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "loci/sheet/chains.hpp"
 #include "loci/sheet/critical_point.hpp"

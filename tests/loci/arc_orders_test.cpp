@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/dense_terms.hpp"
 #include "loci/reaction_orders.hpp"
 #include "loci/sheet/star.hpp"
 #include "tests/loci/sheet_cases.hpp"
@@ -100,8 +101,8 @@ TEST(ArcOrders, AreRightAtIrrationalPoints) {
 }
 
 TEST(ArcOrders, DivideOnlyWhatDivides) {
-  EXPECT_EQ(sheet::exact_quotient(circle * (x + y), circle), x + y);
-  EXPECT_FALSE(sheet::exact_quotient(circle * (x + y) + plane(1), circle).has_value());
+  EXPECT_EQ(core::exact_quotient(circle * (x + y), circle), x + y);
+  EXPECT_FALSE(core::exact_quotient(circle * (x + y) + plane(1), circle).has_value());
 }
 
 /// A numerator s (x + y) of M, and s times `rest` as |A|.

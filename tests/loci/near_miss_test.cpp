@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Openings, NearMiss, testing::Values(8, 12, 16, 18, 19))
 
 TEST(Node, IsNotCertifiedByTheSheetAloneButByTheExactEngineBehindIt) {
   const core::LocusProblem problem = opened_node(0);
-  for (const SheetShare& share : trace_on_sheets(problem, {}))
+  for (const SheetShare& share : trace_on_sheets(problem, {}, CurveAlgebras(problem.tower)))
     EXPECT_EQ(share.traced.certified, share.factor != 0) << share.factor;
   const core::LocusMap map = trace(problem, {.engine = Engine::adaptive_then_exact});
   EXPECT_TRUE(map.notes.empty());
