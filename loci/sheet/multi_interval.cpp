@@ -76,19 +76,49 @@ MultiInterval inverse(const MultiInterval& a) {
   return result;
 }
 
+namespace {
+
+/// floor(a b / 2^precision) and its ceiling.
+void multiply_down(core::Integer& result, const core::Integer& a, const core::Integer& b) {
+  mpz_mul(result.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+  mpz_fdiv_q_2exp(result.get_mpz_t(), result.get_mpz_t(), MultiInterval::precision);
+}
+void multiply_up(core::Integer& result, const core::Integer& a, const core::Integer& b) {
+  mpz_mul(result.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+  mpz_cdiv_q_2exp(result.get_mpz_t(), result.get_mpz_t(), MultiInterval::precision);
+}
+
+}  // namespace
+
+// The signs of the ends tell which of their four products are the least and the greatest, but where both are of either
+// sign.
 MultiInterval operator*(const MultiInterval& a, const MultiInterval& b) {
-  const core::Integer products[] = {a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_, a.upper_ * b.upper_};
   MultiInterval result;
-  result.lower_ = floor_shift(*std::min_element(std::begin(products), std::end(products)));
-  result.upper_ = ceiling_shift(*std::max_element(std::begin(products), std::end(products)));
+  const bool a_positive = a.lower_ >= 0, a_negative = a.upper_ <= 0;
+  const bool b_positive = b.lower_ >= 0, b_negative = b.upper_ <= 0;
+  if (!a_positive && !a_negative && !b_positive && !b_negative) {
+    const core::Integer products[] = {a.lower_ * b.upper_, a.upper_ * b.lower_, a.lower_ * b.lower_,
+                                      a.upper_ * b.upper_};
+    result.lower_ = floor_shift(std::min(products[0], products[1]));
+    result.upper_ = ceiling_shift(std::max(products[2], products[3]));
+    return result;
+  }
+  // Of a positive factor the lower end makes a positive product least, the upper one a negative product.
+  const core::Integer& of_a_least = b_positive ? a.lower_ : b_negative ? a.upper_ : a_positive ? a.upper_ : a.lower_;
+  const core::Integer& of_b_least = a_positive ? b.lower_ : a_negative ? b.upper_ : b_positive ? b.upper_ : b.lower_;
+  const core::Integer& of_a_most = b_positive ? a.upper_ : b_negative ? a.lower_ : a_positive ? a.upper_ : a.lower_;
+  const core::Integer& of_b_most = a_positive ? b.upper_ : a_negative ? b.lower_ : b_positive ? b.upper_ : b.lower_;
+  multiply_down(result.lower_, of_a_least, of_b_least);
+  multiply_up(result.upper_, of_a_most, of_b_most);
   return result;
 }
 
 MultiInterval squared(const MultiInterval& a) {
-  const core::Integer lower = a.lower_ * a.lower_, upper = a.upper_ * a.upper_;
+  const bool lower_is_nearer = mpz_cmpabs(a.lower_.get_mpz_t(), a.upper_.get_mpz_t()) < 0;
+  const core::Integer &nearer = lower_is_nearer ? a.lower_ : a.upper_, &farther = lower_is_nearer ? a.upper_ : a.lower_;
   MultiInterval result;
-  result.lower_ = a.sign() == 0 ? core::Integer(0) : floor_shift(std::min(lower, upper));
-  result.upper_ = ceiling_shift(std::max(lower, upper));
+  if (a.sign() != 0) multiply_down(result.lower_, nearer, nearer);
+  multiply_up(result.upper_, farther, farther);
   return result;
 }
 

@@ -394,5 +394,24 @@ TEST(SheetProgram, SharesCodeButNoNumbers) {
               (std::array{9.0 * n[0] + 15.0 * n[1] + n[2], 6.0 * n[0] + 5.0 * n[1], 3.0 * n[1]}));
 }
 
+/// Of every sign: products and squares are the least and the greatest of those of their ends.
+TEST(MultiInterval, MultipliesByTheSignsOfItsEnds) {
+  const std::vector<core::Rational> ends = {-3, core::Rational(-1, 4), 0, core::Rational(1, 2), 2};
+  std::vector<MultiInterval> all;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = i; k < ends.size(); ++k) all.emplace_back(ends[i], ends[k]);
+  for (const MultiInterval& a : all) {
+    for (const MultiInterval& b : all) {
+      const std::array<core::Rational, 4> products = {a.lower_end() * b.lower_end(), a.lower_end() * b.upper_end(),
+                                                      a.upper_end() * b.lower_end(), a.upper_end() * b.upper_end()};
+      EXPECT_EQ((a * b).lower_end(), *std::min_element(products.begin(), products.end()));
+      EXPECT_EQ((a * b).upper_end(), *std::max_element(products.begin(), products.end()));
+    }
+    const core::Rational lower = a.lower_end() * a.lower_end(), upper = a.upper_end() * a.upper_end();
+    EXPECT_EQ(squared(a).lower_end(), a.sign() == 0 ? core::Rational(0) : std::min(lower, upper));
+    EXPECT_EQ(squared(a).upper_end(), std::max(lower, upper));
+  }
+}
+
 }  // namespace
 }  // namespace clearloci::loci::sheet
