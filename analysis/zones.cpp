@@ -62,8 +62,9 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
 }
 
 /// Where the loci are those of several sheets, zones lie on one sheet each; a curve's name is that of the joined map.
-loci::CutZones zones_of(TracedProblem traced) {
-  if (traced.sheets.empty()) return loci::zones(traced.problem, std::move(traced.map));
+/// `may_leave`: as of loci::zones, of a mechanism without folds.
+loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
+  if (traced.sheets.empty()) return loci::zones(traced.problem, std::move(traced.map), false, may_leave);
   loci::CutZones all;
   core::ZoneMap& joined = all.map;
   for (TracedSheet& sheet : traced.sheets) {
@@ -131,10 +132,10 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
     TracedProblem traced = trace_problem(mechanism, finer, {certificate, &known, family});
     if (!traced.map.complete) throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
-    loci::CutZones cut = zones_of(std::move(traced));
+    loci::CutZones cut = zones_of(std::move(traced), attempt < attempts);
     core::ZoneMap& map = cut.map;
     const bool certified = std::all_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return z.certified; });
-    if (!certified && cut.finer_may_tell && attempt < attempts) {
+    if (cut.left || (!certified && cut.finer_may_tell && attempt < attempts)) {
       finer.tolerance /= 16;
       continue;
     }

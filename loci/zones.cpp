@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 
 #include "core/errors.hpp"
@@ -41,6 +42,7 @@ class ModeZones {
   }
 
   bool finer_may_tell() const { return cut_.finer_may_tell; }
+  bool is_cut_certified() const { return cut_.certified; }
 
   /// The mode's zones go to `map`, which holds the loci that this was made from.
   void find(core::ZoneMap& map) {
@@ -330,16 +332,21 @@ class ModeZones {
 
 }  // namespace
 
-CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch) {
+CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch, bool may_leave) {
   core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
   CutZones cut;
   core::ZoneMap& map = cut.map;
   map.loci = std::move(traced);
+  std::deque<ModeZones> modes;
+  bool is_certified = true;
   for (const core::WorkingMode& mode : problem.modes) {
-    ModeZones own(problem, map.loci, mode, sketch);
-    own.find(map);
+    const ModeZones& own = modes.emplace_back(problem, map.loci, mode, sketch);
     cut.finer_may_tell = cut.finer_may_tell && own.finer_may_tell();
+    is_certified = is_certified && own.is_cut_certified();
   }
+  cut.left = may_leave && cut.finer_may_tell && !is_certified;
+  if (cut.left) return cut;
+  for (ModeZones& own : modes) own.find(map);
   int number = 0;
   for (Zone& zone : map.zones) zone.id = "z" + std::to_string(++number);
   return cut;

@@ -27,7 +27,7 @@ Polynomial circle(const Rational& a, const Rational& b, const Rational& squared_
   return (x - number(a)) * (x - number(a)) + (y - number(b)) * (y - number(b)) - number(squared_radius);
 }
 
-core::ZoneMap zones_between(const std::vector<Polynomial>& curves) {
+LocusProblem problem_of(const std::vector<Polynomial>& curves) {
   LocusProblem problem;
   problem.tower.coordinates = {"x", "y"};
   problem.lower = {-2, -2};
@@ -44,6 +44,11 @@ core::ZoneMap zones_between(const std::vector<Polynomial>& curves) {
     problem.factors.push_back(factor);
   }
   problem.joint_order = problem.joints;
+  return problem;
+}
+
+core::ZoneMap zones_between(const std::vector<Polynomial>& curves) {
+  const LocusProblem problem = problem_of(curves);
   return zones(problem, trace(problem)).map;
 }
 
@@ -104,6 +109,25 @@ TEST(ZonesBetween, AnOvalBesideABranch) {
   const core::ZoneMap map = zones_between({y * y - x * x * x + x});
   ASSERT_EQ(map.zones.size(), 3U);
   EXPECT_NEAR(whole_area(map), 16, 1e-5);
+}
+
+TEST(ZonesBetween, CurvesNearerThanTheirPolylinesAreLeftToFinerOnes) {
+  LocusProblem problem = problem_of({circle(0, 0, 1), circle(0, 0, Rational(1001, 1000))});
+  problem.tolerance = 1e-2;
+  constexpr bool sketch = false, may_leave = true;
+  const CutZones left = zones(problem, trace(problem), sketch, may_leave);
+  EXPECT_TRUE(left.left);
+  EXPECT_TRUE(left.finer_may_tell);
+  EXPECT_TRUE(left.map.zones.empty());
+  const CutZones measured = zones(problem, trace(problem));
+  EXPECT_FALSE(measured.left);
+  EXPECT_FALSE(measured.map.zones.empty());
+  for (const core::Zone& zone : measured.map.zones) EXPECT_FALSE(zone.certified);
+  problem.tolerance = 1e-6;
+  const CutZones finer = zones(problem, trace(problem), sketch, may_leave);
+  EXPECT_FALSE(finer.left);
+  EXPECT_EQ(finer.map.zones.size(), 3u);
+  for (const core::Zone& zone : finer.map.zones) EXPECT_TRUE(zone.certified);
 }
 
 TEST(EdgeArea, OfAnArcOfACircleIsItsSegment) {
