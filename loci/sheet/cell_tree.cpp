@@ -24,9 +24,9 @@ constexpr int cells_between_stops = 256;
 constexpr std::size_t cells_at_a_time = 64;
 // Where cells cannot be decided, as along a double curve, halving all of them twice doubles their number. Where there
 // are no more than this many for each that there was, enclosures have begun to tell, and the budget is so many times as
-// large.
+// large. Where it has run out once, what is left open stays so, and the rest is worth no more than the budget itself.
 constexpr double growth_in_sight = 1.7;
-constexpr int extended_budget = 8;
+constexpr int extended_budget = 12;
 
 /// A fixed sequence that looks random: in [-1, 1].
 double scatter(unsigned index, unsigned attempt) {
@@ -51,7 +51,12 @@ class Budget {
     last_ = own;
     end_of_generation_ = all;
   }
-  bool allows(std::size_t all) const { return all < (in_sight_ ? extended_budget : 1) * most_cells_; }
+  bool allows(std::size_t all) {
+    const bool allowed = all < (in_sight_ ? extended_budget : 1) * most_cells_;
+    may_extend_ = may_extend_ && allowed;
+    in_sight_ = in_sight_ && allowed;
+    return allowed;
+  }
 
  private:
   std::size_t most_cells_, end_of_generation_ = 0, last_ = 0, last_but_one_ = 0;
@@ -271,9 +276,9 @@ void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode,
       leaf.along = judgement.along;
       const double widths[2] = {node.cell.x.width(), node.cell.y.width()};
       const bool divisible = judgement.kind == LeafKind::undecided && std::max(widths[0], widths[1]) > smallest_;
-      const bool may_split = !stopped && budget.allows(nodes_.size());
+      const bool may_split = divisible && !stopped && budget.allows(nodes_.size());
       cut_short_ = cut_short_ || (divisible && !may_split);
-      if (divisible && may_split) {
+      if (may_split) {
         split = true;
         const int own = judgement.cut_axis, other = 1 - own;
         node.axis = widths[own] > smallest_ && most_slender * widths[own] > widths[other] ? own : other;
