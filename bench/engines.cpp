@@ -17,11 +17,15 @@
 
 #include "analysis/loci.hpp"
 #include "clearloci/mechanism.hpp"
+#include "loci/sheet/curve_graph.hpp"
+#include "loci/sheet/patch.hpp"
+#include "loci/sheet/sheet_cell.hpp"
 #include "loci/sheet/sheet_program.hpp"
 #include "loci/sheet/subtower.hpp"
 
 namespace {
 
+using clearloci::core::Interval;
 using clearloci::core::Point2;
 using clearloci::loci::sheet::Batch;
 using clearloci::loci::sheet::SheetProgram;
@@ -65,6 +69,10 @@ class Factor {
     batch_.run_values();
     return batch_.value(0);
   }
+
+  const SheetProgram& program() const { return program_; }
+  const clearloci::core::WorkingMode& mode() const { return part_.mode; }
+  const clearloci::core::RootTower& tower() const { return part_.tower; }
 
   /// First-order distance from the curve; none outside the workspace.
   std::optional<double> distance(const Point2& p) {
@@ -152,6 +160,110 @@ Segments marching_squares(Factor& factor, const clearloci::core::LocusProblem& p
   return segments;
 }
 
+struct Box {
+  Interval x, y;
+};
+
+Box box_of(const clearloci::core::LocusProblem& problem) {
+  using clearloci::core::to_double;
+  return {{to_double(problem.lower[0]), to_double(problem.upper[0])},
+          {to_double(problem.lower[1]), to_double(problem.upper[1])}};
+}
+
+/// What the engine does without its tricks: cells whose plain enclosure of the value excludes 0 go, others are halved
+/// down to a width. What is left covers the curve; nothing is said of its topology.
+struct Covering {
+  std::size_t examined = 0;
+  std::vector<Point2> middles;
+};
+
+Covering branch_and_prune(const SheetProgram& program, const clearloci::core::WorkingMode& mode, const Box& box,
+                          double width) {
+  clearloci::loci::sheet::SheetCell cell(program, mode);
+  Covering covering;
+  std::vector<Box> open = {box};
+  while (!open.empty()) {
+    const Box own = open.back();
+    open.pop_back();
+    ++covering.examined;
+    if (!cell.enter(own.x, own.y) || !cell.value(0).contains_zero()) continue;
+    if (std::max(own.x.width(), own.y.width()) <= width) {
+      covering.middles.push_back({own.x.middle(), own.y.middle()});
+      continue;
+    }
+    Box halves[2] = {own, own};
+    const bool across = own.x.width() >= own.y.width();
+    for (const bool upper : {false, true}) {
+      const Interval& whole = across ? own.x : own.y;
+      Interval& part = across ? halves[upper].x : halves[upper].y;
+      part = upper ? Interval(whole.middle(), whole.upper()) : Interval(whole.lower(), whole.middle());
+    }
+    open.insert(open.end(), halves, halves + 2);
+  }
+  return covering;
+}
+
+/// Distance within which 99 % of the cells left have their middles.
+double deviation(Factor& factor, const Covering& covering) {
+  std::vector<double> off;
+  for (const Point2& middle : covering.middles)
+    if (const std::optional<double> own = factor.distance(middle)) off.push_back(*own);
+  if (off.empty()) return std::numeric_limits<double>::infinity();
+  const auto last = off.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(off.size() - 1));
+  std::nth_element(off.begin(), last, off.end());
+  return *last;
+}
+
+/// At ever smaller widths until the accuracy is met, or it takes too long.
+nlohmann::ordered_json branch_and_prune(Factor& factor, const SheetProgram& program, const Box& box, double accuracy) {
+  constexpr double longest = 4e3;  // ms
+  nlohmann::ordered_json rows;
+  for (double width = 1e-2; width > 1e-7; width /= 2) {
+    Covering covering;
+    const double time = best_of(1, [&] { covering = branch_and_prune(program, factor.mode(), box, width); });
+    const double off = deviation(factor, covering);
+    rows.push_back({{"width", width}, {"cells", covering.examined}, {"milliseconds", time}, {"deviation", off}});
+    if (off <= accuracy || time > longest) break;
+  }
+  return rows;
+}
+
+/// What cannot be done without: a Newton step a vertex, a plain enclosure of the value a cell that the proof looks at.
+nlohmann::ordered_json limit(const Factor& factor, const Box& box, std::size_t vertices) {
+  const auto parts =
+      clearloci::loci::sheet::partition(factor.tower(), {box.x.lower(), box.x.upper(), box.y.lower(), box.y.upper()});
+  const clearloci::loci::sheet::SheetFunction& function = factor.program().function(0);
+  const auto graph = clearloci::loci::sheet::curve_graph(factor.tower(), function, factor.mode(), parts, {});
+  std::size_t cells = 0;
+  for (const auto& patch : graph.patches) cells += 2 * patch.tree->leaves().size() - 1;
+  constexpr int repeated = 20000;
+  auto point = factor.program().registers<double>();
+  auto over = factor.program().registers<Interval>();
+  const auto enter = [&](auto& registers, const auto& x, const auto& y) {
+    registers.set(0, x);
+    registers.set(1, y);
+    for (int j = 0; j < factor.program().roots(); ++j) {
+      registers.run_square(j);
+      registers.set(2 + j, x);
+    }
+    registers.run_values();
+  };
+  const double newton = best_of(3, [&] {
+    for (int i = 0; i < repeated; ++i) {
+      enter(point, 0.2 + 1e-6 * i, -0.6);
+      point.run_gradients();
+    }
+  });
+  const double enclosure = best_of(3, [&] {
+    for (int i = 0; i < repeated; ++i) enter(over, Interval(0.2 + 1e-6 * i, 0.21 + 1e-6 * i), Interval(-0.6, -0.59));
+  });
+  return {
+      {"cells", cells},
+      {"newton_microseconds", 1e3 * newton / repeated},
+      {"enclosure_microseconds", 1e3 * enclosure / repeated},
+      {"milliseconds", (static_cast<double>(vertices) * newton + static_cast<double>(cells) * enclosure) / repeated}};
+}
+
 bool is_moment_A1(const clearloci::core::LocusCurve& curve) {
   return std::any_of(curve.vanishing.begin(), curve.vanishing.end(),
                      [](const auto& v) { return v.joint == "A1" && v.quantity == clearloci::core::Quantity::M; });
@@ -200,6 +312,7 @@ int main(int argc, char** argv) {
   Factor factor(problem, *own);
 
   nlohmann::ordered_json result;
+  double accuracy = 0;
   for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
     clearloci::core::LocusProblem with = problem;
     with.tolerance = tolerance;
@@ -214,7 +327,16 @@ int main(int argc, char** argv) {
                               {"vertices", vertices},
                               {"milliseconds", time},
                               {"deviation", deviation(factor, segments_of(map))}});
+    if (tolerance != 1e-5) continue;
+    accuracy = result["cost"].back()["deviation"];
+    result["limit"] = limit(factor, box_of(problem), vertices);
   }
+  clearloci::core::LocusFactor expanded = *own;
+  expanded.line = {};
+  Factor by_polynomial(problem, expanded);
+  result["branch_and_prune"] = {
+      {"program", branch_and_prune(factor, factor.program(), box_of(problem), accuracy)},
+      {"polynomial", branch_and_prune(factor, by_polynomial.program(), box_of(problem), accuracy)}};
   for (const int n : {400, 800, 1600, 3200, 6400, 12800}) {
     Segments segments;
     const double time = best_of(n > 2000 ? 1 : 3, [&] { segments = marching_squares(factor, problem, n); });
