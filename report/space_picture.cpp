@@ -235,34 +235,6 @@ void draw_surfaces(const Context& context, const core::LocusMap& map, const Plac
   context->get_target()->flush();
 }
 
-/// Curves and points on which the same reactions vanish.
-struct LineGroup {
-  std::string what;
-  Colour colour;
-  std::vector<core::Vanishing> vanishing;
-  std::vector<const core::SpaceCurve*> curves;
-  std::vector<const core::IsolatedPoint*> points;
-};
-
-/// In colours of their own, behind those of the surfaces: of the whole map, so that pictures of all modes agree.
-std::vector<LineGroup> group_lines(const core::LocusMap& map, const std::vector<SurfaceGroup>& surfaces) {
-  std::vector<LineGroup> groups;
-  const auto of = [&](core::LocusKind kind, const std::vector<core::Vanishing>& vanishing) -> LineGroup& {
-    const auto known =
-        std::find_if(groups.begin(), groups.end(), [&](const LineGroup& own) { return own.vanishing == vanishing; });
-    if (known != groups.end()) return *known;
-    groups.push_back({printable(vanishing_words(kind, vanishing)), {}, vanishing, {}, {}});
-    return groups.back();
-  };
-  for (const core::SpaceCurve& curve : map.space_curves) of(curve.kind, curve.vanishing).curves.push_back(&curve);
-  for (const core::IsolatedPoint& point : map.isolated_points) of(point.kind, point.vanishing).points.push_back(&point);
-  auto number = static_cast<int>(std::count_if(surfaces.begin(), surfaces.end(), [](const SurfaceGroup& own) {
-    return own.kind != core::LocusKind::direct_singularity && own.kind != core::LocusKind::workspace_boundary;
-  }));
-  for (LineGroup& group : groups) group.colour = palette_colour(number++);
-  return groups;
-}
-
 std::vector<LineGroup> lines_of_mode(std::vector<LineGroup> groups, const core::WorkingMode& mode) {
   for (LineGroup& group : groups) {
     std::erase_if(group.curves, [&](const auto* own) { return own->mode != mode; });

@@ -84,4 +84,25 @@ std::vector<SurfaceGroup> groups_of_mode(const std::vector<SurfaceGroup>& groups
   return chosen;
 }
 
+std::vector<LineGroup> group_lines(const core::LocusMap& map, const std::vector<SurfaceGroup>& surfaces) {
+  std::vector<LineGroup> groups;
+  const auto of = [&](core::LocusKind kind, const std::vector<core::Vanishing>& vanishing) -> LineGroup& {
+    const auto known =
+        std::find_if(groups.begin(), groups.end(), [&](const LineGroup& own) { return own.vanishing == vanishing; });
+    if (known != groups.end()) return *known;
+    groups.push_back({kind, vanishing, printable(vanishing_words(kind, vanishing)), 0, {}, {}, {}});
+    return groups.back();
+  };
+  for (const core::SpaceCurve& curve : map.space_curves) of(curve.kind, curve.vanishing).curves.push_back(&curve);
+  for (const core::IsolatedPoint& point : map.isolated_points) of(point.kind, point.vanishing).points.push_back(&point);
+  auto number = static_cast<int>(std::count_if(surfaces.begin(), surfaces.end(), [](const SurfaceGroup& own) {
+    return own.kind != core::LocusKind::direct_singularity && own.kind != core::LocusKind::workspace_boundary;
+  }));
+  for (LineGroup& group : groups) {
+    group.number = number++;
+    group.colour = palette_colour(group.number);
+  }
+  return groups;
+}
+
 }  // namespace clearloci::report

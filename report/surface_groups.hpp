@@ -30,4 +30,18 @@ std::vector<SurfaceGroup> group_surfaces(const core::LocusMap& map);
 /// With the members of one mode alone; groups without any are left out.
 std::vector<SurfaceGroup> groups_of_mode(const std::vector<SurfaceGroup>& groups, const core::WorkingMode& mode);
 
+/// Curves and points over three coordinates on which the same reactions vanish though on no surface.
+struct LineGroup {
+  core::LocusKind kind = core::LocusKind::contact_loss;
+  std::vector<core::Vanishing> vanishing;
+  std::string what;  ///< for the legend
+  int number = 0;    ///< of its colour: behind those of the surfaces
+  Colour colour;
+  std::vector<const core::SpaceCurve*> curves;
+  std::vector<const core::IsolatedPoint*> points;
+};
+
+/// Of the whole map, as group_surfaces, of which `surfaces` are the groups.
+std::vector<LineGroup> group_lines(const core::LocusMap& map, const std::vector<SurfaceGroup>& surfaces);
+
 }  // namespace clearloci::report

@@ -76,7 +76,8 @@ const char* shape_name(MarkerShape shape) {
 /// `points`: their places in loci.json's isolated_points.
 Json point_groups(const Groups& groups, const core::LocusMap& map) {
   Json list = Json::array();
-  int number = 1;  // as group_loci colours them
+  if (map.tower.coordinates.size() == 3) return list;  // among the groups of surfaces
+  int number = 1;                                      // as group_loci colours them
   for (const PointGroup& group : groups.points) {
     Json points = Json::array();
     for (const core::IsolatedPoint* point : group.points) points.push_back(point - map.isolated_points.data());
@@ -89,10 +90,12 @@ Json point_groups(const Groups& groups, const core::LocusMap& map) {
   return list;
 }
 
+/// With the curves and points over three coordinates, which have no surface.
 Json surface_groups(const core::LocusMap& map) {
   Json list = Json::array();
   int number = 0;
-  for (const SurfaceGroup& group : group_surfaces(map)) {
+  const std::vector<SurfaceGroup> surfaces = group_surfaces(map);
+  for (const SurfaceGroup& group : surfaces) {
     Json ids = Json::array();
     for (const core::LocusSurface* surface : group.surfaces) ids.push_back(surface->id);
     const Json colour = colour_role(group.kind, number);
@@ -102,7 +105,21 @@ Json surface_groups(const core::LocusMap& map) {
                     {"why", group.why},
                     {"colour", colour},
                     {"opacity", group.opacity},
-                    {"ids", std::move(ids)}});
+                    {"ids", std::move(ids)},
+                    {"points", Json::array()}});
+  }
+  if (map.tower.coordinates.size() != 3) return list;
+  for (const LineGroup& group : group_lines(map, surfaces)) {
+    Json ids = Json::array(), points = Json::array();
+    for (const core::SpaceCurve* curve : group.curves) ids.push_back(curve->id);
+    for (const core::IsolatedPoint* point : group.points) points.push_back(point - map.isolated_points.data());
+    list.push_back({{"kind", core::to_string(group.kind)},
+                    {"what", group.what},
+                    {"why", ""},
+                    {"colour", colour_role(group.kind, group.number)},
+                    {"opacity", 1},
+                    {"ids", std::move(ids)},
+                    {"points", std::move(points)}});
   }
   return list;
 }

@@ -85,7 +85,10 @@ export interface SurfaceGroup {
   why: string;
   colour: ColourRole;
   opacity: number;
+  /** Surfaces, or curves on which a force of several components vanishes. */
   ids: string[];
+  /** Places among the isolated points. */
+  points: number[];
 }
 
 export interface Mesh {

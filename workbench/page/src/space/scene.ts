@@ -5,6 +5,9 @@ import {
   SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import type { Picture, SurfaceGroup, Theme } from "../data/answers";
 import { colourOf, groupKey } from "../draw/loci";
 import { cut, trianglesOf, type Triangles } from "./meshes";
@@ -137,10 +140,33 @@ export class Space {
       this.model.add(object);
       if (slice?.on) this.model.add(this.section(mesh, slice, colourOf(theme, group.colour)));
     }
+    for (const group of picture.surface_groups) if (!hidden.has(groupKey(group))) this.showThin(picture, group, colourOf(theme, group.colour), planes);
     if (slice?.on) this.model.add(this.sheet(slice, theme));
     if (this.marker) this.model.add(this.marker);
     if (this.task) this.model.add(this.task);
     this.draw();
+  }
+
+  /** Curves and points that are part of no surface: seen through those before them. */
+  private showThin(picture: Picture, group: SurfaceGroup, colour: string, planes: Plane[]): void {
+    const own = new Set(group.ids);
+    const ends = picture.loci.curves.filter((curve) => own.has(curve.id)).flatMap((curve) => curve.arcs).flatMap(({ points }) => {
+      const places = points.map((at) => this.place(at));
+      return places.slice(1).flatMap((end, k) => [...(places[k] ?? end).toArray(), ...end.toArray()]);
+    });
+    if (ends.length > 0) {
+      const lines = new LineSegments2(new LineSegmentsGeometry().setPositions(ends), new LineMaterial({ color: new Color(colour).getHex(), linewidth: 4, depthTest: false, transparent: true, clippingPlanes: planes }));
+      lines.renderOrder = 2;
+      this.model.add(lines);
+    }
+    for (const index of group.points) {
+      const at = picture.loci.isolated_points[index]?.at;
+      if (!at) continue;
+      const ball = new ThreeMesh(new SphereGeometry(0.018), new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, clippingPlanes: planes }));
+      ball.renderOrder = 2;
+      ball.position.copy(this.place(at));
+      this.model.add(ball);
+    }
   }
 
   /** The task as a box of one range a coordinate. */

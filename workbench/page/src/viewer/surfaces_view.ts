@@ -1,7 +1,7 @@
 // Loci over three coordinates: surfaces turned by the hand, with a plane to slice them.
 import { h, replace } from "../app/dom";
 import { readingOf } from "../app/reading";
-import { sameMode } from "../data/answers";
+import { sameMode, type ModeNames } from "../data/answers";
 import { Space, type Slice } from "../space/scene";
 import { themeOf, type LociView, type Settings } from "./view";
 
@@ -57,8 +57,10 @@ export class SurfacesView implements LociView {
 
   draw(): void {
     const { data, hidden, mode } = this.settings;
-    const own = new Set((data.loci.surfaces ?? []).filter((one) => !mode || sameMode(one.working_mode, mode)).map((one) => one.id));
-    const groups = data.surface_groups.map((group) => ({ ...group, ids: group.ids.filter((id) => own.has(id)) }));
+    const here = (one: { working_mode: ModeNames }): boolean => !mode || sameMode(one.working_mode, mode);
+    const own = new Set([...(data.loci.surfaces ?? []), ...data.loci.curves].filter(here).map((one) => one.id));
+    const ofMode = (index: number): boolean => { const point = data.loci.isolated_points[index]; return point !== undefined && here(point); };
+    const groups = data.surface_groups.map((group) => ({ ...group, ids: group.ids.filter((id) => own.has(id)), points: group.points.filter(ofMode) }));
     this.space?.show({ ...data, surface_groups: groups }, themeOf(this.settings), hidden, this.slice);
   }
 }
