@@ -15,6 +15,7 @@
 #include "loci/surfaces.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/idle.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "numeric/sketch.hpp"
 
 namespace clearloci {
@@ -332,7 +333,7 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
     if (!wanted) continue;
     const bool every = mechanism.space == mechanism::Space::planar || !named.empty();
     for (const core::Quantity quantity :
-         every ? mechanism::reaction_components(mechanism, joint) : mechanism::force_components(mechanism, joint))
+         every ? mechanism::reaction_components(mechanism, joint) : mechanism::force_unknowns(mechanism, joint))
       reactions.push_back({joint.name, quantity});
     if (joint.actuated) reactions.push_back({joint.name, mechanism::actuator_quantity(joint)});
     if (mechanism::has_guide_ends(mechanism, joint))
@@ -349,7 +350,12 @@ core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociReques
     return {from_frame(std::move(inside.map), mechanism, own->frame), std::move(inside.nodes),
             from_frame(std::move(inside.report), mechanism, own->frame)};
   }
-  const std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request);
+  std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request);
+  // Where a pin in space loses its contact no component of its force need vanish.
+  for (const mechanism::Joint& joint : mechanism.joints)
+    if (mechanism::presses_across_axis(mechanism, joint) &&
+        std::any_of(reactions.begin(), reactions.end(), [&](const auto& own) { return own.joint == joint.name; }))
+      reactions.push_back({joint.name, core::Quantity::f});
   std::vector<core::Quantity>& quantities = request.quantities = {core::Quantity::f};
   for (const numeric::TracedReaction& reaction : reactions)
     if (std::find(quantities.begin(), quantities.end(), reaction.quantity) == quantities.end())

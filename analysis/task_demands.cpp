@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mechanism/guide.hpp"
+#include "mechanism/joint_traits.hpp"
 
 namespace clearloci {
 
@@ -37,7 +38,7 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
   for (const numeric::TracedReaction& reaction : selected_reactions(mechanism, request)) {
     const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
                                     [&](const mechanism::Joint& j) { return j.name == reaction.joint; });
-    const std::vector<Quantity> force = mechanism::force_components(mechanism, *joint);
+    const std::vector<Quantity> force = mechanism::force_unknowns(mechanism, *joint);
     const auto add = [&](Quantity quantity, const std::optional<core::Rational>& least) {
       demands.push_back({reaction.joint, quantity, least.value_or(0)});
     };

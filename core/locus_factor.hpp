@@ -14,7 +14,9 @@
 
 namespace clearloci::inline core {
 
-/// `construction`: a squared distance that the closure divides by; a point where the mode may change.
+/// `construction`: a squared distance that the closure divides by; a point where the mode may change. With f of a joint
+/// in space: zero where two directions across its axis may fall together, so that f1 and f2 of a force vanish that does
+/// not.
 enum class FactorRole { reaction, margin, direct_singularity, workspace_boundary, construction };
 
 /// One factor of a numerator, of |A|, or of a Qj.

@@ -29,8 +29,9 @@ struct TaskCondition {
   std::vector<std::vector<int>> parts;
   /// Likewise what each direction of TaskConditions adds to w D: N_i of w = N / D + sum l_i N_i / D.
   std::vector<std::vector<int>> directions = {};
-  int denominator = -1;   ///< D, where `least` is not 0
-  int squared_axis = -1;  ///< of a couple about an axis u that is no unit vector: |u|^2, for w is M |u|
+  int denominator = -1;  ///< D, where `least` is not 0
+  /// Of a couple about an axis u, or a force across it, that is no unit vector: |u|^2, for w is M |u|, or f |u|.
+  int squared_axis = -1;
   /// Zero in every pose under one of the loads: the demand is met nowhere.
   std::vector<int> unloaded = {};
 };

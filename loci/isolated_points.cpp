@@ -96,6 +96,17 @@ bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode,
          });
 }
 
+/// Whether the components of a joint's force may vanish at a zero though the force does not.
+bool may_be_undirected(const LocusProblem& problem, const WorkingMode& mode, const std::string& joint,
+                       const core::Point2& at, double radius) {
+  const core::Rational x(at[0]), y(at[1]), r(std::max(radius, 1e-15));
+  return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+    if (!is_undirected_pin(factor, joint)) return false;
+    const auto there = on_sheet(problem.tower, mode, {{x - r, y - r}, {x + r, y + r}});
+    return !there.empty() && evaluate(factor.sheet, there).sign() == 0;
+  });
+}
+
 /// Whether an arc of a reaction ends on a direct singularity at a point: then its end says that there is no limit.
 bool ends_on_singularity(const LocusMap& map, const WorkingMode& mode, const core::Point2& at, double same) {
   for (const core::LocusCurve& curve : map.curves) {
@@ -165,19 +176,20 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
 
 using FactorPair = std::pair<const core::LocusFactor*, const core::LocusFactor*>;
 
-/// Factors of fx and of fy of a joint in the plane; the three equations of one in space have no common zero in general.
+/// Factors of the one and the other component of a joint's force; three equations have no common zero in general.
 std::vector<FactorPair> components_of(const LocusProblem& problem, const std::string& joint) {
   std::vector<FactorPair> pairs;
-  if (core::force_components(problem, joint) != std::vector<Quantity>{Quantity::fx, Quantity::fy}) return pairs;
+  const std::vector<Quantity> components = core::force_components(problem, joint);
+  if (components.size() != 2) return pairs;
   const auto only_in = [&](Quantity one, Quantity other) {
     std::vector<const core::LocusFactor*> list;
     for (const core::LocusFactor& factor : problem.factors)
       if (makes_vanish(factor, joint, one) && !makes_vanish(factor, joint, other)) list.push_back(&factor);
     return list;
   };
-  const std::vector<const core::LocusFactor*> y = only_in(Quantity::fy, Quantity::fx);
-  for (const core::LocusFactor* fx : only_in(Quantity::fx, Quantity::fy))
-    for (const core::LocusFactor* fy : y) pairs.emplace_back(fx, fy);
+  const std::vector<const core::LocusFactor*> second = only_in(components[1], components[0]);
+  for (const core::LocusFactor* first : only_in(components[0], components[1]))
+    for (const core::LocusFactor* other : second) pairs.emplace_back(first, other);
   return pairs;
 }
 
@@ -209,6 +221,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       const sheet::ZeroSet& found = zeros.at(pair);
       const auto add = [&](const core::Point2& at, bool certified) {
         if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
+        if (may_be_undirected(problem, mode, joint, at, 1e-12 * size)) return;
         add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
                   1e-9 * size);
       };

@@ -11,6 +11,12 @@
 
 namespace clearloci::loci {
 
+/// Whether where a factor vanishes the components of a joint's force may do so though the force does not.
+inline bool is_undirected_pin(const core::LocusFactor& factor, const std::string& joint) {
+  return factor.role == core::FactorRole::construction && !factor.vanishing.empty() &&
+         factor.vanishing.front().joint == joint;
+}
+
 /// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no contact-loss curve of the
 /// map. Appended to the map; what stays undecided becomes a point that is not certified.
 /// `stop`: asked now and then, may be empty; true: what is found by then is added and the map marked incomplete.

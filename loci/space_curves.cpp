@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "loci/edge_labels.hpp"
+#include "loci/isolated_points.hpp"
 #include "loci/space/curve_search.hpp"
 #include "loci/work_queue.hpp"
 
@@ -119,6 +120,17 @@ Found search(const LocusProblem& problem, const core::WorkingMode& mode, const F
     if (!found.curves.arcs.empty()) found.points.undecided.clear();
   }
   return found;
+}
+
+/// All along an arc the components of these joints' forces vanish though the forces need not.
+bool is_undirected(const LocusProblem& problem, const core::WorkingMode& mode,
+                   const std::vector<core::Vanishing>& vanishing, const space::ChartArc& arc) {
+  const auto is_pin = [](const core::Vanishing& v) { return v.quantity == Quantity::f; };
+  return std::all_of(vanishing.begin(), vanishing.end(), [&](const core::Vanishing& v) {
+    return !is_pin(v) || std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
+      return is_undirected_pin(factor, v.joint) && vanishes_along(problem, mode, {factor.sheet, factor.line}, arc);
+    });
+  });
 }
 
 /// Ends of arcs at a seam between two charts.
@@ -299,6 +311,9 @@ class ModeCurves {
     note_undecided(problem, label, found.curves.undecided, found.curves.gave_up, map);
     note_undecided(problem, label, found.points.undecided, found.points.gave_up, map);
     for (const space::ChartPoint& point : found.points.points) {
+      space::ChartArc here;
+      here.points = {point.at};
+      if (is_undirected(problem, mode_, label.vanishing, here)) continue;
       const Place at = space::placed(problem, point.at);
       map.isolated_points.push_back({label.kind, label.vanishing, {at[0], at[1], at[2]}, mode_, true});
     }
@@ -307,6 +322,7 @@ class ModeCurves {
                               [&](const Group& own) { return own.label.vanishing == label.vanishing; });
     if (group == groups_.end()) group = groups_.insert(group, {label, {}});
     for (const space::ChartArc& arc : found.curves.arcs) {
+      if (is_undirected(problem, mode_, label.vanishing, arc)) continue;
       SpaceArc own;
       own.closed = arc.closed;
       own.ends = arc.ends;

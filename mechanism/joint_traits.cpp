@@ -37,7 +37,8 @@ std::span<const JointTraits> joint_types() {
        .axes = 1,
        .slides = true,
        .couple = BorneCouple::across_axis,
-       .clearances = {"radial"}},
+       .actuator = Quantity::F,
+       .clearances = {"radial", "axial"}},
   }};
   return table;
 }

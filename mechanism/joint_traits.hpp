@@ -47,4 +47,12 @@ inline bool is_guide(const Mechanism& mechanism, const Joint& joint) {
   return mechanism.space == Space::planar && traits(joint).slides;
 }
 
+/// A pin or a sleeve about an axis in space: what presses its parts together is the part of its force across the axis.
+inline bool presses_across_axis(const Mechanism& mechanism, const Joint& joint) {
+  return mechanism.space == Space::spatial && traits(joint).pinned && traits(joint).turns_about_axis();
+}
+
+/// Components of the whole force of a pin, a ball, a cross or a sleeve, among its columns; none of a prismatic joint.
+std::vector<core::Quantity> force_unknowns(const Mechanism& mechanism, const Joint& joint);
+
 }  // namespace clearloci::mechanism

@@ -1,5 +1,8 @@
 #include "mechanism/mechanism.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci::mechanism {
@@ -18,9 +21,17 @@ std::string to_string(JointType type) { return std::string(traits(type).name); }
 
 std::vector<Quantity> force_components(const Mechanism& mechanism, const Joint& joint) {
   if (!traits(joint).pinned) return {};
-  if (traits(joint).slides) return {Quantity::f1, Quantity::f2};
+  if (presses_across_axis(mechanism, joint)) return {Quantity::f1, Quantity::f2};
   if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
   return {Quantity::fx, Quantity::fy, Quantity::fz};
+}
+
+std::vector<Quantity> force_unknowns(const Mechanism& mechanism, const Joint& joint) {
+  if (!traits(joint).pinned) return {};
+  std::vector<Quantity> own = reaction_components(mechanism, joint);
+  constexpr std::array forces = {Quantity::fx, Quantity::fy, Quantity::fz, Quantity::f1, Quantity::f2};
+  std::erase_if(own, [&](Quantity q) { return std::find(forces.begin(), forces.end(), q) == forces.end(); });
+  return own;
 }
 
 std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint) {

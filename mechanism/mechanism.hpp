@@ -268,7 +268,8 @@ std::vector<core::Quantity> reaction_components(const Mechanism& mechanism, cons
 /// What the actuator of a joint exerts: M or F.
 core::Quantity actuator_quantity(const Joint& joint);
 
-/// Force components that vanish together where contact is lost; empty for a prismatic joint.
+/// Force components that vanish together where contact is lost: in space those across the axis of a pin or a sleeve.
+/// Empty for a prismatic joint.
 std::vector<core::Quantity> force_components(const Mechanism& mechanism, const Joint& joint);
 
 inline std::size_t dimension(const Mechanism& mechanism) { return mechanism.space == Space::spatial ? 3 : 2; }

@@ -37,7 +37,9 @@ WitnessColumns columns_of(const NumericModel& model, const TracedReaction& react
   }
   if (reaction.quantity != Quantity::f) return {column(reaction.quantity)};
   if (model.mechanism.space == mechanism::Space::planar) return {column(Quantity::fx), column(Quantity::fy)};
-  return {column(Quantity::fx), column(Quantity::fy), column(Quantity::fz)};
+  const bool pin =
+      mechanism::presses_across_axis(model.mechanism, model.mechanism.joints[static_cast<std::size_t>(joint)]);
+  return {column(Quantity::fx), column(Quantity::fy), column(Quantity::fz), 0, pin ? joint : -1};
 }
 
 std::vector<Quantity> force_parts(const NumericModel& model, const TracedReaction& reaction) {
@@ -76,14 +78,14 @@ int times_vanishing(core::LocusKind kind, const std::vector<core::Vanishing>& va
 EdgeNodes edge_nodes(const ReactionField& of_first, std::size_t first, const ReactionField& of_second,
                      std::size_t second, const WitnessColumns& columns) {
   EdgeNodes nodes{of_first.reachable(first), of_second.reachable(second), Parity::unknown};
-  if (!nodes.first_reachable || !nodes.second_reachable) return nodes;
+  if (!nodes.first_reachable || !nodes.second_reachable || columns.pin >= 0) return nodes;
   const auto force = [&](const ReactionField& field, std::size_t pose) {
     const auto numerator = [&](int column) { return column < 0 ? 0.0 : field.numerator(column)[pose]; };
     if (columns.lever != 0)
       return ForceNumerators{numerator(columns.first) + columns.lever * numerator(columns.second), 0, 0};
     return ForceNumerators{numerator(columns.first), numerator(columns.second), numerator(columns.third)};
   };
-  // One component: the cosine is a sign.
+  // One component: the cosine is a sign. Across which axis a field does not tell.
   const double cosine = turn_cosine(force(of_first, first), force(of_second, second));
   if (std::abs(cosine) > least_cosine) nodes.change = cosine > 0 ? Parity::even : Parity::odd;
   return nodes;

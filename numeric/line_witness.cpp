@@ -11,7 +11,10 @@ std::array<Bounded, 3> components(const BoundedNumerators& numerators, const Wit
     return column < 0 ? Bounded(0.0) : numerators.values[static_cast<std::size_t>(column)];
   };
   if (columns.lever != 0) return {value(columns.first) + Bounded(columns.lever) * value(columns.second), 0.0, 0.0};
-  return {value(columns.first), value(columns.second), value(columns.third)};
+  const std::array<Bounded, 3> all = {value(columns.first), value(columns.second), value(columns.third)};
+  // Out of reach there are no axes.
+  const auto pin = static_cast<std::size_t>(columns.pin);
+  return columns.pin < 0 || pin >= numerators.axes.size() ? all : across(numerators.axes[pin], all);
 }
 
 bool is_decided(const BoundedNumerators& numerators, const WitnessColumns& columns) {

@@ -18,6 +18,7 @@ struct WitnessColumns {
   int second = -1;   ///< -1: a single component
   int third = -1;    ///< -1: none, in the plane
   double lever = 0;  ///< +-1/h, 1/m; 0: of anything but a guide's end
+  int pin = -1;      ///< the joint across whose axis the force is meant; -1: all of it
 
   bool single() const { return second < 0 || lever != 0; }
 };

@@ -201,6 +201,15 @@ void reaction_field(const NumericModel& model, std::span<const double> poses, st
   }
 }
 
+std::array<Bounded, 3> across(const std::array<Bounded, 3>& u, std::span<const Bounded> f) {
+  std::array<Bounded, 3> parts;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    parts[i] = u[j] * f[k] - u[k] * f[j];
+  }
+  return parts;
+}
+
 BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const double> pose,
                                      std::span<const int> mode) {
   return bounded_numerators(model, std::vector<Bounded>(pose.begin(), pose.end()), mode);
@@ -218,6 +227,11 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
   evaluator.solve(model.elimination, result.values.data());
   result.determinant = result.values.back();
   result.values.pop_back();
+  if (model.mechanism.space == mechanism::Space::planar || !result.reachable) return result;
+  for (const std::optional<Triple>& axis : model.axes) {
+    std::array<Bounded, 3>& own = result.axes.emplace_back();
+    for (std::size_t c = 0; axis && c < 3; ++c) own[c] = evaluator.value((*axis)[c], 0);
+  }
   return result;
 }
 

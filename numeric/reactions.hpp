@@ -88,7 +88,12 @@ struct BoundedNumerators {
   bool reachable = false;
   std::vector<Bounded> values;  ///< N_k
   Bounded determinant;          ///< |A|
+  /// Of every joint in space the unit vector of its axis; empty in the plane.
+  std::vector<std::array<Bounded, 3>> axes = {};
 };
+
+/// u × f: as large as the part of a force f across the unit vector u.
+std::array<Bounded, 3> across(const std::array<Bounded, 3>& u, std::span<const Bounded> f);
 
 BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const double> pose,
                                      std::span<const int> mode);

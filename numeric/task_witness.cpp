@@ -45,6 +45,10 @@ std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskD
   std::vector<Bounded> parts;
   for (const Quantity quantity : quantities)
     if (column_of(model, index, quantity) >= 0) parts.push_back(value(quantity));
+  if (demand.quantity == Quantity::f && mechanism::presses_across_axis(model.mechanism, *joint)) {
+    const std::array<Bounded, 3> own = across(numerators.axes[static_cast<std::size_t>(index)], parts);
+    return {own.begin(), own.end()};
+  }
   return parts;
 }
 

@@ -18,6 +18,7 @@
 #include "symbolic/guide_ends.hpp"
 #include "symbolic/limits.hpp"
 #include "symbolic/margins.hpp"
+#include "symbolic/newton_euler.hpp"
 #include "symbolic/reactions.hpp"
 #include "symbolic/shared_curves.hpp"
 #include "symbolic/sheets.hpp"
@@ -135,6 +136,7 @@ class Derivation {
         reactions_(reactions(geometry_, determinants_)),
         guides_(guides(geometry_, elimination_, reactions_)),
         lines_(geometry_) {
+    add_pressing_reactions();
     for (const Guide& guide : guides_)
       for (Reaction& end : end_reactions(guide, determinants_.determinant)) reactions_.push_back(std::move(end));
     lines_.know(determinants_.forms);
@@ -195,6 +197,7 @@ class Derivation {
     if (selection_.min_force || selection_.min_couple) add_margins();
     add_direct_singularities();
     add_boundaries();
+    add_undirected();
     append_roots();
     result_.elimination_seconds = seconds_since(elimination_start);
     return std::move(result_);
@@ -222,6 +225,39 @@ class Derivation {
 
   const std::string& point_name(mechanism::PointIndex point) const {
     return mechanism_.points[static_cast<std::size_t>(point)].name;
+  }
+
+  /// Of pins in space, where contact losses or what they are made of are asked for.
+  void add_pressing_reactions() {
+    const auto asked = [&](Quantity quantity) {
+      return std::find(selection_.quantities.begin(), selection_.quantities.end(), quantity) !=
+             selection_.quantities.end();
+    };
+    if (!asked(Quantity::f) && !asked(Quantity::f1) && !asked(Quantity::f2)) return;
+    for (Reaction& part : pressing_reactions(geometry_, determinants_)) reactions_.push_back(std::move(part));
+  }
+
+  /// Where f1 and f2 of a joint say nothing of its force.
+  void add_undirected() {
+    for (const mechanism::Joint& joint : mechanism_.joints) {
+      if (!mechanism::presses_across_axis(mechanism_, joint) || !selected(joint.name)) continue;
+      GiNaC::ex where;
+      if (has_pressing_parts(mechanism_, joint)) {
+        where = across_pin(geometry_, joint).squared;
+      } else {
+        const std::vector<GiNaC::ex> u = geometry_.vector(joint.axes.at(0));
+        where = u[across_component(geometry_, u)];
+      }
+      const Poly natural = geometry_.poly(where);
+      const Poly sheet = elimination_.over_tower(natural);
+      if (sheet.is_constant()) continue;
+      LocusFactor factor;
+      factor.role = FactorRole::construction;
+      factor.vanishing = {{joint.name, Quantity::f, 1}};
+      factor.sheet = core::scaled_for_doubles(sheet.plain(geometry_.tower_variables()));
+      factor.line = lines_.of(natural);
+      result_.problem.factors.push_back(std::move(factor));
+    }
   }
 
   /// How often a factor divides |A|: so often it is divided out of w = N / |A|.
@@ -317,8 +353,7 @@ class Derivation {
     if (result_.problem.tower.coordinates.size() == 3 && components.size() > 2)
       for (const std::vector<std::size_t>& own : components)
         for (const std::size_t i : own) factors_[i].wanted_point = true;
-    // Two equations in the plane have isolated zeros besides.
-    if (mechanism_.space == mechanism::Space::spatial && result_.problem.tower.coordinates.size() != 3) return;
+    // Two equations over a plane have isolated zeros besides, three in general none.
     if (components.size() > 2) return;
     const auto in = [](const std::vector<std::size_t>& list, std::size_t f) {
       return std::find(list.begin(), list.end(), f) != list.end();

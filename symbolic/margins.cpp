@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/errors.hpp"
-
 namespace clearloci::symbolic {
 namespace {
 
@@ -17,7 +15,8 @@ class Margins {
       : geometry_(geometry), elimination_(elimination), determinant_(determinant), reactions_(reactions) {}
 
   void add_force(const mechanism::Joint& joint, const Rational& bound) {
-    const std::vector<FactoredPoly> force = force_numerators(joint);
+    const PressingForce pressing = pressing_force(geometry_, reactions_, joint, determinant_);
+    const std::vector<FactoredPoly>& force = pressing.parts;
     if (std::all_of(force.begin(), force.end(), [](const FactoredPoly& part) { return part.is_zero(); })) return;
     const FactoredPoly common = shared_factors(force);
     Poly square(ring());  // of what is left of the force
@@ -26,8 +25,16 @@ class Margins {
       const Poly rest = without(part, common, ring());
       square += rest * rest;
     }
+    // Of a pin about an axis of constant length the force is w over that length.
+    const auto axis = pressing.squared ? elimination_.constant_over_tower(*pressing.squared) : std::nullopt;
+    if (axis) square = square.scaled(1 / *axis);
     const FactoredPoly shared = common_factors(common, determinant_);
     const Poly size = without(common, shared, ring()), d = without(determinant_, shared, ring());
+    if (pressing.squared && !axis) {
+      add(joint.name, Quantity::f, size * size * square - (d * d * *pressing.squared).scaled(bound * bound), bound,
+          {cleared(shared), 2});
+      return;
+    }
     // A two-force link of the plane bears (x, y) of constant length: then |f| = f_min is two linear conditions.
     if (const auto length = constant_length(square)) {
       add(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound, {cleared(shared), 1});
@@ -72,20 +79,6 @@ class Margins {
     if (known == margins_.end())
       known = margins_.insert(known, {natural, quantity, bound, {}, below.first, below.second, std::move(senses)});
     if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
-  }
-
-  /// Numerators of the Cartesian components of a joint's contact force; none of a prismatic joint.
-  std::vector<FactoredPoly> force_numerators(const mechanism::Joint& joint) const {
-    std::vector<FactoredPoly> parts;
-    for (const Quantity quantity : mechanism::force_components(geometry_.mechanism(), joint)) {
-      if (quantity == Quantity::f1)
-        throw core::InputError(joint.where,
-                               "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
-                                   " cannot be traced: its components lie across a moving axis",
-                               "leave the least force out, or name the other joints with --joint");
-      if (const FactoredPoly* part = numerator(reactions_, joint.name, quantity)) parts.push_back(*part);
-    }
-    return parts;
   }
 
   /// |u|^2 of an actuated joint's axis, of which M = u . m is made; 1 in the plane.

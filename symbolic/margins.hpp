@@ -28,8 +28,8 @@ struct Margin {
   std::optional<TwoSenses> senses = {};
 };
 
-/// Of the named joints, in the mechanism's order. Throws core::InputError for a joint whose components lie across a
-/// moving axis.
+/// Of the named joints, in the mechanism's order. Of a pin or a sleeve in space it is the part of the force across its
+/// axis that counts.
 std::vector<Margin> margins(const Geometry& geometry, const Elimination& elimination, const FactoredPoly& determinant,
                             const std::vector<Reaction>& reactions, const Selection& selection,
                             const std::vector<std::string>& joints);

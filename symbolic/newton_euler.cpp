@@ -61,20 +61,14 @@ Vector axis_vector(std::size_t axis) {
 }
 
 /// Two vectors across an axis u, v_i = u_k e_i - u_i e_k for the two i other than k. Their cross product is u_k u:
-/// where u_k is no constant they fall together where it vanishes. k is the first component that is constant and not
-/// zero, else the first that is not zero everywhere.
+/// where u_k is no constant they fall together where it vanishes. k is across_component's.
 struct AcrossBasis {
   std::array<Vector, 2> vectors;
   GiNaC::ex divisor;  ///< u_k
 };
 
 AcrossBasis across(const Geometry& geometry, const Vector& u) {
-  std::size_t k = 3;
-  for (std::size_t i = 3; i-- > 0;)
-    if (!u[i].is_zero()) k = i;
-  for (std::size_t i = 3; i-- > 0;)
-    if (!u[i].is_zero() && geometry.poly(u[i]).is_constant()) k = i;
-  core::ensure(k < 3, "an axis with a direction");
+  const std::size_t k = across_component(geometry, {u.begin(), u.end()});
   AcrossBasis basis;
   basis.divisor = u[k];
   std::size_t next = 0;
@@ -235,6 +229,16 @@ class Equations {
 };
 
 }  // namespace
+
+std::size_t across_component(const Geometry& geometry, const std::vector<GiNaC::ex>& axis) {
+  std::size_t k = 3;
+  for (std::size_t i = 3; i-- > 0;)
+    if (!axis[i].is_zero()) k = i;
+  for (std::size_t i = 3; i-- > 0;)
+    if (!axis[i].is_zero() && geometry.poly(axis[i]).is_constant()) k = i;
+  core::ensure(k < 3, "an axis with a direction");
+  return k;
+}
 
 NewtonEulerEquations newton_euler_equations(const Geometry& geometry) { return Equations(geometry).write(); }
 

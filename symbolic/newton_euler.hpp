@@ -31,6 +31,11 @@ struct NewtonEulerEquations {
   std::vector<ColumnDivisor> divisors;
 };
 
+/// Which component u_k of an axis divides the columns of f1, f2 and m1, m2: the first that is constant and not zero,
+/// else the first that is not zero everywhere. f1 and f2 are the components of the force along the other two
+/// directions, over u_k where that is constant.
+std::size_t across_component(const Geometry& geometry, const std::vector<GiNaC::ex>& axis);
+
 /// Required: A is square; others are not read (mechanism::check_square).
 NewtonEulerEquations newton_euler_equations(const Geometry& geometry);
 

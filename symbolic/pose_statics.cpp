@@ -258,6 +258,15 @@ class StaticsBuilder {
     return row;
   }
 
+  /// Component i of u x (unknowns): as large as their part across the unit vector u.
+  SymbolicRow across(const Vector& u, const std::vector<int>& unknowns, std::size_t i) const {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    SymbolicRow row{{}, std::vector<int>(loads_.size(), b_.zero())};
+    if (u[j] != b_.zero()) row.entries[unknowns[k]] = u[j];
+    if (u[k] != b_.zero()) row.entries[unknowns[j]] = b_.negate(u[k]);
+    return row;
+  }
+
   std::vector<SymbolicRow> components(const core::TaskDemand& demand) {
     const auto found = std::find_if(m_.joints.begin(), m_.joints.end(),
                                     [&](const mechanism::Joint& joint) { return joint.name == demand.joint; });
@@ -277,6 +286,11 @@ class StaticsBuilder {
     core::ensure(demand.quantity == Quantity::f, "a task asks for forces, ends of guides and efforts");
     if (own.normal >= 0) return {scalar(own.normal), scalar(own.couple.front())};
     std::vector<SymbolicRow> rows;
+    if (mechanism::presses_across_axis(m_, *found)) {
+      for (std::size_t i = 0; i < 3; ++i)
+        if (SymbolicRow row = across(own.axis, own.force, i); !row.entries.empty()) rows.push_back(std::move(row));
+      return rows;
+    }
     for (const int unknown : own.force) rows.push_back(scalar(unknown));
     return rows;
   }

@@ -73,7 +73,8 @@ class Conditions {
   }
 
   void add(const TaskDemand& demand) {
-    const auto [joint, parts] = parts_of(demand, result_.loads + result_.directions);
+    const Demanded own = parts_of(demand, result_.loads + result_.directions);
+    const Parts& parts = own.parts;
     TaskCondition condition;
     condition.reactions = {{demand.joint, demand.quantity, 1}};
     condition.least = demand.least;
@@ -87,19 +88,19 @@ class Conditions {
     for (std::size_t i = 0; i < result_.loads && !parts.front().empty(); ++i)
       if (std::all_of(parts[i].begin(), parts[i].end(), [](const FactoredPoly& p) { return p.is_zero(); }))
         condition.unloaded.push_back(static_cast<int>(i));
-    if (condition.unloaded.empty()) fill(condition, *joint, parts);
+    if (condition.unloaded.empty()) fill(condition, own);
     put(std::move(condition), result_.conditions);
   }
 
   /// A reaction that takes up a clearance; of one that nothing loads nothing is asked.
   void add_take_up(TaskDemand demand) {
     demand.least = 1;  // so that D is known
-    const auto [joint, parts] = parts_of(demand, reactions_.size());
-    if (parts.front().empty()) return;
+    const Demanded own = parts_of(demand, reactions_.size());
+    if (own.parts.front().empty()) return;
     TaskCondition condition;
     condition.reactions = {{demand.joint, demand.quantity, 1}};
     condition.least = demand.least;
-    fill(condition, *joint, parts);
+    fill(condition, own);
     put(std::move(condition), result_.take_ups);
   }
 
@@ -108,32 +109,52 @@ class Conditions {
  private:
   using Parts = std::vector<std::vector<FactoredPoly>>;
 
+  /// What is demanded of, load by load: w D |u| in components, with |u|^2 where it is not 1.
+  struct Demanded {
+    Parts parts;
+    std::optional<Poly> squared_axis = {};
+  };
+
   /// Of every load, then of every direction: the first `many` of these.
-  std::pair<const mechanism::Joint*, Parts> parts_of(const TaskDemand& demand, std::size_t many) {
+  Demanded parts_of(const TaskDemand& demand, std::size_t many) {
     const mechanism::Joint& joint = joint_named(demand.joint);
-    std::vector<Quantity> quantities = {demand.quantity};
     const bool guide = mechanism::is_guide(mechanism_, joint);
-    if (demand.quantity == Quantity::f)
-      quantities =
-          guide ? mechanism::reaction_components(mechanism_, joint) : mechanism::force_components(mechanism_, joint);
     if (core::is_guide_end(demand.quantity)) know_length(demand.joint);
-    if (demand.least > 0 && std::find(quantities.begin(), quantities.end(), Quantity::f1) != quantities.end())
-      throw core::InputError(joint.where,
-                             "the least force of the " + mechanism::to_string(joint.type) + " joint " + joint.name +
-                                 " cannot be traced: its components lie across a moving axis",
-                             "leave the least force out, or name the other joints with --joint");
-    // Components that are zero whatever the pose and the load say nothing.
-    Parts parts(many);
-    for (const Quantity quantity : quantities) {
-      std::vector<FactoredPoly> own;
-      for (std::size_t i = 0; i < many; ++i) {
-        const FactoredPoly* const found = numerator(reactions_[i], demand.joint, quantity);
-        own.push_back(found == nullptr || vanishes(*found) ? FactoredPoly{} : *found);
+    Demanded result;
+    std::vector<std::vector<FactoredPoly>> found;  // load by load
+    for (std::size_t i = 0; i < many; ++i) {
+      std::vector<FactoredPoly>& own = found.emplace_back();
+      if (demand.quantity == Quantity::f && !guide) {
+        PressingForce pressing = pressing_force(geometry_, reactions_[i], joint, determinant_);
+        own = std::move(pressing.parts);
+        result.squared_axis = std::move(pressing.squared);
+      } else {
+        const std::vector<Quantity> quantities = demand.quantity == Quantity::f
+                                                     ? mechanism::reaction_components(mechanism_, joint)
+                                                     : std::vector{demand.quantity};
+        for (const Quantity quantity : quantities) {
+          const FactoredPoly* const part = numerator(reactions_[i], demand.joint, quantity);
+          own.push_back(part == nullptr ? FactoredPoly{} : *part);
+        }
       }
-      if (std::all_of(own.begin(), own.end(), [](const FactoredPoly& p) { return p.is_zero(); })) continue;
-      for (std::size_t i = 0; i < own.size(); ++i) parts[i].push_back(std::move(own[i]));
+      for (FactoredPoly& part : own)
+        if (vanishes(part)) part = {};
     }
-    return {&joint, std::move(parts)};
+    if (demand.quantity == Quantity::M && mechanism_.space == mechanism::Space::spatial)
+      result.squared_axis = squared_axis(joint);
+    // Components that are zero whatever the pose and the load say nothing.
+    result.parts.resize(many);
+    for (std::size_t c = 0; c < found.front().size(); ++c) {
+      if (std::all_of(found.begin(), found.end(), [&](const auto& own) { return own[c].is_zero(); })) continue;
+      for (std::size_t i = 0; i < many; ++i) result.parts[i].push_back(std::move(found[i][c]));
+    }
+    return result;
+  }
+
+  Poly squared_axis(const mechanism::Joint& joint) const {
+    GiNaC::ex square = 0;
+    for (const GiNaC::ex& u : geometry_.vector(joint.axes.at(0))) square += u * u;
+    return geometry_.poly(square.expand());
   }
 
   /// What several joints bear alike is one condition.
@@ -253,7 +274,8 @@ class Conditions {
     return index;
   }
 
-  void fill(TaskCondition& condition, const mechanism::Joint& joint, const Parts& parts) {
+  void fill(TaskCondition& condition, const Demanded& demanded) {
+    const Parts& parts = demanded.parts;
     std::vector<FactoredPoly> all;
     for (const auto& load : parts)
       for (const FactoredPoly& part : load)
@@ -282,11 +304,7 @@ class Conditions {
     }
     // Of one component under one load nothing is left but its factors.
     if (!size && constant && parts.size() == 1) condition.parts.clear();
-    if (size && condition.reactions.front().quantity == Quantity::M && mechanism_.space == mechanism::Space::spatial) {
-      GiNaC::ex square = 0;
-      for (const GiNaC::ex& u : geometry_.vector(joint.axes.at(0))) square += u * u;
-      condition.squared_axis = function_of(factored(geometry_.poly(square.expand()), {}), 1);
-    }
+    if (size && demanded.squared_axis) condition.squared_axis = function_of(factored(*demanded.squared_axis, {}), 1);
   }
 
   struct Known {

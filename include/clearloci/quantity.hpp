@@ -10,7 +10,8 @@ namespace clearloci::inline core {
 /// planar prismatic joint `N` is the normal force and `T` the couple; `T` is also the one couple that a universal joint
 /// bears. `end_ahead`, `end_behind`: what the two ends of such a joint's contact bear, (N + T/h)/2 at h along its axis
 /// and (N - T/h)/2 at -h: where one vanishes that end lifts. `fx` to `mz`: components of the force and the couple.
-/// `f1`, `f2`, `m1`, `m2`: the same across a joint's axis, along two vectors that the equations choose.
+/// `f1`, `f2`, `m1`, `m2`: the same across a joint's axis, along two vectors that the equations choose. In space `f` of
+/// a revolute or cylindrical joint is the part of its force across the axis.
 enum class Quantity { f, M, F, N, T, fx, fy, fz, mx, my, mz, f1, f2, m1, m2, end_ahead, end_behind };
 
 /// Every quantity, in the order of tables and legends.

@@ -45,8 +45,11 @@ TEST(JointTraits, ForcesOfPinsLoseContactTogether) {
   for (const JointTraits& type : joint_types()) {
     Joint joint;
     joint.type = type.type;
-    const std::size_t expected = !type.pinned ? 0 : type.slides ? 2 : 3;
+    // About an axis it is the part across it that presses.
+    const std::size_t expected = !type.pinned ? 0 : type.turns_about_axis() ? 2 : 3;
     EXPECT_EQ(force_components(spatial, joint).size(), expected) << type.name;
+    const std::size_t borne = !type.pinned ? 0 : type.slides ? 2 : 3;
+    EXPECT_EQ(force_unknowns(spatial, joint).size(), borne) << type.name;
   }
 }
 

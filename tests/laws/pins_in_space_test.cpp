@@ -1,0 +1,289 @@
+// Contact losses of pins in space: where the part of the force across the axis vanishes and the force does not. Held
+// against the turns of that part round the cells of a grid, from reactions that are solved plainly.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/loci.hpp"
+#include "analysis/verification.hpp"
+#include "clearloci/mechanism.hpp"
+#include "clearloci/pose_tasks.hpp"
+#include "mechanism/read.hpp"
+#include "mechanism/read_task.hpp"
+#include "tests/numeric/solved.hpp"
+#include "tests/numeric/spatial_designs.hpp"
+
+namespace clearloci {
+namespace {
+
+using mechanism::Mechanism;
+
+constexpr unsigned seed = 20260715;
+
+std::string three_legs(unsigned number) {
+  std::mt19937 random(seed + number);
+  return test::random_three_leg(random);
+}
+
+std::size_t index_of(const Mechanism& m, const std::string& name) {
+  for (std::size_t j = 0; j < m.joints.size(); ++j)
+    if (m.joints[j].name == name) return j;
+  throw std::invalid_argument(name);
+}
+
+/// The force across the axis of a joint along two unit vectors across it, times |A|, so that nothing is unbounded.
+class PinForce {
+ public:
+  PinForce(const Mechanism& m, const std::string& joint)
+      : model_(numeric::compile(m)), mode_(mechanism::working_mode(m)), joint_(index_of(m, joint)) {}
+
+  struct Force {
+    Eigen::Vector2d across;  ///< of a constant axis in directions that are constant too
+    double along = 0;
+    double determinant = 0;
+  };
+
+  Force at(std::span<const double> pose) const {
+    const numeric::Posture posture = numeric::posture(model_, pose, mode_);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(numeric::newton_euler_matrix(model_, posture));
+    const Eigen::VectorXd values = lu.solve(numeric::load_column(model_, posture));
+    const Eigen::Vector3d force =
+        numeric::joint_reactions(model_.mechanism.joints.size(), numeric::reaction_columns(model_, posture), values)
+            .at(joint_)
+            .force;
+    const Eigen::Vector3d u = posture.axes[joint_], v = u.unitOrthogonal();
+    return {{force.dot(v), force.dot(u.cross(v))}, force.dot(u), lu.determinant()};
+  }
+
+  Eigen::Vector2d numerator(std::span<const double> pose) const {
+    const Force own = at(pose);
+    return own.determinant * own.across;
+  }
+
+ private:
+  numeric::NumericModel model_;
+  std::vector<int> mode_;
+  std::size_t joint_;
+};
+
+/// How far a vector turns from a to b, halving the way until it turns by little.
+double turn(const PinForce& force, const core::Point2& a, const core::Point2& b, const Eigen::Vector2d& at_a,
+            const Eigen::Vector2d& at_b, int depth = 0) {
+  const double angle = std::atan2(at_a.x() * at_b.y() - at_a.y() * at_b.x(), at_a.dot(at_b));
+  if (std::abs(angle) < 0.6 || depth > 12) return angle;
+  const core::Point2 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+  const Eigen::Vector2d between = force.numerator(middle);
+  return turn(force, a, middle, at_a, between, depth + 1) + turn(force, middle, b, between, at_b, depth + 1);
+}
+
+struct TurnedCell {
+  core::Point2 lower, upper;
+};
+
+/// The cells round which the force turns by a full turn: each has a zero of odd number.
+std::vector<TurnedCell> turned_cells(const PinForce& force, int n) {
+  constexpr double low = -0.4, width = 0.8;
+  const auto place = [&](int i, int j) {
+    // Off every symmetry.
+    return core::Point2{low + width * (i + 0.1234) / n, low + width * (j + 0.3141) / n};
+  };
+  std::vector<Eigen::Vector2d> nodes;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) nodes.push_back(force.numerator(place(i, j)));
+  const auto node = [&](int i, int j) { return nodes[static_cast<std::size_t>(j * n + i)]; };
+  std::vector<TurnedCell> turned;
+  for (int j = 0; j + 1 < n; ++j)
+    for (int i = 0; i + 1 < n; ++i) {
+      const std::array<std::array<int, 2>, 5> round = {{{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}, {i, j}}};
+      double angle = 0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto &a = round[k], &b = round[k + 1];
+        angle += turn(force, place(a[0], a[1]), place(b[0], b[1]), node(a[0], a[1]), node(b[0], b[1]));
+      }
+      if (std::lround(angle / (2 * std::numbers::pi)) != 0) turned.push_back({place(i, j), place(i + 1, j + 1)});
+    }
+  return turned;
+}
+
+/// On a direct singularity all numerators may vanish together: there no force has a limit.
+bool is_near_singularity(const core::LocusMap& map, const TurnedCell& cell) {
+  const core::Point2 middle = {(cell.lower[0] + cell.upper[0]) / 2, (cell.lower[1] + cell.upper[1]) / 2};
+  const double reach = std::hypot(cell.upper[0] - cell.lower[0], cell.upper[1] - cell.lower[1]);
+  return std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
+    return curve.kind == core::LocusKind::direct_singularity &&
+           std::any_of(curve.arcs.begin(), curve.arcs.end(), [&](const core::Arc& arc) {
+             return std::any_of(arc.points.begin(), arc.points.end(), [&](const core::Point2& p) {
+               return std::hypot(p[0] - middle[0], p[1] - middle[1]) < reach;
+             });
+           });
+  });
+}
+
+bool loses_contact(const std::vector<core::Vanishing>& vanishing, const std::string& joint) {
+  return std::any_of(vanishing.begin(), vanishing.end(),
+                     [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == core::Quantity::f; });
+}
+
+TEST(PinsInSpace, ContactIsLostAtPointsOfASlice) {
+  int points = 0, cells = 0;
+  for (unsigned number = 0; number < 8; ++number) {
+    const std::string text = three_legs(number);
+    SCOPED_TRACE(text);
+    const Mechanism m = mechanism::parse_mechanism(text, "legs.yaml");
+    const core::LocusMap map = trace_loci(m, {});
+    for (const std::string joint : {"R1", "R2", "R3"}) {
+      const PinForce force(m, joint);
+      std::vector<core::Point2> found;
+      for (const core::IsolatedPoint& point : map.isolated_points) {
+        if (point.kind != core::LocusKind::contact_loss || !loses_contact(point.vanishing, joint)) continue;
+        EXPECT_TRUE(point.certified);
+        const PinForce::Force there = force.at(point.at);
+        EXPECT_LT(there.across.norm(), 1e-7 * std::abs(there.along)) << joint << ": the force itself does not vanish";
+        found.push_back({point.at[0], point.at[1]});
+        ++points;
+      }
+      const bool lost_along_a_curve = std::any_of(map.curves.begin(), map.curves.end(), [&](const auto& curve) {
+        return loses_contact(curve.vanishing, joint);
+      });
+      if (lost_along_a_curve) continue;
+      for (const TurnedCell& cell : turned_cells(force, 40)) {
+        if (is_near_singularity(map, cell)) continue;
+        ++cells;
+        EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                                [&](const core::Point2& at) {
+                                  return cell.lower[0] <= at[0] && at[0] <= cell.upper[0] && cell.lower[1] <= at[1] &&
+                                         at[1] <= cell.upper[1];
+                                }))
+            << joint << " loses contact near (" << cell.lower[0] << ", " << cell.lower[1] << ")";
+      }
+    }
+  }
+  EXPECT_GT(points, 4);
+  EXPECT_GT(cells, 3);
+}
+
+/// The first point of a slice at which a pin alone loses its contact, and the file that has it.
+struct Lost {
+  std::string text, joint;
+  std::vector<double> at;
+};
+
+Lost first_lost() {
+  for (unsigned number = 0; number < 8; ++number) {
+    const std::string text = three_legs(number);
+    for (const core::IsolatedPoint& point :
+         trace_loci(mechanism::parse_mechanism(text, "legs.yaml"), {}).isolated_points)
+      if (point.kind == core::LocusKind::contact_loss && point.vanishing.front().joint.starts_with("R"))
+        return {text, point.vanishing.front().joint, point.at};
+  }
+  throw std::invalid_argument("no pin loses its contact");
+}
+
+std::string box_round(const std::vector<double>& at, double half, const std::string& more) {
+  std::string text = "format: 1\nbox: {x: [" + std::to_string(at[0] - half) + ", " + std::to_string(at[0] + half) +
+                     "], y: [" + std::to_string(at[1] - half) + ", " + std::to_string(at[1] + half) + "]}\n";
+  return text + more;
+}
+
+TEST(PinsInSpace, NoTaskRoundSuchAPointIsVerified) {
+  const Lost lost = first_lost();
+  const Mechanism m = mechanism::parse_mechanism(lost.text, "legs.yaml");
+  LociRequest request;
+  request.joints = {lost.joint};
+  request.quantities = {core::Quantity::f};
+  const auto verdict = [&](double half, const std::string& more) {
+    return verify_task(m, mechanism::parse_task(box_round(lost.at, half, more), "task.yaml", m), request).verdict;
+  };
+  EXPECT_NE(verdict(0.004, ""), core::Verdict::verified);
+  const PinForce force(m, lost.joint);
+  // The whole force is far above what is asked of it; the part that presses is not.
+  const PinForce::Force there = force.at(lost.at);
+  const std::string asked = "min_force: " + std::to_string(std::abs(there.along) / 2) + "\n";
+  EXPECT_EQ(verdict(1e-6, asked), core::Verdict::refuted);
+}
+
+TEST(PinsInSpace, TheLeastForceIsThatAcrossTheAxis) {
+  int places = 0;
+  for (unsigned number = 0; number < 6; ++number) {
+    const std::string text = three_legs(number);
+    SCOPED_TRACE(text);
+    const Mechanism m = mechanism::parse_mechanism(text, "legs.yaml");
+    const bool sleeves = text.find("cylindrical") != std::string::npos;
+    for (const std::string joint : {"R1", "C1"}) {
+      if (joint == "C1" && !sleeves) continue;
+      LociRequest request;
+      request.joints = {joint};
+      request.quantities = {core::Quantity::M};
+      request.min_force = 40;
+      const PinForce force(m, joint);
+      for (const core::LocusCurve& curve : trace_loci(m, request).curves) {
+        if (curve.kind != core::LocusKind::margin) continue;
+        for (const core::Arc& arc : curve.arcs)
+          for (const std::size_t part : {1U, 2U, 3U}) {
+            const core::Point2& at = arc.points[part * (arc.points.size() - 1) / 4];
+            const PinForce::Force there = force.at(at);
+            EXPECT_NEAR(there.across.norm(), 40, 0.4) << joint << " at (" << at[0] << ", " << at[1] << ")";
+            ++places;
+          }
+      }
+    }
+  }
+  EXPECT_GT(places, 10);
+}
+
+/// With z free besides.
+std::string over_three(std::string text) {
+  const std::size_t z = text.find("parameters: {z: ");
+  text.erase(z, text.find('\n', z) - z + 1);
+  const std::string y = "  y: [-2/5, 2/5]\n";
+  return text.replace(text.find(y), y.size(), y + "  z: [2/5, 3/5]\n");
+}
+
+TEST(PinsInSpace, OverThreeCoordinatesContactIsLostAlongCurves) {
+  const Mechanism m = mechanism::parse_mechanism(over_three(first_lost().text), "legs.yaml");
+  LociRequest request;
+  request.joints = {first_lost().joint};
+  request.quantities = {core::Quantity::f};
+  const core::LocusMap map = trace_loci(m, request);
+  const PinForce force(m, request.joints.front());
+  int vertices = 0;
+  for (const core::SpaceCurve& curve : map.space_curves) {
+    EXPECT_TRUE(loses_contact(curve.vanishing, request.joints.front()));
+    for (const core::SpaceArc& arc : curve.arcs)
+      for (const core::Point3& at : arc.points) {
+        const PinForce::Force there = force.at(at);
+        if (!(std::abs(there.determinant) > 1e-6)) continue;
+        EXPECT_LT(there.across.norm(), 1e-3 * std::abs(there.along));
+        ++vertices;
+      }
+  }
+  EXPECT_GT(vertices, 10);
+}
+
+TEST(PinsInSpace, TasksOverPosesAskForThePartAcrossTheAxis) {
+  const Lost lost = first_lost();
+  const Mechanism slice = mechanism::parse_mechanism(lost.text, "legs.yaml");
+  const PinForce force(slice, lost.joint);
+  const PinForce::Force there = force.at(lost.at);
+  const Model model = Model::parse(over_three(lost.text));
+  const double z = core::to_double(slice.parameters.front().value);
+  LociRequest request;
+  request.joints = {lost.joint};
+  request.quantities = {core::Quantity::f};
+  const auto verdict = [&](double half, const std::string& more) {
+    std::string text = "format: 1\nbox:\n";
+    const std::array<std::pair<const char*, double>, 3> middle = {{{"x", lost.at[0]}, {"y", lost.at[1]}, {"z", z}}};
+    for (const auto& [name, at] : middle)
+      text += std::string("  ") + name + ": [" + std::to_string(at - half) + ", " + std::to_string(at + half) + "]\n";
+    return verify_poses(model, parse_pose_task(text + more, model), request).verdict;
+  };
+  EXPECT_NE(verdict(0.002, ""), core::Verdict::verified);
+  EXPECT_EQ(verdict(1e-6, "min_force: " + std::to_string(std::abs(there.along) / 2) + "\n"), core::Verdict::refuted);
+}
+
+}  // namespace
+}  // namespace clearloci
