@@ -15,6 +15,7 @@
 #include "numeric/edge_judge.hpp"
 #include "numeric/grid_passages.hpp"
 #include "numeric/reactions.hpp"
+#include "numeric/turns.hpp"
 #include "numeric/validate_lines.hpp"
 
 namespace clearloci::numeric {
@@ -72,7 +73,11 @@ class ModeValidation {
         reach_(reach),
         diagonal_(diagonal) {
     smallest_ = flip_resolution * diagonal;
-    for (const auto& reaction : traced) reactions_.push_back(checked_reaction(model, reaction));
+    turning_ = joints_of_turns(model, map, mode, traced);
+    // Where |A| vanishes the force across a pin's axis flips as its components do: no edge tells these from zeros.
+    for (const auto& reaction : traced)
+      if (CheckedReaction own = checked_reaction(model, reaction); own.columns.pin < 0)
+        reactions_.push_back(std::move(own));
     for (const auto& curve : map.curves) {
       const bool here = curve.mode == mode;
       boundary_.push_back(here && curve.kind == LocusKind::workspace_boundary ? 1 : 0);
@@ -97,6 +102,7 @@ class ModeValidation {
     });
     merge(tallies, report, listed);
     judge_arcs(report);
+    judge_turns(model_, signs_, map_, mode_, std::array{grid_.x, grid_.y}, turning_, listed, report);
   }
 
  private:
@@ -262,6 +268,7 @@ class ModeValidation {
   std::vector<int> signs_;
   double reach_, diagonal_;
   double smallest_ = 0;
+  std::vector<std::string> turning_;  ///< joints of joints_of_turns
   std::vector<CheckedReaction> reactions_;
   std::vector<int> boundary_;
   GridPassages passages_;

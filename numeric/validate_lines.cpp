@@ -11,6 +11,7 @@
 #include "numeric/checked_reaction.hpp"
 #include "numeric/edge_judge.hpp"
 #include "numeric/surface_passages.hpp"
+#include "numeric/turns.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -85,6 +86,31 @@ std::vector<Locus::Place> places_of(const LocusSurface& surface, const std::vect
   return places;
 }
 
+/// Evenly along the arcs, each with a way off the curve.
+std::vector<Locus::Place> places_of(const core::SpaceCurve& curve, const std::vector<double>& widths) {
+  std::size_t vertices = 0;
+  for (const core::SpaceArc& arc : curve.arcs) vertices += arc.points.size();
+  const std::size_t stride = std::max<std::size_t>(1, vertices / places_of_a_surface);
+  std::vector<Locus::Place> places;
+  for (const core::SpaceArc& arc : curve.arcs)
+    for (std::size_t i = stride / 2 + 1; i + 1 < arc.points.size(); i += stride) {
+      std::array<double, 3> way{};
+      for (std::size_t c = 0; c < 3; ++c) way[c] = (arc.points[i + 1][c] - arc.points[i - 1][c]) / widths[c];
+      // Across the coordinate that the curve goes along least.
+      std::size_t least = 0;
+      for (std::size_t c = 1; c < 3; ++c)
+        if (std::abs(way[c]) < std::abs(way[least])) least = c;
+      std::vector<double> off(3, 0.0);
+      const double square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+      if (!(square > 0)) continue;
+      for (std::size_t c = 0; c < 3; ++c) off[c] = (c == least ? 1.0 : 0.0) - way[least] * way[c] / square;
+      const double length = std::hypot(off[0], off[1], off[2]);
+      for (double& component : off) component /= length;
+      places.push_back({{arc.points[i].begin(), arc.points[i].end()}, off});
+    }
+  return places;
+}
+
 class LinesOfMode {
  public:
   LinesOfMode(const NumericModel& model, const LocusMap& map, const GridSpec& spec, const WorkingMode& mode,
@@ -109,6 +135,8 @@ class LinesOfMode {
     else
       for (const LocusSurface& own : map.surfaces)
         add({own.id, own.kind, own.vanishing, own.excited, places_of(own, widths_)}, own.mode);
+    if (n_ == 3) add_thin_loci();
+    turning_ = joints_of_turns(model, map, mode, traced);
     for (const TracedReaction& own : traced) {
       CheckedReaction& checked = reactions_.emplace_back(checked_reaction(model, own));
       for (const auto& [locus, here] : loci_)
@@ -121,17 +149,39 @@ class LinesOfMode {
     std::vector<std::array<std::size_t, 4>> counts(reactions_.size());
     for (std::size_t along = 0; along < n_; ++along) judge_lines(along, counts, report, listed);
     for (std::size_t r = 0; r < reactions_.size(); ++r)
-      add_tally(report, mode_, reactions_[r].reaction, counts[r], zero_[r]);
+      if (is_judged_by_edges(reactions_[r])) add_tally(report, mode_, reactions_[r].reaction, counts[r], zero_[r]);
     for (std::size_t l = 0; l < loci_.size(); ++l)
       if (loci_[l].second && loci_[l].first.kind != LocusKind::margin) judge_locus(l, report);
+    if (n_ == 3) judge_turns(model_, signs_, map_, mode_, axes_, turning_, listed, report);
   }
 
  private:
+  /// Curves and points at which forces of several components vanish. No line of the grid meets them: they come after
+  /// the surfaces, whose numbers are those of their places in the map.
+  void add_thin_loci() {
+    const auto add_thin = [&](Locus locus, const WorkingMode& mode) {
+      if (!locus.places.empty()) loci_.emplace_back(std::move(locus), mode == mode_);
+      boundary_.resize(loci_.size(), 0);
+    };
+    for (const core::SpaceCurve& own : map_.space_curves)
+      add_thin({own.id, own.kind, own.vanishing, true, places_of(own, widths_)}, own.mode);
+    for (std::size_t i = 0; i < map_.isolated_points.size(); ++i) {
+      const core::IsolatedPoint& own = map_.isolated_points[i];
+      add_thin({"p" + std::to_string(i + 1), own.kind, own.vanishing, own.excited, {{own.at, {1.0, 0.0, 0.0}}}},
+               own.mode);
+    }
+  }
+
   void add(Locus locus, const WorkingMode& mode) {
     const bool here = mode == mode_;
     boundary_.push_back(here && locus.kind == LocusKind::workspace_boundary ? 1 : 0);
     if (here) numbers_.push_back(static_cast<int>(loci_.size()));
     loci_.emplace_back(std::move(locus), here);
+  }
+
+  /// Where |A| vanishes the force across a pin's axis flips as its components do: no edge tells these from zeros.
+  bool is_judged_by_edges(const CheckedReaction& checked) const {
+    return checked.columns.pin < 0 && !is_judged_by_turns(checked.reaction, turning_);
   }
 
   std::vector<double> node(std::size_t index) const {
@@ -220,6 +270,7 @@ class LinesOfMode {
       for (std::size_t r = 0; r < reactions_.size(); ++r) {
         if (zero_[r]) continue;
         const CheckedReaction& checked = reactions_[r];
+        if (!is_judged_by_edges(checked)) continue;
         const auto a = static_cast<std::size_t>(edge), b = a + 1;
         const EdgeNodes nodes = edge_nodes(field, a, field, b, checked.columns);
         const Finding finding = judge.judge(edge, {checked.columns, checked.weights}, nodes);
@@ -292,6 +343,7 @@ class LinesOfMode {
 
   bool passes_near(std::size_t l, const std::vector<double>& at) const {
     if (n_ == 1) return std::abs(loci_[l].first.places.front().at[0] - at[0]) <= 2 * reach_;
+    if (l >= map_.surfaces.size()) return false;
     const LocusSurface& surface = map_.surfaces[l];
     return std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const std::array<int, 3>& t) {
       for (std::size_t c = 0; c < 3; ++c) {
@@ -313,6 +365,7 @@ class LinesOfMode {
   double diagonal_ = 0, reach_ = 0;
   std::vector<std::pair<Locus, bool>> loci_;  ///< of the map, and whether in this mode
   std::vector<int> boundary_, numbers_;
+  std::vector<std::string> turning_;  ///< joints of joints_of_turns
   std::vector<CheckedReaction> reactions_;
   std::vector<bool> zero_;
 };

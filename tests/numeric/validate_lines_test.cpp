@@ -163,6 +163,69 @@ TEST(ValidateLines, DisputesSurfacesThatAreMissingShiftedOrHaveHoles) {
   for (const DisputedEdge& edge : open.disputed_edges) EXPECT_LT(edge.from.at(1), 0.1) << "where triangles are missing";
 }
 
+/// With a hook on a pin along z, which bears 7 N along its axis everywhere and nothing across it on a tilted ellipse.
+mechanism::Mechanism hook() {
+  return mechanism::parse_mechanism(R"(
+format: 1
+name: Hook
+space: spatial
+workspace: {x: [-1, 1], y: [-1, 1], z: [-1, 1]}
+points: {X: [x, 0, 0], Y: [x, y, 0], P: [x, y, z]}
+links: {bridge: {points: [X]}, carriage: {points: [Y]}, quill: {points: [P]}, hook: {points: [P]}}
+joints:
+  S: {prismatic: [ground, bridge], at: X, axis: [1, 0, 0], actuated: true}
+  T: {prismatic: [bridge, carriage], at: Y, axis: [0, 1, 0], actuated: true}
+  U: {prismatic: [carriage, quill], at: P, axis: [0, 0, 1], actuated: true}
+  R: {revolute: [quill, hook], at: P, axis: [0, 0, 1], actuated: true, clearance: {radial: 1e-5}}
+end_effector: {link: hook, at: P}
+loads: [{link: hook, at: P, force: [x^2 + y^2 - 1/4, z - x/2, 7]}]
+)",
+                                    "test.yaml");
+}
+
+core::SpaceCurve ellipse(double shift) {
+  core::SpaceCurve curve;
+  curve.id = "c1";
+  curve.kind = LocusKind::contact_loss;
+  curve.vanishing = {{"R", Quantity::f, 1}};
+  core::SpaceArc arc;
+  arc.closed = true;
+  constexpr int n = 600;
+  for (int i = 0; i <= n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n;
+    arc.points.push_back({0.5 * std::cos(a) + shift, 0.5 * std::sin(a), 0.25 * std::cos(a)});
+  }
+  curve.arcs = {arc};
+  return curve;
+}
+
+TEST(ValidateLines, HoldsACurveOnWhichAPinIsNotPressed) {
+  const GridSpec grid{.nx = 21, .ny = 20, .nz = 19};
+  const std::vector<TracedReaction> pin = {{"R", Quantity::f}};
+  LocusMap map = map_of(hook());
+  map.space_curves = {ellipse(0)};
+  const ValidationReport right = validate(hook(), map, grid, pin);
+  EXPECT_EQ(right.disputed, 0U);
+  EXPECT_EQ(right.held + right.undecided, 21U * 19U * 18U + 20U * 20U * 18U + 19U * 20U * 19U);
+  EXPECT_LT(right.undecided, 5U);
+  EXPECT_EQ(right.arcs_held, 1U);
+  ASSERT_EQ(right.tallies.size(), 1U);
+
+  map.space_curves = {};
+  const ValidationReport missing = validate(hook(), map, grid, pin);
+  // Planes of nodes across the ellipse, each met twice.
+  EXPECT_NEAR(static_cast<double>(missing.disputed), 2 * (10.5 + 10 + 4.75), 6);
+  for (const DisputedEdge& face : missing.disputed_edges) {
+    EXPECT_TRUE(face.sign_change);
+    EXPECT_NEAR(std::hypot(face.from[0], face.from[1]), 0.5, 0.15);
+  }
+
+  map.space_curves = {ellipse(0.07)};
+  const ValidationReport shifted = validate(hook(), map, grid, pin);
+  EXPECT_GT(shifted.disputed_edges.size(), 30U);
+  EXPECT_EQ(shifted.disputed_arcs.size(), 1U);
+}
+
 TEST(ValidateLines, RefusesAGridWithoutCells) {
   EXPECT_THROW(validate(slider(), map_of(slider()), {.nx = 1}, drive), core::InputError);
   EXPECT_THROW(validate(gantry(), map_of(gantry()), {.nx = 9, .ny = 9, .nz = 1}, drive), core::InputError);
