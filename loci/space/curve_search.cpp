@@ -64,27 +64,28 @@ bool one_vanishes_along(LiftedCell& lifted, std::size_t first_row, std::size_t e
   return true;
 }
 
-/// What hangs together with a cell in which |A| may vanish is open for that reason. `settled`: such cells that are
-/// known but for |A|.
+/// What touches a cell in which |A| may vanish, over a few others, is open for that reason; a curve that stays open
+/// farther on is for another. `settled`: such cells that are known but for |A|.
 void spread_singularity(std::vector<UndecidedCell>& cells, const std::vector<Cell>& settled) {
+  constexpr int most_between = 4;
   const auto touch = [](const Cell& a, const Cell& b) {
     for (std::size_t i = 0; i < 3; ++i)
       if (disjoint(a[i], b[i])) return false;
     return true;
   };
-  std::vector<std::size_t> reached;
+  std::vector<std::pair<std::size_t, int>> reached;  // and over how many others
   for (std::size_t c = 0; c < cells.size(); ++c) {
     UndecidedCell& own = cells[c];
     own.near_singularity = own.near_singularity || std::any_of(settled.begin(), settled.end(), [&](const Cell& other) {
                              return touch(own.cell, other);
                            });
-    if (own.near_singularity) reached.push_back(c);
+    if (own.near_singularity) reached.emplace_back(c, 0);
   }
   for (std::size_t next = 0; next < reached.size(); ++next)
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      if (!cells[c].near_singularity && touch(cells[reached[next]].cell, cells[c].cell)) {
+    for (std::size_t c = 0; c < cells.size() && reached[next].second < most_between; ++c)
+      if (!cells[c].near_singularity && touch(cells[reached[next].first].cell, cells[c].cell)) {
         cells[c].near_singularity = true;
-        reached.push_back(c);
+        reached.emplace_back(c, reached[next].second + 1);
       }
 }
 
