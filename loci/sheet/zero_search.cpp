@@ -30,6 +30,8 @@ constexpr double worth_a_touch = 1e10;
 constexpr std::size_t most_touch_trials = 256;
 // Enough that what is left of them after a first look fills batches again.
 constexpr std::size_t cells_at_a_time = 64;
+// Of searches side by side; more would only fill memory.
+constexpr std::size_t searches_at_a_time = 256;
 // Fewer than these are looked at one by one.
 constexpr std::size_t few_candidates = 3;
 
@@ -56,6 +58,13 @@ FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits)
 
 std::vector<FoundZeros> ZeroSearch::run_each(const std::vector<std::vector<Cell>>& seeds, const Limits& limits) {
   limits_ = limits;
+  std::vector<FoundZeros> result;
+  for (std::size_t first = 0; first < seeds.size(); first += searches_at_a_time)
+    run_some(std::span(seeds).subspan(first, std::min(searches_at_a_time, seeds.size() - first)), result);
+  return result;
+}
+
+void ZeroSearch::run_some(std::span<const std::vector<Cell>> seeds, std::vector<FoundZeros>& result) {
   states_.assign(seeds.size(), {});
   std::vector<Box> live, next;
   for (std::size_t search = 0; search < seeds.size(); ++search) {
@@ -77,9 +86,7 @@ std::vector<FoundZeros> ZeroSearch::run_each(const std::vector<std::vector<Cell>
     states_[box.search].gave_up = true;
     states_[box.search].undecided.push_back(box.cell);
   }
-  std::vector<FoundZeros> result;
   for (State& state : states_) result.push_back(found(state));
-  return result;
 }
 
 void ZeroSearch::give_up(std::vector<Box>& live) {

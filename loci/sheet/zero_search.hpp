@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "loci/sheet/krawczyk.hpp"
@@ -91,6 +92,7 @@ class ZeroSearch {
   /// Candidates by their place among those under examination.
   using Group = std::vector<std::size_t>;
 
+  void run_some(std::span<const std::vector<Cell>> seeds, std::vector<FoundZeros>& result);
   /// Boxes [first, last): what enclosures tell of each, which does not depend on the others; then, in turn, what is to
   /// be done with it.
   void examine(const Box* first, const Box* last, std::vector<Box>& next);
