@@ -13,6 +13,9 @@ namespace clearloci::loci::sheet::interval_batch {
 namespace {
 
 using Operation = SheetCode::Operation;
+using RunIntervals = void (*)(const Instruction*, const Instruction*, const IntervalBatch*, IntervalBatch*,
+                              std::size_t);
+using RunJets = void (*)(const Instruction*, const Instruction*, const JetBatch*, JetBatch*, std::size_t);
 
 template <class Apply>
 void lane_by_lane(IntervalBatch& result, std::size_t count, const Apply& apply) {
@@ -217,26 +220,19 @@ bool has_avx512() { return false; }
 
 #endif
 
-namespace {
-
-/// The way that this processor has.
-template <class Batch>
-auto best_way() {
-  using Way = void (*)(const Instruction*, const Instruction*, const Batch*, Batch*, std::size_t);
-  return has_avx512() ? Way{run_by_avx512} : has_avx2() ? Way{run_by_avx2} : Way{run_by_lanes};
-}
-
-}  // namespace
-
+// What a step of intervals waits for is the step before it: two registers of two are quicker than one of four. Jets
+// have enough to do in each step.
 void run(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
          std::size_t count) {
-  static const auto way = best_way<IntervalBatch>();
+  static const auto way = has_avx2() ? RunIntervals{run_by_avx2} : RunIntervals{run_by_lanes};
   way(begin, end, values, results, count);
 }
 
 void run(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
          std::size_t count) {
-  static const auto way = best_way<JetBatch>();
+  static const auto way = has_avx512() ? RunJets{run_by_avx512}
+                          : has_avx2() ? RunJets{run_by_avx2}
+                                       : RunJets{run_by_lanes};
   way(begin, end, values, results, count);
 }
 
