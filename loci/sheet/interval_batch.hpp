@@ -1,6 +1,7 @@
 // Four intervals side by side: a SheetProgram run over IntervalBatch encloses four cells for one pass through its
-// instructions. Where the processor has AVX-512 they share a register, where it has AVX2 two of them do, else each has
-// its own; every step rounds as that of one Interval does, so that a lane has the bytes that it would have alone.
+// instructions. Where the processor has AVX2 two of them share a register, of jets (jet_batch.hpp) all four where it
+// has AVX-512, else each has its own; every step rounds as that of one Interval does, so that a lane has the bytes that
+// it would have alone.
 #pragma once
 
 #include <array>
