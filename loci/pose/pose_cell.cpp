@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "loci/inverse.hpp"
 
 namespace clearloci::loci::pose {
 namespace {
@@ -167,46 +168,14 @@ CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& 
   return State::proven;
 }
 
-/// Gauss and Jordan with partial pivoting of A at the cell's middle.
+/// The inverse of A at the cell's middle.
 template <class Form>
 bool PoseCellOf<Form>::invert() {
   std::vector<double> a(n_ * n_, 0.0);
   for (std::size_t column = 0; column < n_; ++column)
     for (const Entry& entry : columns_[column])
       a[static_cast<std::size_t>(entry.row) * n_ + column] = step(entry.step).c;
-  std::fill(inverse_.begin(), inverse_.end(), 0.0);
-  for (std::size_t i = 0; i < n_; ++i) inverse_at(i, i) = 1;
-  determinant_ = 1;
-  logarithm_ = 0;
-  for (std::size_t k = 0; k < n_; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < n_; ++i)
-      if (std::abs(a[i * n_ + k]) > std::abs(a[pivot * n_ + k])) pivot = i;
-    const double value = a[pivot * n_ + k];
-    if (value == 0 || !std::isfinite(value)) return false;
-    if (value < 0) determinant_ = -determinant_;
-    logarithm_ += std::log(std::abs(value));
-    if (pivot != k) {
-      determinant_ = -determinant_;
-      for (std::size_t j = 0; j < n_; ++j) {
-        std::swap(a[pivot * n_ + j], a[k * n_ + j]);
-        std::swap(inverse_at(pivot, j), inverse_at(k, j));
-      }
-    }
-    for (std::size_t j = 0; j < n_; ++j) {
-      a[k * n_ + j] /= value;
-      inverse_at(k, j) /= value;
-    }
-    for (std::size_t i = 0; i < n_; ++i) {
-      const double factor = a[i * n_ + k];
-      if (i == k || factor == 0) continue;
-      for (std::size_t j = 0; j < n_; ++j) {
-        a[i * n_ + j] -= factor * a[k * n_ + j];
-        inverse_at(i, j) -= factor * inverse_at(k, j);
-      }
-    }
-  }
-  return std::all_of(inverse_.begin(), inverse_.end(), [](double x) { return std::isfinite(x); });
+  return loci::invert(a, inverse_, n_, 0, &determinant_);
 }
 
 template <class Form>

@@ -125,13 +125,12 @@ class PoseCellOf : public CellAnswers {
   std::vector<std::vector<Entry>> columns_;  ///< of A
   std::vector<double> leasts_;               ///< asked of every demand, rounded up
   std::vector<Form> registers_;
-  std::vector<char> varies_;     ///< registers that do with the pose; the others are numbers
-  std::vector<double> inverse_;  ///< C
-  std::vector<double> error_;    ///< |E|
-  std::vector<double> weights_;  ///< s
-  double contraction_ = 0;       ///< beta
-  int determinant_ = 0;
-  double logarithm_ = 0;
+  std::vector<char> varies_;                   ///< registers that do with the pose; the others are numbers
+  std::vector<double> inverse_;                ///< C
+  std::vector<double> error_;                  ///< |E|
+  std::vector<double> weights_;                ///< s
+  double contraction_ = 0;                     ///< beta
+  int determinant_ = 0;                        ///< the sign of |A| at the cell's middle
   std::vector<int> closures_;                  ///< steps whose roots vary with the pose, and limits
   std::vector<std::vector<double>> solution_;  ///< load by load: w_m
   std::vector<std::vector<Form>> moved_;       ///< C r

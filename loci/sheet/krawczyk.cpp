@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "loci/inverse.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -19,39 +20,11 @@ constexpr int most_radii = 16;
 constexpr double first_radius = 0.02;  // relative to the accuracy wanted
 
 struct SquareMatrix {
-  std::array<std::array<double, most_unknowns>, most_unknowns> entries;  // the first n rows and columns are in use
-  std::array<double, most_unknowns>& operator[](int row) { return entries[static_cast<std::size_t>(row)]; }
+  explicit SquareMatrix(int size) : n(size) {}
+  int n;
+  std::array<double, most_unknowns * most_unknowns> entries;  // the first n × n are in use
+  double& operator()(int row, int column) { return entries[static_cast<std::size_t>(row * n + column)]; }
 };
-
-/// Y with Y matrix ~ 1, by Gauss-Jordan elimination with pivoting. False: singular to rounding.
-bool approximate_inverse(SquareMatrix& matrix, int n, SquareMatrix& inverse) {
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < n; ++k) inverse[i][k] = i == k ? 1 : 0;
-  for (int column = 0; column < n; ++column) {
-    int pivot = column;
-    for (int row = column + 1; row < n; ++row)
-      if (std::abs(matrix[row][column]) > std::abs(matrix[pivot][column])) pivot = row;
-    for (int c = 0; c < n && pivot != column; ++c) {
-      std::swap(matrix[pivot][c], matrix[column][c]);
-      std::swap(inverse[pivot][c], inverse[column][c]);
-    }
-    const double scale = 1 / matrix[column][column];
-    if (!std::isfinite(scale)) return false;
-    for (int c = 0; c < n; ++c) matrix[column][c] *= scale, inverse[column][c] *= scale;
-    for (int row = 0; row < n; ++row) {
-      const double factor = matrix[row][column];
-      if (row == column || factor == 0) continue;
-      for (int c = 0; c < n; ++c) {
-        matrix[row][c] -= factor * matrix[column][c];
-        inverse[row][c] -= factor * inverse[column][c];
-      }
-    }
-  }
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < n; ++k)
-      if (!std::isfinite(inverse[i][k])) return false;
-  return true;
-}
 
 }  // namespace
 
@@ -64,11 +37,11 @@ ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Inte
     return row < given ? cell.slope(system.functions[row], c) : cell.bond_slope(row - given, c);
   };
   core::ensure(n <= most_unknowns, "a system has few unknowns");
-  SquareMatrix middle, inverse;
+  SquareMatrix middle(n), inverse(n);
   for (int row = 0; row < n; ++row)
-    for (int column = 0; column < n; ++column) middle[row][column] = slope(row, column).middle();
+    for (int column = 0; column < n; ++column) middle(row, column) = slope(row, column).middle();
   image.clear();
-  if (!approximate_inverse(middle, n, inverse)) return ZeroCount::unknown;
+  if (!invert(middle.entries, inverse.entries, static_cast<std::size_t>(n))) return ZeroCount::unknown;
 
   bool contracted = true, none = false;
   for (int c = 0; c < cell.dimension(); ++c) image.push_back(cell.local(c));
@@ -77,11 +50,11 @@ ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Inte
     Interval sum = cell.middle(own);
     for (int row = 0; row < n; ++row) {
       const Interval& value = row < given ? cell.middle_value(system.functions[row]) : cell.middle_bond(row - given);
-      sum = sum - Interval(inverse[i][row]) * value;
+      sum = sum - Interval(inverse(i, row)) * value;
     }
     for (int column = 0; column < n; ++column) {
       Interval defect = i == column ? 1.0 : 0.0;
-      for (int row = 0; row < n; ++row) defect = defect - Interval(inverse[i][row]) * slope(row, column);
+      for (int row = 0; row < n; ++row) defect = defect - Interval(inverse(i, row)) * slope(row, column);
       const int c = coordinate(column);
       sum = sum + defect * (cell.local(c) - Interval(cell.middle(c)));
     }

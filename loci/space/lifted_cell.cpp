@@ -5,43 +5,18 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "loci/inverse.hpp"
 
 namespace clearloci::loci::space {
 namespace {
 
 using Matrix = std::vector<double>;
 
-/// The inverse by elimination with pivots; empty where a pivot is lost in rounding.
+/// The inverse; empty where a pivot is lost in rounding.
 Matrix inverted(Matrix a, std::size_t n) {
   constexpr double least_pivot = 1e-12;
-  Matrix inverse(n * n, 0);
-  for (std::size_t i = 0; i < n; ++i) inverse[i * n + i] = 1;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    double row_size = 0;
-    for (std::size_t i = k; i < n; ++i)
-      if (std::abs(a[i * n + k]) > std::abs(a[pivot * n + k])) pivot = i;
-    for (std::size_t j = 0; j < n; ++j) row_size = std::max(row_size, std::abs(a[pivot * n + j]));
-    if (!(std::abs(a[pivot * n + k]) > least_pivot * row_size)) return {};
-    for (std::size_t j = 0; j < n; ++j) {
-      std::swap(a[k * n + j], a[pivot * n + j]);
-      std::swap(inverse[k * n + j], inverse[pivot * n + j]);
-    }
-    const double by = 1 / a[k * n + k];
-    for (std::size_t j = 0; j < n; ++j) {
-      a[k * n + j] *= by;
-      inverse[k * n + j] *= by;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double times = a[i * n + k];
-      if (i == k || times == 0) continue;
-      for (std::size_t j = 0; j < n; ++j) {
-        a[i * n + j] -= times * a[k * n + j];
-        inverse[i * n + j] -= times * inverse[k * n + j];
-      }
-    }
-  }
-  return inverse;
+  Matrix inverse(n * n);
+  return invert(a, inverse, n, least_pivot) ? inverse : Matrix{};
 }
 
 double half_width(const Interval& range) { return 0.5 * range.width(); }
