@@ -8,7 +8,7 @@ include(GoogleTest)
 set(CLEARLOCI_LAW_INPUTS "" CACHE STRING "How many random inputs a law tries; empty: as many as it says itself")
 set(law_properties ENVIRONMENT "RC_PARAMS=seed=20110501")  # a fixed seed: the same inputs from run to run
 if(CLEARLOCI_LAW_INPUTS)
-  set(law_properties ENVIRONMENT "RC_PARAMS=seed=20110501 max_success=${CLEARLOCI_LAW_INPUTS}"
+  set(law_properties ENVIRONMENT "RC_PARAMS=seed=20110501 max_success=${CLEARLOCI_LAW_INPUTS} max_discard_ratio=100"
     ENVIRONMENT_MODIFICATION "CLEARLOCI_DESIGNS=set:${CLEARLOCI_LAW_INPUTS}")
 endif()
 
@@ -19,10 +19,19 @@ function(clearloci_test name)
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_compile_definitions(${name} PRIVATE CLEARLOCI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gtest_main rapidcheck Threads::Threads)
+  target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gtest_main GTest::gmock rapidcheck Threads::Threads)
   clearloci_warnings(${name})
+  clearloci_known_leaks(${name})
   # What is tested is compiled as users get it; the tests themselves compile a third faster so.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  clearloci_quickly_compiled(${name})
+  # The headers that nearly every test includes are precompiled by the first and taken over by all others.
+  get_property(first GLOBAL PROPERTY clearloci_first_test)
+  if(first)
+    clearloci_precompiled(${name} REUSE_FROM ${first})
+  else()
+    clearloci_precompiled(${name} PRIVATE <gtest/gtest.h> <algorithm> <array> <cmath> <fstream> <functional> <map> <optional> <random> <sstream>)
+    set_property(GLOBAL PROPERTY clearloci_first_test ${name})
+  endif()
   # DISCOVERY_TIMEOUT: a loaded machine may start programs slowly.
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 120
     PROPERTIES ${law_properties})

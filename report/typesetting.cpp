@@ -3,20 +3,6 @@
 #include <cairomm/fontface.h>
 #include <cairomm/surface.h>
 
-#if defined(__SANITIZE_ADDRESS__)
-#define CLEARLOCI_LEAK_CHECK
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define CLEARLOCI_LEAK_CHECK
-#endif
-#endif
-
-#ifdef CLEARLOCI_LEAK_CHECK
-/// Fontconfig keeps some patterns until the process ends; a check for leaks must not take them for ours.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
-#endif
-
 namespace clearloci::report {
 namespace {
 

@@ -8,9 +8,6 @@
 namespace clearloci::symbolic {
 
 /// Waits for the algebra of other threads to end. To be taken once on the way in, before any expression is made.
-[[nodiscard]] inline std::unique_lock<std::mutex> algebra_turn() {
-  static std::mutex one_at_a_time;
-  return std::unique_lock(one_at_a_time);
-}
+[[nodiscard]] std::unique_lock<std::mutex> algebra_turn();
 
 }  // namespace clearloci::symbolic
