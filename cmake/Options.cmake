@@ -68,7 +68,7 @@ function(clearloci_precompiled target)
   target_precompile_headers(${target} ${ARGN})
   # For ccache; and GCC 12 takes what is precompiled of the standard library for ours, and warns of its strings.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
-    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds>)
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds;-Wno-stringop-overflow>)
 endfunction()
 
 # clearloci_alone(<sources...>): sources of a folder that are compiled alone in any case, as they call something of

