@@ -158,8 +158,7 @@ class ClaimedZeros {
   };
 
   ClaimedZeros(const TurnGrid& grid, std::span<const GridAxis> axes, const LocusMap& map) : grid_(grid), axes_(axes) {
-    for (std::size_t c = 0; c < axes.size(); ++c)
-      clear_.push_back(least_clear * axes[c].step * axes[c].nodes + chords * map.tolerance);
+    for (const GridAxis& axis : axes) clear_.push_back(least_clear * axis.step * axis.nodes + chords * map.tolerance);
   }
 
   void add(const core::SpaceArc& arc) {

@@ -150,10 +150,10 @@ class CramerElimination {
       for (const auto& [column, entry] : rows_[i]) {
         if (column == n_) continue;
         const std::size_t fill = others * (in_column[static_cast<std::size_t>(column)] - 1);
-        const auto take = [&](How how, std::size_t cost, std::size_t& least, Choice& best) {
+        const auto take = [&, here = Pivot{i, column}](How how, std::size_t cost, std::size_t& least, Choice& best) {
           if (cost >= least) return;
           least = cost;
-          best = {how, {i, column}};
+          best = {how, here};
         };
         if (entry.is_constant()) {
           take(How::by_rows, fill, least_fill, number);

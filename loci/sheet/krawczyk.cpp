@@ -20,10 +20,12 @@ constexpr int most_radii = 16;
 constexpr double first_radius = 0.02;  // relative to the accuracy wanted
 
 struct SquareMatrix {
-  explicit SquareMatrix(int size) : n(size) {}
-  int n;
+  explicit SquareMatrix(int size) : n(static_cast<std::size_t>(size)) {}
+  std::size_t n;
   std::array<double, most_unknowns * most_unknowns> entries;  // the first n × n are in use
-  double& operator()(int row, int column) { return entries[static_cast<std::size_t>(row * n + column)]; }
+  double& operator()(int row, int column) {
+    return entries[static_cast<std::size_t>(row) * n + static_cast<std::size_t>(column)];
+  }
 };
 
 }  // namespace
@@ -41,7 +43,7 @@ ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Inte
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column) middle(row, column) = slope(row, column).middle();
   image.clear();
-  if (!invert(middle.entries, inverse.entries, static_cast<std::size_t>(n))) return ZeroCount::unknown;
+  if (!invert(middle.entries, inverse.entries, inverse.n)) return ZeroCount::unknown;
 
   bool contracted = true, none = false;
   for (int c = 0; c < cell.dimension(); ++c) image.push_back(cell.local(c));
