@@ -99,6 +99,13 @@ WholeTerms whole_terms(const Polynomial& p) {
   return whole;
 }
 
+Integer content(const WholeTerms& whole) {
+  Integer content = 0;
+  for (const Integer& coefficient : whole.coefficients)
+    mpz_gcd(content.get_mpz_t(), content.get_mpz_t(), coefficient.get_mpz_t());
+  return content;
+}
+
 std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& divisor) {
   ensure(!divisor.is_zero(), "a divisor is not zero");
   ensure(p.variables == divisor.variables, "both polynomials have the same variables");
@@ -113,17 +120,15 @@ std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& 
   for (std::size_t i = 0; i < p.terms.size(); ++i) (*rest)[rest->place(p.terms[i].exponents)] = whole.coefficients[i];
   // By Gauss's lemma whole numbers divided by coprime ones stay whole, or do not divide.
   WholeTerms by = whole_terms(divisor);
-  Integer content = 0;
-  for (const Integer& coefficient : by.coefficients)
-    mpz_gcd(content.get_mpz_t(), content.get_mpz_t(), coefficient.get_mpz_t());
+  const Integer common = content(by);
   std::vector<std::size_t> below;  // of each term of the divisor: how far below its first one
   const std::size_t leading = rest->place(divisor.terms.front().exponents);
   for (std::size_t k = 0; k < divisor.terms.size(); ++k) {
-    mpz_divexact(by.coefficients[k].get_mpz_t(), by.coefficients[k].get_mpz_t(), content.get_mpz_t());
+    mpz_divexact(by.coefficients[k].get_mpz_t(), by.coefficients[k].get_mpz_t(), common.get_mpz_t());
     below.push_back(leading - rest->place(divisor.terms[k].exponents));
   }
   Polynomial quotient{p.variables, {}};
-  const Integer denominator = whole.denominator * content;
+  const Integer denominator = whole.denominator * common;
   Integer scale;
   for (std::size_t place = rest->size(); place-- > 0;) {
     if (sgn((*rest)[place]) == 0) continue;

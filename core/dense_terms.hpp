@@ -40,6 +40,9 @@ struct WholeTerms {
 };
 WholeTerms whole_terms(const Polynomial& p);
 
+/// The greatest common divisor of the whole coefficients, above 0; 0 of none.
+Integer content(const WholeTerms& whole);
+
 /// p / divisor; nothing where it is no polynomial. Required: divisor not zero, both in the same variables.
 std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& divisor);
 

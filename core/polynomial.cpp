@@ -182,12 +182,8 @@ Polynomial with_variables(const Polynomial& p, int variables) {
 
 Polynomial primitive_part(const Polynomial& p) {
   if (p.is_zero()) return p;
-  Integer common_denominator = 1;
-  for (const Term& term : p.terms) common_denominator = lcm(common_denominator, term.coefficient.get_den());
-  Integer content = 0;
-  for (const Term& term : p.terms)
-    content = gcd(content, Integer(term.coefficient.get_num() * (common_denominator / term.coefficient.get_den())));
-  Rational factor(common_denominator, content);
+  const WholeTerms whole = whole_terms(p);
+  Rational factor(whole.denominator, content(whole));
   factor.canonicalize();
   if (sgn(p.terms.front().coefficient) < 0) factor = -factor;
   Polynomial result = p;

@@ -10,13 +10,6 @@ namespace {
 using core::Quantity;
 using core::Rational;
 
-/// The squared length of a joint's axis.
-Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint) {
-  GiNaC::ex square = 0;
-  for (const GiNaC::ex& u : geometry.vector(joint.axes.at(0))) square += u * u;
-  return geometry.poly(square.expand());
-}
-
 }  // namespace
 
 std::vector<Guide> guides(const Geometry& geometry, const Elimination& elimination,

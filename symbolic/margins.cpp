@@ -50,7 +50,8 @@ class Margins {
     if (couple == nullptr) return;
     const FactoredPoly shared = common_factors(*couple, determinant_);
     const Poly c = without(*couple, shared, ring()), d = without(determinant_, shared, ring());
-    const Poly axis2 = squared_axis(joint);
+    const bool planar = geometry_.mechanism().space == mechanism::Space::planar;
+    const Poly axis2 = planar ? geometry_.poly(1) : squared_axis(geometry_, joint);
     if (const auto length = constant_length(axis2)) {
       add(joint.name, Quantity::M, c - d.scaled(bound * *length), bound, {cleared(shared), 1});
       add(joint.name, Quantity::M, c + d.scaled(bound * *length), bound, {cleared(shared), 1});
@@ -79,14 +80,6 @@ class Margins {
     if (known == margins_.end())
       known = margins_.insert(known, {natural, quantity, bound, {}, below.first, below.second, std::move(senses)});
     if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
-  }
-
-  /// |u|^2 of an actuated joint's axis, of which M = u . m is made; 1 in the plane.
-  Poly squared_axis(const mechanism::Joint& joint) const {
-    if (geometry_.mechanism().space == mechanism::Space::planar) return geometry_.poly(1);
-    GiNaC::ex square = 0;
-    for (const GiNaC::ex& u : geometry_.vector(joint.axes.at(0))) square += u * u;
-    return geometry_.poly(square.expand());
   }
 
   std::optional<Rational> constant_length(const Poly& square) const {

@@ -43,8 +43,6 @@ Direction direction_of(const Geometry& geometry, const mechanism::Joint& joint) 
   return {components[0], components[1], components[2]};
 }
 
-GiNaC::ex square_of(const Direction& v) { return (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).expand(); }
-
 /// Independent ones among the vectors of numbers that the vector polynomial is made of: at most three.
 std::vector<std::array<core::Rational, 3>> span_of(const Geometry& geometry, const Direction& u) {
   std::map<std::vector<int>, std::array<core::Rational, 3>> coefficients;
@@ -153,7 +151,8 @@ AcrossPin across_pin(const Geometry& geometry, const mechanism::Joint& joint) {
     across.first = cross_product({1, 0, 0}, u);
   }
   across.second = cross_product(u, across.first);
-  across.squared = square_of(across.first);
+  const Direction& v = across.first;
+  across.squared = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).expand();
   return across;
 }
 
@@ -209,8 +208,14 @@ PressingForce pressing_force(const Geometry& geometry, const std::vector<Reactio
     // (u × f)_i = (e_i × u) · f
     pressing.parts.push_back(force_along(geometry, force, cross_product(unit, u), determinant.factors));
   }
-  pressing.squared = geometry.poly(square_of(u));
+  pressing.squared = squared_axis(geometry, joint);
   return pressing;
+}
+
+Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint) {
+  GiNaC::ex square = 0;
+  for (const GiNaC::ex& u : geometry.vector(joint.axes.at(0))) square += u * u;
+  return geometry.poly(square.expand());
 }
 
 const FactoredPoly* numerator(const std::vector<Reaction>& reactions, const std::string& joint, Quantity quantity) {

@@ -48,6 +48,9 @@ struct PressingForce {
 PressingForce pressing_force(const Geometry& geometry, const std::vector<Reaction>& reactions,
                              const mechanism::Joint& joint, const FactoredPoly& determinant);
 
+/// |u|^2 of a joint's axis u.
+Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint);
+
 /// Null where there is none.
 const FactoredPoly* numerator(const std::vector<Reaction>& reactions, const std::string& joint,
                               core::Quantity quantity);

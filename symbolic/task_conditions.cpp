@@ -141,7 +141,7 @@ class Conditions {
         if (vanishes(part)) part = {};
     }
     if (demand.quantity == Quantity::M && mechanism_.space == mechanism::Space::spatial)
-      result.squared_axis = squared_axis(joint);
+      result.squared_axis = squared_axis(geometry_, joint);
     // Components that are zero whatever the pose and the load say nothing.
     result.parts.resize(many);
     for (std::size_t c = 0; c < found.front().size(); ++c) {
@@ -149,12 +149,6 @@ class Conditions {
       for (std::size_t i = 0; i < many; ++i) result.parts[i].push_back(std::move(found[i][c]));
     }
     return result;
-  }
-
-  Poly squared_axis(const mechanism::Joint& joint) const {
-    GiNaC::ex square = 0;
-    for (const GiNaC::ex& u : geometry_.vector(joint.axes.at(0))) square += u * u;
-    return geometry_.poly(square.expand());
   }
 
   /// What several joints bear alike is one condition.
