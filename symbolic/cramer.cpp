@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -30,14 +31,8 @@ int permutation_sign(std::vector<int> columns) {
   return sign;
 }
 
-/// row -= multiple * pivot_row, dropping what cancels.
-void subtract(SparseRow& row, const Poly& multiple, const SparseRow& pivot_row) {
-  for (const auto& [column, entry] : pivot_row) {
-    auto [place, fresh] = row.try_emplace(column, entry.ring());
-    place->second -= multiple * entry;
-    if (place->second.is_zero()) row.erase(place);
-  }
-}
+/// That a polynomial has more terms than are worth having; caught in cramer_determinants_within.
+struct TooLong {};
 
 /// The common factor of some entries.
 class Content {
@@ -54,8 +49,16 @@ class Content {
   Poly shared_;
 };
 
+/// Terms of a product before equal ones are added, or more.
+double terms_of(const FactoredPoly& product) {
+  double terms = 1;
+  for (const PolyFactor& factor : product.factors)
+    terms *= std::pow(static_cast<double>(factor.poly.length()), factor.multiplicity);
+  return terms;
+}
+
 /// Multiplicities may be negative; what the summands share is not multiplied out.
-FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands) {
+FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands, std::size_t most_terms) {
   FactoredPoly shared{1, {}};
   bool first = true;
   for (const FactoredPoly& summand : summands) {
@@ -69,8 +72,13 @@ FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands)
     std::erase_if(shared.factors, [](const PolyFactor& factor) { return factor.multiplicity == 0; });
   }
   Poly sum(ring);
-  for (const FactoredPoly& summand : summands)
-    if (!summand.is_zero()) sum += without(summand, shared, ring);
+  for (const FactoredPoly& summand : summands) {
+    if (summand.is_zero()) continue;
+    FactoredPoly rest = summand;
+    multiply(rest, shared, -1);
+    if (terms_of(rest) > static_cast<double>(most_terms)) throw TooLong{};
+    sum += expanded(rest, ring);
+  }
   sort_factors(shared.factors);
   FactoredPoly result = factored(sum, shared.factors);
   multiply(result, shared);
@@ -80,8 +88,9 @@ FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands)
 class CramerElimination {
  public:
   CramerElimination(const Ring& ring, const std::vector<std::vector<Poly>>& matrix,
-                    const std::vector<Poly>& right_hand_side)
+                    const std::vector<Poly>& right_hand_side, std::size_t most_terms)
       : ring_(ring),
+        most_terms_(most_terms),
         n_(static_cast<int>(matrix.size())),
         rows_(matrix.size()),
         active_(matrix.size(), true),
@@ -193,11 +202,27 @@ class CramerElimination {
     }
   }
 
+  /// The product; what is long is as a rule a product of short ones, so that no time goes into any that is too long.
+  Poly product(const Poly& a, const Poly& b) const {
+    if (static_cast<double>(a.length()) * static_cast<double>(b.length()) > static_cast<double>(most_terms_))
+      throw TooLong{};
+    return a * b;
+  }
+
+  /// row -= multiple * pivot_row, dropping what cancels.
+  void subtract(SparseRow& row, const Poly& multiple, const SparseRow& pivot_row) const {
+    for (const auto& [column, entry] : pivot_row) {
+      auto [place, fresh] = row.try_emplace(column, entry.ring());
+      place->second -= product(multiple, entry);
+      if (place->second.is_zero()) row.erase(place);
+    }
+  }
+
   /// row = (p row - e pivot_row) / content, p and e the two entries of the pivot's column without their common factor.
   void take_row(SparseRow& row, const SparseRow& pivot_row, int column) {
     const Poly shared = gcd(row.at(column), pivot_row.at(column));
     const Poly e = row.at(column).exact_quotient(shared), p = pivot_row.at(column).exact_quotient(shared);
-    for (auto& [other, entry] : row) entry *= p;
+    for (auto& [other, entry] : row) entry = product(entry, p);
     subtract(row, e, pivot_row);
     divide_row(row);
     multiply(determinant_, factored(p, {}), -1);
@@ -221,10 +246,10 @@ class CramerElimination {
       if (!active_[i]) continue;
       const auto by = rows_[i].find(column);
       auto place = rows_[i].find(own);
-      if (place != rows_[i].end()) place->second *= p;
+      if (place != rows_[i].end()) place->second = product(place->second, p);
       if (by == rows_[i].end()) continue;
       if (place == rows_[i].end()) place = rows_[i].emplace(own, ring_).first;
-      place->second -= e * by->second;
+      place->second -= product(e, by->second);
       if (place->second.is_zero()) rows_[i].erase(place);
     }
     FactoredPoly factor = factored(p, {});
@@ -321,11 +346,11 @@ class CramerElimination {
       if ((set >> j & 1U) == 0) continue;
       const SparseRow& row = rows_[rest[size - 1]];
       if (const auto entry = row.find(columns[j]); entry != row.end()) {
-        const Poly product = entry->second * minor(rest, columns, set & ~(1U << j), known);
+        const Poly summand = product(entry->second, minor(rest, columns, set & ~(1U << j), known));
         if ((size - 1 + place) % 2 == 0)
-          sum += product;
+          sum += summand;
         else
-          sum -= product;
+          sum -= summand;
       }
       ++place;
     }
@@ -351,13 +376,14 @@ class CramerElimination {
       summands.push_back(std::move(own));
     }
     FactoredPoly& w = solution_[static_cast<std::size_t>(step.column)];
-    w = sum_of(ring_, summands);
+    w = sum_of(ring_, summands, most_terms_);
     if (!w.is_zero()) multiply(w, factored(step.equation.at(step.column), {}), -1);
   }
 
   static constexpr std::size_t unbounded = std::numeric_limits<std::size_t>::max();
 
   const Ring& ring_;
+  std::size_t most_terms_;
   int n_;
   std::vector<SparseRow> rows_;  ///< as they are while they are active
   std::vector<bool> active_;
@@ -372,7 +398,18 @@ class CramerElimination {
 
 CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::vector<Poly>>& matrix,
                                        const std::vector<Poly>& right_hand_side) {
-  return CramerElimination(ring, matrix, right_hand_side).run();
+  constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+  return CramerElimination(ring, matrix, right_hand_side, any_number).run();
+}
+
+std::optional<CramerDeterminants> cramer_determinants_within(std::size_t most_terms, const Ring& ring,
+                                                             const std::vector<std::vector<Poly>>& matrix,
+                                                             const std::vector<Poly>& right_hand_side) {
+  try {
+    return CramerElimination(ring, matrix, right_hand_side, most_terms).run();
+  } catch (const TooLong&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace clearloci::symbolic

@@ -3,6 +3,7 @@
 // Private to symbolic/.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "symbolic/factored_poly.hpp"
@@ -28,5 +29,10 @@ struct CramerDeterminants {
 /// out that is a product. One elimination serves every column.
 CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::vector<Poly>>& matrix,
                                        const std::vector<Poly>& right_hand_side);
+
+/// The same as long as no product on the way may have more than `most_terms` terms; nothing else.
+std::optional<CramerDeterminants> cramer_determinants_within(std::size_t most_terms, const Ring& ring,
+                                                             const std::vector<std::vector<Poly>>& matrix,
+                                                             const std::vector<Poly>& right_hand_side);
 
 }  // namespace clearloci::symbolic

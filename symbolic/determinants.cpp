@@ -4,7 +4,11 @@
 
 namespace clearloci::symbolic {
 
-FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded) {
+namespace {
+
+/// `most_terms`: none where any number will do.
+std::optional<FactoredDeterminants> derived(std::optional<std::size_t> most_terms, const Geometry& geometry,
+                                            const Geometry* loaded) {
   NewtonEulerEquations equations = newton_euler_equations(geometry);
   if (loaded != nullptr) equations.loads = newton_euler_equations(*loaded).loads;
   std::vector<std::vector<Poly>> matrix;
@@ -14,19 +18,33 @@ FactoredDeterminants factored_determinants(const Geometry& geometry, const Geome
     for (unsigned j = 0; j < equations.matrix.cols(); ++j) row.push_back(geometry.poly(equations.matrix(i, j)));
     loads.push_back(geometry.poly(equations.loads(i, 0)));
   }
-  CramerDeterminants cramer = cramer_determinants(geometry.ring(), matrix, loads);
-  if (cramer.determinant.is_zero()) {
+  std::optional<CramerDeterminants> cramer =
+      most_terms ? cramer_determinants_within(*most_terms, geometry.ring(), matrix, loads)
+                 : cramer_determinants(geometry.ring(), matrix, loads);
+  if (!cramer) return std::nullopt;
+  if (cramer->determinant.is_zero()) {
     throw core::InputError({geometry.mechanism().file}, "the equations are singular in every pose: |A| = 0",
                            "a part moves freely while another is over-constrained; check joints and actuators");
   }
   for (const ColumnDivisor& shared : equations.divisors) {
-    const FactoredPoly divisor = factored(shared.divisor, cramer.determinant.factors);
-    multiply(cramer.determinant, divisor, -1);
-    for (unsigned k = 0; k < cramer.numerators.size(); ++k)
-      if (k != shared.first && k != shared.first + 1 && !cramer.numerators[k].is_zero())
-        multiply(cramer.numerators[k], divisor, -1);
+    const FactoredPoly divisor = factored(shared.divisor, cramer->determinant.factors);
+    multiply(cramer->determinant, divisor, -1);
+    for (unsigned k = 0; k < cramer->numerators.size(); ++k)
+      if (k != shared.first && k != shared.first + 1 && !cramer->numerators[k].is_zero())
+        multiply(cramer->numerators[k], divisor, -1);
   }
-  return {std::move(equations), std::move(cramer.determinant), std::move(cramer.numerators), std::move(cramer.forms)};
+  return FactoredDeterminants{std::move(equations), std::move(cramer->determinant), std::move(cramer->numerators),
+                              std::move(cramer->forms)};
+}
+
+}  // namespace
+
+FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded) {
+  return *derived(std::nullopt, geometry, loaded);
+}
+
+std::optional<FactoredDeterminants> factored_determinants_within(std::size_t most_terms, const Geometry& geometry) {
+  return derived(most_terms, geometry, nullptr);
 }
 
 }  // namespace clearloci::symbolic

@@ -1,6 +1,7 @@
 // |A| and every Cramer numerator of a mechanism, factored over the points' coordinates. Private to symbolic/.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "symbolic/cramer.hpp"
@@ -19,5 +20,8 @@ struct FactoredDeterminants {
 /// Throws core::InputError where |A| vanishes in every pose. `loaded`: the same mechanism under another load, which
 /// takes the place of its own; what comes back is in the ring of `geometry`.
 FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded = nullptr);
+
+/// The same as long as no polynomial on the way may have more than `most_terms` terms; nothing else.
+std::optional<FactoredDeterminants> factored_determinants_within(std::size_t most_terms, const Geometry& geometry);
 
 }  // namespace clearloci::symbolic

@@ -18,6 +18,11 @@ std::vector<std::vector<Poly>> extended_matrix(const Geometry& geometry, const N
   return rows;
 }
 
+/// Of the polynomials with symbols for parameters; beyond, a member's own numbers are quicker than values put into
+/// them, or derive in no time what takes minutes with thirty symbols. Whatever mechanism gains has some hundred:
+/// Jansen's leg 224.
+constexpr std::size_t most_terms = 1000;
+
 /// The factorisations of the distinct factors met so far.
 struct Refactored {
   Poly before;
@@ -27,9 +32,10 @@ struct Refactored {
 }  // namespace
 
 Family::Family(const mechanism::Mechanism& member) : mechanism_(member), geometry_(mechanism_, true) {
-  FactoredDeterminants derived = factored_determinants(geometry_);
-  matrix_ = extended_matrix(geometry_, derived.equations);
-  if (derived.equations.divisors.empty()) determinants_ = std::move(derived);
+  std::optional<FactoredDeterminants> derived = factored_determinants_within(most_terms, geometry_);
+  if (!derived || !derived->equations.divisors.empty()) return;
+  matrix_ = extended_matrix(geometry_, derived->equations);
+  determinants_ = std::move(derived);
 }
 
 Poly Family::substituted(const Poly& p, const Geometry& geometry,

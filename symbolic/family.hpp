@@ -1,7 +1,7 @@
 // A family of designs that differ in the values of parameters: |A| and the numerators are derived and factored once,
-// with the parameters as symbols, and take new values. What special values do (a factor that splits, vanishes or
-// coincides with another) is seen since the few distinct factors are factored again after the values are put in.
-// Private to symbolic/.
+// with the parameters as symbols as long as that leaves them short, and take new values. What special values do (a
+// factor that splits, vanishes or coincides with another) is seen since the few distinct factors are factored again
+// after the values are put in. Private to symbolic/.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ class Family {
   explicit Family(const mechanism::Mechanism& member);
 
   /// The determinants of the member that `geometry` describes, the same as factored_determinants gives; nothing where
-  /// its equations are not these with values put in (an irrational length, another structure): then they are to be
-  /// derived from scratch.
+  /// its equations are not these with values put in (an irrational length, another structure), or are too long with
+  /// symbols: then they are to be derived from scratch.
   std::optional<FactoredDeterminants> at(const Geometry& geometry) const;
 
  private:

@@ -43,6 +43,9 @@ class Worlds {
   }
 
   CramerDeterminants ours() const { return cramer_determinants(ring_, matrix_, right_); }
+  std::optional<CramerDeterminants> within(std::size_t most_terms) const {
+    return cramer_determinants_within(most_terms, ring_, matrix_, right_);
+  }
 
   /// Determinant with column k replaced by the right-hand side; k = n: of the matrix itself.
   GiNaC::ex theirs(std::size_t k) const {
@@ -95,16 +98,28 @@ TEST(Cramer, AMatrixNeedsNoConstantEntries) {
   EXPECT_TRUE(d.numerators[1].is_zero());
 }
 
+/// n rows of variables of their own.
+template <std::size_t n>
+struct Generic {
+  Generic() {
+    for (std::size_t i = 0; i < n * (n + 1); ++i)
+      (i < n * n ? matrix[i / n] : right).push_back(Poly::variable(ring, static_cast<int>(i)));
+  }
+  static std::vector<std::string> names() {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < n * (n + 1); ++i) names.push_back("v" + std::to_string(i));
+    return names;
+  }
+
+  Ring ring{names()};
+  std::vector<std::vector<Poly>> matrix{n};
+  std::vector<Poly> right;
+};
+
 /// Seven rows of variables of their own: |A| has 5040 terms, its form 49 entries.
 TEST(Cramer, LongMinorsAreKnownAsDeterminants) {
+  const auto& [ring, matrix, right] = Generic<7>();
   constexpr std::size_t n = 7;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < n * (n + 1); ++i) names.push_back("v" + std::to_string(i));
-  const Ring ring(names);
-  std::vector<std::vector<Poly>> matrix(n);
-  std::vector<Poly> right;
-  for (std::size_t i = 0; i < n * (n + 1); ++i)
-    (i < n * n ? matrix[i / n] : right).push_back(Poly::variable(ring, static_cast<int>(i)));
   const CramerDeterminants d = cramer_determinants(ring, matrix, right);
   ASSERT_EQ(d.forms.size(), n + 1);
   std::vector<FactoredPoly> products = d.numerators;
@@ -124,6 +139,32 @@ TEST(Cramer, LongMinorsAreKnownAsDeterminants) {
     const GiNaC::ex whole = numbers.determinant() * GiNaC::numeric(core::to_string(form.constant).c_str());
     EXPECT_TRUE((whole - GiNaC::numeric(core::to_string(at_numbers(form.value)).c_str())).is_zero());
   }
+}
+
+/// The same matrices: nothing where products are long, else what comes without a limit.
+RC_GTEST_PROP(Cramer, WithinALimitOfTermsIsTheSameOrNothing, ()) {
+  const auto n = static_cast<std::size_t>(*rc::gen::inRange(1, 7));
+  const Worlds worlds(n);
+  const CramerDeterminants all = worlds.ours();
+  const auto within = worlds.within(static_cast<std::size_t>(*rc::gen::inRange(1, 40)));
+  RC_TAG(within ? "within" : "beyond");
+  if (!within) return;
+  const auto same = [](const FactoredPoly& a, const FactoredPoly& b) {
+    if (a.constant != b.constant || a.factors.size() != b.factors.size()) return false;
+    for (std::size_t i = 0; i < a.factors.size(); ++i)
+      if (!(a.factors[i].poly == b.factors[i].poly) || a.factors[i].multiplicity != b.factors[i].multiplicity)
+        return false;
+    return true;
+  };
+  RC_ASSERT(same(within->determinant, all.determinant));
+  RC_ASSERT(within->numerators.size() == all.numerators.size());
+  for (std::size_t k = 0; k < all.numerators.size(); ++k) RC_ASSERT(same(within->numerators[k], all.numerators[k]));
+}
+
+TEST(Cramer, EndsWhereProductsGrowBeyondTheLimit) {
+  const auto& [ring, matrix, right] = Generic<7>();
+  EXPECT_FALSE(cramer_determinants_within(700, ring, matrix, right));  // minors of six rows have 720 terms
+  EXPECT_TRUE(cramer_determinants_within(720, ring, matrix, right));
 }
 
 /// The force along a link that two balls hold is one unknown; what it bears is a product throughout.
