@@ -28,8 +28,8 @@ void Cells::look_closer(const std::vector<int>& cells, int finest) {
   const int most = examined_ + limits_.most / 3;
   cut(cells, [this, finest, most](const OctreeCell& cell) {
     if (!cell.active() || cell.level >= std::min(finest, deepest) || examined_ > most) return false;
-    // Once seen, the surface needs no smaller cells than elsewhere.
-    return cell.level < limits_.level + bent_levels || look_at(cell) == Look::unseen;
+    // Once seen, the surface needs no smaller cells than elsewhere; beside the boundary it may be seen beyond it alone.
+    return cell.level < limits_.level + bent_levels || cell.proof.rim || look_at(cell) == Look::unseen;
   });
 }
 

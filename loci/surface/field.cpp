@@ -48,6 +48,8 @@ Interval variable_over(const LocusProblem& problem, std::size_t i, const Interva
               Interval(lower - angle_rounding, upper + angle_rounding));
 }
 
+bool is_zero(const Interval& x) { return x.lower() == 0 && x.upper() == 0; }
+
 }  // namespace
 
 Point Frame::place(const Point& unit) const {
@@ -161,7 +163,8 @@ Field::Chart& Field::enter(const Point& unit, int held) {
   }
   for (int j = 0; j < roots(); ++j) {
     chart->at.run_square(j);
-    const double root = j == held ? 0 : std::sqrt(std::max(0.0, chart->at.square(j)));
+    const double square = chart->at.square(j);
+    const double root = j == held ? 0 : std::copysign(std::sqrt(std::abs(square)), square);
     chart->at.set(3 + j, mode_[static_cast<std::size_t>(j)] * root);
   }
   return *chart;
@@ -188,8 +191,9 @@ Point Field::reduced(Chart& chart, int held) {
     const double own = gradient_[static_cast<std::size_t>(j) + 3];
     const double root = chart.at.root(j);
     if (own == 0 || root == 0 || j == held) continue;
-    for (int v = 0; v < 3 + j; ++v)
-      gradient_[static_cast<std::size_t>(v)] += own / (2 * root) * chart.at.square_partial(j, v);
+    // Of s = ±√Q and, beyond the boundary, of s = ∓√-Q alike.
+    const double factor = own * mode_[static_cast<std::size_t>(j)] / (2 * std::abs(root));
+    for (int v = 0; v < 3 + j; ++v) gradient_[static_cast<std::size_t>(v)] += factor * chart.at.square_partial(j, v);
   }
   return {gradient_[0] * scale_[0], gradient_[1] * scale_[1], gradient_[2] * scale_[2]};
 }
@@ -268,9 +272,41 @@ std::optional<Box> Field::enter(Chart& chart, const Box& place) {
   return variables;
 }
 
-Interval Field::by_unit(std::size_t i, const Interval& variable) const {
-  const Interval scaled = enclosed_[i] * (Interval(frame_.upper[i]) - Interval(frame_.lower[i]));
+Box Field::enter_with_beyond(Chart& chart, const Box& place) {
+  Box variables;
+  for (std::size_t i = 0; i < 3; ++i) {
+    variables[i] = variable_over(*chart.problem, i, place[i]);
+    chart.over.set(static_cast<int>(i), variables[i]);
+  }
+  rising_.assign(mode_.size(), false);
+  roots_.resize(mode_.size());
+  const auto root_of = [](double square) {
+    const Interval size = square_root(Interval(std::abs(square)));
+    return square < 0 ? -size : size;
+  };
+  for (int j = 0; j < roots(); ++j) {
+    const auto own = static_cast<std::size_t>(j);
+    chart.over.run_square(j);
+    const Interval& square = chart.over.square(j);
+    rising_[own] = square.lower() <= 0;
+    const Interval root = hull(root_of(square.lower()), root_of(square.upper()));
+    chart.over.set(3 + j, mode_[own] > 0 ? root : -root);
+    // Vector are taken on the way from 0.
+    const Interval from_none = rising_[own] ? hull(root, Interval(0.0)) : root;
+    roots_[own] = mode_[own] > 0 ? from_none : -from_none;
+  }
+  return variables;
+}
+
+Interval Field::by_unit(std::size_t i, const Interval& slope, const Interval& variable) const {
+  const Interval scaled = slope * (Interval(frame_.upper[i]) - Interval(frame_.lower[i]));
   return frame_.angle[i] ? scaled * (Interval(1.0) + squared(variable)) * Interval(0.5) : scaled;
+}
+
+Vector Field::by_unit(const Vector& slopes, const Box& variables, double times) const {
+  Vector result;
+  for (std::size_t i = 0; i < 3; ++i) result[i] = Interval(times) * by_unit(i, slopes[i], variables[i]);
+  return result;
 }
 
 /// Mean-value form over the coordinates and the roots that may be 0: see differentiate.
@@ -298,24 +334,131 @@ Interval Field::mean_value(Chart& chart, const Box& variables) {
   return chart.over.value(0) + away;
 }
 
-std::optional<std::vector<Field::Over>> Field::over(const Box& unit) {
+namespace {
+
+/// `along`: of slopes, their part along a vector.
+template <class Along>
+bool is_rising(const Field::Over& f, const Along& along) {
+  if (!f.known) return false;
+  const Interval even = along(f.gradient);
+  if (!f.steep) return even.lower() > 0;
+  const double least = along(*f.steep).lower();
+  return least > 0 && (even + Interval(least) * inverse(Interval(2.0) * Interval(f.reach))).lower() > 0;
+}
+
+}  // namespace
+
+bool Field::Over::rises(const Vector& way) const {
+  return is_rising(*this, [&](const Vector& slopes) { return product(slopes, way); });
+}
+
+bool Field::Over::rises_across(const Vector& normal, const Vector& way) const {
+  const Vector turn = cross_product(way, normal);
+  return is_rising(*this, [&](const Vector& slopes) { return product(cross_product(slopes, normal), turn); });
+}
+
+std::vector<Field::Over> Field::over(const Box& unit) {
   const Box place = place_of(unit);
   std::vector<Over> result;
+  for (const auto& chart : charts_)
+    if (meets(*chart, place)) result.push_back(over(*chart, enter_with_beyond(*chart, place)));
+  return result;
+}
+
+core::Interval Field::square_over(const Box& unit, int root) {
+  const Box place = place_of(unit);
+  std::optional<Interval> result;
   for (const auto& chart : charts_) {
     if (!meets(*chart, place)) continue;
-    const std::optional<Box> variables = enter(*chart, place);
-    if (!variables || std::find(rising_.begin(), rising_.end(), true) != rising_.end()) return std::nullopt;
-    chart->over.run_values();
-    Proof none;
-    differentiate(*chart, none);
-    const Interval sign(chart->sign);
-    Over own;
-    own.value = sign * chart->over.value(0);
-    for (std::size_t i = 0; i < 3; ++i) own.gradient[i] = sign * by_unit(i, (*variables)[i]);
-    if (own.value.sign() == 0) own.value = meet(own.value, sign * mean_value(*chart, *variables));
-    result.push_back(own);
+    enter_with_beyond(*chart, place);
+    const Interval& own = chart->over.square(root);
+    result = result ? hull(*result, own) : own;
   }
-  return result;
+  core::ensure(result.has_value(), "a box of the cube meets a chart");
+  return *result;
+}
+
+Field::Over Field::over(Chart& chart, const Box& variables) {
+  chart.over.run_values();
+  Over own;
+  own.value = Interval(chart.sign) * chart.over.value(0);
+  const bool ends = std::find(rising_.begin(), rising_.end(), true) != rising_.end();
+  if (ends) {
+    set_roots(chart, -1);
+    chart.over.run_values();
+  }
+  const std::optional<int> root = slopes_apart(chart);
+  own.known = root.has_value();
+  if (!own.known) return own;
+  own.gradient = by_unit({enclosed_[0], enclosed_[1], enclosed_[2]}, variables, chart.sign);
+  if (*root >= 0) {
+    const auto j = static_cast<std::size_t>(*root);
+    const std::optional<Vector> square = square_slopes(chart, *root);
+    own.known = square.has_value();
+    if (!own.known) return own;
+    own.steep = by_unit(*square, variables, chart.sign * mode_[j]);
+    for (Interval& slope : *own.steep) slope = slope * enclosed_[3 + j];
+    own.reach = std::max(std::abs(roots_[j].lower()), std::abs(roots_[j].upper()));
+  }
+  if (ends) own.known = add_clips(chart, variables, *root, own);
+  if (own.value.sign() != 0) return own;
+  if (ends) {
+    for (std::size_t i = 0; i < 3; ++i) chart.over.set(static_cast<int>(i), variables[i]);
+    set_roots(chart, -1);
+    chart.over.run_values();
+    slopes_apart(chart);
+  }
+  own.value = meet(own.value, Interval(chart.sign) * mean_value(chart, variables));
+  return own;
+}
+
+/// Roots that may vanish over the cell entered as they are in all of it, the others by the coordinates that are set.
+void Field::set_roots(Chart& chart, int zero) {
+  for (int j = 0; j < roots(); ++j) {
+    const auto own = static_cast<std::size_t>(j);
+    chart.over.run_square(j);
+    if (j == zero)
+      chart.over.set(3 + j, Interval(0.0));
+    else if (rising_[own])
+      chart.over.set(3 + j, roots_[own]);
+    else
+      chart.over.set(3 + j, mode_[own] > 0 ? square_root(chart.over.square(j)) : -square_root(chart.over.square(j)));
+  }
+}
+
+/// False: one of them is not known.
+bool Field::add_clips(Chart& chart, const Box& variables, int steep_root, Over& own) {
+  std::vector<Vector> slopes;  // by the variables
+  for (int j = 0; j < roots(); ++j) {
+    if (!rising_[static_cast<std::size_t>(j)] || j == lies_on_ || j == steep_root) continue;
+    const std::optional<Vector> square = square_slopes(chart, j);
+    if (!square) return false;
+    slopes.push_back(*square);
+    own.clips.push_back({j, false, chart.over.square(j), by_unit(*square, variables, 1)});
+  }
+  double times = 0;
+  if (steep_root >= 0) {
+    const auto j = static_cast<std::size_t>(steep_root);
+    times = -(Interval(mode_[j]) * enclosed_[3 + j]).sign();
+    if (times == 0) return false;
+    set_roots(chart, steep_root);
+    chart.over.run_values();
+    if (!slopes_apart(chart, steep_root)) return false;
+    slopes.push_back({enclosed_[0], enclosed_[1], enclosed_[2]});
+    own.clips.push_back(
+        {steep_root, true, Interval(times) * chart.over.value(0), by_unit(slopes.back(), variables, times)});
+  }
+  // Mean-value forms.
+  for (std::size_t i = 0; i < 3; ++i) chart.over.set(static_cast<int>(i), Interval(variables[i].middle()));
+  set_roots(chart, steep_root);
+  chart.over.run_values();
+  for (std::size_t c = 0; c < own.clips.size(); ++c) {
+    Clip& clip = own.clips[c];
+    Interval value = clip.held ? chart.over.value(0) : chart.over.square(clip.root);
+    for (std::size_t i = 0; i < 3; ++i) value = value + slopes[c][i] * (variables[i] - Interval(variables[i].middle()));
+    clip.value = meet(clip.value, clip.held ? Interval(times) * value : value);
+  }
+  return true;
 }
 
 Proof Field::examine(Chart& chart, const Box& place, int& sign) {
@@ -331,7 +474,7 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
   differentiate(chart, proof);
   Interval product = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Interval scaled = by_unit(i, variables[i]);
+    const Interval scaled = by_unit(i, enclosed_[i], variables[i]);
     product = product + scaled * scaled;
   }
   proof.one_sheet = !proof.rim && product.lower() > 0;
@@ -340,7 +483,7 @@ Proof Field::examine(Chart& chart, const Box& place, int& sign) {
   return proof;
 }
 
-/// Slopes over the cell, of the three coordinates and of the roots that may be 0 in it: these count as coordinates of
+/// Vector over the cell, of the three coordinates and of the roots that may be 0 in it: these count as coordinates of
 /// their own, for as functions of the others they rise without bound. Mean-value form over all of them:
 ///     f(X, S) within f(m, s_m) + sum f_x (X - m) + sum f_s (S - s_m)
 void Field::differentiate(Chart& chart, Proof& proof) {
@@ -359,6 +502,42 @@ void Field::differentiate(Chart& chart, Proof& proof) {
       enclosed_[static_cast<std::size_t>(v)] =
           enclosed_[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);
   }
+}
+
+std::optional<int> Field::slopes_apart(Chart& chart, int zero) {
+  chart.over.run_gradients();
+  enclosed_.resize(static_cast<std::size_t>(chart.program.variables()));
+  for (std::size_t v = 0; v < enclosed_.size(); ++v) enclosed_[v] = chart.over.partial(0, static_cast<int>(v));
+  int found = -1;
+  for (int j = roots() - 1; j >= 0; --j) {
+    const Interval own = enclosed_[static_cast<std::size_t>(j) + 3];
+    if (j == zero || is_zero(own)) continue;
+    if (rising_[static_cast<std::size_t>(j)]) {
+      if (found >= 0) return std::nullopt;
+      found = j;
+      continue;
+    }
+    const Interval factor = own * inverse(Interval(2.0) * chart.over.root(j));
+    for (int v = 0; v < 3 + j; ++v)
+      enclosed_[static_cast<std::size_t>(v)] =
+          enclosed_[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);
+  }
+  return found;
+}
+
+std::optional<Vector> Field::square_slopes(const Chart& chart, int root) const {
+  std::vector<Interval> slopes;
+  for (int v = 0; v < 3 + root; ++v) slopes.push_back(chart.over.square_partial(root, v));
+  for (int j = root - 1; j >= 0; --j) {
+    const Interval own = slopes[static_cast<std::size_t>(j) + 3];
+    if (is_zero(own)) continue;
+    if (rising_[static_cast<std::size_t>(j)]) return std::nullopt;
+    const Interval factor = own * inverse(Interval(2.0) * chart.over.root(j));
+    for (int v = 0; v < 3 + j; ++v)
+      slopes[static_cast<std::size_t>(v)] =
+          slopes[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);
+  }
+  return Vector{slopes[0], slopes[1], slopes[2]};
 }
 
 }  // namespace clearloci::loci::surface

@@ -4,7 +4,8 @@
 // Where a coordinate is an angle, its charts (core/angle_chart.hpp) are joined: at every point the chart that holds it
 // is evaluated, with the signs of the charts made equal across their seams.
 //
-// Beyond the workspace boundary Q_j = 0 the function goes on with s_j = 0, continuously. Private to loci/surface.
+// Beyond the workspace boundary Q_j = 0 the function goes on with s_j of the other sign, |s_j| = √|Q_j|: a surface that
+// ends on the boundary goes on smoothly then, to where the other sheet has it. Private to loci/surface.
 #pragma once
 
 #include <array>
@@ -19,6 +20,16 @@ namespace clearloci::loci::surface {
 
 using Point = std::array<double, 3>;
 using Box = std::array<core::Interval, 3>;
+using Vector = std::array<core::Interval, 3>;
+
+inline Vector way(const Point& from, const Point& to) {
+  return {core::Interval(to[0]) - core::Interval(from[0]), core::Interval(to[1]) - core::Interval(from[1]),
+          core::Interval(to[2]) - core::Interval(from[2])};
+}
+inline core::Interval product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Vector cross_product(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
 /// The unit cube's image: of lengths in m, of angles in rad.
 struct Frame {
@@ -63,9 +74,9 @@ class Field {
   const Frame& frame() const { return frame_; }
   int roots() const { return static_cast<int>(mode_.size()); }
 
-  /// The function, beyond the boundary with the roots at 0.
+  /// The function, beyond the boundary as it goes on there.
   double value(const Point& unit);
-  /// Q_j, with earlier roots at 0 where their squares are negative.
+  /// Q_j, with earlier roots as they go on where their squares are negative.
   double square(const Point& unit, int root);
   /// Every Q_j >= 0.
   bool inside(const Point& unit);
@@ -78,13 +89,36 @@ class Field {
   /// With intervals, rounded outwards.
   Proof examine(const Box& unit);
 
-  /// The function over a box as one chart has it, by unit coordinates.
+  /// A function that on the surface has the sign of a Q_j which may vanish in a box, and is smooth: Q_j itself where
+  /// the function does not depend on s_j, else minus the function at s_j = 0, times the sign of its slope by s_j.
+  struct Clip {
+    int root = 0;
+    bool held = false;  ///< the latter
+    core::Interval value;
+    Vector gradient;
+  };
+  /// The function over a box as one chart has it, by unit coordinates. Its slope along a vector v is
+  ///     gradient . v + steep . v / (2 |s|),   0 < |s| <= reach,
+  /// with the root s that may vanish in the box and on which the function depends; there is one at most.
   struct Over {
     core::Interval value;
-    std::array<core::Interval, 3> gradient;
+    Vector gradient;
+    std::optional<Vector> steep;
+    double reach = 0;
+    bool known = true;        ///< false: all but the value is not, for several such roots are about
+    std::vector<Clip> clips;  ///< one a root that may vanish in the box
+
+    /// Proven: it rises along a vector at every place of the box.
+    bool rises(const Vector& way) const;
+    /// Proven: (slopes x normal) . (way x normal) > 0, so that it rises along the part of `way` across the normal.
+    bool rises_across(const Vector& normal, const Vector& way) const;
   };
-  /// Of every chart that meets the box; nothing where the workspace boundary may pass through it.
-  std::optional<std::vector<Over>> over(const Box& unit);
+  /// Of every chart that meets the box.
+  std::vector<Over> over(const Box& unit);
+  /// Q_j over a box, in every chart.
+  core::Interval square_over(const Box& unit, int root);
+  /// The surface lies on Q_j = 0, and does not end there.
+  void lie_on(std::optional<int> root) { lies_on_ = root; }
 
  private:
   struct Chart {
@@ -106,12 +140,25 @@ class Field {
   static bool meets(const Chart& chart, const Box& place);
   /// Sets coordinates and roots; returns the variables of the coordinates, nothing where no pose of the mode is.
   std::optional<Box> enter(Chart& chart, const Box& place);
+  /// The same with roots as they go on beyond the boundary.
+  Box enter_with_beyond(Chart& chart, const Box& place);
   core::Interval mean_value(Chart& chart, const Box& variables);
-  /// Of `enclosed_`: by a unit coordinate instead of its variable.
-  core::Interval by_unit(std::size_t i, const core::Interval& variable) const;
+  /// By a unit coordinate instead of its variable.
+  core::Interval by_unit(std::size_t i, const core::Interval& slope, const core::Interval& variable) const;
+  Vector by_unit(const Vector& slopes, const Box& variables, double times) const;
+
+  Over over(Chart& chart, const Box& variables);
+  /// Slopes by the variables, into `enclosed_`, roots that may vanish apart; the first of these on which the function
+  /// depends, or -1. Nothing where there are several. `zero`: a root that is held at 0.
+  std::optional<int> slopes_apart(Chart& chart, int zero = -1);
+  /// Of Q_j by the coordinates' variables; nothing where it depends on another root that may vanish.
+  std::optional<Vector> square_slopes(const Chart& chart, int root) const;
+  bool add_clips(Chart& chart, const Box& variables, int steep_root, Over& own);
+  void set_roots(Chart& chart, int zero);
 
   Frame frame_;
   core::WorkingMode mode_;
+  std::optional<int> lies_on_;
   std::vector<std::unique_ptr<Chart>> charts_;
   std::vector<double> gradient_;          ///< of variables, being reduced to the coordinates
   std::vector<core::Interval> roots_;     ///< over the cell being examined

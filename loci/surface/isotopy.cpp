@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "core/errors.hpp"
+#include "loci/surface/mesh.hpp"
 #include "loci/surface/tetrahedra.hpp"
 
 namespace clearloci::loci::surface {
@@ -15,6 +16,7 @@ namespace {
 using core::Interval;
 
 constexpr int clock_every = 64;  // cells between two looks at the clock
+constexpr int face_cuts = 4;     // of a face to cells out of reach
 
 /// A corner of a tetrahedron and the value of g there.
 struct Node {
@@ -22,19 +24,6 @@ struct Node {
   double value = 0;
 };
 using Nodes = std::array<Node, 4>;
-using Vector = std::array<Interval, 3>;
-
-Vector way(const Point& from, const Point& to) {
-  return {Interval(to[0]) - Interval(from[0]), Interval(to[1]) - Interval(from[1]),
-          Interval(to[2]) - Interval(from[2])};
-}
-
-Vector cross_product(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Interval product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// Six times the volume of a tetrahedron with the sign of its orientation, and as many times the gradient of g.
 struct Slope {
   Interval volume;
@@ -100,16 +89,40 @@ int sign_of(const std::vector<Node>& nodes) {
   return std::all_of(nodes.begin(), nodes.end(), [&](const Node& node) { return sign(node) == first; }) ? first : 0;
 }
 
-/// Whether the homotopy has no zero on a part, or is regular there. `over`: f on a box that holds it. `orientation`: of
-/// the tetrahedron.
+/// Parts of a vector within the sides.
+Vector within(const std::array<int, 3>& sides, Vector v) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (sides[k] != 0) v[k] = Interval(0.0);
+  return v;
+}
+
+/// Of one chart, where the surface ends: the homotopy is regular within the surfaces on which a clip is constant too.
+bool is_regular_at_its_end(const Vector& way, const std::array<int, 3>& sides, const Field::Over& f) {
+  const Field::Clip* ends = nullptr;
+  for (const Field::Clip& clip : f.clips) {
+    if (clip.value.lower() > 0) continue;
+    if (ends != nullptr) return false;
+    ends = &clip;
+  }
+  if (ends == nullptr) return true;
+  return f.rises_across(within(sides, ends->gradient), way);
+}
+
+bool is_beyond_the_boundary(const Field::Over& f) {
+  return f.known &&
+         std::any_of(f.clips.begin(), f.clips.end(), [](const Field::Clip& clip) { return clip.value.upper() < 0; });
+}
+
+/// Whether the homotopy has no zero on a part within the workspace, or is regular there. `over`: f on a box that holds
+/// it. `orientation`: of the tetrahedron.
 bool is_regular(const Part& part, const Slope& g, const std::vector<Field::Over>& over, int orientation) {
   const int sign = sign_of(part.nodes);
+  Vector way = within(part.sides, g.gradient);
+  for (Interval& own : way) own = Interval(orientation) * own;
   return std::all_of(over.begin(), over.end(), [&](const Field::Over& f) {
     if (sign != 0 && f.value.sign() == sign) return true;
-    Interval sum = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (part.sides[k] == 0) sum = sum + g.gradient[k] * f.gradient[k];
-    return g.volume.sign() == orientation && sum.sign() == orientation;
+    if (is_beyond_the_boundary(f)) return true;
+    return g.volume.sign() == orientation && f.rises(way) && is_regular_at_its_end(way, part.sides, f);
   });
 }
 
@@ -168,11 +181,67 @@ class Homotopy {
       const Box own = box_of(nodes_of(all.tetrahedra[t]));
       for (std::size_t i = 0; i < 3; ++i) box[i] = hull(box[i], own[i]);
     }
-    const std::optional<std::vector<Field::Over>> over = field_.over(box);
-    if (!over) return false;
+    const std::vector<Field::Over> over = field_.over(box);
     for (std::size_t t = first; t < last; ++t)
-      if (!is_regular_in(all.tetrahedra[t], *over, orientation(all, all.tetrahedra[t]))) return false;
+      if (!is_regular_in(all.tetrahedra[t], over, orientation(all, all.tetrahedra[t]))) return false;
+    if (std::all_of(over.begin(), over.end(), [](const Field::Over& own) { return own.known && own.clips.empty(); }))
+      return true;
+    for (std::size_t t = first; t < last; ++t)
+      if (!keeps_inside(all, t)) return false;
     return true;
+  }
+
+  /// No zero of the homotopy leaves the cells within the workspace. Beyond the boundary there are cells that are not
+  /// cut into tetrahedra, though the surface goes on in them: on a face to one of them g and f have one sign, or a clip
+  /// is negative.
+  bool keeps_inside(const Tetrahedra& all, std::size_t tetrahedron) const {
+    const std::array<int, 4>& corners = all.tetrahedra[tetrahedron];
+    const OctreeCell& cell = cells_.cells()[static_cast<std::size_t>(all.cell_of[tetrahedron])];
+    // The first corner is the cell's middle, the others lie on a face of it.
+    const auto place = [&](std::size_t i) { return all.corners[static_cast<std::size_t>(corners[i])]; };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t at = place(1)[axis];
+      if (place(2)[axis] != at || place(3)[axis] != at) continue;
+      Place beside;
+      for (std::size_t k = 0; k < 3; ++k) beside[k] = (place(1)[k] + place(2)[k] + place(3)[k]) / 3;
+      beside[axis] = at == cell.corner[axis] ? at - 1 : at;
+      const int other = cells_.at(beside, deepest);
+      if (other < 0 || !cells_.cells()[static_cast<std::size_t>(other)].proof.outside) return true;
+      return face_keeps_inside(corners, axis, unit_of(place(1))[axis]);
+    }
+    return true;
+  }
+
+  /// `plane`: of the face, across an axis.
+  bool face_keeps_inside(const std::array<int, 4>& corners, std::size_t axis, double plane) const {
+    std::vector<Nodes> pieces = {nodes_of(corners)};
+    const std::optional<std::vector<int>> crossings = crossings_of(corners);
+    if (!crossings) return lies_beyond(corners);
+    for (const int crossing : *crossings) cut(pieces, complex_.crossings[static_cast<std::size_t>(crossing)]);
+    return std::all_of(pieces.begin(), pieces.end(), [&](const Nodes& piece) {
+      std::vector<Node> face;
+      std::copy_if(piece.begin(), piece.end(), std::back_inserter(face),
+                   [&](const Node& node) { return node.at[axis] == plane; });
+      return face.size() < 3 || (face.size() == 3 && has_no_zero_within(face, face_cuts));
+    });
+  }
+
+  /// Of the homotopy on a triangle, cut into four so many times.
+  bool has_no_zero_within(const std::vector<Node>& face, int cuts) const {
+    const std::vector<Field::Over> over = field_.over(box_of(face));
+    const int sign = sign_of(face);
+    if (std::all_of(over.begin(), over.end(), [&](const Field::Over& f) {
+          return (sign != 0 && f.value.sign() == sign) || is_beyond_the_boundary(f);
+        }))
+      return true;
+    if (cuts == 0) return false;
+    const auto between = [&](std::size_t i, std::size_t k) {
+      return Node{0.5 * (face[i].at + face[k].at), 0.5 * (face[i].value + face[k].value)};
+    };
+    const std::array<Node, 3> middles = {between(1, 2), between(0, 2), between(0, 1)};
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!has_no_zero_within({face[i], middles[(i + 1) % 3], middles[(i + 2) % 3]}, cuts - 1)) return false;
+    return has_no_zero_within({middles[0], middles[1], middles[2]}, cuts - 1);
   }
 
   Nodes nodes_of(const std::array<int, 4>& corners) const {
@@ -192,17 +261,23 @@ class Homotopy {
   bool is_regular_in(const std::array<int, 4>& corners, const std::vector<Field::Over>& over, int orientation) {
     std::vector<Nodes> pieces = {nodes_of(corners)};
     const std::optional<std::vector<int>> crossings = crossings_of(corners);
-    if (!crossings) return false;
+    if (!crossings) return lies_beyond(corners);
     for (const int crossing : *crossings) cut(pieces, complex_.crossings[static_cast<std::size_t>(crossing)]);
     for (const Nodes& piece : pieces) {
       const Slope g = slope_of(piece);
       for (const Part& part : parts_of(piece)) {
         if (is_regular(part, g, over, orientation)) continue;
-        const std::optional<std::vector<Field::Over>> closer = field_.over(box_of(part.nodes));
-        if (!closer || !is_regular(part, g, *closer, orientation)) return false;
+        const std::vector<Field::Over> closer = field_.over(box_of(part.nodes));
+        if (!is_regular(part, g, closer, orientation)) return false;
       }
     }
     return true;
+  }
+
+  /// In cells free of zeros beside moved corners the surface may go on beyond the boundary, though it is not meshed.
+  bool lies_beyond(const std::array<int, 4>& corners) const {
+    const std::vector<Field::Over> over = field_.over(box_of(nodes_of(corners)));
+    return std::all_of(over.begin(), over.end(), is_beyond_the_boundary);
   }
 
   /// Of its edges, ascending: tetrahedra that share a face then cut it alike. Nothing where the marcher knows of none.

@@ -4,7 +4,9 @@
 // is linear in each of them, has the signs of f at their corners, and vanishes on the triangles alone. Where in every
 // tetrahedron (1 - t) f + t g has a gradient for no t in [0, 1] zero, for grad g . grad f > 0 all over it, the zeros of
 // f turn into those of g as t grows, without tearing or meeting: the triangles are isotopic to the surface. The same is
-// asked within the faces and edges of the cube, so that the isotopy keeps to them. Private to loci/surface.
+// asked within the faces and edges of the cube, so that the isotopy keeps to them, and within the surfaces on which a
+// clip of the workspace boundary is constant (Field::Clip), so that what ends there goes with it. Zeros beyond the
+// boundary are left alone. Private to loci/surface.
 #pragma once
 
 #include <vector>
@@ -13,8 +15,8 @@
 
 namespace clearloci::loci::surface {
 
-/// The leaves in which that is not proven, ascending: where the workspace boundary may pass, where the surface may
-/// touch itself, and where smaller cells might tell.
+/// The leaves in which that is not proven, ascending: where the surface may touch itself, or end otherwise than square
+/// to the root of one leg, and where smaller cells might tell.
 std::vector<int> unproven(Field& field, const Cells& cells, const Marched& marched, const std::function<bool()>& stop);
 
 /// Leaves that touch each other are one group; each ascending.

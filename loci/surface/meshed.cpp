@@ -12,34 +12,60 @@
 namespace clearloci::loci::surface {
 namespace {
 
-/// Cells smaller than the mesh asks for, by so many halvings, where the surface may pass through more than once.
+/// Cells smaller than the mesh asks for, by so many halvings, where the surface
+/// may pass through more than once.
 constexpr int extra_levels = 4;
-/// And smaller yet where the mesh does not account for a zero that may be there.
+/// And smaller yet where the mesh does not account for a zero that may be
+/// there.
 constexpr int closer_levels = 2;
-/// Rounds in which cells are halved where the topology of their triangles is not proven.
+/// Rounds in which cells are halved where the topology of their triangles is
+/// not proven.
 constexpr int proof_rounds = 6;
-/// A part of the cells that the surface may pass: more are not halved in a round.
+/// More than this part of the cells that the surface may pass are not halved in a round, where they are many.
 constexpr double most_halved = 0.125;
+constexpr double many = 1000;
 /// Halvings of a cell in the proof that no zero is in it.
 constexpr int cuts_of_a_cell = 5;
 
-Meshed clipped(Field& field, const Marched& marched, const std::function<bool()>& stop) {
-  Meshed result;
+/// A mesh cut off at the workspace boundary, and the leaves in which its
+/// topology is not proven, ascending.
+struct Judged {
+  Meshed meshed;
+  std::vector<int> open;
+};
+
+Judged judged(Field& field, const Cells& cells, const Marched& marched, const std::function<bool()>& stop) {
   if (stop && stop()) throw core::LimitReached("the time limit was reached");
-  result.boundary = boundary_of(field, marched.mesh);
-  result.mesh = within_workspace(field, marched.mesh, result.boundary);
+  Judged result;
+  result.meshed.boundary = boundary_of(field, marched.mesh);
+  field.lie_on(result.meshed.boundary);
+  result.open = unproven(field, cells, marched, stop);
+  Clipped clipped = within_workspace(field, marched.mesh, result.meshed.boundary);
+  result.meshed.mesh = std::move(clipped.mesh);
+  for (const Point& at : clipped.unproven) result.open.push_back(cells.at(place_below(at), deepest));
+  std::sort(result.open.begin(), result.open.end());
+  result.open.erase(std::unique(result.open.begin(), result.open.end()), result.open.end());
   return result;
 }
 
-/// Along the workspace boundary smaller cells prove no more. Where much is open, it is for the enclosures, not for
-/// the mesh: none.
-std::vector<int> worth_halving(Field& field, const Cells& cells, const std::vector<int>& open) {
+/// Those that the surface may pass, or that such cells' moved corners reach
+/// into: then the former beside them. Where much is open, it is for the
+/// enclosures, not for the mesh: none.
+std::vector<int> worth_halving(const Cells& cells, const std::vector<int>& open) {
+  const auto is_active = [&](int leaf) { return cells.cells()[static_cast<std::size_t>(leaf)].active(); };
   std::vector<int> result;
   for (const int leaf : open)
-    if (field.over(cells.cells()[static_cast<std::size_t>(leaf)].box())) result.push_back(leaf);
+    if (is_active(leaf))
+      result.push_back(leaf);
+    else
+      cells.each_neighbour(leaf, [&](int beside) {
+        if (is_active(beside)) result.push_back(beside);
+      });
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   const auto active =
       std::count_if(cells.cells().begin(), cells.cells().end(), [](const OctreeCell& cell) { return cell.active(); });
-  if (static_cast<double>(result.size()) > most_halved * static_cast<double>(active)) result.clear();
+  if (static_cast<double>(result.size()) > std::max(many, most_halved * static_cast<double>(active))) result.clear();
   return result;
 }
 
@@ -75,28 +101,27 @@ void add_open(const Cells& cells, const std::vector<int>& open, Meshed& meshed) 
 Meshed mesh_of(Field& field, int level, const std::function<bool()>& stop) {
   const int finest = std::min(level + extra_levels, deepest);
   Cells cells(field, {.level = level, .finest = finest, .stop = stop});
-  Marched marched = march(field, cells);
-  Meshed result = clipped(field, marched, stop);
-  std::vector<int> away = unexplained(field, cells, level, result.mesh, cuts_of_a_cell, stop);
+  Judged now = judged(field, cells, march(field, cells), stop);
+  std::vector<int> away = unexplained(field, cells, level, now.meshed.mesh, cuts_of_a_cell, stop);
   bool cut = !away.empty();
   if (cut) {
     cells.look_closer(away, finest + closer_levels);
-    marched = march(field, cells);
+    now = judged(field, cells, march(field, cells), stop);
   }
-  std::vector<int> open = unproven(field, cells, marched, stop);
-  for (int round = 0; round < proof_rounds && cells.halve(worth_halving(field, cells, open), finest); ++round) {
+  for (int round = 0; round < proof_rounds && cells.halve(worth_halving(cells, now.open), finest); ++round) {
     cut = true;
-    marched = march(field, cells);
-    open = unproven(field, cells, marched, stop);
+    now = judged(field, cells, march(field, cells), stop);
   }
-  if (cut) {
-    result = clipped(field, marched, stop);
-    away = unexplained(field, cells, level, result.mesh, cuts_of_a_cell, stop);
+  if (cut) away = unexplained(field, cells, level, now.meshed.mesh, cuts_of_a_cell, stop);
+  if (cut && !away.empty()) {
+    cells.look_closer(away, finest + closer_levels);
+    now = judged(field, cells, march(field, cells), stop);
+    away = unexplained(field, cells, level, now.meshed.mesh, cuts_of_a_cell, stop);
   }
-  result.unexplained = static_cast<int>(away.size());
-  if (!away.empty()) result.at = unit_of(cells.cells()[static_cast<std::size_t>(away.front())].middle());
-  add_open(cells, open, result);
-  return result;
+  now.meshed.unexplained = static_cast<int>(away.size());
+  if (!away.empty()) now.meshed.at = unit_of(cells.cells()[static_cast<std::size_t>(away.front())].middle());
+  add_open(cells, now.open, now.meshed);
+  return std::move(now.meshed);
 }
 
 }  // namespace clearloci::loci::surface

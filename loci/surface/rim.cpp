@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace clearloci::loci::surface {
 namespace {
+
+using core::Interval;
 
 /// Relative to the size of Q_j on the box: rounding, with room.
 constexpr double rounding = 1e-11;
@@ -31,9 +34,13 @@ class Clipper {
     }
   }
 
-  Mesh run() {
+  /// `unproven`: gets a point of every triangle that is.
+  Mesh run(std::vector<Point>& unproven) {
+    before_ = mesh_.points;
+    if (std::any_of(sign_.begin(), sign_.end(), [](int sign) { return sign < 0; })) move_points();
+    for (const Triangle& triangle : mesh_.triangles)
+      if (!is_proven(triangle)) unproven.push_back(middle_of(mesh_, triangle));
     if (std::none_of(sign_.begin(), sign_.end(), [](int sign) { return sign < 0; })) return std::move(mesh_);
-    move_points();
     Mesh result;
     const std::vector<Triangle> before = std::move(mesh_.triangles);
     for (const Triangle& triangle : before) add(triangle, result.triangles);
@@ -146,6 +153,138 @@ class Clipper {
     return own.point;
   }
 
+  /// A vertex, or where the rim crosses an edge: before and after it was moved onto the rim.
+  struct Moved {
+    Point from{}, to{};
+
+    bool operator==(const Moved&) const = default;
+  };
+
+  Moved moved(int i) const { return {before_[static_cast<std::size_t>(i)], at(i)}; }
+  Moved moved_cut(int a, int b) {
+    const Cut& own = cut(a, b);
+    const Point &from = at(std::min(a, b)), &to = at(std::max(a, b));
+    return {from + own.part * (to - from), own.at};
+  }
+
+  /// What a triangle is cut into, the parts on either side, in its own orientation.
+  std::vector<std::array<Moved, 3>> parts_of(const Triangle& t) {
+    std::vector<std::array<Moved, 3>> result;
+    for (const int side : {1, -1}) {
+      std::vector<Moved> polygon;
+      bool any = false;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int own = t[i], next = t[(i + 1) % 3];
+        if (side * sign(own) >= 0) polygon.push_back(moved(own));
+        any = any || side * sign(own) > 0;
+        if (sign(own) * sign(next) < 0) polygon.push_back(moved_cut(own, next));
+      }
+      for (std::size_t i = 2; any && i < polygon.size(); ++i)
+        result.push_back({polygon[0], polygon[i - 1], polygon[i]});
+    }
+    return result;
+  }
+
+  /// Whether the rim crosses a triangle as the signs of its corners say, and the triangle stays square enough to the
+  /// slopes of the function while its corners move onto the rim.
+  bool is_proven(const Triangle& t) {
+    const std::vector<std::array<Moved, 3>> parts = parts_of(t);
+    Box box = box_of({moved(t[0]), moved(t[1]), moved(t[2])});
+    bool still = true;
+    for (const std::array<Moved, 3>& part : parts) {
+      const Box own = box_of(part);
+      for (std::size_t i = 0; i < 3; ++i) box[i] = hull(box[i], own[i]);
+      still = still && std::all_of(part.begin(), part.end(), [](const Moved& m) { return m.from == m.to; });
+    }
+    const auto all = [&](int side) { return std::all_of(t.begin(), t.end(), [&](int i) { return sign(i) == side; }); };
+    if (still && all(1) && field_.square_over(box, root_).lower() > 0) return true;
+    const std::vector<Field::Over> over = field_.over(box);
+    return std::all_of(over.begin(), over.end(), [&](const Field::Over& f) {
+      if (!f.known) return false;
+      const Field::Clip* clip = nullptr;
+      bool others = false;
+      for (const Field::Clip& own : f.clips) {
+        if (own.root == root_) {
+          clip = &own;
+          continue;
+        }
+        if (own.value.upper() < 0) return true;
+        others = others || own.value.lower() <= 0;
+      }
+      if (clip == nullptr) return still && all(1);
+      if (still && clip->value.sign() != 0) return all(clip->value.sign());
+      if (others || !ends_as_its_corners_say(t, *clip)) return false;
+      return still || std::all_of(parts.begin(), parts.end(),
+                                  [&](const std::array<Moved, 3>& part) { return stays_square(part, f); });
+    });
+  }
+
+  static Box box_of(const std::array<Moved, 3>& part) {
+    Box box;
+    for (std::size_t i = 0; i < 3; ++i) {
+      box[i] = Interval(part[0].from[i]);
+      for (const Moved& own : part) box[i] = hull(box[i], hull(Interval(own.from[i]), Interval(own.to[i])));
+    }
+    return box;
+  }
+
+  /// The side of the cube along an axis on which two points lie; both must have the same.
+  static bool on_one_side(const Point& a, const Point& b, std::size_t axis) {
+    return a[axis] == b[axis] && (a[axis] == 0 || a[axis] == 1);
+  }
+
+  /// Of the triangle before its corners were moved: the clip and the function that is linear in the triangle, with the
+  /// signs that its corners have now, have slopes within a right angle of each other, in its edges on sides of the
+  /// cube too. Their zeros are then isotopic.
+  bool ends_as_its_corners_say(const Triangle& t, const Field::Clip& clip) {
+    std::array<Point, 3> at;
+    std::array<double, 3> value{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      Point slopes{};
+      at[i] = before_[static_cast<std::size_t>(t[i])];
+      const double own = clip.held ? field_.gradient_on_rim(at[i], root_, slopes) : field_.square(at[i], root_);
+      value[i] = sign(t[i]) * std::max(std::abs(own), std::numeric_limits<double>::min());
+    }
+    const Vector normal = cross_product(way(at[0], at[1]), way(at[0], at[2]));
+    Vector rise{};  // across: of the corners' values times the edges opposite to them
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector edge = way(at[(i + 1) % 3], at[(i + 2) % 3]);
+      for (std::size_t k = 0; k < 3; ++k) rise[k] = rise[k] + Interval(value[i]) * edge[k];
+    }
+    if (!(product(cross_product(normal, rise), clip.gradient).lower() > 0)) return false;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t next = (i + 1) % 3;
+        if (!on_one_side(at[i], at[next], axis)) continue;
+        const Interval rises = Interval(value[next]) - Interval(value[i]);
+        if (!((rises * product(way(at[i], at[next]), clip.gradient)).lower() > 0)) return false;
+      }
+    return true;
+  }
+
+  /// While the corners move at even speed the triangle's normal is a square polynomial of the time, within the hull of
+  /// its Bernstein coefficients: the function rises along all of them.
+  static bool stays_square(const std::array<Moved, 3>& part, const Field::Over& f) {
+    const Vector u0 = way(part[0].from, part[1].from), v0 = way(part[0].from, part[2].from);
+    const Vector u1 = way(part[0].to, part[1].to), v1 = way(part[0].to, part[2].to);
+    const Vector first = cross_product(u0, v0), last = cross_product(u1, v1), one = cross_product(u0, v1),
+                 other = cross_product(u1, v0);
+    Vector between;
+    for (std::size_t k = 0; k < 3; ++k) between[k] = one[k] + other[k];  // twice the middle coefficient
+    for (const Vector& normal : {first, between, last}) {
+      if (!f.rises(normal)) return false;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const Moved &a = part[i], &b = part[(i + 1) % 3];
+          if (!on_one_side(a.from, b.from, axis)) continue;
+          Vector within = normal;
+          within[axis] = Interval(0.0);
+          if (!on_one_side(a.to, b.to, axis) || !f.rises(within)) return false;
+        }
+    }
+    return true;
+  }
+
   /// The part of a triangle on the side of Q_j >= 0.
   void add(const Triangle& t, std::vector<Triangle>& kept) {
     const int inside = static_cast<int>(std::count_if(t.begin(), t.end(), [&](int i) { return sign(i) > 0; }));
@@ -164,7 +303,8 @@ class Clipper {
   Field& field_;
   Mesh mesh_;
   int root_;
-  std::vector<int> sign_;  ///< of Q_j at the points
+  std::vector<int> sign_;      ///< of Q_j at the points
+  std::vector<Point> before_;  ///< the points before some were moved
   std::unordered_map<std::uint64_t, Cut> cuts_;
 };
 
@@ -181,10 +321,11 @@ std::optional<int> boundary_of(Field& field, const Mesh& mesh) {
   return std::nullopt;
 }
 
-Mesh within_workspace(Field& field, Mesh mesh, std::optional<int> boundary) {
+Clipped within_workspace(Field& field, Mesh mesh, std::optional<int> boundary) {
+  Clipped result{std::move(mesh), {}};
   for (int root = 0; root < field.roots(); ++root)
-    if (root != boundary) mesh = Clipper(field, std::move(mesh), root).run();
-  return mesh;
+    if (root != boundary) result.mesh = Clipper(field, std::move(result.mesh), root).run(result.unproven);
+  return result;
 }
 
 }  // namespace clearloci::loci::surface

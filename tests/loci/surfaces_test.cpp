@@ -341,7 +341,127 @@ TEST(Surfaces, EndOnTheWorkspaceBoundary) {
         }
       }
     for (const Point3& at : surface.vertices) EXPECT_GE(sign * at[2], -1e-9);
+    EXPECT_TRUE(surface.certified);
+    EXPECT_TRUE(surface.open.empty());
   }
+}
+
+TEST(Surfaces, TopologyIsProvenWhereASurfaceThatKnowsNothingOfTheBoundaryIsCutOffByIt) {
+  // Planes across the cylinder x^2 + y^2 = 1: a disc, and a strip between two lines.
+  for (const Polynomial& plane :
+       {Polynomial{4, {term(1, {0, 0, 1, 0}), term(Rational(1, 7), {1, 0, 0, 0}), term(Rational(1, 50), {0, 0, 0, 0})}},
+        Polynomial{4, {term(1, {1, 0, 0, 0}), term(Rational(-1, 9), {0, 0, 0, 0})}}}) {
+    LocusProblem problem = over_a_disc(1);
+    add_singularity(problem, plane);
+    const LocusMap map = trace(problem);
+    ASSERT_EQ(map.surfaces.size(), 1U);
+    EXPECT_EQ(map.surfaces[0].euler_characteristic, 1);
+    EXPECT_TRUE(map.surfaces[0].certified);
+    EXPECT_GT(edges_of(problem, map.surfaces[0]).inner, 20);
+  }
+}
+
+/// Over a ring, 1/4 < x^2 + y^2 < 1: s^2 = (x^2 + y^2 - 1/4)(1 - x^2 - y^2).
+LocusProblem over_a_ring() {
+  LocusProblem problem = over_a_disc(1);
+  problem.tower.roots[0].square = {
+      4,
+      {term(-1, {4, 0, 0, 0}), term(-2, {2, 2, 0, 0}), term(-1, {0, 4, 0, 0}), term(Rational(5, 4), {2, 0, 0, 0}),
+       term(Rational(5, 4), {0, 2, 0, 0}), term(Rational(-1, 4), {0, 0, 0, 0})}};
+  return problem;
+}
+
+TEST(Surfaces, TopologyIsProvenWhereASurfaceEndsOnTwoRims) {
+  LocusProblem problem = over_a_ring();
+  add_singularity(problem, {4, {term(1, {0, 0, 1, 0}), term(-1, {0, 0, 0, 1})}});
+  const LocusMap map = trace(problem);
+  ASSERT_EQ(map.surfaces.size(), 1U);
+  EXPECT_EQ(map.surfaces[0].components, 1);
+  EXPECT_EQ(map.surfaces[0].euler_characteristic, 0);
+  EXPECT_TRUE(map.surfaces[0].certified);
+}
+
+TEST(Surfaces, TopologyIsOpenWhereTheSlopeByARootVanishesOnItsRim) {
+  // z = y s: half of Whitney's umbrella at y = 0, s = 0.
+  LocusProblem problem = over_a_disc(1);
+  add_singularity(problem, {4, {term(1, {0, 0, 1, 0}), term(-1, {0, 1, 0, 1})}});
+  const LocusMap map = trace(problem);
+  ASSERT_EQ(map.surfaces.size(), 1U);
+  EXPECT_EQ(map.surfaces[0].euler_characteristic, 1);
+  EXPECT_FALSE(map.surfaces[0].certified);
+  EXPECT_EQ(map.surfaces[0].open.size(), 2U);
+  for (const LocusSurface::Open& open : map.surfaces[0].open) {
+    EXPECT_TRUE((open.lower[0] <= 1 && open.upper[0] >= 1) || (open.lower[0] <= -1 && open.upper[0] >= -1));
+    EXPECT_TRUE(open.lower[1] <= 0 && open.upper[1] >= 0 && open.upper[1] - open.lower[1] < 0.5);
+  }
+}
+
+TEST(Surfaces, TopologyIsOpenAlongARimThatASurfaceOnlyTouches) {
+  // s = z^2: two sheets that end in one line.
+  LocusProblem problem = over_a_disc(1);
+  add_singularity(problem, {4, {term(1, {0, 0, 2, 0}), term(-1, {0, 0, 0, 1})}});
+  const LocusMap map = trace(problem, 1.0 / 8);
+  ASSERT_FALSE(map.surfaces.empty());
+  for (const LocusSurface& surface : map.surfaces) {
+    EXPECT_FALSE(surface.certified);
+    EXPECT_FALSE(surface.open.empty());
+  }
+}
+
+TEST(Surfaces, TopologyIsOpenWhereTwoRimsCrossAndNowhereElse) {
+  // The plane z = x/7 - 1/50 within x^2 + y^2 < 1 and 4 (x - 1)^2 + 4 y^2 > 1: the circles cross twice.
+  LocusProblem problem = over_a_disc(1);
+  core::Root bite;
+  bite.name = "t";
+  bite.point = "C";
+  bite.square = {
+      5, {term(4, {2, 0, 0, 0, 0}), term(-8, {1, 0, 0, 0, 0}), term(4, {0, 2, 0, 0, 0}), term(3, {0, 0, 0, 0, 0})}};
+  problem.tower.roots.push_back(bite);
+  problem.tower.roots[0].square = core::with_variables(problem.tower.roots[0].square, 5);
+  problem.modes = {{1, 1}};
+  add_singularity(
+      problem,
+      {5, {term(1, {0, 0, 1, 0, 0}), term(Rational(-1, 7), {1, 0, 0, 0, 0}), term(Rational(1, 50), {0, 0, 0, 0, 0})}});
+  const LocusMap map = trace(problem);
+  ASSERT_EQ(map.surfaces.size(), 1U);
+  EXPECT_EQ(map.surfaces[0].euler_characteristic, 1);
+  EXPECT_FALSE(map.surfaces[0].certified);
+  EXPECT_EQ(map.surfaces[0].open.size(), 2U);
+  for (const LocusSurface::Open& open : map.surfaces[0].open) {
+    EXPECT_TRUE(open.lower[0] < 0.875 && open.upper[0] > 0.875);
+    EXPECT_TRUE(open.upper[1] > 0 ? open.lower[1] < 0.484 && open.upper[1] > 0.484
+                                  : open.lower[1] < -0.484 && open.upper[1] > -0.484);
+  }
+}
+
+TEST(Surfaces, WhatIsCertifiedOnTheBoundaryHasOneTopologyWhateverTheMesh) {
+  // a + b s with random quadratic a and linear b: some have half an umbrella on their rim, and stay open there.
+  int certified = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> coefficient(-9, 9);
+    LocusProblem problem = over_a_disc(1);
+    Polynomial p{4, {}};
+    for (int root = 0; root <= 1; ++root)
+      for (int i = 2 - root; i >= 0; --i)
+        for (int j = 2 - root - i; j >= 0; --j)
+          for (int k = 2 - root - i - j; k >= 0; --k) {
+            const Rational own(coefficient(random) + (root == 1 && i + j + k == 0 ? 12 : 0), 7);
+            if (own != 0) p.terms.push_back(term(own, {i, j, k, root}));
+          }
+    add_singularity(problem, p);
+    const LocusMap fine = trace(problem, 1.0 / 24), coarse = trace(problem, 1.0 / 12);
+    ASSERT_EQ(fine.surfaces.size(), coarse.surfaces.size());
+    for (std::size_t i = 0; i < fine.surfaces.size(); ++i) {
+      EXPECT_EQ(edges_of(problem, fine.surfaces[i]).branch, 0);
+      if (!fine.surfaces[i].certified || !coarse.surfaces[i].certified) continue;
+      ++certified;
+      EXPECT_EQ(fine.surfaces[i].components, coarse.surfaces[i].components);
+      EXPECT_EQ(fine.surfaces[i].euler_characteristic, coarse.surfaces[i].euler_characteristic);
+    }
+  }
+  EXPECT_GE(certified, 3);
 }
 
 TEST(Surfaces, AReactionThatVanishesOnTheBoundaryIsNamedThere) {
