@@ -20,7 +20,7 @@ constexpr int asked_every = 64;        // cells between two looks at the clock
 Cells::Cells(Field& field, const CellLimits& limits) : field_(&field), limits_(limits) {
   core::ensure(limits.level <= limits.finest && limits.finest <= deepest, "cells lie on the lattice");
   cells_.emplace_back();
-  examine(cells_.back());
+  cells_.back().proof = examine({cells_.back().box()}).front();
   cut({0}, [this](OctreeCell& cell) { return worth_splitting(cell); });
 }
 
@@ -60,10 +60,12 @@ void Cells::cut(std::vector<int> front, const std::function<bool(OctreeCell&)>& 
   }
 }
 
-void Cells::examine(OctreeCell& cell) {
-  if (++examined_ % asked_every == 0 && limits_.stop && limits_.stop())
+std::vector<Proof> Cells::examine(const std::vector<Box>& boxes) {
+  const int before = examined_;
+  examined_ += static_cast<int>(boxes.size());
+  if (examined_ / asked_every != before / asked_every && limits_.stop && limits_.stop())
     throw core::LimitReached("the time limit was reached");
-  cell.proof = field_->examine(cell.box());
+  return field_->examine(boxes);
 }
 
 bool Cells::worth_splitting(OctreeCell& cell) {
@@ -77,26 +79,42 @@ bool Cells::worth_splitting(OctreeCell& cell) {
   return look == Look::bent && cell.level < limits_.level + bent_levels;
 }
 
-Cells::Seen Cells::seen_at(const Place& place) {
+std::vector<Cells::Seen> Cells::seen_at(const std::vector<Place>& places) {
   constexpr auto side = static_cast<std::uint64_t>(lattice) + 1;
-  std::uint64_t key = 0;
-  for (const std::int32_t own : place) key = key * side + static_cast<std::uint64_t>(own);
-  const auto [known, fresh] = seen_.try_emplace(key);
-  if (fresh) known->second.negative = field_->gradient(unit_of(place), known->second.gradient) < 0;
-  return known->second;
+  std::vector<Seen*> seen;  // of an unordered map: its elements stay where they are
+  std::vector<Seen*> unknown;
+  std::vector<Point> points;
+  for (const Place& place : places) {
+    std::uint64_t key = 0;
+    for (const std::int32_t own : place) key = key * side + static_cast<std::uint64_t>(own);
+    const auto [known, fresh] = seen_.try_emplace(key);
+    seen.push_back(&known->second);
+    if (!fresh) continue;
+    unknown.push_back(&known->second);
+    points.push_back(unit_of(place));
+  }
+  const std::vector<Field::Sight> sights = field_->look_at(points);
+  for (std::size_t k = 0; k < sights.size(); ++k) *unknown[k] = {sights[k].value < 0, sights[k].slopes};
+  std::vector<Seen> result;
+  for (const Seen* own : seen) result.push_back(*own);
+  return result;
 }
 
 /// At the corners and in the middle. On the rim, where gradients are unbounded, they tell nothing.
 Cells::Look Cells::look_at(const OctreeCell& cell) {
-  const auto [sign, normal] = seen_at(cell.middle());
+  std::vector<Place> places = {cell.middle()};
+  for (int which = 0; which < 8; ++which) {
+    Place& place = places.emplace_back(cell.corner);
+    for (std::size_t i = 0; i < 3; ++i)
+      if ((which >> i & 1) != 0) place[i] += cell.size();
+  }
+  const std::vector<Seen> seen = seen_at(places);
+  const auto& [sign, normal] = seen.front();
   const double length = std::sqrt(dot(normal, normal));
   bool changes = false;
   double least = 1;
-  for (int which = 0; which < 8; ++which) {
-    Place place = cell.corner;
-    for (std::size_t i = 0; i < 3; ++i)
-      if ((which >> i & 1) != 0) place[i] += cell.size();
-    const auto [other_sign, other] = seen_at(place);
+  for (std::size_t which = 1; which < seen.size(); ++which) {
+    const auto& [other_sign, other] = seen[which];
     changes = other_sign != sign || changes;
     least = std::min(least, dot(normal, other) / (length * std::sqrt(dot(other, other))));
   }
@@ -107,20 +125,22 @@ Cells::Look Cells::look_at(const OctreeCell& cell) {
 
 void Cells::split(int index) {
   const OctreeCell parent = cells_[static_cast<std::size_t>(index)];
-  cells_[static_cast<std::size_t>(index)].children = static_cast<int>(cells_.size());
+  const std::size_t first = cells_.size();
+  cells_[static_cast<std::size_t>(index)].children = static_cast<int>(first);
+  std::vector<Box> boxes;
   for (int child = 0; child < 8; ++child) {
-    OctreeCell cell;
+    OctreeCell& cell = cells_.emplace_back();
     cell.level = parent.level + 1;
     cell.corner = parent.corner;
     for (std::size_t i = 0; i < 3; ++i)
       if ((child >> i & 1) != 0) cell.corner[i] += cell.size();
-    // What is proven of the whole holds for its parts.
-    if (parent.proof.outside || parent.proof.zero_free)
-      cell.proof = parent.proof;
-    else
-      examine(cell);
-    cells_.push_back(cell);
+    cell.proof = parent.proof;
+    boxes.push_back(cell.box());
   }
+  // What is proven of the whole holds for its parts.
+  if (parent.proof.outside || parent.proof.zero_free) return;
+  const std::vector<Proof> proofs = examine(boxes);
+  for (std::size_t child = 0; child < 8; ++child) cells_[first + child].proof = proofs[child];
 }
 
 /// Cuts larger neighbours, so that the cell itself may be cut.

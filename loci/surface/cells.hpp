@@ -83,7 +83,7 @@ class Cells {
   enum class Look { flat, bent, unseen, several };
 
   void cut(std::vector<int> front, const std::function<bool(OctreeCell&)>& wanted);
-  void examine(OctreeCell& cell);
+  std::vector<Proof> examine(const std::vector<Box>& boxes);
   void split(int cell);
   void balance(int cell);
   bool worth_splitting(OctreeCell& cell);
@@ -93,7 +93,7 @@ class Cells {
     Point gradient{};
   };
   /// Corners belong to many cells, and middles are corners of smaller ones: each is looked at once.
-  Seen seen_at(const Place& place);
+  std::vector<Seen> seen_at(const std::vector<Place>& places);
 
   Field* field_;
   CellLimits limits_;

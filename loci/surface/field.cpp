@@ -48,6 +48,9 @@ Interval variable_over(const LocusProblem& problem, std::size_t i, const Interva
               Interval(lower - angle_rounding, upper + angle_rounding));
 }
 
+/// Of a square; beyond the boundary as the root goes on there.
+double root_of(double square) { return std::copysign(std::sqrt(std::abs(square)), square); }
+
 bool is_zero(const Interval& x) { return x.lower() == 0 && x.upper() == 0; }
 
 }  // namespace
@@ -126,6 +129,8 @@ Field::Chart::Chart(const Part& part, const core::WorkingMode& mode)
       program(part.problem->tower, std::vector<sheet::SheetFunction>{part.function}),
       at(program.registers<double>()),
       over(program.registers<Interval>()),
+      beside(program.registers<sheet::Batch>()),
+      over_beside(program.registers<sheet::IntervalBatch>()),
       sign(part.sign) {
   core::ensure(static_cast<int>(mode.size()) == program.roots(), "a working mode has a sign for every root");
   for (std::size_t i = 0; i < 3; ++i) {
@@ -143,8 +148,7 @@ Field::Field(const std::vector<Part>& parts, core::WorkingMode mode) : mode_(std
   frame_ = frame_of(problems);
 }
 
-Field::Chart& Field::enter(const Point& unit, int held) {
-  const Point place = frame_.place(unit);
+Field::Chart& Field::chart_at(const Point& place) {
   Chart* chart = charts_.front().get();
   double least = std::numeric_limits<double>::infinity();
   for (const auto& candidate : charts_) {
@@ -157,17 +161,93 @@ Field::Chart& Field::enter(const Point& unit, int held) {
     }
     if (off == 0) break;
   }
+  return *chart;
+}
+
+Field::Chart& Field::enter(const Point& unit, int held) {
+  const Point place = frame_.place(unit);
+  Chart* const chart = &chart_at(place);
   for (std::size_t i = 0; i < 3; ++i) {
     chart->at.set(static_cast<int>(i), variable_at(*chart->problem, i, place[i], scale_[i]));
     scale_[i] *= frame_.width(i);
   }
   for (int j = 0; j < roots(); ++j) {
     chart->at.run_square(j);
-    const double square = chart->at.square(j);
-    const double root = j == held ? 0 : std::copysign(std::sqrt(std::abs(square)), square);
+    const double root = j == held ? 0 : root_of(chart->at.square(j));
     chart->at.set(3 + j, mode_[static_cast<std::size_t>(j)] * root);
   }
   return *chart;
+}
+
+void Field::enter(Chart& chart, const std::vector<Point>& places, std::vector<Point>& scales) {
+  scales.resize(places.size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    sheet::Batch variables;
+    for (std::size_t l = 0; l < sheet::Batch::size; ++l) {
+      const std::size_t own = std::min(l, places.size() - 1);
+      variables[l] = variable_at(*chart.problem, i, places[own][i], scales[own][i]);
+    }
+    for (Point& scale : scales) scale[i] *= frame_.width(i);
+    chart.beside.set(static_cast<int>(i), variables);
+  }
+  for (int j = 0; j < roots(); ++j) {
+    chart.beside.run_square(j);
+    sheet::Batch root;
+    for (std::size_t l = 0; l < sheet::Batch::size; ++l)
+      root[l] = mode_[static_cast<std::size_t>(j)] * root_of(chart.beside.square(j)[l]);
+    chart.beside.set(3 + j, root);
+  }
+}
+
+template <class Visit>
+void Field::each_batch(const std::vector<Point>& units, const Visit& visit) {
+  std::vector<Chart*> chart_of;
+  for (const Point& unit : units) chart_of.push_back(&chart_at(frame_.place(unit)));
+  std::vector<std::size_t> own;
+  std::vector<Point> places, scales;
+  for (const auto& chart : charts_) {
+    for (std::size_t k = 0; k < units.size(); ++k) {
+      if (chart_of[k] == chart.get()) own.push_back(k);
+      if (own.size() < sheet::Batch::size && (own.empty() || k + 1 < units.size())) continue;
+      places.clear();
+      for (const std::size_t point : own) places.push_back(frame_.place(units[point]));
+      enter(*chart, places, scales);
+      chart->beside.run_values();
+      visit(*chart, own, scales);
+      own.clear();
+    }
+  }
+}
+
+std::vector<double> Field::values(const std::vector<Point>& units) {
+  std::vector<double> result(units.size());
+  each_batch(units, [&](const Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>&) {
+    for (std::size_t l = 0; l < own.size(); ++l) result[own[l]] = chart.sign * chart.beside.value(0)[l];
+  });
+  return result;
+}
+
+std::vector<Field::Sight> Field::look_at(const std::vector<Point>& units) {
+  std::vector<Sight> result(units.size());
+  gradient_.resize(static_cast<std::size_t>(charts_.front()->program.variables()));
+  each_batch(units, [&](Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>& scales) {
+    chart.beside.run_gradients();
+    for (std::size_t l = 0; l < own.size(); ++l) {
+      Sight& sight = result[own[l]];
+      sight.value = chart.sign * chart.beside.value(0)[l];
+      sight.inside = true;
+      chart.at.take_gradients(chart.beside, l);
+      for (int j = 0; j < roots(); ++j) {
+        sight.inside = sight.inside && !(chart.beside.square(j)[l] < 0);
+        chart.at.set(3 + j, chart.beside.root(j)[l]);
+      }
+      for (std::size_t v = 0; v < gradient_.size(); ++v)
+        gradient_[v] = chart.sign * chart.at.partial(0, static_cast<int>(v));
+      scale_ = scales[l];
+      sight.slopes = reduced(chart, -1);
+    }
+  });
+  return result;
 }
 
 double Field::value(const Point& unit) {
@@ -234,42 +314,156 @@ bool Field::meets(const Chart& chart, const Box& place) {
   return true;
 }
 
-Proof Field::examine(const Box& unit) {
-  const Box place = place_of(unit);
-  Proof whole{.outside = true, .zero_free = true, .one_sheet = true, .rim = false};
-  int common = 0;
-  for (const auto& chart : charts_) {
-    if (!meets(*chart, place)) continue;
-    int sign = 0;
-    const Proof own = examine(*chart, place, sign);
-    if (own.outside) continue;
-    whole.outside = false;
-    whole.zero_free = whole.zero_free && own.zero_free && (common == 0 || sign == common);
-    whole.one_sheet = whole.one_sheet && own.one_sheet;
-    whole.rim = whole.rim || own.rim;
-    if (sign != 0) common = sign;
+std::vector<Field::Lanes> Field::lanes_of(const Chart& chart, const std::vector<Box>& places) const {
+  std::vector<Lanes> result;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (!meets(chart, places[k])) continue;
+    if (result.empty() || result.back().size() == sheet::IntervalBatch::size) result.emplace_back();
+    Lane& lane = result.back().emplace_back(Lane{.box = k});
+    for (std::size_t i = 0; i < 3; ++i) lane.variables[i] = variable_over(*chart.problem, i, places[k][i]);
   }
-  return whole;
+  return result;
 }
 
-std::optional<Box> Field::enter(Chart& chart, const Box& place) {
-  Box variables;
+void Field::enter(Chart& chart, Lanes& lanes) {
+  chart.over_beside.use_lanes(lanes.size());
   for (std::size_t i = 0; i < 3; ++i) {
-    variables[i] = variable_over(*chart.problem, i, place[i]);
-    chart.over.set(static_cast<int>(i), variables[i]);
+    sheet::IntervalBatch variables;
+    for (std::size_t l = 0; l < lanes.size(); ++l) variables.lanes[l] = lanes[l].variables[i];
+    chart.over_beside.set(static_cast<int>(i), variables);
   }
-  rising_.assign(mode_.size(), false);
-  roots_.resize(mode_.size());
+  for (Lane& lane : lanes) {
+    lane.rising.assign(mode_.size(), false);
+    lane.roots.resize(mode_.size());
+  }
   for (int j = 0; j < roots(); ++j) {
     const auto own = static_cast<std::size_t>(j);
-    chart.over.run_square(j);
-    const Interval& square = chart.over.square(j);
-    if (square.upper() < 0) return std::nullopt;
-    rising_[own] = square.lower() <= 0;
-    roots_[own] = mode_[own] > 0 ? square_root(square) : -square_root(square);
-    chart.over.set(3 + j, roots_[own]);
+    chart.over_beside.run_square(j);
+    sheet::IntervalBatch root;
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      const Interval& square = chart.over_beside.square(j).lanes[l];
+      lanes[l].outside = lanes[l].outside || square.upper() < 0;
+      lanes[l].rising[own] = square.lower() <= 0;
+      const Interval positive = square.upper() < 0 ? Interval(0.0) : square_root(square);
+      lanes[l].roots[own] = root.lanes[l] = mode_[own] > 0 ? positive : -positive;
+    }
+    chart.over_beside.set(3 + j, root);
   }
-  return variables;
+}
+
+/// Slopes over the cell, of the three coordinates and of the roots that may be 0 in it: these count as coordinates of
+/// their own, for as functions of the others they rise without bound. Mean-value form over all of them:
+///     f(X, S) within f(m, s_m) + sum f_x (X - m) + sum f_s (S - s_m)
+void Field::differentiate(Chart& chart, Lanes& lanes) {
+  chart.over_beside.run_gradients();
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    std::vector<Interval>& slopes = lanes[l].slopes;
+    slopes.resize(static_cast<std::size_t>(chart.program.variables()));
+    for (std::size_t v = 0; v < slopes.size(); ++v)
+      slopes[v] = chart.over_beside.partial(0, static_cast<int>(v)).lanes[l];
+    for (int j = roots() - 1; j >= 0; --j) {
+      const auto own = static_cast<std::size_t>(j);
+      const Interval slope = slopes[3 + own];
+      if (is_zero(slope) || lanes[l].rising[own]) continue;
+      const Interval factor = slope * inverse(Interval(2.0) * lanes[l].roots[own]);
+      for (int v = 0; v < 3 + j; ++v) {
+        Interval& changed = slopes[static_cast<std::size_t>(v)];
+        changed = changed + factor * chart.over_beside.square_partial(j, v).lanes[l];
+      }
+    }
+  }
+}
+
+/// Mean-value form over the coordinates and the roots that may be 0: see differentiate.
+void Field::take_mean_values(Chart& chart, Lanes& lanes) {
+  std::vector<Interval> away(lanes.size(), Interval(0.0));
+  for (std::size_t i = 0; i < 3; ++i) {
+    sheet::IntervalBatch variables;
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      const Interval& variable = lanes[l].variables[i];
+      const Interval middle = variable.middle();
+      away[l] = away[l] + lanes[l].slopes[i] * (variable - middle);
+      variables.lanes[l] = middle;
+    }
+    chart.over_beside.set(static_cast<int>(i), variables);
+  }
+  for (int j = 0; j < roots(); ++j) {
+    const auto own = static_cast<std::size_t>(j);
+    chart.over_beside.run_square(j);
+    sheet::IntervalBatch root;
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      const Lane& lane = lanes[l];
+      if (lane.rising[own]) {
+        const Interval middle = lane.roots[own].middle();
+        away[l] = away[l] + lane.slopes[3 + own] * (lane.roots[own] - middle);
+        root.lanes[l] = middle;
+        continue;
+      }
+      const Interval& square = chart.over_beside.square(j).lanes[l];
+      const Interval positive = square.upper() < 0 ? Interval(0.0) : square_root(square);
+      root.lanes[l] = mode_[own] > 0 ? positive : -positive;
+    }
+    chart.over_beside.set(3 + j, root);
+  }
+  chart.over_beside.run_values();
+  for (std::size_t l = 0; l < lanes.size(); ++l) lanes[l].mean_value = chart.over_beside.value(0).lanes[l] + away[l];
+}
+
+std::vector<Proof> Field::examine(const std::vector<Box>& units) {
+  std::vector<Box> places;
+  for (const Box& unit : units) places.push_back(place_of(unit));
+  std::vector<Proof> result(units.size(), Proof{.outside = true, .zero_free = true, .one_sheet = true, .rim = false});
+  std::vector<int> common(units.size(), 0);  // sign that the function is proven to have in the charts so far
+  for (const auto& chart : charts_) {
+    for (Lanes& lanes : lanes_of(*chart, places)) {
+      std::vector<int> signs;
+      const std::vector<Proof> proofs = examine(*chart, lanes, signs);
+      for (std::size_t l = 0; l < lanes.size(); ++l) {
+        if (proofs[l].outside) continue;
+        const std::size_t box = lanes[l].box;
+        Proof& whole = result[box];
+        whole.outside = false;
+        whole.zero_free = whole.zero_free && proofs[l].zero_free && (common[box] == 0 || signs[l] == common[box]);
+        whole.one_sheet = whole.one_sheet && proofs[l].one_sheet;
+        whole.rim = whole.rim || proofs[l].rim;
+        if (signs[l] != 0) common[box] = signs[l];
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<Proof> Field::examine(Chart& chart, Lanes& lanes, std::vector<int>& signs) {
+  enter(chart, lanes);
+  chart.over_beside.run_values();
+  std::vector<Proof> proofs(lanes.size());
+  signs.assign(lanes.size(), 0);
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    if (!lanes[l].outside) signs[l] = chart.sign * chart.over_beside.value(0).lanes[l].sign();
+    proofs[l].outside = lanes[l].outside;
+    proofs[l].zero_free = lanes[l].outside || signs[l] != 0;
+  }
+  if (std::all_of(proofs.begin(), proofs.end(), [](const Proof& proof) { return proof.zero_free; })) return proofs;
+
+  differentiate(chart, lanes);
+  take_mean_values(chart, lanes);
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    if (proofs[l].zero_free) continue;
+    const Lane& lane = lanes[l];
+    Interval product = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Interval scaled = by_unit(i, lane.slopes[i], lane.variables[i]);
+      product = product + scaled * scaled;
+    }
+    for (std::size_t j = 0; j < mode_.size(); ++j) {
+      const Interval& slope = lane.slopes[3 + j];
+      proofs[l].rim = proofs[l].rim || (lane.rising[j] && !is_zero(slope));
+    }
+    proofs[l].one_sheet = !proofs[l].rim && product.lower() > 0;
+    signs[l] = chart.sign * lane.mean_value.sign();
+    proofs[l].zero_free = signs[l] != 0;
+  }
+  return proofs;
 }
 
 Box Field::enter_with_beyond(Chart& chart, const Box& place) {
@@ -309,7 +503,7 @@ Vector Field::by_unit(const Vector& slopes, const Box& variables, double times) 
   return result;
 }
 
-/// Mean-value form over the coordinates and the roots that may be 0: see differentiate.
+/// The same of one box.
 Interval Field::mean_value(Chart& chart, const Box& variables) {
   Interval away = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -459,49 +653,6 @@ bool Field::add_clips(Chart& chart, const Box& variables, int steep_root, Over& 
     clip.value = meet(clip.value, clip.held ? Interval(times) * value : value);
   }
   return true;
-}
-
-Proof Field::examine(Chart& chart, const Box& place, int& sign) {
-  Proof proof;
-  const std::optional<Box> entered = enter(chart, place);
-  if (!entered) return {.outside = true, .zero_free = true};
-  const Box& variables = *entered;
-  chart.over.run_values();
-  sign = chart.sign * chart.over.value(0).sign();
-  proof.zero_free = sign != 0;
-  if (proof.zero_free) return proof;
-
-  differentiate(chart, proof);
-  Interval product = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Interval scaled = by_unit(i, enclosed_[i], variables[i]);
-    product = product + scaled * scaled;
-  }
-  proof.one_sheet = !proof.rim && product.lower() > 0;
-  sign = chart.sign * mean_value(chart, variables).sign();
-  proof.zero_free = sign != 0;
-  return proof;
-}
-
-/// Vector over the cell, of the three coordinates and of the roots that may be 0 in it: these count as coordinates of
-/// their own, for as functions of the others they rise without bound. Mean-value form over all of them:
-///     f(X, S) within f(m, s_m) + sum f_x (X - m) + sum f_s (S - s_m)
-void Field::differentiate(Chart& chart, Proof& proof) {
-  chart.over.run_gradients();
-  enclosed_.resize(static_cast<std::size_t>(chart.program.variables()));
-  for (std::size_t v = 0; v < enclosed_.size(); ++v) enclosed_[v] = chart.over.partial(0, static_cast<int>(v));
-  for (int j = roots() - 1; j >= 0; --j) {
-    const Interval own = enclosed_[static_cast<std::size_t>(j) + 3];
-    if (own.lower() == 0 && own.upper() == 0) continue;
-    if (rising_[static_cast<std::size_t>(j)]) {
-      proof.rim = true;
-      continue;
-    }
-    const Interval factor = own * inverse(Interval(2.0) * chart.over.root(j));
-    for (int v = 0; v < 3 + j; ++v)
-      enclosed_[static_cast<std::size_t>(v)] =
-          enclosed_[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);
-  }
 }
 
 std::optional<int> Field::slopes_apart(Chart& chart, int zero) {

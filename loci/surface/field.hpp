@@ -76,6 +76,8 @@ class Field {
 
   /// The function, beyond the boundary as it goes on there.
   double value(const Point& unit);
+  /// The same of many, side by side.
+  std::vector<double> values(const std::vector<Point>& units);
   /// Q_j, with earlier roots as they go on where their squares are negative.
   double square(const Point& unit, int root);
   /// Every Q_j >= 0.
@@ -83,11 +85,20 @@ class Field {
   /// Value and gradient, in unit coordinates; a root whose square is not positive counts as constant.
   double gradient(const Point& unit, Point& slopes);
   double square_gradient(const Point& unit, int root, Point& slopes);
+  /// What `gradient` and `inside` tell of a point.
+  struct Sight {
+    double value = 0;
+    Point slopes{};
+    bool inside = false;
+  };
+  std::vector<Sight> look_at(const std::vector<Point>& units);
   /// The function with a root held at 0.
   double gradient_on_rim(const Point& unit, int root, Point& slopes);
 
   /// With intervals, rounded outwards.
-  Proof examine(const Box& unit);
+  Proof examine(const Box& unit) { return examine(std::vector{unit}).front(); }
+  /// Side by side.
+  std::vector<Proof> examine(const std::vector<Box>& units);
 
   /// A function that on the surface has the sign of a Q_j which may vanish in a box, and is smooth: Q_j itself where
   /// the function does not depend on s_j, else minus the function at s_j = 0, times the sign of its slope by s_j.
@@ -128,19 +139,44 @@ class Field {
     sheet::SheetProgram program;
     sheet::SheetProgram::Registers<double> at;
     sheet::SheetProgram::Registers<core::Interval> over;
+    sheet::SheetProgram::Registers<sheet::Batch> beside;
+    sheet::SheetProgram::Registers<sheet::IntervalBatch> over_beside;
     Point lower{}, upper{};  ///< of the coordinates: m, rad
     int sign;
   };
+  /// The chart that holds a place, or the nearest.
+  Chart& chart_at(const Point& place);
   Chart& enter(const Point& unit, int held = -1);
   Point reduced(Chart& chart, int held);
-  /// `sign`: proven of the function where the cell is free of zeros.
-  Proof examine(Chart& chart, const Box& place, int& sign);
-  void differentiate(Chart& chart, Proof& proof);
+  /// Sets coordinates and roots of at most Batch::size places of a chart; `scales`: as scale_.
+  void enter(Chart& chart, const std::vector<Point>& places, std::vector<Point>& scales);
+  /// Visits the points a batch at a time, with the chart that holds them, their places among them all and their scales,
+  /// once the function's values are there.
+  template <class Visit>
+  void each_batch(const std::vector<Point>& units, const Visit& visit);
+
+  /// A box in a chart, enclosed with others side by side.
+  struct Lane {
+    std::size_t box = 0;                   ///< of those asked about
+    Box variables{};                       ///< of the coordinates
+    bool outside = false;                  ///< no pose of the mode in it
+    std::vector<core::Interval> roots{};   ///< over the box
+    std::vector<bool> rising{};            ///< which of them may be 0 in it
+    std::vector<core::Interval> slopes{};  ///< by the program's variables, then with the roots reduced to the others
+    core::Interval mean_value = 0;         ///< the function's, by its mean-value form
+  };
+  using Lanes = std::vector<Lane>;  ///< at most IntervalBatch::size
+  /// Those boxes that meet the chart, as many at a time as go side by side.
+  std::vector<Lanes> lanes_of(const Chart& chart, const std::vector<Box>& places) const;
+  /// Sets coordinates and roots.
+  void enter(Chart& chart, Lanes& lanes);
+  void differentiate(Chart& chart, Lanes& lanes);
+  void take_mean_values(Chart& chart, Lanes& lanes);
+  /// `signs`: what is proven of the function where a lane is free of zeros.
+  std::vector<Proof> examine(Chart& chart, Lanes& lanes, std::vector<int>& signs);
   Box place_of(const Box& unit) const;
   static bool meets(const Chart& chart, const Box& place);
-  /// Sets coordinates and roots; returns the variables of the coordinates, nothing where no pose of the mode is.
-  std::optional<Box> enter(Chart& chart, const Box& place);
-  /// The same with roots as they go on beyond the boundary.
+  /// Sets coordinates and roots, these as they go on beyond the boundary; returns the variables of the coordinates.
   Box enter_with_beyond(Chart& chart, const Box& place);
   core::Interval mean_value(Chart& chart, const Box& variables);
   /// By a unit coordinate instead of its variable.

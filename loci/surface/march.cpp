@@ -15,10 +15,63 @@ constexpr double near_corner = 0.22;
 /// Rounds of giving corners back their places where moving them made the surface meet itself.
 constexpr int most_repairs = 8;
 
+/// Illinois' rule between two points where a function has two signs.
+class SignChange {
+ public:
+  SignChange(const Point& from, const Point& to, double at_from, double at_to)
+      : from_(from), way_(to - from), at_low_(at_from), at_high_(at_to) {}
+
+  /// Where the value is to be known next. Required: not done.
+  Point next() {
+    const double before = part_;
+    part_ = halve_ ? 0.5 * (low_ + high_) : low_ + (high_ - low_) * (at_low_ / (at_low_ - at_high_));
+    // Two estimates alike are no proof: next to the workspace boundary the slope is unbounded. The sign behind is.
+    settled_ = std::abs(part_ - before) < enough;
+    if (settled_) part_ += part_ < 0.5 * (low_ + high_) ? enough : -enough;
+    if (!(part_ > low_ && part_ < high_)) part_ = 0.5 * (low_ + high_);
+    return place();
+  }
+
+  void learn(double value) {
+    if (value == 0) {
+      done_ = true;
+      return;
+    }
+    halve_ = settled_ || step_ % 8 == 7;
+    if ((value < 0) == (at_low_ < 0)) {
+      low_ = part_;
+      at_low_ = value;
+      at_high_ *= 0.5;
+    } else {
+      high_ = part_;
+      at_high_ = value;
+      at_low_ *= 0.5;
+    }
+    done_ = ++step_ == most || high_ - low_ <= enough;
+    if (done_) part_ = 0.5 * (low_ + high_);
+  }
+
+  bool done() const { return done_; }
+  double part() const { return part_; }
+  Point place() const { return from_ + part_ * way_; }
+
+ private:
+  static constexpr double enough = 1e-12;  // of the way
+  static constexpr int most = 100;         // steps
+
+  Point from_, way_;
+  double low_ = 0, high_ = 1, at_low_, at_high_, part_ = 0;
+  bool halve_ = false, settled_ = false, done_ = false;
+  int step_ = 0;
+};
+
 class Marcher {
  public:
   Marcher(Field& field, const Cells& cells) : field_(field), cells_(cells), cut_(tetrahedra_of(cells)) {
-    for (const Place& place : cut_.corners) corners_.emplace_back(unit_of(place), field_.value(unit_of(place)));
+    std::vector<Point> points;
+    for (const Place& place : cut_.corners) points.push_back(unit_of(place));
+    const std::vector<double> values = field_.values(points);
+    for (std::size_t i = 0; i < points.size(); ++i) corners_.emplace_back(points[i], values[i]);
   }
 
   Marched run() {
@@ -35,42 +88,33 @@ class Marcher {
 
   Corner& corner(int i) { return corners_[static_cast<std::size_t>(i)]; }
 
-  /// Illinois' rule between two signs.
-  Crossing solve(int a, int b) {
-    const Point from = unit_of(cut_.corners[static_cast<std::size_t>(a)]);
-    const Point way = unit_of(cut_.corners[static_cast<std::size_t>(b)]) - from;
-    double low = 0, high = 1, at_low = corner(a).value, at_high = corner(b).value, part = 0;
-    constexpr double enough = 1e-12;  // of the edge
-    constexpr int most = 100;
-    bool halve = false;
-    for (int step = 0; step < most && high - low > enough; ++step) {
-      const double before = part;
-      part = halve ? 0.5 * (low + high) : low + (high - low) * (at_low / (at_low - at_high));
-      // Two estimates alike are no proof: next to the workspace boundary the slope is unbounded. The sign behind is.
-      const bool settled = std::abs(part - before) < enough;
-      if (settled) part += part < 0.5 * (low + high) ? enough : -enough;
-      if (!(part > low && part < high)) part = 0.5 * (low + high);
-      const double value = field_.value(from + part * way);
-      if (value == 0) return {a, b, from + part * way, part};
-      halve = settled || step % 8 == 7;
-      if ((value < 0) == (at_low < 0)) {
-        low = part;
-        at_low = value;
-        at_high *= 0.5;
-      } else {
-        high = part;
-        at_high = value;
-        at_low *= 0.5;
-      }
-    }
-    part = 0.5 * (low + high);
-    return {a, b, from + part * way, part};
-  }
-
   int crossing(int a, int b) {
     const auto [known, fresh] = crossing_of_.try_emplace(Complex::key(a, b), static_cast<int>(crossings_.size()));
-    if (fresh) crossings_.push_back(solve(std::min(a, b), std::max(a, b)));
+    if (fresh) crossings_.push_back({std::min(a, b), std::max(a, b)});
     return known->second;
+  }
+
+  /// Places the crossings that are new, all of them side by side.
+  void place_crossings() {
+    std::vector<SignChange> searches;
+    std::vector<std::size_t> active;
+    for (std::size_t c = placed_; c < crossings_.size(); ++c) {
+      const auto a = static_cast<std::size_t>(crossings_[c].a), b = static_cast<std::size_t>(crossings_[c].b);
+      active.push_back(searches.size());
+      searches.emplace_back(unit_of(cut_.corners[a]), unit_of(cut_.corners[b]), corners_[a].value, corners_[b].value);
+    }
+    while (!active.empty()) {
+      std::vector<Point> points;
+      for (const std::size_t own : active) points.push_back(searches[own].next());
+      const std::vector<double> values = field_.values(points);
+      for (std::size_t k = 0; k < active.size(); ++k) searches[active[k]].learn(values[k]);
+      std::erase_if(active, [&](std::size_t own) { return searches[own].done(); });
+    }
+    for (const SignChange& search : searches) {
+      Crossing& crossing = crossings_[placed_++];
+      crossing.part = search.part();
+      crossing.at = search.place();
+    }
   }
 
   void find_crossings() {
@@ -78,6 +122,7 @@ class Marcher {
       for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t k = i + 1; k < 4; ++k)
           if (corner(t[i]).sign * corner(t[k]).sign < 0) crossing(t[i], t[k]);
+    place_crossings();
   }
 
   /// Faces of the cube that hold a must hold b: a then stays in them on its way to b.
@@ -148,6 +193,7 @@ class Marcher {
 
   int point_at_crossing(int a, int b) {
     const auto c = static_cast<std::size_t>(crossing(a, b));
+    place_crossings();
     if (point_of_crossing_.size() <= c) point_of_crossing_.resize(c + 1, -1);
     if (point_of_crossing_[c] < 0) point_of_crossing_[c] = add_point(crossings_[c].at, -1);
     return point_of_crossing_[c];
@@ -238,6 +284,7 @@ class Marcher {
   Tetrahedra cut_;
   std::vector<Corner> corners_;
   std::vector<Crossing> crossings_;
+  std::size_t placed_ = 0;  ///< of the crossings
   std::unordered_map<std::uint64_t, int> crossing_of_;
   Mesh mesh_;
   std::vector<int> point_of_corner_, point_of_crossing_, corner_of_point_;

@@ -14,21 +14,22 @@ Point place_of(const Frame& frame, const Mesh& mesh, int point) {
   return frame.place(mesh.points[static_cast<std::size_t>(point)]);
 }
 
-/// Whether no zero is in the box, within the workspace; cut into eight so many times. `budget`: boxes left to look at.
-bool is_free(Field& field, const Box& box, int cuts, int& budget) {
+/// Whether no zero is in the box, within the workspace; cut into eight so many times. `proof`: what is known of the box
+/// as a whole. `budget`: boxes left to look at.
+bool is_free(Field& field, const Box& box, const Proof& proof, int cuts, int& budget) {
   if (--budget < 0) return false;
-  const Proof proof = field.examine(box);
   if (proof.outside || proof.zero_free) return true;
   if (cuts == 0) return false;
-  for (int part = 0; part < 8; ++part) {
-    Box smaller;
+  std::vector<Box> parts(8);
+  for (std::size_t part = 0; part < 8; ++part)
     for (std::size_t i = 0; i < 3; ++i) {
       const double middle = box[i].middle();
-      smaller[i] =
+      parts[part][i] =
           (part >> i & 1) != 0 ? core::Interval(middle, box[i].upper()) : core::Interval(box[i].lower(), middle);
     }
-    if (!is_free(field, smaller, cuts - 1, budget)) return false;
-  }
+  const std::vector<Proof> proofs = field.examine(parts);
+  for (std::size_t part = 0; part < 8; ++part)
+    if (!is_free(field, parts[part], proofs[part], cuts - 1, budget)) return false;
   return true;
 }
 
@@ -47,11 +48,14 @@ double area(const Frame& frame, const Mesh& mesh) {
 double deviation(Field& field, const Mesh& mesh) {
   const Frame& frame = field.frame();
   double most = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Point middle = middle_of(mesh, t);
-    Point slopes{};
-    if (!field.inside(middle)) continue;
-    const double value = field.gradient(middle, slopes);
+  std::vector<Point> middles;
+  for (const Triangle& t : mesh.triangles) middles.push_back(middle_of(mesh, t));
+  const std::vector<Field::Sight> sights = field.look_at(middles);
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    if (!sights[k].inside) continue;
+    const Triangle& t = mesh.triangles[k];
+    const double value = sights[k].value;
+    Point slopes = sights[k].slopes;
     for (std::size_t i = 0; i < 3; ++i) slopes[i] /= frame.width(i);
     const double slope = std::sqrt(dot(slopes, slopes));
     if (!(slope > 0) || !std::isfinite(slope)) continue;
@@ -88,7 +92,7 @@ std::vector<int> unexplained(Field& field, const Cells& cells, int level, const 
     const Point middle = unit_of(cell.middle());
     if (cell.level >= level && near[flag(bin(middle[0]), bin(middle[1]), bin(middle[2]))]) continue;
     if (stop && stop()) throw core::LimitReached("the time limit was reached");
-    if (!is_free(field, cell.box(), cuts, budget)) result.push_back(static_cast<int>(c));
+    if (!is_free(field, cell.box(), cell.proof, cuts, budget)) result.push_back(static_cast<int>(c));
   }
   return result;
 }

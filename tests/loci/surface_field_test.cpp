@@ -1,0 +1,125 @@
+// Points and boxes side by side: each has the very numbers that it has alone.
+#include "loci/surface/field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace clearloci::loci::surface {
+namespace {
+
+using core::LocusProblem;
+using core::Polynomial;
+using core::Term;
+
+bool same(double a, double b) { return a == b || (a != a && b != b); }
+
+bool same(const Point& a, const Point& b) { return same(a[0], b[0]) && same(a[1], b[1]) && same(a[2], b[2]); }
+
+bool same(const Proof& a, const Proof& b) {
+  return a.outside == b.outside && a.zero_free == b.zero_free && a.one_sheet == b.one_sheet && a.rim == b.rim;
+}
+
+/// Over x, y and two half turns of an angle, in the t of each: s1^2 = 3 - x^2 - y^2 - t, s2^2 = 2 + x y + s1 - 2 t^2,
+/// and a function of them all.
+std::vector<LocusProblem> charts() {
+  std::vector<LocusProblem> result;
+  for (const int half_turns : {0, 1}) {
+    LocusProblem& chart = result.emplace_back();
+    chart.tower.coordinates = {"x", "y", "z"};
+    chart.lower = {-2, -2, -1};
+    chart.upper = {2, 2, 1};
+    chart.charts = {std::nullopt, std::nullopt, core::AngleChart{half_turns}};
+    core::Root one, two;
+    one.square = {5, {{{2, 0, 0, 0, 0}, -1}, {{0, 2, 0, 0, 0}, -1}, {{0, 0, 1, 0, 0}, -1}, {{0, 0, 0, 0, 0}, 3}}};
+    two.square = {5, {{{1, 1, 0, 0, 0}, 1}, {{0, 0, 2, 0, 0}, -2}, {{0, 0, 0, 1, 0}, 1}, {{0, 0, 0, 0, 0}, 2}}};
+    chart.tower.roots = {one, two};
+  }
+  return result;
+}
+
+Polynomial function() {
+  return {5,
+          {{{2, 0, 1, 0, 0}, 1},
+           {{1, 0, 0, 1, 0}, -2},
+           {{0, 1, 0, 0, 1}, 1},
+           {{0, 0, 1, 1, 1}, core::Rational(1, 3)},
+           {{0, 0, 0, 0, 0}, core::Rational(-2, 7)}}};
+}
+
+class SideBySide : public testing::Test {
+ protected:
+  SideBySide()
+      : problems_(charts()), field_({{&problems_[0], {function()}, 1}, {&problems_[1], {function()}, -1}}, {1, -1}) {}
+
+  Point point() { return {unit_(random_), unit_(random_), unit_(random_)}; }
+
+  Box box() {
+    Box result;
+    const double size = std::pow(0.5, std::uniform_int_distribution<int>(1, 8)(random_));
+    const Point corner = point();
+    for (std::size_t i = 0; i < 3; ++i) result[i] = {corner[i] * (1 - size), corner[i] * (1 - size) + size};
+    return result;
+  }
+
+  std::vector<LocusProblem> problems_;
+  Field field_;
+  std::mt19937 random_{29};
+  std::uniform_real_distribution<double> unit_{0, 1};
+};
+
+TEST_F(SideBySide, PointsHaveTheirOwnNumbers) {
+  std::vector<Point> points;
+  for (int k = 0; k < 203; ++k) points.push_back(point());
+  const std::vector<double> values = field_.values(points);
+  const std::vector<Field::Sight> sights = field_.look_at(points);
+  int inside = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    Point slopes{};
+    const double value = field_.gradient(points[k], slopes);
+    EXPECT_TRUE(same(values[k], field_.value(points[k]))) << k;
+    EXPECT_TRUE(same(sights[k].value, value)) << k;
+    EXPECT_TRUE(same(sights[k].slopes, slopes)) << k;
+    EXPECT_EQ(sights[k].inside, field_.inside(points[k])) << k;
+    inside += sights[k].inside ? 1 : 0;
+  }
+  EXPECT_GT(inside, 40);
+  EXPECT_LT(inside, 160);
+}
+
+TEST_F(SideBySide, BoxesHaveTheirOwnProofs) {
+  std::vector<Box> boxes;
+  for (int k = 0; k < 403; ++k) boxes.push_back(box());
+  const std::vector<Proof> proofs = field_.examine(boxes);
+  int outside = 0, free = 0, open = 0;
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    EXPECT_TRUE(same(proofs[k], field_.examine(boxes[k]))) << k;
+    (proofs[k].outside ? outside : proofs[k].zero_free ? free : open) += 1;
+  }
+  for (const int count : {outside, free, open}) EXPECT_GT(count, 25);
+}
+
+/// What is proven of a box holds at the points in it.
+TEST_F(SideBySide, BoxesHoldTheirPoints) {
+  for (int k = 0; k < 400; ++k) {
+    const Box own = box();
+    const auto over = field_.over(own);
+    const Proof proof = field_.examine(own);
+    int signs = 0;
+    for (int s = 0; s < 20; ++s) {
+      const Point share = point();
+      Point at{};
+      for (std::size_t i = 0; i < 3; ++i) at[i] = own[i].lower() + share[i] * own[i].width();
+      if (!field_.inside(at)) continue;
+      EXPECT_FALSE(proof.outside) << k;
+      const double value = field_.value(at);
+      const auto holds = [&](const Field::Over& one) { return one.value.contains(value); };
+      EXPECT_TRUE(std::any_of(over.begin(), over.end(), holds)) << k;
+      signs |= value > 0 ? 1 : 2;
+    }
+    EXPECT_FALSE(proof.zero_free && signs == 3) << k;
+  }
+}
+
+}  // namespace
+}  // namespace clearloci::loci::surface
