@@ -634,25 +634,35 @@ class Derivation {
     if (parts.size() != 1 || parts.front().multiplicity != 1) return false;
     common.role = FactorRole::margin;
     for (auto& [sheet, times] : common.cleared) times /= 2;  // unsquared
-    return add_both_senses(senses, parts, {common, common});
+    return add_both_senses(senses, parts, {common, common}).has_value();
   }
 
-  /// The factors size |w| - bound and size |w| + bound over one more root, |w|. `parts`: of the product of the two.
-  /// False: |w| is constant, or a side is zero.
-  bool add_both_senses(const TwoSenses& senses, const std::vector<SheetFactor>& parts,
-                       std::array<LocusFactor, 2> factors) {
+  /// How often `divisor` divides p.
+  static int times_in(Poly p, const Poly& divisor) {
+    int times = 0;
+    for (Poly quotient = p; p.divides(divisor, quotient); p = quotient) ++times;
+    return times;
+  }
+
+  /// The factors size |w| - bound and size |w| + bound over one more root, |w|, without what they share, which is
+  /// returned. `parts`: of the product of the two. Nothing where |w| is constant or a side is zero.
+  std::optional<Poly> add_both_senses(const TwoSenses& senses, std::vector<SheetFactor> parts,
+                                      std::array<LocusFactor, 2> factors) {
     const Poly t = Poly::variable(geometry_.ring(), geometry_.auxiliary());
     const auto parts_of = [&](const Poly& natural) {
       return elimination_.over_tower(natural).coefficients(geometry_.auxiliary());
     };
     // Coefficients of t^0 and t^1 over the tower have one denominator.
     const std::vector<Poly> sides = parts_of(senses.size * t + senses.bound), length = parts_of(senses.square + t);
-    if (sides.size() != 2 || length.size() != 2 || length[0].is_constant()) return false;
+    if (sides.size() != 2 || length.size() != 2 || length[0].is_constant()) return std::nullopt;
     // |w| = root / length[1], root^2 = length[0] length[1].
     Poly left = sides[1], right = sides[0] * length[1];
     const Poly shared = gcd(left, right);
     left = left.exact_quotient(shared);
     right = right.exact_quotient(shared);
+    std::erase_if(parts, [&](const SheetFactor& part) {
+      return part.multiplicity <= 2 * times_in(shared, part.sheet);  // of the product, the square is shared
+    });
 
     const std::vector<int> variables = geometry_.tower_variables();
     // A root of about the size of the coordinates: numerical steps along the curve weigh it against them.
@@ -681,15 +691,25 @@ class Derivation {
                           text(senses.bound) + ")";
       result_.problem.factors.push_back(std::move(factor));
     }
-    return true;
+    return shared;
   }
 
-  /// Both senses of size |w| = +-bound, or a note where they are not two curves.
-  void add_ends(const TwoSenses& senses, std::array<LocusFactor, 2> ends, const std::string& joint) {
+  /// Both senses of size |w| = +-bound, or a note where they are not two curves. What size and bound share, perhaps
+  /// over the tower alone, is a curve on which both ends are at theirs.
+  void add_ends(const TwoSenses& senses, const std::array<LocusFactor, 2>& ends, const std::string& joint) {
     const Poly squared =
         elimination_.over_tower(senses.size * senses.size * senses.square - senses.bound * senses.bound);
-    if (squared.is_zero() || !add_both_senses(senses, elimination_.sheet_factors(squared, true), std::move(ends)))
+    const std::optional<Poly> shared =
+        squared.is_zero() ? std::nullopt : add_both_senses(senses, elimination_.sheet_factors(squared, true), ends);
+    if (!shared) {
       result_.notes.push_back("where the ends of the guide " + joint + " lift is not traced in full");
+      return;
+    }
+    LocusFactor both = ends[0];
+    both.vanishing.insert(both.vanishing.end(), ends[1].vanishing.begin(), ends[1].vanishing.end());
+    if (both.role == FactorRole::reaction) both.cause = "guide " + joint + " bears nothing";
+    both.expression = text(*shared);
+    add(both.role, nullptr, *shared, true, both);
   }
 
   /// The ends of guides along axes of changing length: h N |u| = T behind, h N |u| = -T ahead.
@@ -704,7 +724,7 @@ class Derivation {
         end.vanishing = {{guide.joint, ahead ? Quantity::end_ahead : Quantity::end_behind, 1}};
         end.cause = std::string("end ") + (ahead ? "ahead" : "behind") + " of guide " + guide.joint + " without load";
       }
-      add_ends({guide.bears, guide.square, guide.turns}, std::move(ends), guide.joint);
+      add_ends({guide.bears, guide.square, guide.turns}, ends, guide.joint);
     }
   }
 

@@ -126,6 +126,25 @@ TEST(OnceDisputed, AParallelogramOnALeg) {
   EXPECT_EQ(flat(core::LocusKind::workspace_boundary), 2);
 }
 
+// N and T of a heavy cylinder's guide share a line over the tower alone: upright, it bears nothing across itself.
+TEST(OnceDisputed, WhatAGuidesForcesShareOverTheRoots) {
+  hold("witness/rprpr_upright_cylinders", true);
+  const core::LocusMap map = trace_loci(corpus("witness/rprpr_upright_cylinders"));
+  for (const std::string joint : {"S1", "S2"}) {
+    const auto lifts = [&](const core::LocusCurve& curve, core::Quantity end) {
+      return std::any_of(curve.vanishing.begin(), curve.vanishing.end(),
+                         [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == end; });
+    };
+    const auto curve = std::find_if(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& c) {
+      return lifts(c, core::Quantity::end_ahead) && lifts(c, core::Quantity::end_behind);
+    });
+    ASSERT_NE(curve, map.curves.end()) << joint;
+    ASSERT_EQ(curve->arcs.size(), 1u);
+    EXPECT_NEAR(curve->arcs.front().length, 0.75, 1e-9);
+    EXPECT_EQ(curve->arcs.front().points.front()[0], joint == "S1" ? -0.5 : 0.5);
+  }
+}
+
 // The middle of an arc's single chord is not on the curve.
 TEST(OnceDisputed, AShortArc) { hold("witness/mirrored_short_arc", true); }
 
