@@ -184,11 +184,11 @@ class Validation(Asked):
     disputed: int
     undecided: int
     outside: int
-    reactions: list[dict[str, Any]]  #: the same, a reaction in a working mode
-    disputed_edges: list[dict[str, Any]]
+    reactions: list[dict[str, Any]] = field(repr=False)  #: the same, a reaction in a working mode
+    disputed_edges: list[dict[str, Any]] = field(repr=False)
     arcs_held: int
     arcs_undecided: int
-    disputed_arcs: list[dict[str, Any]]
+    disputed_arcs: list[dict[str, Any]] = field(repr=False)
     format: int = 1
 
     def __bool__(self) -> bool:

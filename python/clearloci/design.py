@@ -18,7 +18,8 @@ from .model import Model, parse
 class Designs:
     """The designs of a study, column by column; `pandas.DataFrame(designs.columns)` is a table of them."""
 
-    columns: dict[str, Any]  #: varied parameters and figures: float64 (n,); "status", "reason": lists of str
+    #: varied parameters and figures: float64 (n,); "status", "reason": lists of str
+    columns: dict[str, Any] = field(repr=False)
     parameters: list[str]
     figures: list[str]
     best: int | None  #: row of the best by the first goal

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -44,10 +44,10 @@ class ErrorMap(Asked, Exported):
 
     working_mode: dict[str, str]
     coordinates: list[str]
-    fields: dict[str, np.ndarray]  #: "dx", "dy", "dalpha", "dp", "worst_dx", ...
+    fields: dict[str, np.ndarray] = field(repr=False)  #: "dx", "dy", "dalpha", "dp", "worst_dx", ...
     units: dict[str, str]
-    x: np.ndarray  #: middles of the cells, m or, of an angle, rad
-    y: np.ndarray
+    x: np.ndarray = field(repr=False)  #: middles of the cells, m or, of an angle, rad
+    y: np.ndarray = field(repr=False)
     reachable: int
     undefined: int
     never_loaded: list[str]
@@ -73,9 +73,9 @@ class ErrorVolume(Asked, Exported):
     first, NaN where there is none."""
 
     working_mode: dict[str, str]
-    fields: dict[str, np.ndarray]  #: "dx", "dy", "dz", "dalpha_x", ..., "dp", "worst_dx", ...
+    fields: dict[str, np.ndarray] = field(repr=False)  #: "dx", "dy", "dz", "dalpha_x", ..., "dp", "worst_dx", ...
     units: dict[str, str]
-    axes: dict[str, np.ndarray]  #: of each coordinate the middles of the cells, m or, of an angle, rad
+    axes: dict[str, np.ndarray] = field(repr=False)  #: of each coordinate the middles of the cells, m or rad
     reachable: int
     undefined: int
     never_loaded: list[str]
@@ -87,9 +87,9 @@ class CoordinateErrors(Asked, Exported):
 
     working_mode: dict[str, str]
     coordinate: str
-    samples: dict[str, np.ndarray]  #: the coordinate, reactions, take-up, errors; NaN at events
+    samples: dict[str, np.ndarray] = field(repr=False)  #: the coordinate, reactions, take-up, errors; NaN at events
     units: dict[str, str]
-    events: list[dict[str, Any]]  #: what vanishes where, and by how much the end effector jumps
+    events: list[dict[str, Any]] = field(repr=False)  #: what vanishes where, and by how much the end effector jumps
     never_loaded: list[str]
 
 
@@ -99,11 +99,12 @@ class Trajectory(Asked, Exported):
 
     period: float
     length: float
-    samples: dict[str, np.ndarray]  #: "time", "distance", "stage", "dx", ..., "fA1x", ...
+    samples: dict[str, np.ndarray] = field(repr=False)  #: "time", "distance", "stage", "dx", ..., "fA1x", ...
     units: dict[str, str]
-    losses: list[dict[str, Any]]  #: where the parts of a joint lose contact, in order of time
-    stages: list[dict[str, Any]]
-    sweep: dict[str, np.ndarray] | None  #: with periods: "periods", "distance", and (periods, samples) of "dx", ...
+    losses: list[dict[str, Any]] = field(repr=False)  #: where the parts of a joint lose contact, in order of time
+    stages: list[dict[str, Any]] = field(repr=False)
+    #: with periods: "periods", "distance", and (periods, samples) of "dx", ...
+    sweep: dict[str, np.ndarray] | None = field(repr=False)
 
     def plot(self, columns: list[str] | None = None, ax: Axes | None = None) -> Axes:
         """Columns of the samples (the pose error) over time, in the Axes given or in new ones."""

@@ -36,6 +36,13 @@ def test_error_maps_are_arrays(five_bar):
     assert pickle.loads(pickle.dumps(errors)).dx.shape == (30, 20)
 
 
+def test_answers_print_in_a_few_lines(five_bar):
+    four_bar = cl.read(EXAMPLES / "four_bar.yaml")
+    for answer in (five_bar.error_map((20, 30)), five_bar.validate([40, 40]), four_bar.coordinate_errors(steps=90)):
+        assert repr(answer).startswith(type(answer).__name__ + "(")
+        assert len(repr(answer)) < 500
+
+
 def test_a_single_coordinate_has_jumps():
     errors = cl.read(EXAMPLES / "four_bar.yaml").coordinate_errors(steps=90)
     assert len(errors.samples["dx"]) >= 90
