@@ -1,6 +1,7 @@
 #include "analysis/loci.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
+#include "core/straight_line.hpp"
 #include "loci/chart_maps.hpp"
 #include "loci/sheet_maps.hpp"
 #include "loci/surfaces.hpp"
@@ -146,6 +148,28 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
   return map;
 }
 
+/// Of those over the tower, which no pose of any mode makes zero: one cell each, free of zeros; whoever checks it cuts
+/// it as far as it takes.
+void claim_no_zeros(const std::vector<core::LocusFactor>& factors, core::Certificate& certificate) {
+  const core::LocusProblem& problem = certificate.problem;
+  std::array<double, 4> domain{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const core::Rational margin = (problem.upper[i] - problem.lower[i]) / 1000;
+    domain[2 * i] = core::to_double(problem.lower[i] - margin);
+    domain[2 * i + 1] = core::to_double(problem.upper[i] + margin);
+  }
+  for (const core::LocusFactor& factor : factors) {
+    if (factor.sheet.terms.empty()) continue;
+    core::StraightLineBuilder builder;
+    std::vector<int> variables;
+    for (int v = 0; v < factor.sheet.variables; ++v) variables.push_back(builder.variable(v));
+    const core::StraightLine line = builder.line(builder.polynomial(factor.sheet, variables));
+    for (int mode = 0; mode < static_cast<int>(problem.modes.size()); ++mode)
+      certificate.sheets.push_back(
+          {mode, factor.role, factor.expression, line, {}, domain, {{core::CellNode::Kind::free, 0, 0, 0}}});
+  }
+}
+
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
 TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
                                const TraceMeans& means, TraceEffort effort) {
@@ -177,6 +201,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
     if (means.certificate != nullptr) {
       auto& factors = means.certificate->problem.factors;
       factors.insert(factors.end(), derived.front().rest.begin(), derived.front().rest.end());
+      claim_no_zeros(derived.front().rest, *means.certificate);
     }
     std::vector<std::string> notes;
     for (const symbolic::DerivedProblem& one : derived)
@@ -285,7 +310,9 @@ void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t leas
   throw core::InputError(
       {mechanism.file}, what + " over " + wanted + " free coordinates; this workspace has " + std::to_string(count),
       count > most
-          ? "make " + std::to_string(count - most) + " of them a parameter, such as z: 0.5, and vary it with --set"
+          ? (count == most + 1 ? std::string("make one of them a parameter, such as z: 0.5, and vary it with --set")
+                               : "make " + std::to_string(count - most) +
+                                     " of them parameters, such as z: 0.5, and vary them with --set")
           : "give 'workspace' another coordinate with its range");
 }
 

@@ -147,7 +147,8 @@ std::optional<Poly> Elimination::without_root(const Poly& sheet, const TowerRoot
   return b + quotient * Poly::variable(sheet.ring(), root.variable);
 }
 
-std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with_implicit) const {
+std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with_implicit,
+                                                    std::vector<Poly>* without_zeros) const {
   std::vector<SheetFactor> result;
   std::vector<PolyFactor> factors = factors_over_tower(strip_denominators(sheet));
   for (const PolyFactor& factor : factors) {
@@ -157,7 +158,10 @@ std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with
       entry.too_heavy = true;
     } else if (with_implicit) {
       entry.implicit = implicit_factors(factor.poly);
-      if (entry.implicit.empty()) continue;
+      if (entry.implicit.empty()) {
+        if (without_zeros != nullptr) without_zeros->push_back(factor.poly);
+        continue;
+      }
     }
     result.push_back(std::move(entry));
   }

@@ -432,9 +432,24 @@ class Derivation {
     return sum;
   }
 
+  /// Of |A| and of what is asked for; a certificate claims that they have no zeros. They alone of `rest` have sheets.
+  void keep_without_zeros(FactorRole role, const std::string& expression, const std::vector<Poly>& sheets) {
+    if (result_.problem.tower.coordinates.size() != 2) return;
+    for (const Poly& sheet : sheets) {
+      LocusFactor factor;
+      factor.role = role;
+      factor.expression = expression;
+      factor.sheet = core::scaled_for_doubles(sheet.plain(geometry_.tower_variables()));
+      result_.rest.push_back(std::move(factor));
+    }
+  }
+
   void take_determinant_apart() {
     for (const PolyFactor& factor : determinants_.determinant.factors) {
-      std::vector<SheetFactor> sheets = elimination_.sheet_factors(elimination_.over_tower(factor.poly), true);
+      std::vector<Poly> without_zeros;
+      std::vector<SheetFactor> sheets =
+          elimination_.sheet_factors(elimination_.over_tower(factor.poly), true, &without_zeros);
+      keep_without_zeros(FactorRole::direct_singularity, text(factor.poly), without_zeros);
       const bool alone = sheets.size() == 1 && sheets.front().multiplicity == 1;
       for (SheetFactor& sheet : sheets) {
         const int times = sheet.multiplicity;
@@ -504,7 +519,9 @@ class Derivation {
   void add(FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit, LocusFactor common) {
     common.role = role;
     const std::vector<int> variables = geometry_.tower_variables();
-    const std::vector<SheetFactor> parts = elimination_.sheet_factors(sheet, with_implicit);
+    std::vector<Poly> without_zeros;
+    const std::vector<SheetFactor> parts = elimination_.sheet_factors(sheet, with_implicit, &without_zeros);
+    if (role == FactorRole::reaction) keep_without_zeros(role, common.expression, without_zeros);
     // Where the sheet splits, the natural form has the zeros of all parts.
     if (natural != nullptr && parts.size() == 1 && parts.front().multiplicity == 1) common.line = lines_.of(*natural);
     for (const SheetFactor& part : parts) {

@@ -36,6 +36,38 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
                            return file.substr(0, file.find('.'));
                          });
 
+// Two unequal rods on one rail: |A| has the factor xS1 - xS2, which no pose of any mode makes zero.
+TEST(Certificate, FactorsThatAreNowhereZeroAreClaimedToBe) {
+  const std::string model =
+      "format: 1\nname: Two carriages\nspace: planar\nworkspace: {x: [-0.5, 0.5], y: [-0.5, -0.05]}\n"
+      "points:\n  R: [0, 0]\n  P: [x, y]\n"
+      "  S1: {slider: [R, [1, 0]], from: P, length: 0.5, side: behind}\n"
+      "  S2: {slider: [R, [1, 0]], from: P, length: 0.4, side: ahead}\n"
+      "links: {c1: {points: [S1]}, rod1: {points: [S1, P]}, c2: {points: [S2]}, rod2: {points: [S2, P]}}\n"
+      "joints:\n"
+      "  G1: {prismatic: [ground, c1], at: S1, axis: [1, 0], actuated: true, clearance: {gap: 1e-5, half_length: "
+      "0.04}}\n"
+      "  S1: {revolute: [c1, rod1], at: S1}\n  P: {revolute: [rod1, rod2], at: P}\n"
+      "  S2: {revolute: [c2, rod2], at: S2}\n"
+      "  G2: {prismatic: [ground, c2], at: S2, axis: [1, 0], actuated: true, clearance: {gap: 1e-5, half_length: "
+      "0.04}}\n"
+      "end_effector: {link: rod1, at: P}\nloads: [{link: rod1, at: P, force: [5, 20]}]\n";
+  const std::string text = certificate_of(model);
+  const check::Examination examination = examination_of(model, text);
+  EXPECT_TRUE(examination.accepted) << summary(examination);
+  // Without the claim the factor is missing from |A|.
+  Json certificate = Json::parse(text);
+  Json& sheets = certificate["sheets"];
+  const auto whole = std::find_if(sheets.begin(), sheets.end(), [&](const Json& sheet) {
+    return certificate["functions"][sheet["function"].get<std::size_t>()]["name"] == "xS1 - xS2";
+  });
+  ASSERT_NE(whole, sheets.end());
+  EXPECT_EQ(whole->at("role"), "direct-singularity");
+  EXPECT_EQ(whole->at("cells"), ".");
+  sheets.erase(whole);
+  EXPECT_FALSE(examination_of(model, certificate.dump()).accepted);
+}
+
 TEST(Certificate, OfEveryWorkingModeIsAccepted) {
   const std::string model = example("five_bar_generic.yaml");
   LociRequest request;
