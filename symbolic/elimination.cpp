@@ -262,14 +262,21 @@ std::vector<Poly> Elimination::implicit_factors(const Poly& sheet) const {
   return found;
 }
 
-void Elimination::eliminate(Poly p, std::vector<Poly>& found) const {
-  p = strip_denominators(std::move(p));
+std::vector<Poly> Elimination::implicit_of_divisor(const Poly& divisor) const {
+  std::vector<Poly> found;
+  eliminate(divisor, found, true);
+  return found;
+}
+
+void Elimination::eliminate(Poly p, std::vector<Poly>& found, bool keeps_divisors) const {
+  if (!keeps_divisors) p = strip_denominators(std::move(p));
   const auto& roots = geometry_->roots();
   const auto top = std::find_if(roots.rbegin(), roots.rend(), [&](const auto& r) { return p.depends_on(r.variable); });
   if (top == roots.rend()) {
     Rational constant;
     for (const PolyFactor& factor : p.factors(constant)) {
-      if (has_free_coordinate(factor.poly) && !is_denominator(factor.poly)) insert_distinct(found, factor.poly);
+      if (has_free_coordinate(factor.poly) && (keeps_divisors || !is_denominator(factor.poly)))
+        insert_distinct(found, factor.poly);
     }
     return;
   }
@@ -277,16 +284,16 @@ void Elimination::eliminate(Poly p, std::vector<Poly>& found) const {
   // What the two parts share vanishes for either sign; only the rest needs its conjugate.
   const Poly shared = gcd(a, b);
   if (!shared.is_constant()) {
-    eliminate(shared, found);
+    eliminate(shared, found, keeps_divisors);
     a = a.exact_quotient(shared);
     b = b.exact_quotient(shared);
   }
   const Poly norm = geometry_->reduce(a * a - b * b * top->square);
   // Roots that are equal but for their signs: p vanishes identically for one sign and is 2 a for the other.
   if (norm.is_zero())
-    eliminate(a, found);
+    eliminate(a, found, keeps_divisors);
   else
-    eliminate(norm, found);
+    eliminate(norm, found, keeps_divisors);
 }
 
 Poly Elimination::on_line(Poly p) const {

@@ -42,6 +42,8 @@ class Elimination {
 
   /// The irreducible polynomials in the free coordinates that contain the zeros of a sheet polynomial.
   std::vector<Poly> implicit_factors(const Poly& sheet) const;
+  /// The same of a factor that the places of points are divided by.
+  std::vector<Poly> implicit_of_divisor(const Poly& divisor) const;
 
   /// A bound on the degree that the product of all conjugates may have, before anything is divided out.
   double norm_degree(const Poly& sheet) const;
@@ -70,7 +72,7 @@ class Elimination {
   /// The coordinates on one arbitrary line x_i = p_i + q_i x_last.
   Poly on_line(Poly p) const;
   bool is_beyond_use(double norm_degree) const;
-  void eliminate(Poly p, std::vector<Poly>& found) const;
+  void eliminate(Poly p, std::vector<Poly>& found, bool keeps_divisors = false) const;
   /// The factors of a sheet polynomial. Over a tower elements have no unique factors, but where a root depends on
   /// earlier ones numerators and |A| share the element in whose sign it differs, and where a dyad is stretched the root
   /// that is zero there: those are divided out as often as it goes.

@@ -599,12 +599,33 @@ class Derivation {
     return factor;
   }
 
+  /// The fold of a length that a point's place is divided by: where one of the two points of `on` passes through the
+  /// other, the way between them turns round, and what stands beside it changes sides.
+  void add_flip(const TowerRoot& root, const Fold& fold, LocusFactor factor) {
+    factor.role = FactorRole::workspace_boundary;
+    if (root.point >= 0)
+      if (const auto* offset =
+              std::get_if<mechanism::OffsetPoint>(&mechanism_.points[static_cast<std::size_t>(root.point)].form))
+        factor.cause = point_name(offset->second) + " on " + point_name(offset->first) + ", where " +
+                       point_name(root.point) + " has no place";
+    core::Rational constant;
+    for (const PolyFactor& part : fold.where.factors(constant)) {
+      LocusFactor own = factor;
+      own.sheet = core::scaled_for_doubles(part.poly.plain(geometry_.tower_variables()));
+      put_implicit({part.poly, 1, elimination_.implicit_of_divisor(part.poly)}, own);
+      result_.problem.factors.push_back(std::move(own));
+    }
+  }
+
   /// A side of a fold ends where its square root does: f >= 0 there.
   void add_fold(const Fold& fold) {
     const TowerRoot& root = geometry_.roots()[fold.root];
     LocusFactor factor = root.role == core::RootRole::working_mode ? stretched(root) : LocusFactor{};
     if (root.role != core::RootRole::working_mode) factor.expression = text(fold.where);
-    add(FactorRole::workspace_boundary, nullptr, fold.where, true, factor);
+    if (elimination_.sheet_factors(fold.where, true).empty())
+      add_flip(root, fold, factor);
+    else
+      add(FactorRole::workspace_boundary, nullptr, fold.where, true, factor);
     more_roots_.push_back({core::fold_name, "", core::RootRole::length,
                            core::scaled_for_doubles(fold.where.plain(geometry_.tower_variables()))});
   }

@@ -145,6 +145,25 @@ TEST(OnceDisputed, WhatAGuidesForcesShareOverTheRoots) {
   }
 }
 
+// A guide beside its pin changes sides where the pin passes through the point that it is placed by.
+TEST(OnceDisputed, AFoldOfAnOffset) {
+  hold("witness/prrrp_guide_beside_its_pin", true);
+  const core::ZoneMap map = find_zones(corpus("witness/prrrp_guide_beside_its_pin"), {});
+  const auto fold = std::find_if(map.loci.curves.begin(), map.loci.curves.end(), [](const core::LocusCurve& curve) {
+    return curve.cause == "R on S1, where K has no place";
+  });
+  ASSERT_NE(fold, map.loci.curves.end());
+  EXPECT_EQ(fold->kind, core::LocusKind::workspace_boundary);
+  double length = 0, area = 0;
+  for (const core::Arc& arc : fold->arcs) length += arc.length;
+  EXPECT_NEAR(length, std::acos(0.1) / 2 - std::acos(0.8) / 2, 1e-6);  // of the circle, y from -0.4 to -0.05, x > 0
+  for (const core::Zone& zone : map.zones) {
+    EXPECT_TRUE(zone.certified) << zone.id;
+    area += zone.area;
+  }
+  EXPECT_NEAR(area, 1.2 * 0.35, 1e-6);
+}
+
 // The middle of an arc's single chord is not on the curve.
 TEST(OnceDisputed, AShortArc) { hold("witness/mirrored_short_arc", true); }
 
