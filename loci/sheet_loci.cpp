@@ -304,8 +304,10 @@ class Gathering {
     if (share.traced.stopped) map_.complete = false;
     if (!share.traced.certified && !share.traced.stopped) {
       const sheet::Region& first = share.traced.undecided.front();
-      map_.notes.push_back(std::to_string(share.traced.undecided.size()) + " undecided cells on " +
-                           (own.cause.empty() ? own.expression.substr(0, 60) : own.cause) + ", the first near (" +
+      const std::size_t count = share.traced.undecided.size();
+      map_.notes.push_back((count == 1 ? "an undecided cell on " : std::to_string(count) + " undecided cells on ") +
+                           (own.cause.empty() ? own.expression.substr(0, 60) : own.cause) +
+                           (count == 1 ? ", near (" : ", the first near (") +
                            std::to_string(0.5 * (first.x0 + first.x1)) + ", " +
                            std::to_string(0.5 * (first.y0 + first.y1)) + ")");
     }

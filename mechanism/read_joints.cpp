@@ -123,10 +123,23 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const J
                    "add " + point + " to the points of " + name + " or correct the joint");
 }
 
+[[noreturn]] void refuse_slider_point(const Mechanism& mechanism, const Joint& joint, const Value& at) {
+  const std::string point = text_of(at);
+  std::vector<std::string> names;
+  for (const LinkIndex link : {joint.from, joint.to})
+    if (link != ground) names.push_back(mechanism.links[static_cast<std::size_t>(link)].name);
+  throw InputError(
+      at.where,
+      "joint " + joint.name + " is at " + point + ", which is no point of " +
+          (names.size() == 1 ? "link " + names[0] : "links " + names[0] + " and " + names[1]),
+      "add " + point + " to the points of " + (names.size() == 1 ? names[0] : "one of them") + " or correct the joint");
+}
+
 /// A pin is a point of both links that it joins; a slider's point travels along one of them.
 void check_place(const Mechanism& mechanism, const Joint& joint, const Value& at) {
   const bool on_from = is_on_link(mechanism, joint.at, joint.from), on_to = is_on_link(mechanism, joint.at, joint.to);
   if (traits(joint).slides ? on_from || on_to : on_from && on_to) return;
+  if (traits(joint).slides) refuse_slider_point(mechanism, joint, at);
   refuse_joint_point(mechanism, joint, on_from ? joint.to : joint.from, at);
 }
 
