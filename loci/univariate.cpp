@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
-#include "core/flint_memory.hpp"
+#include "core/thread_end.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -27,7 +27,7 @@ void make_primitive(Univariate& p) {
 class FlintPoly {
  public:
   explicit FlintPoly(const Univariate& p) {
-    core::free_flint_memory_at_thread_end();
+    core::call_at_thread_end<flint_cleanup>();
     fmpz_poly_init2(poly_, static_cast<slong>(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) fmpz_poly_set_coeff_mpz(poly_, static_cast<slong>(i), p[i].get_mpz_t());
   }

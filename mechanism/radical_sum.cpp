@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/thread_end.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -34,7 +35,10 @@ Rational replacement_tolerance() { return decimal_place(34); }
 /// Floating point of a given precision, where a transcendental function is wanted.
 class BigFloat {
  public:
-  explicit BigFloat(std::size_t bits) { mpfr_init2(value_, static_cast<mpfr_prec_t>(bits)); }
+  explicit BigFloat(std::size_t bits) {
+    core::call_at_thread_end<mpfr_free_cache>();
+    mpfr_init2(value_, static_cast<mpfr_prec_t>(bits));
+  }
   ~BigFloat() { mpfr_clear(value_); }
   BigFloat(const BigFloat&) = delete;
   BigFloat& operator=(const BigFloat&) = delete;

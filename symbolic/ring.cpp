@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
-#include "core/flint_memory.hpp"
+#include "core/thread_end.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -91,7 +91,7 @@ bool is_seen_irreducible(const fmpz_mpoly_struct* p, const Ring& ring) {
 }  // namespace
 
 Ring::Ring(std::vector<std::string> names) : names_(std::move(names)) {
-  core::free_flint_memory_at_thread_end();
+  core::call_at_thread_end<flint_cleanup>();
   fmpq_mpoly_ctx_init(context_, static_cast<slong>(names_.size()), ORD_LEX);
 }
 
@@ -103,7 +103,7 @@ int Ring::index(const std::string& name) const {
 }
 
 Poly::Poly(const Ring& ring, const Rational& value) : ring_(&ring) {
-  core::free_flint_memory_at_thread_end();
+  core::call_at_thread_end<flint_cleanup>();
   fmpq_mpoly_init(value_, ring.context());
   if (value != 0) fmpq_mpoly_set_fmpq(value_, Fmpq(value).get(), ring.context());
 }
