@@ -15,12 +15,12 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct CheckCommand {
   CommonArguments common;  ///< of which the model, the limit and --json are asked for here
   std::string certificate;
 };
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const CheckCommand& arguments, TimeLimit& limit) {
   limit.known([json = arguments.common.json] {
     if (json) fmt::print("{}", report::json_text({{"accepted", false}, {"complete", false}}));
   });
@@ -59,7 +59,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_check_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("check", "Verify a certificate from the model, by means of its own");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CheckCommand>();
   app->add_option("MODEL", arguments->common.model, "The mechanism file that the certificate was made for")->required();
   app->add_option("FILE", arguments->certificate, "What --certificate of loci or zones wrote")->required();
   app->add_option("--time-limit", arguments->common.time_limit,

@@ -23,7 +23,7 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct DesignCommand {
   CommonArguments common;
   std::string study;
   std::string formats = "csv,svg,png,html";
@@ -64,7 +64,7 @@ std::string words_of(const std::vector<Verification>& proofs) {
 }
 
 /// Of rank 0, or of the only process there is.
-int lead(const Arguments& arguments, const StudyRanks* ranks, TimeLimit& limit) {
+int lead(const DesignCommand& arguments, const StudyRanks* ranks, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::study_format_names());
   const Model model = Model::read(arguments.common.model, parse_overrides(arguments.common.overrides));
   const Study study = read_study(arguments.study, model);
@@ -113,7 +113,7 @@ int lead(const Arguments& arguments, const StudyRanks* ranks, TimeLimit& limit) 
   return result.complete ? exit_done : exit_limit_reached;
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const DesignCommand& arguments, TimeLimit& limit) {
   if (!started_by_mpi()) return lead(arguments, nullptr, limit);
   const MpiRanks mpi;
   const StudyRanks& ranks = mpi.ranks();
@@ -133,7 +133,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_design_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("design", "Judge many designs by a task, and find the best");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<DesignCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("STUDY", arguments->study, "The study file: what varies, the task, the goal, the method")->required();
   app->add_flag("--resume", arguments->resume, "Go on where a run of the same study was stopped");

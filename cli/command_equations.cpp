@@ -35,7 +35,7 @@ constexpr std::array languages = {
     LanguageName{"matlab", Language::matlab, "m"},
 };
 
-struct Arguments {
+struct EquationsCommand {
   CommonArguments common;
   std::string languages = "text";
   bool keep_parameters = false;
@@ -94,7 +94,7 @@ Json sheet_json(const symbolic::EquationSheet& sheet) {
           {"numerators", std::move(numerators)}};
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const EquationsCommand& arguments, TimeLimit& limit) {
   std::vector<LanguageName> chosen;
   for (const std::string& word : split(arguments.languages)) chosen.push_back(find_language(word));
   const mechanism::Mechanism mechanism = read_model(arguments.common);
@@ -129,7 +129,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_equations_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("equations", "Print the equations behind the loci, exact and factored");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<EquationsCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("--language", arguments->languages, "text, latex, c, python, matlab; several after commas")
       ->type_name("LIST")

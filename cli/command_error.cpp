@@ -24,7 +24,7 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct ErrorCommand {
   CommonArguments common;
   LociArguments loci;
   std::string grid;
@@ -37,7 +37,7 @@ struct Arguments {
 
 /// What is printed: the JSON or the table, and where the files are.
 template <class Answer>
-void print(const Arguments& arguments, const Answer& errors, nlohmann::ordered_json (*object)(const Answer&),
+void print(const ErrorCommand& arguments, const Answer& errors, nlohmann::ordered_json (*object)(const Answer&),
            std::string (*text)(const Answer&), const std::vector<std::filesystem::path>& files) {
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(object(errors)));
@@ -47,7 +47,7 @@ void print(const Arguments& arguments, const Answer& errors, nlohmann::ordered_j
 }
 
 /// One free coordinate: take-up and error over its range.
-int run_over_coordinate(const Arguments& arguments, const std::set<std::string>& formats,
+int run_over_coordinate(const ErrorCommand& arguments, const std::set<std::string>& formats,
                         const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   constexpr const char* usual_steps = "720";
   const std::vector<std::string> known = report::format_names<core::CoordinateErrors>();
@@ -85,7 +85,7 @@ double memory_of(int nx, int ny, const mechanism::Mechanism& mechanism, std::siz
 }
 
 /// Three free coordinates: a volume, and pictures of slices.
-int run_over_volume(const Arguments& arguments, const std::set<std::string>& formats,
+int run_over_volume(const ErrorCommand& arguments, const std::set<std::string>& formats,
                     const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   constexpr const char* usual_grid = "40x40x40";
   if (arguments.zones)
@@ -114,7 +114,7 @@ int run_over_volume(const Arguments& arguments, const std::set<std::string>& for
   return exit_done;
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const ErrorCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::ErrorMap>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   limit.known([common = arguments.common, name = mechanism.name] {
@@ -149,7 +149,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_error_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("error", "Map the pose error that the clearances cause over the workspace");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ErrorCommand>();
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
   app->add_option("--grid", arguments->grid,

@@ -21,7 +21,7 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct LociCommand {
   CommonArguments common;
   LociArguments loci;
   std::string formats = "svg,png,csv";
@@ -39,7 +39,7 @@ void check_formats(const std::set<std::string>& formats, std::size_t coordinates
                              coordinates == 3 ? "surfaces go to stl, obj, vtk, csv and pictures" : "leave it out");
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const LociCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<report::LociSheet>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   check_formats(formats, mechanism.coordinates.size());
@@ -74,7 +74,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_loci_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("loci", "Trace the discontinuity loci and write them as pictures and files");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<LociCommand>();
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);

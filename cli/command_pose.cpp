@@ -19,7 +19,7 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct PoseCommand {
   CommonArguments common;
   std::string at;
   std::string velocity, acceleration;
@@ -27,14 +27,14 @@ struct Arguments {
   bool iterate = false;
 };
 
-PoseRequest request_of(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+PoseRequest request_of(const PoseCommand& arguments, const mechanism::Mechanism& mechanism) {
   PoseRequest request{.iterate = arguments.iterate};
   request.velocity = parse_rates(arguments.velocity, "--velocity", mechanism);
   request.acceleration = parse_rates(arguments.acceleration, "--acceleration", mechanism);
   return request;
 }
 
-int run_all_modes(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
+int run_all_modes(const PoseCommand& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   const std::vector<core::Rational> at = parse_pose(arguments.at, mechanism);
   const PoseInModes poses = solve_pose_in_modes(mechanism, at, request_of(arguments, mechanism));
   if (std::none_of(poses.modes.begin(), poses.modes.end(), [](const ModePose& own) { return own.pose.has_value(); }))
@@ -49,7 +49,7 @@ int run_all_modes(const Arguments& arguments, const mechanism::Mechanism& mechan
   return exit_done;
 }
 
-Pose solve(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+Pose solve(const PoseCommand& arguments, const mechanism::Mechanism& mechanism) {
   const std::vector<core::Rational> at = parse_pose(arguments.at, mechanism);
   PoseRequest request = request_of(arguments, mechanism);
   if (!arguments.working_mode.empty()) request.working_mode = parse_working_mode(arguments.working_mode, mechanism);
@@ -67,7 +67,7 @@ Pose solve(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
   return pose;
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const PoseCommand& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "pose.json", incomplete_body(name, "the pose was"), false);
@@ -88,7 +88,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 Command add_pose_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("pose", "Posture, reactions, take-up of clearances and pose error at one pose");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PoseCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("--at", arguments->at,
                   "The pose: one value for each free coordinate, e.g. 0.25,-0.7 or y=-0.7,x=0.25")

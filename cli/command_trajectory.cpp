@@ -23,7 +23,7 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct TrajectoryCommand {
   CommonArguments common;
   std::string path;
   std::string period, periods, min_force, working_mode;
@@ -50,7 +50,7 @@ std::vector<double> parse_periods(const std::string& text, const mechanism::Mech
   return periods;
 }
 
-TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+TrajectoryRequest request_of(const TrajectoryCommand& arguments, const mechanism::Mechanism& mechanism) {
   TrajectoryRequest request;
   if (!arguments.working_mode.empty()) request.working_mode = parse_working_mode(arguments.working_mode, mechanism);
   if (!arguments.period.empty())
@@ -71,7 +71,7 @@ TrajectoryRequest request_of(const Arguments& arguments, const mechanism::Mechan
   return request;
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const TrajectoryCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats =
       parse_formats(arguments.formats, report::format_names<core::TrajectoryResult>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
@@ -99,7 +99,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_trajectory_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("trajectory", "Reactions, pose error and contact losses along a path");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<TrajectoryCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("PATH", arguments->path, "The trajectory file (YAML)")->required()->type_name("FILE");
   app->add_option("--period", arguments->period, "The cycle's period (default: the file's)")->type_name("S");

@@ -21,13 +21,13 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct ValidateCommand {
   CommonArguments common;
   LociArguments loci;
   std::string grid;
 };
 
-numeric::GridSpec grid_of(const Arguments& arguments, const mechanism::Mechanism& mechanism) {
+numeric::GridSpec grid_of(const ValidateCommand& arguments, const mechanism::Mechanism& mechanism) {
   const std::size_t coordinates = mechanism.coordinates.size();
   const std::string usual = coordinates == 1 ? "4000" : coordinates == 3 ? "40x40x40" : "400x400";
   const std::string& words = arguments.grid.empty() ? usual : arguments.grid;
@@ -50,7 +50,7 @@ numeric::GridSpec grid_of(const Arguments& arguments, const mechanism::Mechanism
   return grid;
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const ValidateCommand& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "validation.json", incomplete_body(name, "the outcome was"), false);
@@ -74,7 +74,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_validate_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("validate", "Hold the loci against reactions solved numerically on a grid");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ValidateCommand>();
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
   app->add_option("--grid", arguments->grid,

@@ -25,7 +25,7 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct VerifyCommand {
   CommonArguments common;
   LociArguments loci;
   std::string task, fit;
@@ -65,7 +65,7 @@ std::optional<PoseFit> parse_pose_fit(const std::string& word) {
 }
 
 /// The loci of the file's load with their cells, and the task where it was verified.
-void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, const Verification& result,
+void certify(const VerifyCommand& arguments, const mechanism::Mechanism& mechanism, const Verification& result,
              const LociRequest& request) {
   core::Certificate certificate;
   const core::LocusMap map = trace_loci(mechanism, request, &certificate);
@@ -76,7 +76,7 @@ void certify(const Arguments& arguments, const mechanism::Mechanism& mechanism, 
 }
 
 /// Over other than two lengths: a verdict without traced loci.
-int run_over_poses(const Arguments& arguments, const std::set<std::string>& formats,
+int run_over_poses(const VerifyCommand& arguments, const std::set<std::string>& formats,
                    const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   const std::optional<PoseFit> goal = parse_pose_fit(arguments.fit);
   const core::PoseTask task = mechanism::read_pose_task(arguments.task, mechanism);
@@ -98,7 +98,7 @@ int run_over_poses(const Arguments& arguments, const std::set<std::string>& form
   return status_of(result.verdict);
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const VerifyCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::Verification>());
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
@@ -137,7 +137,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_verify_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("verify", "Prove that a task keeps clear of every discontinuity locus");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<VerifyCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("TASK", arguments->task,
                   "The task file: a box, circle, polygon or path; over other than two lengths a box, ball or path, "

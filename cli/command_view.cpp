@@ -18,13 +18,13 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct ViewCommand {
   CommonArguments common;
   int port = 0;
 };
 
 #ifdef CLEARLOCI_HAS_WORKBENCH
-int run(const Arguments& arguments) {
+int run(const ViewCommand& arguments) {
   constexpr double usual_time_limit = 20;
   read_model(arguments.common);  // complains in the words of every command
   const double time_limit =
@@ -42,7 +42,7 @@ int run(const Arguments& arguments) {
   return exit_done;
 }
 #else
-int run(const Arguments&) {
+int run(const ViewCommand&) {
   throw core::InputError({}, "this build has no workbench", "build with -DCLEARLOCI_WORKBENCH=ON, which wants Node.js");
 }
 #endif
@@ -51,7 +51,7 @@ int run(const Arguments&) {
 
 Command add_view_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("view", "Design in a browser: loci, zones and reactions follow the hand");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ViewCommand>();
   app->add_option("MODEL", arguments->common.model, "The mechanism file (YAML)")->required()->type_name("FILE");
   app->add_option("--set", arguments->common.overrides, "Override a parameter of the file: name=value (repeatable)")
       ->allow_extra_args(false)

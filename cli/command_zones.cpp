@@ -24,7 +24,7 @@
 namespace clearloci::cli {
 namespace {
 
-struct Arguments {
+struct ZonesCommand {
   CommonArguments common;
   LociArguments loci;
   std::string formats = "svg,png";
@@ -33,7 +33,7 @@ struct Arguments {
 };
 
 /// Over one to three coordinates, not two lengths: by cells.
-int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
+int run_over_poses(const ZonesCommand& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   const std::set<std::string> formats =
       parse_formats(arguments.formats, report::pose_zone_formats(mechanism.coordinates.size()));
   Progress progress(arguments.common.quiet);
@@ -50,7 +50,7 @@ int run_over_poses(const Arguments& arguments, const mechanism::Mechanism& mecha
   return map.complete ? exit_done : exit_limit_reached;
 }
 
-int run(const Arguments& arguments, TimeLimit& limit) {
+int run(const ZonesCommand& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   const bool over_poses = mechanism::has_pose_tasks(mechanism);
   const std::set<std::string> formats =
@@ -85,7 +85,7 @@ int run(const Arguments& arguments, TimeLimit& limit) {
 
 Command add_zones_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("zones", "Cut the workspace into its discontinuity-free zones");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ZonesCommand>();
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);

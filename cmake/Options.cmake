@@ -56,8 +56,8 @@ function(clearloci_folder folder)
   set_target_properties(clearloci_${folder} PROPERTIES UNITY_BUILD ${CLEARLOCI_UNITY})
 endfunction()
 
-# clearloci_quickly_compiled(<target>): what waits for files and people rather than for arithmetic takes two thirds of the
-# time to compile with fewer optimisations, and runs no slower that anybody would notice.
+# clearloci_quickly_compiled(<target>): what waits for files, people and other libraries rather than for arithmetic of its
+# own takes two thirds of the time to compile with fewer optimisations, and runs no slower that anybody would notice.
 function(clearloci_quickly_compiled target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
