@@ -101,17 +101,16 @@ class Change {
            {&joint.clearance->radial, &joint.clearance->gap, &joint.clearance->half_length, &joint.clearance->axial})
         *length = scaled(*length, 1);
     }
+    // Forces stay as they are: N over a length that is `scale` m.
+    const auto scale = [this](Expression& number, int power) { number = scaled(number, power); };
     for (Load& load : result.loads) {
-      for (Expression& component : load.force) component = scaled(component, 0);
-      load.couple = scaled(load.couple, 1);
-      for (Expression& component : load.couple_vector) component = scaled(component, 1);
+      load.each_number(scale);
       if (load.force_vector) change(*load.force_vector);
     }
-    for (Spring& spring : result.springs) {
-      // Forces stay as they are: N over a length that is `scale` m.
-      spring.stiffness = scaled(spring.stiffness, spring.kind == Spring::Kind::torsion ? 1 : -1);
-      spring.free_length = scaled(spring.free_length, 1);
-    }
+    for (Spring& spring : result.springs)
+      spring.each_number([&scale](Expression& constant, int power) {
+        if (power != 0) scale(constant, power);
+      });
     for (Limit& limit : result.limits) {
       if (limit.is_angle()) continue;
       limit.lower = scaled(limit.lower, 1);

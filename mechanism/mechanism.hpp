@@ -167,6 +167,14 @@ struct Load {
   std::optional<VectorExpression> force_vector = {};  ///< in place of `force`: a vector over points, N
 
   bool has_force() const { return !force.empty() || force_vector.has_value(); }
+
+  /// visit(expression, power of m in its unit): its numbers but those of `force_vector`.
+  template <typename Visit>
+  void each_number(const Visit& visit) {
+    for (Expression& component : force) visit(component, 0);
+    visit(couple, 1);
+    for (Expression& component : couple_vector) visit(component, 1);
+  }
 };
 
 /// Pulls its two ends together with stiffness (length - free length) or with a constant force; in a joint, turns its
@@ -183,6 +191,15 @@ struct Spring {
   Expression force;                         ///< N, of a constant-force spring
   Expression rest;                          ///< rad, of a torsion spring
   core::SourcePosition where;
+
+  /// visit(expression, power of m in its unit).
+  template <typename Visit>
+  void each_number(const Visit& visit) {
+    visit(stiffness, kind == Kind::torsion ? 1 : -1);
+    visit(free_length, 1);
+    visit(force, 0);
+    visit(rest, 0);
+  }
 };
 
 /// Keeps a distance of two points, or the angle between the ways from the second point to the first and the third

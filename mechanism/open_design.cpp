@@ -143,14 +143,11 @@ void change(Mechanism& m, const Change& by) {
     for (VectorExpression& axis : joint.axes) change(axis, by);
     if (joint.effort) joint.effort = by(*joint.effort);
   }
-  for (Spring& spring : m.springs) {
-    for (Expression* own : {&spring.stiffness, &spring.free_length, &spring.force, &spring.rest}) *own = by(*own);
-  }
+  const auto change_number = [&by](Expression& number, int) { number = by(number); };
+  for (Spring& spring : m.springs) spring.each_number(change_number);
   for (Load& load : m.loads) {
-    change(load.force, by);
+    load.each_number(change_number);
     if (load.force_vector) change(*load.force_vector, by);
-    load.couple = by(load.couple);
-    change(load.couple_vector, by);
   }
   change(m.gravity, by);
   for (BodyFrame& frame : m.body_frames) change(frame.rotation, by);
