@@ -255,7 +255,8 @@ TEST(Vanishing, AGuideLosesContactWhereAnEndLifts) {
   EXPECT_TRUE(names(*lower.front(), "bridge", Quantity::end_behind));
   EXPECT_TRUE(on(map, "y").empty());  // T = 0 alone is a component
   request.quantities = {Quantity::f, Quantity::M, Quantity::T};
-  const auto component = on(trace_loci(gantry, request), "y");
+  const core::LocusMap components = trace_loci(gantry, request);
+  const auto component = on(components, "y");
   ASSERT_EQ(component.size(), 1u);
   EXPECT_EQ(component.front()->kind, LocusKind::component);
   EXPECT_EQ(validate_loci(gantry, {}, {40, 40}).report.disputed, 0u);
