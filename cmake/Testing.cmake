@@ -24,6 +24,7 @@ function(clearloci_test name)
   clearloci_known_leaks(${name})
   # What is tested is compiled as users get it; the tests themselves compile a third faster so.
   clearloci_quickly_compiled(${name})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${CLEARLOCI_UNITY})
   # The headers that nearly every test includes are precompiled by the first and taken over by all others.
   get_property(first GLOBAL PROPERTY clearloci_first_test)
   if(first)
