@@ -122,8 +122,7 @@ class Parser {
     const std::size_t start = at_;
     if (at_end() || !is_digit(text_[at_])) fail(at_, "a unit has no power here", "write such as m^2");
     const Expression exponent = number();
-    constexpr int highest = 4;
-    if (exponent.value().get_den() != 1 || exponent.value() > highest)
+    if (exponent.value().get_den() != 1 || exponent.value() > largest_unit_power)
       fail(start, "a unit to this power", "write a whole one up to 4");
     return Expression::apply(Kind::power,
                              {result, Expression::number(negative ? -exponent.value() : exponent.value())});

@@ -160,8 +160,10 @@ std::optional<std::pair<Dimension, UnitSize>> as_unit(const Expression& e) {
   if (e.kind() != Kind::power || e.arguments()[1].kind() != Kind::number) return std::nullopt;
   const auto base = as_unit(e.arguments()[0]);
   if (!base) return std::nullopt;
-  const int n = static_cast<int>(e.arguments()[1].value().get_num().get_si());
-  return std::pair(times(base->first, n), power(base->second, n));
+  const Rational& n = e.arguments()[1].value();
+  if (n.get_den() != 1 || abs(n) > largest_unit_power) return std::nullopt;
+  const int whole = static_cast<int>(n.get_num().get_si());
+  return std::pair(times(base->first, whole), power(base->second, whole));
 }
 
 /// e times a size. A degree is e pi/180.

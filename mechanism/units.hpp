@@ -23,6 +23,9 @@ struct UnitSize {
   bool is_one() const { return factor == 1 && pi == 0; }
 };
 
+/// A unit has whole powers up to this, such as the m^2 of an inertia.
+inline constexpr int largest_unit_power = 4;
+
 /// What the values under a key measure; nothing of a pure number or a direction. One table for every kind of file.
 std::optional<Dimension> dimension_of(const std::string& field);
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "five_bar_text.hpp"
 #include "mechanism/evaluate.hpp"
@@ -96,6 +97,17 @@ TEST(Units, ANumberMayCarryItsOwnUnitInAnyFile) {
   EXPECT_EQ(value(m, m.joints[0].clearance->radial), Rational(1, 100000));
   EXPECT_EQ(value(m, m.loads[0].force[1]), -100);
   EXPECT_FALSE(m.units.declared);
+}
+
+TEST(Units, ADegreeAsANumberHasPowersOfEverySize) {
+  const double degree = std::numbers::pi / 180;
+  const std::vector<std::pair<std::string, double>> powers = {
+      {"2*deg^0.5", 2 * std::sqrt(degree)}, {"1/deg^2", 1 / (degree * degree)}, {"deg^7", std::pow(degree, 7)}};
+  for (const auto& [text, expected] : powers) {
+    const Mechanism m = parse_mechanism(with(five_bar_text, "[0, -100]", "[0, \"" + text + "\"]"), "m.yaml");
+    EXPECT_NEAR(core::to_double(value(m, m.loads[0].force[1])), expected, 1e-12 * expected) << text;
+  }
+  EXPECT_THROW(parse_mechanism(with(five_bar_text, "L: 0.5", "L: 0.5 + 1/deg^3e17"), "m.yaml"), core::InputError);
 }
 
 TEST(Units, NamesOfTheFileAreNoUnits) {
