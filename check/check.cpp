@@ -18,6 +18,7 @@
 #include "check/task.hpp"
 #include "check/zones.hpp"
 #include "core/errors.hpp"
+#include "mechanism/guide.hpp"
 #include "mechanism/read.hpp"
 
 namespace clearloci::check {
@@ -180,7 +181,7 @@ class Check {
     const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
     for (const std::string& joint : c_.joints) {
       const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
-      const std::vector<Quantity> parts = mechanism::force_components(m_, *own);
+      const std::vector<Quantity> parts = mechanism::contact_components(m_, *own);
       std::vector<const std::vector<int>*> components;
       for (std::size_t k = 0; k < unknowns.size(); ++k) {
         if (unknowns[k].joint != own - m_.joints.begin() || !orders.reactions[k]) continue;

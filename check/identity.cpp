@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanism/guide.hpp"
+
 namespace clearloci::check {
 namespace {
 
@@ -207,7 +209,7 @@ class Fit {
     };
     return among(c_.joints, joint.name) && (among(c_.quantities, unknown.quantity) ||
                                             (among(c_.quantities, core::Quantity::f) &&
-                                             among(mechanism::force_components(m_, joint), unknown.quantity)));
+                                             among(mechanism::contact_components(m_, joint), unknown.quantity)));
   }
 
   /// Of the functions alone; those are used, then.

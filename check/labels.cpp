@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanism/guide.hpp"
+
 namespace clearloci::check {
 namespace {
 
@@ -86,7 +88,7 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
   bool any = false;
   for (std::size_t j = 0; j < m.joints.size(); ++j) {
     const mechanism::Joint& joint = m.joints[j];
-    const std::vector<Quantity> parts = mechanism::force_components(m, joint);
+    const std::vector<Quantity> parts = mechanism::contact_components(m, joint);
     const auto is_part = [&](Quantity q) { return std::find(parts.begin(), parts.end(), q) != parts.end(); };
     double least = HUGE_VAL;
     for (std::size_t k = 0; k < unknowns.size(); ++k)

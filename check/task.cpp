@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "check/curves.hpp"
+#include "mechanism/guide.hpp"
 
 namespace clearloci::check {
 namespace {
@@ -98,7 +99,7 @@ class TaskCheck {
     };
     for (const std::string& joint : c_.joints) {
       const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
-      const std::vector<Quantity> parts = mechanism::force_components(m_, *own);
+      const std::vector<Quantity> parts = mechanism::contact_components(m_, *own);
       std::vector<std::vector<int>> force;
       for (std::size_t k = 0; k < unknowns.size(); ++k) {
         if (unknowns[k].joint != own - m_.joints.begin() || !orders_.reactions[k]) continue;

@@ -2,7 +2,7 @@
 // told to.
 #pragma once
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 /// From the first call on a thread `free` is called where that thread ends: flint_cleanup, mpfr_free_cache.
 template <auto free>
@@ -13,4 +13,4 @@ void call_at_thread_end() {
   thread_local const End end;
 }
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core

@@ -174,6 +174,35 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
   return std::nullopt;
 }
 
+core::Point2 middle_of(const sheet::Cell& cell) { return {cell.x.middle(), cell.y.middle()}; }
+
+/// Where points may be that nothing was proven of: once for all joints along a chain, whose forces vanish together.
+class Doubts {
+ public:
+  void add(const std::string& joint, std::size_t places, const std::string& first) {
+    const std::string where =
+        places == 1 ? "a place near " + first + " where an isolated point is neither proven nor excluded"
+                    : std::to_string(places) +
+                          " places where an isolated point is neither proven nor excluded, the first near " + first;
+    const auto known = std::find_if(all_.begin(), all_.end(), [&](const auto& doubt) { return doubt.first == where; });
+    if (known == all_.end())
+      all_.push_back({where, {joint}});
+    else if (known->second.back() != joint)
+      known->second.push_back(joint);
+  }
+
+  void tell(std::vector<std::string>& notes) const {
+    for (const auto& [where, joints] : all_) {
+      std::string names = joints.front();
+      for (std::size_t i = 1; i < joints.size(); ++i) names += ", " + joints[i];
+      notes.push_back("contact loss of " + names + ": " + where);
+    }
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<std::string>>> all_;
+};
+
 using FactorPair = std::pair<const core::LocusFactor*, const core::LocusFactor*>;
 
 /// Factors of the one and the other component of a joint's force; three equations have no common zero in general.
@@ -215,6 +244,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                                   problem.upper,
                                   {.most_cells = most_cells, .special = cones, .stop = stop, .known = known});
   });
+  Doubts doubts;
   for (const std::string& joint : problem.joints) {
     for (const FactorPair& pair : components_of(problem, joint)) {
       const auto& [fx, fy] = pair;
@@ -244,7 +274,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       // What no proof was had for is a point where Newton finds one, and else only worth a note.
       std::size_t open = 0;
       for (const sheet::Cell& cell : found.undecided) {
-        const core::Point2 centre{cell.x.middle(), cell.y.middle()};
+        const core::Point2 centre = middle_of(cell);
         const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
         const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
         if (at && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size}))
@@ -252,14 +282,10 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         else
           ++open;
       }
-      if (open > 0) {
-        map.notes.push_back(
-            "contact loss of " + joint + ": " + std::to_string(open) +
-            " places where an isolated point is neither proven nor excluded, the first near " +
-            place_words(problem, {found.undecided.front().x.middle(), found.undecided.front().y.middle()}));
-      }
+      if (open > 0) doubts.add(joint, open, place_words(problem, middle_of(found.undecided.front())));
     }
   }
+  doubts.tell(map.notes);
 }
 
 void add_touching_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {

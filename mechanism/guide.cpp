@@ -13,6 +13,11 @@ bool has_guide_ends(const Mechanism& mechanism, const Joint& joint) {
          core::to_double(value_of(joint.clearance->half_length, mechanism)) > 0;
 }
 
+std::vector<core::Quantity> contact_components(const Mechanism& mechanism, const Joint& joint) {
+  if (has_guide_ends(mechanism, joint)) return {};
+  return is_guide(mechanism, joint) ? reaction_components(mechanism, joint) : force_components(mechanism, joint);
+}
+
 Rational near_root(const Rational& square) {
   core::ensure(square >= 0, "the root of a number that is not negative");
   if (const std::optional<Rational> exact = core::square_root(square)) return *exact;

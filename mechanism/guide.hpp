@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "mechanism/mechanism.hpp"
 
@@ -15,6 +16,10 @@ bool has_guide_ends(const Mechanism& mechanism, const Joint& joint);
 /// The ends, and the sign of T/h in what each bears, (N +- T/h)/2 (core/quantity.hpp).
 inline constexpr std::array<std::pair<core::Quantity, int>, 2> guide_end_signs = {
     std::pair{core::Quantity::end_ahead, 1}, std::pair{core::Quantity::end_behind, -1}};
+
+/// What vanishes together where the joint loses its contact: the components of a pin's force; of a guide whose ends are
+/// not known all that it bears. None of a guide with ends, which are lost one at a time.
+std::vector<core::Quantity> contact_components(const Mechanism& mechanism, const Joint& joint);
 
 /// A rational within 1e-30 of the root of a rational, relative to it; exact where the root is rational. Required: not
 /// negative. What stands for the length of an axis that is constant, as rationals do for irrational numbers.

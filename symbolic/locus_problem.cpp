@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "core/fold.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/algebra_turn.hpp"
 #include "symbolic/angle_range.hpp"
@@ -146,11 +147,7 @@ class Derivation {
     for (const Sides& sides : modes_) result_.problem.modes.push_back(mode_of(sides));
     for (const mechanism::Joint& joint : m.joints) {
       result_.problem.joint_order.push_back(joint.name);
-      result_.problem.force_components.push_back(mechanism::force_components(m, joint));
-      // A guide whose ends are not known loses its contact where it bears nothing at all.
-      const bool guide = mechanism::is_guide(m, joint);
-      if (guide && numerator(reactions_, joint.name, Quantity::end_ahead) == nullptr)
-        result_.problem.force_components.back() = mechanism::reaction_components(m, joint);
+      result_.problem.force_components.push_back(mechanism::contact_components(m, joint));
     }
     auto piece = pieces.begin();
     for (const auto& coordinate : m.coordinates) {

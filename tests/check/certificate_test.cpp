@@ -37,21 +37,37 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
                          });
 
 // Two unequal rods on one rail: |A| has the factor xS1 - xS2, which no pose of any mode makes zero.
+/// Two on one rail, whose rods of different lengths carry P.
+std::string two_carriages(const std::string& clearance, const std::string& loads) {
+  const auto guide = [&clearance](const std::string& name, const std::string& carriage, const std::string& point) {
+    return "  " + name + ": {prismatic: [ground, " + carriage + "], at: " + point + ", axis: [1, 0], actuated: true" +
+           clearance + "}\n";
+  };
+  return "format: 1\nname: Two carriages\nspace: planar\nworkspace: {x: [-0.5, 0.5], y: [-0.5, -0.05]}\n"
+         "points:\n  R: [0, 0]\n  P: [x, y]\n"
+         "  S1: {slider: [R, [1, 0]], from: P, length: 0.5, side: behind}\n"
+         "  S2: {slider: [R, [1, 0]], from: P, length: 0.4, side: ahead}\n"
+         "links: {c1: {points: [S1], mass: 1, com: S1, inertia: 0.001}, rod1: {points: [S1, P]}, "
+         "c2: {points: [S2]}, rod2: {points: [S2, P], mass: 0.4}}\njoints:\n" +
+         guide("G1", "c1", "S1") + guide("G2", "c2", "S2") +
+         "  S1: {revolute: [c1, rod1], at: S1}\n  P: {revolute: [rod1, rod2], at: P}\n"
+         "  S2: {revolute: [c2, rod2], at: S2}\n"
+         "end_effector: {link: rod1, at: P}\n" +
+         loads;
+}
+
+TEST(Certificate, OfGuidesWithoutEndsSayWhereTheyBearNothing) {
+  const std::string model = two_carriages("", "loads: [{link: rod1, at: P, force: [5, 20]}]\ngravity: [0, -9.81]\n");
+  const std::string text = certificate_of(model);
+  EXPECT_NE(Json::parse(text).dump().find(R"(["G2","f"])"), std::string::npos);
+  const check::Examination examination = examination_of(model, text);
+  EXPECT_TRUE(examination.accepted) << summary(examination);
+  EXPECT_GT(examination.arcs, 0u);
+}
+
 TEST(Certificate, FactorsThatAreNowhereZeroAreClaimedToBe) {
   const std::string model =
-      "format: 1\nname: Two carriages\nspace: planar\nworkspace: {x: [-0.5, 0.5], y: [-0.5, -0.05]}\n"
-      "points:\n  R: [0, 0]\n  P: [x, y]\n"
-      "  S1: {slider: [R, [1, 0]], from: P, length: 0.5, side: behind}\n"
-      "  S2: {slider: [R, [1, 0]], from: P, length: 0.4, side: ahead}\n"
-      "links: {c1: {points: [S1]}, rod1: {points: [S1, P]}, c2: {points: [S2]}, rod2: {points: [S2, P]}}\n"
-      "joints:\n"
-      "  G1: {prismatic: [ground, c1], at: S1, axis: [1, 0], actuated: true, clearance: {gap: 1e-5, half_length: "
-      "0.04}}\n"
-      "  S1: {revolute: [c1, rod1], at: S1}\n  P: {revolute: [rod1, rod2], at: P}\n"
-      "  S2: {revolute: [c2, rod2], at: S2}\n"
-      "  G2: {prismatic: [ground, c2], at: S2, axis: [1, 0], actuated: true, clearance: {gap: 1e-5, half_length: "
-      "0.04}}\n"
-      "end_effector: {link: rod1, at: P}\nloads: [{link: rod1, at: P, force: [5, 20]}]\n";
+      two_carriages(", clearance: {gap: 1e-5, half_length: 0.04}", "loads: [{link: rod1, at: P, force: [5, 20]}]\n");
   const std::string text = certificate_of(model);
   const check::Examination examination = examination_of(model, text);
   EXPECT_TRUE(examination.accepted) << summary(examination);

@@ -241,6 +241,20 @@ TEST(Vanishing, SymmetricDesignsHoldAgainstTheWitness) {
 
 // A gantry: the bridge slides along x and carries the tool that slides along y. With the load (F_x, F_y) at the tool
 // the bridge's guide bears N = -F_y and T = y F_x about its middle, and an end lifts where h F_y = +-y F_x.
+// All forces of weighed coaxial legs may vanish at their common joint, which is said once for all of them.
+TEST(Vanishing, DoubtThatJointsShareIsToldOnce) {
+  const core::LocusMap map = trace_loci(
+      mechanism::parse_mechanism(five_bar("0", {"1/2", "1/2", "1/2", "1/2"}, "lr", "[0, -20]", true), "m.yaml"));
+  std::size_t told = 0;
+  for (const std::string& note : map.notes) {
+    if (note.find("neither proven nor excluded") == std::string::npos) continue;
+    ++told;
+    EXPECT_EQ(note.find("1 places"), std::string::npos) << note;
+    EXPECT_NE(note.find(", "), std::string::npos) << note;
+  }
+  EXPECT_EQ(told, 1u);
+}
+
 TEST(Vanishing, AGuideLosesContactWhereAnEndLifts) {
   const mechanism::Mechanism gantry = corpus("gantry.yaml");
   LociRequest request;
