@@ -159,7 +159,8 @@ std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with
     } else if (with_implicit) {
       entry.implicit = implicit_factors(factor.poly);
       if (entry.implicit.empty()) {
-        if (without_zeros != nullptr) without_zeros->push_back(factor.poly);
+        // A divisor that is dropped, such as a squared distance, may be zero at a point.
+        if (without_zeros != nullptr && implicit_of_divisor(factor.poly).empty()) without_zeros->push_back(factor.poly);
         continue;
       }
     }

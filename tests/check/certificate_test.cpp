@@ -47,8 +47,8 @@ std::string two_carriages(const std::string& clearance, const std::string& loads
          "points:\n  R: [0, 0]\n  P: [x, y]\n"
          "  S1: {slider: [R, [1, 0]], from: P, length: 0.5, side: behind}\n"
          "  S2: {slider: [R, [1, 0]], from: P, length: 0.4, side: ahead}\n"
-         "links: {c1: {points: [S1], mass: 1, com: S1, inertia: 0.001}, rod1: {points: [S1, P]}, "
-         "c2: {points: [S2]}, rod2: {points: [S2, P], mass: 0.4}}\njoints:\n" +
+         "links: {c1: {points: [S1], mass: 1, com: S1, inertia: 0.001}, rod1: {points: [S1, P], mass: 0.5}, "
+         "c2: {points: [S2], mass: 1, com: S2, inertia: 0.001}, rod2: {points: [S2, P], mass: 0.4}}\njoints:\n" +
          guide("G1", "c1", "S1") + guide("G2", "c2", "S2") +
          "  S1: {revolute: [c1, rod1], at: S1}\n  P: {revolute: [rod1, rod2], at: P}\n"
          "  S2: {revolute: [c2, rod2], at: S2}\n"
