@@ -281,9 +281,13 @@ class Conversion {
       return result;
     }
     // What is a pure number leaves the size to a number in front of it: 40*cos(a) in mm is 1/25*cos(a) in m.
-    const bool number_first = first.kind() == Kind::number && (*this)(second, {}).dimension == Dimension{};
+    std::optional<InSi> plain;  // the second by itself: converted once, or products nested n deep take 2^n of them
+    if (first.kind() == Kind::number) plain = (*this)(second, {});
+    const bool number_first = plain && plain->dimension == Dimension{};
     const bool to_second = !divides && moves(second) && !moves(first) && !number_first;
-    const InSi a = (*this)(first, to_second ? UnitSize{} : size), b = (*this)(second, to_second ? size : UnitSize{});
+    const UnitSize of_second = to_second ? size : UnitSize{};
+    const InSi a = (*this)(first, to_second ? UnitSize{} : size);
+    const InSi b = plain && of_second.is_one() ? *plain : (*this)(second, of_second);
     return {Expression::apply(e.kind(), {a.expression, b.expression}),
             sum(a.dimension, times(b.dimension, divides ? -1 : 1)),
             a.certain && b.certain,

@@ -110,6 +110,15 @@ TEST(Units, ADegreeAsANumberHasPowersOfEverySize) {
   EXPECT_THROW(parse_mechanism(with(five_bar_text, "L: 0.5", "L: 0.5 + 1/deg^3e17"), "m.yaml"), core::InputError);
 }
 
+// Products nested n deep are converted n times, not 2^n.
+TEST(Units, ProductsMayNestDeep) {
+  std::string text = "L";
+  for (int i = 0; i < 90; ++i) text = "0.5*(" + text + " + 2 m)";
+  const Mechanism m = parse_mechanism(with(five_bar_text, "A2: [d, 0]", "A2: [" + text + ", 0]"), "m.yaml");
+  const auto& place = std::get<ExplicitPoint>(m.points[1].form);
+  EXPECT_NEAR(core::to_double(value(m, place.coordinates[0])), 2, 1e-12);
+}
+
 TEST(Units, NamesOfTheFileAreNoUnits) {
   // A parameter mm, a coordinate s: after * and / they are themselves.
   const std::string text = with(with(five_bar_text, "L: 0.5", "mm: 1/2\n  L: 1*mm"), "x: [", "s: [");
