@@ -39,6 +39,17 @@ std::optional<mechanism::ExactValue> value_of(const core::Expression& expression
   return std::nullopt;
 }
 
+/// Whether a step of its evaluation has more bits or roots than numbers may have.
+bool is_too_large(const core::Expression& expression) {
+  try {
+    mechanism::evaluate(expression, parameters());
+  } catch (const std::domain_error& error) {
+    return std::string_view(error.what()).find("a number of more than") != std::string_view::npos;
+  } catch (const std::out_of_range&) {
+  }
+  return false;
+}
+
 }  // namespace
 
 void expression_target(std::string_view bytes) {
@@ -56,6 +67,8 @@ void expression_target(std::string_view bytes) {
   require(core::to_string(*again) == printed, "printed and read again it prints the same: " + printed);
   require(core::symbols(*again) == core::symbols(*read), "printed and read again it has the same symbols: " + printed);
   const auto value = value_of(*read), same = value_of(*again);
+  // a*(b/c) is printed as a*b/c, whose steps may grow beyond the limit of bits where the other's do not.
+  if (is_too_large(*read) || is_too_large(*again)) return;
   require(value.has_value() == same.has_value(), "printed and read again it has a value as before: " + printed);
   if (value) require(value->value == same->value, "printed and read again it has the same value: " + printed);
 }
