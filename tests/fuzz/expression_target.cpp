@@ -30,24 +30,19 @@ const std::vector<mechanism::Parameter>& parameters() {
 }
 
 /// The value, or nothing where there is none (a division by zero, an unknown name).
-std::optional<mechanism::ExactValue> value_of(const core::Expression& expression) {
-  try {
-    return mechanism::evaluate(expression, parameters());
-  } catch (const std::domain_error&) {
-  } catch (const std::out_of_range&) {
-  }
-  return std::nullopt;
-}
+struct Evaluated {
+  std::optional<mechanism::ExactValue> value;
+  bool too_large = false;  ///< a step has more bits or roots than numbers may have
+};
 
-/// Whether a step of its evaluation has more bits or roots than numbers may have.
-bool is_too_large(const core::Expression& expression) {
+Evaluated evaluated(const core::Expression& expression) {
   try {
-    mechanism::evaluate(expression, parameters());
+    return {mechanism::evaluate(expression, parameters())};
   } catch (const std::domain_error& error) {
-    return std::string_view(error.what()).find("a number of more than") != std::string_view::npos;
+    return {{}, std::string_view(error.what()).find("a number of more than") != std::string_view::npos};
   } catch (const std::out_of_range&) {
+    return {};
   }
-  return false;
 }
 
 }  // namespace
@@ -66,9 +61,10 @@ void expression_target(std::string_view bytes) {
   }
   require(core::to_string(*again) == printed, "printed and read again it prints the same: " + printed);
   require(core::symbols(*again) == core::symbols(*read), "printed and read again it has the same symbols: " + printed);
-  const auto value = value_of(*read), same = value_of(*again);
+  const auto [value, too_large] = evaluated(*read);
+  const auto [same, same_too_large] = evaluated(*again);
   // a*(b/c) is printed as a*b/c, whose steps may grow beyond the limit of bits where the other's do not.
-  if (is_too_large(*read) || is_too_large(*again)) return;
+  if (too_large || same_too_large) return;
   require(value.has_value() == same.has_value(), "printed and read again it has a value as before: " + printed);
   if (value) require(value->value == same->value, "printed and read again it has the same value: " + printed);
 }
