@@ -1,7 +1,9 @@
 #include "loci/sheet/sheet_code.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <mutex>
+#include <tuple>
 #include <unordered_map>
 
 #include "core/errors.hpp"
@@ -191,44 +193,34 @@ class Builder {
   int zero() const { return zero_; }
   int instructions() const { return instructions_; }
 
-  /// The register of every node.
+  /// The register of every node. Within a stage (of those that end after so many instructions) what waits for nothing
+  /// comes first: a processor works on neighbours at a time where none needs the other's result, and foresees what
+  /// is to be done where it is the same.
   std::vector<int> finish(SheetCode& code) {
-    std::vector<int> registers;
-    int next = variables_ + static_cast<int>(constants_.size());
-    for (const Node& node : nodes_) {
-      switch (node.kind) {
-        case Kind::variable:
-          registers.push_back(node.first);
-          continue;
-        case Kind::constant:
-          registers.push_back(variables_ + node.first);
-          continue;
-        case Kind::add:
-          code.instructions.push_back({SheetCode::Operation::add, 0, 0});
-          break;
-        case Kind::subtract:
-          code.instructions.push_back({SheetCode::Operation::subtract, 0, 0});
-          break;
-        case Kind::multiply:
-          code.instructions.push_back({SheetCode::Operation::multiply, 0, 0});
-          break;
-        case Kind::inverse:
-          code.instructions.push_back({SheetCode::Operation::inverse, 0, 0});
-          break;
-        case Kind::square:
-          code.instructions.push_back({SheetCode::Operation::square, 0, 0});
-          break;
-        case Kind::angle:
-          code.instructions.push_back({SheetCode::Operation::angle, 0, 0});
-          break;
-        case Kind::angle_slope:
-          code.instructions.push_back({SheetCode::Operation::angle_slope, 0, 0});
-          break;
-      }
-      code.instructions.back().first = registers[node.first];
-      code.instructions.back().second = registers[node.second];
-      registers.push_back(next++);
+    std::vector<int> order;  // nodes, instructions alone
+    std::vector<int> level(nodes_.size(), 0), stage(nodes_.size(), -1);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const Node& node = nodes_[i];
+      if (node.kind == Kind::variable || node.kind == Kind::constant) continue;
+      const auto made = static_cast<int>(order.size());
+      stage[i] = static_cast<int>(std::upper_bound(code.stage_end.begin(), code.stage_end.end(), made) -
+                                  code.stage_end.begin());
+      for (const int operand : {node.first, node.second})
+        if (stage[operand] == stage[i]) level[i] = std::max(level[i], level[operand] + 1);
+      order.push_back(static_cast<int>(i));
     }
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      return std::tuple(stage[a], level[a], nodes_[a].kind) < std::tuple(stage[b], level[b], nodes_[b].kind);
+    });
+    std::vector<int> registers(nodes_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (stage[i] < 0)
+        registers[i] = nodes_[i].kind == Kind::variable ? nodes_[i].first : variables_ + nodes_[i].first;
+    int next = variables_ + static_cast<int>(constants_.size());
+    for (const int node : order) registers[node] = next++;
+    for (const int node : order)
+      code.instructions.push_back(
+          {operation_of(nodes_[node].kind), registers[nodes_[node].first], registers[nodes_[node].second]});
     code.constants = std::move(constants_);
     return registers;
   }
@@ -240,6 +232,30 @@ class Builder {
     Kind kind;
     int first, second;
   };
+
+  /// Of an instruction.
+  static SheetCode::Operation operation_of(Kind kind) {
+    using Operation = SheetCode::Operation;
+    switch (kind) {
+      case Kind::add:
+        return Operation::add;
+      case Kind::subtract:
+        return Operation::subtract;
+      case Kind::multiply:
+        return Operation::multiply;
+      case Kind::square:
+        return Operation::square;
+      case Kind::inverse:
+        return Operation::inverse;
+      case Kind::angle:
+        return Operation::angle;
+      case Kind::angle_slope:
+        return Operation::angle_slope;
+      default:
+        core::ensure(false, "variables and constants are no instructions");
+        return Operation::add;
+    }
+  }
 
   /// A term as it is written: its number, then the exponents.
   using Term = const int*;
