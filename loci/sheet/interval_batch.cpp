@@ -220,11 +220,11 @@ bool has_avx512() { return false; }
 
 #endif
 
-// What a step of intervals waits for is the step before it: two registers of two are quicker than one of four. Jets
-// have enough to do in each step.
 void run(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
          std::size_t count) {
-  static const auto way = has_avx2() ? RunIntervals{run_by_avx2} : RunIntervals{run_by_lanes};
+  static const auto way = has_avx512() ? RunIntervals{run_by_avx512}
+                          : has_avx2() ? RunIntervals{run_by_avx2}
+                                       : RunIntervals{run_by_lanes};
   way(begin, end, values, results, count);
 }
 

@@ -1,6 +1,6 @@
 // Four intervals side by side: a SheetProgram run over IntervalBatch encloses four cells for one pass through its
-// instructions. Where the processor has AVX2 two of them share a register, of jets (jet_batch.hpp) all four where it
-// has AVX-512, else each has its own; every step rounds as that of one Interval does, so that a lane has the bytes that
+// instructions. Where the processor has AVX-512 all four share a register, where it has AVX2 two, else each has its
+// own, as with jets (jet_batch.hpp); every step rounds as that of one Interval does, so that a lane has the bytes that
 // it would have alone.
 #pragma once
 
