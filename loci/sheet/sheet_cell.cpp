@@ -221,32 +221,63 @@ void SheetCell::differentiate() {
   take_middle_values();
 }
 
-void SheetCell::sharpen_middle() {
-  if (!precise_) precise_ = program_->registers<MultiInterval>();
-  precise_->set(0, MultiInterval(middle_[0]));
-  precise_->set(1, MultiInterval(middle_[1]));
+double SheetCell::spread(const std::vector<Interval>& slopes, double least_reach) const {
+  double sum = 0;
+  for (std::size_t c = 0; c < local_.size(); ++c)
+    sum += slopes[c].magnitude() * std::max(0.5 * local_[c].width(), least_reach * std::abs(middle_[c]));
+  return sum;
+}
+
+namespace {
+
+Interval as_interval(const MultiInterval& value) { return {value.lower(), value.upper()}; }
+Interval as_interval(const DoubleDouble& value) { return value.enclosure(); }
+
+// A point's coordinates are no better known than this, relative to their size, and of what that makes a value vary this
+// share does not count.
+constexpr double resolution = 0x1p-53, negligible = 0x1p-16;
+
+bool is_fine_enough(const MultiInterval&, double) { return true; }
+bool is_fine_enough(const DoubleDouble& value, double spread) {
+  return value.is_sharp() || value.radius() <= negligible * spread;
+}
+
+}  // namespace
+
+template <class Number>
+bool SheetCell::sharpen_by(std::optional<SheetProgram::Registers<Number>>& registers) {
+  if (!registers) registers = program_->registers<Number>();
+  registers->set(0, Number(middle_[0]));
+  registers->set(1, Number(middle_[1]));
   std::size_t next = 0;
+  bool fine = true;
   for (int j = 0; j < program_->roots(); ++j) {
-    precise_->run_square(j);
+    registers->run_square(j);
     if (is_lifted_[j]) {
-      const MultiInterval s(middle_[2 + next]);
-      const MultiInterval bond = squared(s) + -precise_->square(j);
-      middle_bonds_[next] = Interval(bond.lower(), bond.upper());
-      precise_->set(2 + j, s);
+      const Number s(middle_[2 + next]);
+      const Number bond = squared(s) - registers->square(j);
+      fine = fine && is_fine_enough(bond, spread(bond_slopes_[next], resolution));
+      middle_bonds_[next] = as_interval(bond);
+      registers->set(2 + j, s);
       ++next;
     } else {
-      precise_->set(2 + j, signed_root(mode_[j], precise_->square(j)));
+      registers->set(2 + j, signed_root(mode_[j], registers->square(j)));
     }
   }
-  precise_->run_values();
-  for (int f = 0; f < program_->functions(); ++f)
-    middle_values_[f] = Interval(precise_->value(f).lower(), precise_->value(f).upper());
+  registers->run_values();
+  for (int f = 0; f < program_->functions(); ++f) {
+    fine = fine && is_fine_enough(registers->value(f), spread(slopes_[f], resolution));
+    middle_values_[f] = as_interval(registers->value(f));
+  }
+  return fine;
+}
+
+void SheetCell::sharpen_middle() {
+  if (!sharpen_by(fine_)) sharpen_by(precise_);
 }
 
 bool SheetCell::rounding_dominates(int function) const {
-  double spread = 0;
-  for (int c = 0; c < dimension(); ++c) spread += slopes_[function][c].magnitude() * 0.5 * local_[c].width();
-  return middle_values_[function].width() > 0.1 * spread;
+  return middle_values_[function].width() > 0.1 * spread(slopes_[function]);
 }
 
 Interval SheetCell::centred(int function) const {
@@ -388,6 +419,9 @@ std::optional<int> PointSign::operator()(double x, double y, int function) {
   };
   const std::optional<int> sign = decide(quick_);
   if (!sign || *sign != 0) return sign;
+  if (!fine_) fine_ = program_->registers<DoubleDouble>();
+  const std::optional<int> finer = decide(*fine_);
+  if (!finer || *finer != 0) return finer;
   if (!precise_) precise_ = program_->registers<MultiInterval>();
   return decide(*precise_);
 }

@@ -49,7 +49,8 @@ class SheetCell {
   double middle(int c) const { return middle_[c]; }
   const Interval& middle_value(int function) const { return middle_values_[function]; }
   const Interval& middle_bond(int l) const { return middle_bonds_[l]; }
-  /// Replaces middle values by ones computed with MultiInterval, correct to a rounding.
+  /// Replaces middle values by ones computed with DoubleDouble or, where that leaves more than a rounding or than what
+  /// counts beside how the cell's extent makes them vary, with MultiInterval.
   void sharpen_middle();
   /// The width rounding gave to the value at the middle is what keeps 0 inside: sharpen_middle() may decide.
   bool rounding_dominates(int function) const;
@@ -83,11 +84,18 @@ class SheetCell {
   void place_root_at_middle(int j, std::size_t& l);
   /// Once values at the middle are enclosed.
   void take_middle_values();
+  /// False: not by numbers as fine as these.
+  template <class Number>
+  bool sharpen_by(std::optional<SheetProgram::Registers<Number>>& registers);
+  /// By how much the cell's extent makes a function of these slopes vary at most, from its middle. Coordinates reach at
+  /// least so far, relative to their own size.
+  double spread(const std::vector<Interval>& slopes, double least_reach = 0) const;
   void reduce(std::vector<Interval>& gradient) const;
 
   const SheetProgram* program_;
   core::WorkingMode mode_;
   SheetProgram::Registers<Interval> over_, at_middle_;
+  std::optional<SheetProgram::Registers<DoubleDouble>> fine_;
   std::optional<SheetProgram::Registers<MultiInterval>> precise_;
   std::vector<int> lifted_;
   std::vector<bool> is_lifted_;
@@ -131,7 +139,7 @@ class SheetCells {
 };
 
 /// Sign of a function at a point of the sheet: +1 or -1 proven, 0 undecided; none: proven outside the workspace.
-/// Decided by doubles where they can, by MultiInterval otherwise.
+/// Decided by doubles where they can, by finer numbers otherwise.
 class PointSign {
  public:
   PointSign(const SheetProgram& program, core::WorkingMode mode);
@@ -141,6 +149,7 @@ class PointSign {
   const SheetProgram* program_;
   core::WorkingMode mode_;
   SheetProgram::Registers<Interval> quick_;
+  std::optional<SheetProgram::Registers<DoubleDouble>> fine_;
   std::optional<SheetProgram::Registers<MultiInterval>> precise_;
 };
 

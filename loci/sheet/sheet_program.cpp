@@ -47,6 +47,8 @@ double constant_as(const core::Rational& value, double*) { return core::to_doubl
 
 Interval constant_as(const core::Rational& value, Interval*) { return core::enclosed(value); }
 
+DoubleDouble constant_as(const core::Rational& value, DoubleDouble*) { return DoubleDouble(value); }
+
 MultiInterval constant_as(const core::Rational& value, MultiInterval*) { return MultiInterval(value); }
 
 SheetProgram::SheetProgram(const core::RootTower& tower, std::vector<core::Polynomial> functions,

@@ -6,7 +6,8 @@
 //     det d(f, g, s_j^2 - Q_j) / d(x, y, s1..sm)
 // On the sheet it vanishes where the curve f = 0 runs along a level line of g.
 // Where a function or a square comes with its straight line, that is compiled instead of the polynomial: it is shorter
-// and its enclosures are tighter. One program serves double, Batch, Interval, IntervalBatch and MultiInterval.
+// and its enclosures are tighter. One program serves double, Batch, Interval, IntervalBatch,
+// DoubleDouble and MultiInterval.
 #pragma once
 
 #include <cmath>
@@ -18,6 +19,7 @@
 #include "core/polynomial.hpp"
 #include "core/root_tower.hpp"
 #include "loci/sheet/batch.hpp"
+#include "loci/sheet/double_double.hpp"
 #include "loci/sheet/interval_batch.hpp"
 #include "loci/sheet/jet.hpp"
 #include "loci/sheet/jet_batch.hpp"
@@ -28,6 +30,7 @@ namespace clearloci::loci::sheet {
 
 double constant_as(const core::Rational& value, double*);
 Interval constant_as(const core::Rational& value, Interval*);
+DoubleDouble constant_as(const core::Rational& value, DoubleDouble*);
 MultiInterval constant_as(const core::Rational& value, MultiInterval*);
 
 /// A number known to lie within `radius` of a value; numbers that are no intervals take the value.
@@ -39,6 +42,8 @@ T enclosed_as(const core::Rational& value, const core::Rational& radius, T* type
     return hull(constant_as(lower, type), constant_as(upper, type));
   else if constexpr (std::is_same_v<T, MultiInterval>)
     return MultiInterval(lower, upper);
+  else if constexpr (std::is_same_v<T, DoubleDouble>)
+    return DoubleDouble(value, radius);
   else
     return constant_as(value, type);
 }
