@@ -128,9 +128,8 @@ Field::Chart::Chart(const Part& part, const core::WorkingMode& mode)
     : problem(part.problem),
       program(part.problem->tower, std::vector<sheet::SheetFunction>{part.function}),
       at(program.registers<double>()),
-      over(program.registers<Interval>()),
       beside(program.registers<sheet::Batch>()),
-      over_beside(program.registers<sheet::IntervalBatch>()),
+      over(program.registers<sheet::IntervalBatch>()),
       sign(part.sign) {
   core::ensure(static_cast<int>(mode.size()) == program.roots(), "a working mode has a sign for every root");
   for (std::size_t i = 0; i < 3; ++i) {
@@ -325,29 +324,36 @@ std::vector<Field::Lanes> Field::lanes_of(const Chart& chart, const std::vector<
   return result;
 }
 
-void Field::enter(Chart& chart, Lanes& lanes) {
-  chart.over_beside.use_lanes(lanes.size());
+void Field::set_variables(Chart& chart, const Lanes& lanes, bool middles) {
+  chart.over.use_lanes(lanes.size());
   for (std::size_t i = 0; i < 3; ++i) {
     sheet::IntervalBatch variables;
-    for (std::size_t l = 0; l < lanes.size(); ++l) variables.lanes[l] = lanes[l].variables[i];
-    chart.over_beside.set(static_cast<int>(i), variables);
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      const Interval& own = lanes[l].variables[i];
+      variables.lanes[l] = middles ? Interval(own.middle()) : own;
+    }
+    chart.over.set(static_cast<int>(i), variables);
   }
+}
+
+void Field::enter(Chart& chart, Lanes& lanes) {
+  set_variables(chart, lanes);
   for (Lane& lane : lanes) {
     lane.rising.assign(mode_.size(), false);
     lane.roots.resize(mode_.size());
   }
   for (int j = 0; j < roots(); ++j) {
     const auto own = static_cast<std::size_t>(j);
-    chart.over_beside.run_square(j);
+    chart.over.run_square(j);
     sheet::IntervalBatch root;
     for (std::size_t l = 0; l < lanes.size(); ++l) {
-      const Interval& square = chart.over_beside.square(j).lanes[l];
+      const Interval& square = chart.over.square(j).lanes[l];
       lanes[l].outside = lanes[l].outside || square.upper() < 0;
       lanes[l].rising[own] = square.lower() <= 0;
       const Interval positive = square.upper() < 0 ? Interval(0.0) : square_root(square);
       lanes[l].roots[own] = root.lanes[l] = mode_[own] > 0 ? positive : -positive;
     }
-    chart.over_beside.set(3 + j, root);
+    chart.over.set(3 + j, root);
   }
 }
 
@@ -355,20 +361,19 @@ void Field::enter(Chart& chart, Lanes& lanes) {
 /// their own, for as functions of the others they rise without bound. Mean-value form over all of them:
 ///     f(X, S) within f(m, s_m) + sum f_x (X - m) + sum f_s (S - s_m)
 void Field::differentiate(Chart& chart, Lanes& lanes) {
-  chart.over_beside.run_gradients();
+  chart.over.run_gradients();
   for (std::size_t l = 0; l < lanes.size(); ++l) {
     std::vector<Interval>& slopes = lanes[l].slopes;
     slopes.resize(static_cast<std::size_t>(chart.program.variables()));
-    for (std::size_t v = 0; v < slopes.size(); ++v)
-      slopes[v] = chart.over_beside.partial(0, static_cast<int>(v)).lanes[l];
+    for (std::size_t v = 0; v < slopes.size(); ++v) slopes[v] = chart.over.partial(0, static_cast<int>(v)).lanes[l];
     for (int j = roots() - 1; j >= 0; --j) {
       const auto own = static_cast<std::size_t>(j);
       const Interval slope = slopes[3 + own];
       if (is_zero(slope) || lanes[l].rising[own]) continue;
-      const Interval factor = slope * inverse(Interval(2.0) * lanes[l].roots[own]);
+      const Interval factor = slope * inverse(Interval(2.0) * chart.over.root(j).lanes[l]);
       for (int v = 0; v < 3 + j; ++v) {
         Interval& changed = slopes[static_cast<std::size_t>(v)];
-        changed = changed + factor * chart.over_beside.square_partial(j, v).lanes[l];
+        changed = changed + factor * chart.over.square_partial(j, v).lanes[l];
       }
     }
   }
@@ -377,19 +382,15 @@ void Field::differentiate(Chart& chart, Lanes& lanes) {
 /// Mean-value form over the coordinates and the roots that may be 0: see differentiate.
 void Field::take_mean_values(Chart& chart, Lanes& lanes) {
   std::vector<Interval> away(lanes.size(), Interval(0.0));
-  for (std::size_t i = 0; i < 3; ++i) {
-    sheet::IntervalBatch variables;
-    for (std::size_t l = 0; l < lanes.size(); ++l) {
+  for (std::size_t l = 0; l < lanes.size(); ++l)
+    for (std::size_t i = 0; i < 3; ++i) {
       const Interval& variable = lanes[l].variables[i];
-      const Interval middle = variable.middle();
-      away[l] = away[l] + lanes[l].slopes[i] * (variable - middle);
-      variables.lanes[l] = middle;
+      away[l] = away[l] + lanes[l].slopes[i] * (variable - Interval(variable.middle()));
     }
-    chart.over_beside.set(static_cast<int>(i), variables);
-  }
+  set_variables(chart, lanes, true);
   for (int j = 0; j < roots(); ++j) {
     const auto own = static_cast<std::size_t>(j);
-    chart.over_beside.run_square(j);
+    chart.over.run_square(j);
     sheet::IntervalBatch root;
     for (std::size_t l = 0; l < lanes.size(); ++l) {
       const Lane& lane = lanes[l];
@@ -399,14 +400,14 @@ void Field::take_mean_values(Chart& chart, Lanes& lanes) {
         root.lanes[l] = middle;
         continue;
       }
-      const Interval& square = chart.over_beside.square(j).lanes[l];
+      const Interval& square = chart.over.square(j).lanes[l];
       const Interval positive = square.upper() < 0 ? Interval(0.0) : square_root(square);
       root.lanes[l] = mode_[own] > 0 ? positive : -positive;
     }
-    chart.over_beside.set(3 + j, root);
+    chart.over.set(3 + j, root);
   }
-  chart.over_beside.run_values();
-  for (std::size_t l = 0; l < lanes.size(); ++l) lanes[l].mean_value = chart.over_beside.value(0).lanes[l] + away[l];
+  chart.over.run_values();
+  for (std::size_t l = 0; l < lanes.size(); ++l) lanes[l].mean_value = chart.over.value(0).lanes[l] + away[l];
 }
 
 std::vector<Proof> Field::examine(const std::vector<Box>& units) {
@@ -435,11 +436,11 @@ std::vector<Proof> Field::examine(const std::vector<Box>& units) {
 
 std::vector<Proof> Field::examine(Chart& chart, Lanes& lanes, std::vector<int>& signs) {
   enter(chart, lanes);
-  chart.over_beside.run_values();
+  chart.over.run_values();
   std::vector<Proof> proofs(lanes.size());
   signs.assign(lanes.size(), 0);
   for (std::size_t l = 0; l < lanes.size(); ++l) {
-    if (!lanes[l].outside) signs[l] = chart.sign * chart.over_beside.value(0).lanes[l].sign();
+    if (!lanes[l].outside) signs[l] = chart.sign * chart.over.value(0).lanes[l].sign();
     proofs[l].outside = lanes[l].outside;
     proofs[l].zero_free = lanes[l].outside || signs[l] != 0;
   }
@@ -466,30 +467,31 @@ std::vector<Proof> Field::examine(Chart& chart, Lanes& lanes, std::vector<int>& 
   return proofs;
 }
 
-Box Field::enter_with_beyond(Chart& chart, const Box& place) {
-  Box variables;
-  for (std::size_t i = 0; i < 3; ++i) {
-    variables[i] = variable_over(*chart.problem, i, place[i]);
-    chart.over.set(static_cast<int>(i), variables[i]);
+void Field::enter_with_beyond(Chart& chart, Lanes& lanes) {
+  set_variables(chart, lanes);
+  for (Lane& lane : lanes) {
+    lane.rising.assign(mode_.size(), false);
+    lane.roots.resize(mode_.size());
   }
-  rising_.assign(mode_.size(), false);
-  roots_.resize(mode_.size());
-  const auto root_of = [](double square) {
+  const auto root_at = [](double square) {
     const Interval size = square_root(Interval(std::abs(square)));
     return square < 0 ? -size : size;
   };
   for (int j = 0; j < roots(); ++j) {
     const auto own = static_cast<std::size_t>(j);
     chart.over.run_square(j);
-    const Interval& square = chart.over.square(j);
-    rising_[own] = square.lower() <= 0;
-    const Interval root = hull(root_of(square.lower()), root_of(square.upper()));
-    chart.over.set(3 + j, mode_[own] > 0 ? root : -root);
-    // Vector are taken on the way from 0.
-    const Interval from_none = rising_[own] ? hull(root, Interval(0.0)) : root;
-    roots_[own] = mode_[own] > 0 ? from_none : -from_none;
+    sheet::IntervalBatch root;
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      const Interval& square = chart.over.square(j).lanes[l];
+      lanes[l].rising[own] = square.lower() <= 0;
+      const Interval reached = hull(root_at(square.lower()), root_at(square.upper()));
+      root.lanes[l] = mode_[own] > 0 ? reached : -reached;
+      // Slopes are taken on the way from 0.
+      const Interval from_none = lanes[l].rising[own] ? hull(reached, Interval(0.0)) : reached;
+      lanes[l].roots[own] = mode_[own] > 0 ? from_none : -from_none;
+    }
+    chart.over.set(3 + j, root);
   }
-  return variables;
 }
 
 Interval Field::by_unit(std::size_t i, const Interval& slope, const Interval& variable) const {
@@ -501,31 +503,6 @@ Vector Field::by_unit(const Vector& slopes, const Box& variables, double times) 
   Vector result;
   for (std::size_t i = 0; i < 3; ++i) result[i] = Interval(times) * by_unit(i, slopes[i], variables[i]);
   return result;
-}
-
-/// The same of one box.
-Interval Field::mean_value(Chart& chart, const Box& variables) {
-  Interval away = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double middle = variables[i].middle();
-    away = away + enclosed_[i] * (variables[i] - Interval(middle));
-    chart.over.set(static_cast<int>(i), Interval(middle));
-  }
-  for (int j = 0; j < roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
-    chart.over.run_square(j);
-    const Interval& square = chart.over.square(j);
-    if (rising_[own]) {
-      const double middle = roots_[own].middle();
-      away = away + enclosed_[3 + own] * (roots_[own] - Interval(middle));
-      chart.over.set(3 + j, Interval(middle));
-    } else {
-      const Interval root = square.upper() < 0 ? Interval(0.0) : square_root(square);
-      chart.over.set(3 + j, mode_[own] > 0 ? root : -root);
-    }
-  }
-  chart.over.run_values();
-  return chart.over.value(0) + away;
 }
 
 namespace {
@@ -551,142 +528,192 @@ bool Field::Over::rises_across(const Vector& normal, const Vector& way) const {
   return is_rising(*this, [&](const Vector& slopes) { return product(cross_product(slopes, normal), turn); });
 }
 
-std::vector<Field::Over> Field::over(const Box& unit) {
-  const Box place = place_of(unit);
-  std::vector<Over> result;
+std::vector<std::vector<Field::Over>> Field::over(const std::vector<Box>& units, const std::vector<int>& signs) {
+  std::vector<Box> places;
+  for (const Box& unit : units) places.push_back(place_of(unit));
+  std::vector<std::vector<Over>> result(units.size());
   for (const auto& chart : charts_)
-    if (meets(*chart, place)) result.push_back(over(*chart, enter_with_beyond(*chart, place)));
+    for (Lanes& lanes : lanes_of(*chart, places)) {
+      for (Lane& lane : lanes) lane.sign = signs.empty() ? 0 : signs[lane.box];
+      std::vector<Over> overs = over(*chart, lanes);
+      for (std::size_t l = 0; l < lanes.size(); ++l) result[lanes[l].box].push_back(std::move(overs[l]));
+    }
   return result;
 }
 
-core::Interval Field::square_over(const Box& unit, int root) {
-  const Box place = place_of(unit);
-  std::optional<Interval> result;
-  for (const auto& chart : charts_) {
-    if (!meets(*chart, place)) continue;
-    enter_with_beyond(*chart, place);
-    const Interval& own = chart->over.square(root);
-    result = result ? hull(*result, own) : own;
-  }
-  core::ensure(result.has_value(), "a box of the cube meets a chart");
-  return *result;
+std::vector<bool> Field::keeps_signs(const std::vector<Box>& units, const std::vector<int>& signs) {
+  std::vector<Box> places;
+  for (const Box& unit : units) places.push_back(place_of(unit));
+  std::vector<bool> result(units.size(), true);
+  for (const auto& chart : charts_)
+    for (Lanes& lanes : lanes_of(*chart, places)) {
+      enter_with_beyond(*chart, lanes);
+      chart->over.run_values();
+      for (std::size_t l = 0; l < lanes.size(); ++l) {
+        const int own = chart->sign * chart->over.value(0).lanes[l].sign();
+        if (own != signs[lanes[l].box]) result[lanes[l].box] = false;
+      }
+    }
+  return result;
 }
 
-Field::Over Field::over(Chart& chart, const Box& variables) {
+std::vector<Interval> Field::squares_over(const std::vector<Box>& units, int root) {
+  std::vector<Box> places;
+  for (const Box& unit : units) places.push_back(place_of(unit));
+  std::vector<std::optional<Interval>> known(units.size());
+  for (const auto& chart : charts_)
+    for (Lanes& lanes : lanes_of(*chart, places)) {
+      enter_with_beyond(*chart, lanes);
+      for (std::size_t l = 0; l < lanes.size(); ++l) {
+        std::optional<Interval>& whole = known[lanes[l].box];
+        const Interval& own = chart->over.square(root).lanes[l];
+        whole = whole ? hull(*whole, own) : own;
+      }
+    }
+  std::vector<Interval> result;
+  for (const std::optional<Interval>& own : known) {
+    core::ensure(own.has_value(), "a box of the cube meets a chart");
+    result.push_back(*own);
+  }
+  return result;
+}
+
+std::vector<Field::Over> Field::over(Chart& chart, Lanes& lanes) {
+  const auto any_rising = [](const Lane& lane) {
+    return std::find(lane.rising.begin(), lane.rising.end(), true) != lane.rising.end();
+  };
+  enter_with_beyond(chart, lanes);
   chart.over.run_values();
-  Over own;
-  own.value = Interval(chart.sign) * chart.over.value(0);
-  const bool ends = std::find(rising_.begin(), rising_.end(), true) != rising_.end();
-  if (ends) {
-    set_roots(chart, -1);
+  std::vector<Over> overs(lanes.size());
+  for (std::size_t l = 0; l < lanes.size(); ++l) overs[l].value = Interval(chart.sign) * chart.over.value(0).lanes[l];
+  if (std::any_of(lanes.begin(), lanes.end(), any_rising)) {
+    set_roots(chart, lanes, false);
     chart.over.run_values();
   }
-  const std::optional<int> root = slopes_apart(chart);
-  own.known = root.has_value();
-  if (!own.known) return own;
-  own.gradient = by_unit({enclosed_[0], enclosed_[1], enclosed_[2]}, variables, chart.sign);
-  if (*root >= 0) {
-    const auto j = static_cast<std::size_t>(*root);
-    const std::optional<Vector> square = square_slopes(chart, *root);
-    own.known = square.has_value();
-    if (!own.known) return own;
-    own.steep = by_unit(*square, variables, chart.sign * mode_[j]);
-    for (Interval& slope : *own.steep) slope = slope * enclosed_[3 + j];
-    own.reach = std::max(std::abs(roots_[j].lower()), std::abs(roots_[j].upper()));
+  differentiate(chart, lanes);
+  for (std::size_t l = 0; l < lanes.size(); ++l) take_slopes(chart, lanes, l, overs[l]);
+  const auto is_open = [](const Over& own) { return own.value.sign() == 0; };
+  if (std::any_of(overs.begin(), overs.end(), is_open)) {
+    take_mean_values(chart, lanes);
+    for (std::size_t l = 0; l < lanes.size(); ++l)
+      if (is_open(overs[l])) overs[l].value = meet(overs[l].value, Interval(chart.sign) * lanes[l].mean_value);
   }
-  if (ends) own.known = add_clips(chart, variables, *root, own);
-  if (own.value.sign() != 0) return own;
-  if (ends) {
-    for (std::size_t i = 0; i < 3; ++i) chart.over.set(static_cast<int>(i), variables[i]);
-    set_roots(chart, -1);
-    chart.over.run_values();
-    slopes_apart(chart);
-  }
-  own.value = meet(own.value, Interval(chart.sign) * mean_value(chart, variables));
-  return own;
+  for (std::size_t l = 0; l < lanes.size(); ++l)
+    if (lanes[l].sign != 0 && overs[l].value.sign() == lanes[l].sign && any_rising(lanes[l])) overs[l].known = false;
+  add_held_clips(chart, lanes, overs);
+  narrow_clips(chart, lanes, overs);
+  return overs;
 }
 
-/// Roots that may vanish over the cell entered as they are in all of it, the others by the coordinates that are set.
-void Field::set_roots(Chart& chart, int zero) {
+void Field::set_roots(Chart& chart, const Lanes& lanes, bool held) {
   for (int j = 0; j < roots(); ++j) {
     const auto own = static_cast<std::size_t>(j);
     chart.over.run_square(j);
-    if (j == zero)
-      chart.over.set(3 + j, Interval(0.0));
-    else if (rising_[own])
-      chart.over.set(3 + j, roots_[own]);
-    else
-      chart.over.set(3 + j, mode_[own] > 0 ? square_root(chart.over.square(j)) : -square_root(chart.over.square(j)));
-  }
-}
-
-/// False: one of them is not known.
-bool Field::add_clips(Chart& chart, const Box& variables, int steep_root, Over& own) {
-  std::vector<Vector> slopes;  // by the variables
-  for (int j = 0; j < roots(); ++j) {
-    if (!rising_[static_cast<std::size_t>(j)] || j == lies_on_ || j == steep_root) continue;
-    const std::optional<Vector> square = square_slopes(chart, j);
-    if (!square) return false;
-    slopes.push_back(*square);
-    own.clips.push_back({j, false, chart.over.square(j), by_unit(*square, variables, 1)});
-  }
-  double times = 0;
-  if (steep_root >= 0) {
-    const auto j = static_cast<std::size_t>(steep_root);
-    times = -(Interval(mode_[j]) * enclosed_[3 + j]).sign();
-    if (times == 0) return false;
-    set_roots(chart, steep_root);
-    chart.over.run_values();
-    if (!slopes_apart(chart, steep_root)) return false;
-    slopes.push_back({enclosed_[0], enclosed_[1], enclosed_[2]});
-    own.clips.push_back(
-        {steep_root, true, Interval(times) * chart.over.value(0), by_unit(slopes.back(), variables, times)});
-  }
-  // Mean-value forms.
-  for (std::size_t i = 0; i < 3; ++i) chart.over.set(static_cast<int>(i), Interval(variables[i].middle()));
-  set_roots(chart, steep_root);
-  chart.over.run_values();
-  for (std::size_t c = 0; c < own.clips.size(); ++c) {
-    Clip& clip = own.clips[c];
-    Interval value = clip.held ? chart.over.value(0) : chart.over.square(clip.root);
-    for (std::size_t i = 0; i < 3; ++i) value = value + slopes[c][i] * (variables[i] - Interval(variables[i].middle()));
-    clip.value = meet(clip.value, clip.held ? Interval(times) * value : value);
-  }
-  return true;
-}
-
-std::optional<int> Field::slopes_apart(Chart& chart, int zero) {
-  chart.over.run_gradients();
-  enclosed_.resize(static_cast<std::size_t>(chart.program.variables()));
-  for (std::size_t v = 0; v < enclosed_.size(); ++v) enclosed_[v] = chart.over.partial(0, static_cast<int>(v));
-  int found = -1;
-  for (int j = roots() - 1; j >= 0; --j) {
-    const Interval own = enclosed_[static_cast<std::size_t>(j) + 3];
-    if (j == zero || is_zero(own)) continue;
-    if (rising_[static_cast<std::size_t>(j)]) {
-      if (found >= 0) return std::nullopt;
-      found = j;
-      continue;
+    sheet::IntervalBatch root;
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      const Lane& lane = lanes[l];
+      if (held && j == lane.steep)
+        root.lanes[l] = Interval(0.0);
+      else if (lane.rising[own])
+        root.lanes[l] = lane.roots[own];
+      else
+        root.lanes[l] =
+            mode_[own] > 0 ? square_root(chart.over.square(j).lanes[l]) : -square_root(chart.over.square(j).lanes[l]);
     }
-    const Interval factor = own * inverse(Interval(2.0) * chart.over.root(j));
-    for (int v = 0; v < 3 + j; ++v)
-      enclosed_[static_cast<std::size_t>(v)] =
-          enclosed_[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);
+    chart.over.set(3 + j, root);
   }
-  return found;
 }
 
-std::optional<Vector> Field::square_slopes(const Chart& chart, int root) const {
+void Field::take_slopes(const Chart& chart, Lanes& lanes, std::size_t lane, Over& own) const {
+  Lane& at = lanes[lane];
+  for (int j = 0; j < roots(); ++j) {
+    const auto root = static_cast<std::size_t>(j);
+    if (!at.rising[root] || is_zero(at.slopes[3 + root])) continue;
+    own.known = own.known && at.steep < 0;
+    at.steep = j;
+  }
+  if (!own.known) return;
+  own.gradient = by_unit({at.slopes[0], at.slopes[1], at.slopes[2]}, at.variables, chart.sign);
+  if (at.steep >= 0) {
+    const auto j = static_cast<std::size_t>(at.steep);
+    const std::optional<Vector> square = square_slopes(chart, lanes, lane, at.steep);
+    // The sign by which its clip is multiplied has to be known.
+    own.known = square.has_value() && at.slopes[3 + j].sign() != 0;
+    if (!own.known) return;
+    own.steep = by_unit(*square, at.variables, chart.sign * mode_[j]);
+    for (Interval& slope : *own.steep) slope = slope * at.slopes[3 + j];
+    own.reach = at.roots[j].magnitude();
+  }
+  for (int j = 0; j < roots(); ++j) {
+    if (!at.rising[static_cast<std::size_t>(j)] || j == lies_on_ || j == at.steep) continue;
+    const std::optional<Vector> square = square_slopes(chart, lanes, lane, j);
+    own.known = own.known && square.has_value();
+    if (!own.known) return;
+    at.clip_slopes.push_back(*square);
+    own.clips.push_back({j, false, chart.over.square(j).lanes[lane], by_unit(*square, at.variables, 1)});
+  }
+}
+
+void Field::add_held_clips(Chart& chart, Lanes& lanes, std::vector<Over>& overs) {
+  std::vector<std::size_t> steep;
+  std::vector<int> times(lanes.size(), 0);
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    if (!overs[l].known || lanes[l].steep < 0) continue;
+    const auto j = static_cast<std::size_t>(lanes[l].steep);
+    times[l] = -mode_[j] * lanes[l].slopes[3 + j].sign();
+    steep.push_back(l);
+  }
+  if (steep.empty()) return;
+  set_variables(chart, lanes);
+  set_roots(chart, lanes, true);
+  chart.over.run_values();
+  differentiate(chart, lanes);
+  for (const std::size_t l : steep) {
+    Lane& lane = lanes[l];
+    for (int j = 0; j < roots(); ++j) {
+      const auto own = static_cast<std::size_t>(j);
+      if (j != lane.steep && lane.rising[own] && !is_zero(lane.slopes[3 + own])) overs[l].known = false;
+    }
+    if (!overs[l].known) continue;
+    lane.clip_slopes.push_back({lane.slopes[0], lane.slopes[1], lane.slopes[2]});
+    overs[l].clips.push_back({lane.steep, true, Interval(times[l]) * chart.over.value(0).lanes[l],
+                              by_unit(lane.clip_slopes.back(), lane.variables, times[l])});
+    overs[l].clips.back().times = times[l];
+  }
+}
+
+/// By mean-value forms.
+void Field::narrow_clips(Chart& chart, const Lanes& lanes, std::vector<Over>& overs) {
+  const auto has_clips = [](const Over& own) { return own.known && !own.clips.empty(); };
+  if (std::none_of(overs.begin(), overs.end(), has_clips)) return;
+  set_variables(chart, lanes, true);
+  set_roots(chart, lanes, true);
+  chart.over.run_values();
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    if (!has_clips(overs[l])) continue;
+    for (std::size_t c = 0; c < overs[l].clips.size(); ++c) {
+      Clip& clip = overs[l].clips[c];
+      Interval value = clip.held ? chart.over.value(0).lanes[l] : chart.over.square(clip.root).lanes[l];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Interval& variable = lanes[l].variables[i];
+        value = value + lanes[l].clip_slopes[c][i] * (variable - Interval(variable.middle()));
+      }
+      clip.value = meet(clip.value, Interval(clip.times) * value);
+    }
+  }
+}
+
+std::optional<Vector> Field::square_slopes(const Chart& chart, const Lanes& lanes, std::size_t lane, int root) const {
   std::vector<Interval> slopes;
-  for (int v = 0; v < 3 + root; ++v) slopes.push_back(chart.over.square_partial(root, v));
+  for (int v = 0; v < 3 + root; ++v) slopes.push_back(chart.over.square_partial(root, v).lanes[lane]);
   for (int j = root - 1; j >= 0; --j) {
     const Interval own = slopes[static_cast<std::size_t>(j) + 3];
     if (is_zero(own)) continue;
-    if (rising_[static_cast<std::size_t>(j)]) return std::nullopt;
-    const Interval factor = own * inverse(Interval(2.0) * chart.over.root(j));
+    if (lanes[lane].rising[static_cast<std::size_t>(j)]) return std::nullopt;
+    const Interval factor = own * inverse(Interval(2.0) * chart.over.root(j).lanes[lane]);
     for (int v = 0; v < 3 + j; ++v)
       slopes[static_cast<std::size_t>(v)] =
-          slopes[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v);
+          slopes[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v).lanes[lane];
   }
   return Vector{slopes[0], slopes[1], slopes[2]};
 }

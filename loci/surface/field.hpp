@@ -107,6 +107,7 @@ class Field {
     bool held = false;  ///< the latter
     core::Interval value;
     Vector gradient;
+    int times = 1;  ///< that sign, of the latter
   };
   /// The function over a box as one chart has it, by unit coordinates. Its slope along a vector v is
   ///     gradient . v + steep . v / (2 |s|),   0 < |s| <= reach,
@@ -125,9 +126,14 @@ class Field {
     bool rises_across(const Vector& normal, const Vector& way) const;
   };
   /// Of every chart that meets the box.
-  std::vector<Over> over(const Box& unit);
-  /// Q_j over a box, in every chart.
-  core::Interval square_over(const Box& unit, int root);
+  std::vector<Over> over(const Box& unit) { return over(std::vector{unit}).front(); }
+  /// Side by side. `signs`: none, or one a box: where the function has that sign all over it, its value is all that has
+  /// to be known.
+  std::vector<std::vector<Over>> over(const std::vector<Box>& units, const std::vector<int>& signs = {});
+  /// Which boxes the function has these signs all over, by plain enclosures.
+  std::vector<bool> keeps_signs(const std::vector<Box>& units, const std::vector<int>& signs);
+  /// Q_j over boxes, in every chart.
+  std::vector<core::Interval> squares_over(const std::vector<Box>& units, int root);
   /// The surface lies on Q_j = 0, and does not end there.
   void lie_on(std::optional<int> root) { lies_on_ = root; }
 
@@ -138,9 +144,8 @@ class Field {
     const core::LocusProblem* problem;
     sheet::SheetProgram program;
     sheet::SheetProgram::Registers<double> at;
-    sheet::SheetProgram::Registers<core::Interval> over;
     sheet::SheetProgram::Registers<sheet::Batch> beside;
-    sheet::SheetProgram::Registers<sheet::IntervalBatch> over_beside;
+    sheet::SheetProgram::Registers<sheet::IntervalBatch> over;
     Point lower{}, upper{};  ///< of the coordinates: m, rad
     int sign;
   };
@@ -164,6 +169,9 @@ class Field {
     std::vector<bool> rising{};            ///< which of them may be 0 in it
     std::vector<core::Interval> slopes{};  ///< by the program's variables, then with the roots reduced to the others
     core::Interval mean_value = 0;         ///< the function's, by its mean-value form
+    int sign = 0;                          ///< that it is asked for; 0: none
+    int steep = -1;                        ///< a root that may be 0 and on which the function depends
+    std::vector<Vector> clip_slopes{};     ///< of an Over's clips, by the variables
   };
   using Lanes = std::vector<Lane>;  ///< at most IntervalBatch::size
   /// Those boxes that meet the chart, as many at a time as go side by side.
@@ -176,31 +184,32 @@ class Field {
   std::vector<Proof> examine(Chart& chart, Lanes& lanes, std::vector<int>& signs);
   Box place_of(const Box& unit) const;
   static bool meets(const Chart& chart, const Box& place);
-  /// Sets coordinates and roots, these as they go on beyond the boundary; returns the variables of the coordinates.
-  Box enter_with_beyond(Chart& chart, const Box& place);
-  core::Interval mean_value(Chart& chart, const Box& variables);
   /// By a unit coordinate instead of its variable.
   core::Interval by_unit(std::size_t i, const core::Interval& slope, const core::Interval& variable) const;
   Vector by_unit(const Vector& slopes, const Box& variables, double times) const;
 
-  Over over(Chart& chart, const Box& variables);
-  /// Slopes by the variables, into `enclosed_`, roots that may vanish apart; the first of these on which the function
-  /// depends, or -1. Nothing where there are several. `zero`: a root that is held at 0.
-  std::optional<int> slopes_apart(Chart& chart, int zero = -1);
+  /// Sets the coordinates, to their middles if so.
+  static void set_variables(Chart& chart, const Lanes& lanes, bool middles = false);
+  /// Sets coordinates and roots, these as they go on beyond the boundary; `roots` of those that may vanish reach to 0.
+  void enter_with_beyond(Chart& chart, Lanes& lanes);
+  /// Sets roots that may vanish as they are over all of the boxes, the others by the coordinates that are set. `held`:
+  /// steep ones at 0.
+  void set_roots(Chart& chart, const Lanes& lanes, bool held);
+  /// With signs that are asked for.
+  std::vector<Over> over(Chart& chart, Lanes& lanes);
   /// Of Q_j by the coordinates' variables; nothing where it depends on another root that may vanish.
-  std::optional<Vector> square_slopes(const Chart& chart, int root) const;
-  bool add_clips(Chart& chart, const Box& variables, int steep_root, Over& own);
-  void set_roots(Chart& chart, int zero);
+  std::optional<Vector> square_slopes(const Chart& chart, const Lanes& lanes, std::size_t lane, int root) const;
+  /// What differentiate() tells of a lane: all but its values and the clips at steep roots.
+  void take_slopes(const Chart& chart, Lanes& lanes, std::size_t lane, Over& own) const;
+  void add_held_clips(Chart& chart, Lanes& lanes, std::vector<Over>& overs);
+  void narrow_clips(Chart& chart, const Lanes& lanes, std::vector<Over>& overs);
 
   Frame frame_;
   core::WorkingMode mode_;
   std::optional<int> lies_on_;
   std::vector<std::unique_ptr<Chart>> charts_;
-  std::vector<double> gradient_;          ///< of variables, being reduced to the coordinates
-  std::vector<core::Interval> roots_;     ///< over the cell being examined
-  std::vector<bool> rising_;              ///< which of them may be 0 in it
-  std::vector<core::Interval> enclosed_;  ///< likewise
-  Point scale_{};                         ///< of the last point entered: d variable / d unit coordinate
+  std::vector<double> gradient_;  ///< of variables, being reduced to the coordinates
+  Point scale_{};                 ///< of the last point entered: d variable / d unit coordinate
 };
 
 }  // namespace clearloci::loci::surface

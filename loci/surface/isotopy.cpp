@@ -17,6 +17,8 @@ using core::Interval;
 
 constexpr int clock_every = 64;  // cells between two looks at the clock
 constexpr int face_cuts = 4;     // of a face to cells out of reach
+constexpr std::size_t side_by_side = sheet::IntervalBatch::size;
+constexpr std::size_t many_doubts = 2 * side_by_side;  // enough to be looked at together
 
 /// A corner of a tetrahedron and the value of g there.
 struct Node {
@@ -126,6 +128,19 @@ bool is_regular(const Part& part, const Slope& g, const std::vector<Field::Over>
   });
 }
 
+/// A part of which more has to be known than over its whole cell.
+struct Doubt {
+  Part part;
+  Slope g;
+  int orientation = 0;  ///< of the tetrahedron
+};
+
+/// A cell and its tetrahedra, [first, last).
+struct Tetrahedral {
+  int cell = 0;
+  std::size_t first = 0, last = 0;
+};
+
 class Homotopy {
  public:
   Homotopy(Field& field, const Cells& cells, const Marched& marched)
@@ -138,11 +153,20 @@ class Homotopy {
     const Tetrahedra all = tetrahedra_of(cells_, cells_beside_moved_corners());
     place_corners(all);
     std::vector<int> open;
+    std::vector<Tetrahedral> cells;
     for (std::size_t first = 0, last = 0; first < all.tetrahedra.size(); first = last) {
       const int cell = all.cell_of[first];
       while (last < all.tetrahedra.size() && all.cell_of[last] == cell) ++last;
-      if (stop && ++examined_ % clock_every == 0 && stop()) throw core::LimitReached("the time limit was reached");
-      if (!is_regular_in(all, first, last)) open.push_back(cell);
+      cells.push_back({cell, first, last});
+      if (cells.size() < side_by_side && last < all.tetrahedra.size()) continue;
+      std::vector<Box> boxes;
+      for (const Tetrahedral& own : cells) boxes.push_back(box_of(all, own));
+      const std::vector<std::vector<Field::Over>> over = field_.over(boxes);
+      for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (stop && ++examined_ % clock_every == 0 && stop()) throw core::LimitReached("the time limit was reached");
+        if (!is_regular_in(all, cells[k], over[k])) open.push_back(cells[k].cell);
+      }
+      cells.clear();
     }
     std::sort(open.begin(), open.end());
     return open;
@@ -175,18 +199,28 @@ class Homotopy {
     }
   }
 
-  bool is_regular_in(const Tetrahedra& all, std::size_t first, std::size_t last) {
-    Box box = cells_.cells()[static_cast<std::size_t>(all.cell_of[first])].box();
-    for (std::size_t t = first; t < last; ++t) {
-      const Box own = box_of(nodes_of(all.tetrahedra[t]));
-      for (std::size_t i = 0; i < 3; ++i) box[i] = hull(box[i], own[i]);
+  /// Of a cell with all its tetrahedra, whose corners may have left it.
+  Box box_of(const Tetrahedra& all, const Tetrahedral& own) const {
+    Box box = cells_.cells()[static_cast<std::size_t>(own.cell)].box();
+    for (std::size_t t = own.first; t < own.last; ++t) {
+      const Box part = surface::box_of(nodes_of(all.tetrahedra[t]));
+      for (std::size_t i = 0; i < 3; ++i) box[i] = hull(box[i], part[i]);
     }
-    const std::vector<Field::Over> over = field_.over(box);
-    for (std::size_t t = first; t < last; ++t)
-      if (!is_regular_in(all.tetrahedra[t], over, orientation(all, all.tetrahedra[t]))) return false;
-    if (std::all_of(over.begin(), over.end(), [](const Field::Over& own) { return own.known && own.clips.empty(); }))
+    return box;
+  }
+
+  /// With f over the whole cell, `over`, then, where that does not do, over the parts' own boxes.
+  bool is_regular_in(const Tetrahedra& all, const Tetrahedral& own, const std::vector<Field::Over>& over) {
+    std::vector<Doubt> doubts;
+    for (std::size_t t = own.first; t < own.last; ++t) {
+      if (!find_doubts(all.tetrahedra[t], over, orientation(all, all.tetrahedra[t]), doubts)) return false;
+      if (doubts.size() < many_doubts && t + 1 < own.last) continue;
+      if (!are_regular(doubts)) return false;
+      doubts.clear();
+    }
+    if (std::all_of(over.begin(), over.end(), [](const Field::Over& f) { return f.known && f.clips.empty(); }))
       return true;
-    for (std::size_t t = first; t < last; ++t)
+    for (std::size_t t = own.first; t < own.last; ++t)
       if (!keeps_inside(all, t)) return false;
     return true;
   }
@@ -222,13 +256,25 @@ class Homotopy {
       std::vector<Node> face;
       std::copy_if(piece.begin(), piece.end(), std::back_inserter(face),
                    [&](const Node& node) { return node.at[axis] == plane; });
-      return face.size() < 3 || (face.size() == 3 && has_no_zero_within(face, face_cuts));
+      return face.size() < 3 || (face.size() == 3 && have_no_zero_within({face}, face_cuts));
     });
   }
 
-  /// Of the homotopy on a triangle, cut into four so many times.
-  bool has_no_zero_within(const std::vector<Node>& face, int cuts) const {
-    const std::vector<Field::Over> over = field_.over(box_of(face));
+  /// Of the homotopy on triangles, each cut into four so many times.
+  bool have_no_zero_within(const std::vector<std::vector<Node>>& faces, int cuts) const {
+    std::vector<Box> boxes;
+    std::vector<int> signs;
+    for (const std::vector<Node>& face : faces) {
+      boxes.push_back(surface::box_of(face));
+      signs.push_back(sign_of(face));
+    }
+    const std::vector<std::vector<Field::Over>> over = field_.over(boxes, signs);
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      if (!has_no_zero_within(faces[k], over[k], cuts)) return false;
+    return true;
+  }
+
+  bool has_no_zero_within(const std::vector<Node>& face, const std::vector<Field::Over>& over, int cuts) const {
     const int sign = sign_of(face);
     if (std::all_of(over.begin(), over.end(), [&](const Field::Over& f) {
           return (sign != 0 && f.value.sign() == sign) || is_beyond_the_boundary(f);
@@ -239,9 +285,9 @@ class Homotopy {
       return Node{0.5 * (face[i].at + face[k].at), 0.5 * (face[i].value + face[k].value)};
     };
     const std::array<Node, 3> middles = {between(1, 2), between(0, 2), between(0, 1)};
-    for (std::size_t i = 0; i < 3; ++i)
-      if (!has_no_zero_within({face[i], middles[(i + 1) % 3], middles[(i + 2) % 3]}, cuts - 1)) return false;
-    return has_no_zero_within({middles[0], middles[1], middles[2]}, cuts - 1);
+    std::vector<std::vector<Node>> parts = {{middles[0], middles[1], middles[2]}};
+    for (std::size_t i = 0; i < 3; ++i) parts.push_back({face[i], middles[(i + 1) % 3], middles[(i + 2) % 3]});
+    return have_no_zero_within(parts, cuts - 1);
   }
 
   Nodes nodes_of(const std::array<int, 4>& corners) const {
@@ -257,18 +303,45 @@ class Homotopy {
     return slope_of(nodes).volume.sign();
   }
 
-  /// With f over the whole cell, then, where that does not do, over the part's own box.
-  bool is_regular_in(const std::array<int, 4>& corners, const std::vector<Field::Over>& over, int orientation) {
+  /// The parts of a tetrahedron for which f over a box that holds it does not do. False: one is not regular.
+  bool find_doubts(const std::array<int, 4>& corners, const std::vector<Field::Over>& over, int orientation,
+                   std::vector<Doubt>& doubts) const {
     std::vector<Nodes> pieces = {nodes_of(corners)};
     const std::optional<std::vector<int>> crossings = crossings_of(corners);
     if (!crossings) return lies_beyond(corners);
     for (const int crossing : *crossings) cut(pieces, complex_.crossings[static_cast<std::size_t>(crossing)]);
     for (const Nodes& piece : pieces) {
       const Slope g = slope_of(piece);
-      for (const Part& part : parts_of(piece)) {
-        if (is_regular(part, g, over, orientation)) continue;
-        const std::vector<Field::Over> closer = field_.over(box_of(part.nodes));
-        if (!is_regular(part, g, closer, orientation)) return false;
+      for (Part& part : parts_of(piece))
+        if (!is_regular(part, g, over, orientation)) doubts.push_back({std::move(part), g, orientation});
+    }
+    return true;
+  }
+
+  /// With f over their own boxes: first, where f and g have one sign, its value alone.
+  bool are_regular(const std::vector<Doubt>& doubts) {
+    std::vector<Box> boxes;
+    std::vector<int> signs;
+    for (const Doubt& own : doubts)
+      if (const int sign = sign_of(own.part.nodes); sign != 0) {
+        boxes.push_back(surface::box_of(own.part.nodes));
+        signs.push_back(sign);
+      }
+    const std::vector<bool> kept = field_.keeps_signs(boxes, signs);
+    std::vector<const Doubt*> open;
+    std::size_t next = 0;
+    for (const Doubt& own : doubts)
+      if (sign_of(own.part.nodes) == 0 || !kept[next++]) open.push_back(&own);
+    for (std::size_t first = 0; first < open.size(); first += side_by_side) {
+      boxes.clear(), signs.clear();
+      for (std::size_t k = first; k < std::min(open.size(), first + side_by_side); ++k) {
+        boxes.push_back(surface::box_of(open[k]->part.nodes));
+        signs.push_back(sign_of(open[k]->part.nodes));
+      }
+      const std::vector<std::vector<Field::Over>> closer = field_.over(boxes, signs);
+      for (std::size_t k = 0; k < closer.size(); ++k) {
+        const Doubt& own = *open[first + k];
+        if (!is_regular(own.part, own.g, closer[k], own.orientation)) return false;
       }
     }
     return true;
@@ -276,7 +349,7 @@ class Homotopy {
 
   /// In cells free of zeros beside moved corners the surface may go on beyond the boundary, though it is not meshed.
   bool lies_beyond(const std::array<int, 4>& corners) const {
-    const std::vector<Field::Over> over = field_.over(box_of(nodes_of(corners)));
+    const std::vector<Field::Over> over = field_.over(surface::box_of(nodes_of(corners)));
     return std::all_of(over.begin(), over.end(), is_beyond_the_boundary);
   }
 

@@ -27,25 +27,28 @@ constexpr double many = 1000;
 /// Halvings of a cell in the proof that no zero is in it.
 constexpr int cuts_of_a_cell = 5;
 
-/// A mesh cut off at the workspace boundary, and the leaves in which its
-/// topology is not proven, ascending.
-struct Judged {
-  Meshed meshed;
-  std::vector<int> open;
+/// A mesh, whole and cut off at the workspace boundary.
+struct Drawn {
+  Drawn(Field& field, const Cells& cells, const std::function<bool()>& stop)
+      : marched(march(field, cells)),
+        boundary(boundary_of(field, marched.mesh)),
+        clipping(field, marched.mesh, boundary) {
+    if (stop && stop()) throw core::LimitReached("the time limit was reached");
+    field.lie_on(boundary);
+  }
+
+  Marched marched;
+  std::optional<int> boundary;
+  Clipping clipping;
 };
 
-Judged judged(Field& field, const Cells& cells, const Marched& marched, const std::function<bool()>& stop) {
-  if (stop && stop()) throw core::LimitReached("the time limit was reached");
-  Judged result;
-  result.meshed.boundary = boundary_of(field, marched.mesh);
-  field.lie_on(result.meshed.boundary);
-  result.open = unproven(field, cells, marched, stop);
-  Clipped clipped = within_workspace(field, marched.mesh, result.meshed.boundary);
-  result.meshed.mesh = std::move(clipped.mesh);
-  for (const Point& at : clipped.unproven) result.open.push_back(cells.at(place_below(at), deepest));
-  std::sort(result.open.begin(), result.open.end());
-  result.open.erase(std::unique(result.open.begin(), result.open.end()), result.open.end());
-  return result;
+/// The leaves in which the topology of a mesh is not proven, ascending.
+std::vector<int> open_leaves(Field& field, const Cells& cells, Drawn& drawn, const std::function<bool()>& stop) {
+  std::vector<int> open = unproven(field, cells, drawn.marched, stop);
+  for (const Point& at : drawn.clipping.unproven()) open.push_back(cells.at(place_below(at), deepest));
+  std::sort(open.begin(), open.end());
+  open.erase(std::unique(open.begin(), open.end()), open.end());
+  return open;
 }
 
 /// Those that the surface may pass, or that such cells' moved corners reach
@@ -101,27 +104,32 @@ void add_open(const Cells& cells, const std::vector<int>& open, Meshed& meshed) 
 Meshed mesh_of(Field& field, int level, const std::function<bool()>& stop) {
   const int finest = std::min(level + extra_levels, deepest);
   Cells cells(field, {.level = level, .finest = finest, .stop = stop});
-  Judged now = judged(field, cells, march(field, cells), stop);
-  std::vector<int> away = unexplained(field, cells, level, now.meshed.mesh, cuts_of_a_cell, stop);
+  Drawn now(field, cells, stop);
+  const auto cells_away = [&] { return unexplained(field, cells, level, now.clipping.mesh(), cuts_of_a_cell, stop); };
+  std::vector<int> away = cells_away();
   bool cut = !away.empty();
   if (cut) {
     cells.look_closer(away, finest + closer_levels);
-    now = judged(field, cells, march(field, cells), stop);
+    now = Drawn(field, cells, stop);
   }
-  for (int round = 0; round < proof_rounds && cells.halve(worth_halving(cells, now.open), finest); ++round) {
+  std::vector<int> open = open_leaves(field, cells, now, stop);
+  for (int round = 0; round < proof_rounds && cells.halve(worth_halving(cells, open), finest); ++round) {
     cut = true;
-    now = judged(field, cells, march(field, cells), stop);
+    now = Drawn(field, cells, stop);
+    open = open_leaves(field, cells, now, stop);
   }
-  if (cut) away = unexplained(field, cells, level, now.meshed.mesh, cuts_of_a_cell, stop);
+  if (cut) away = cells_away();
   if (cut && !away.empty()) {
     cells.look_closer(away, finest + closer_levels);
-    now = judged(field, cells, march(field, cells), stop);
-    away = unexplained(field, cells, level, now.meshed.mesh, cuts_of_a_cell, stop);
+    now = Drawn(field, cells, stop);
+    open = open_leaves(field, cells, now, stop);
+    away = cells_away();
   }
-  now.meshed.unexplained = static_cast<int>(away.size());
-  if (!away.empty()) now.meshed.at = unit_of(cells.cells()[static_cast<std::size_t>(away.front())].middle());
-  add_open(cells, now.open, now.meshed);
-  return std::move(now.meshed);
+  Meshed result{.mesh = now.clipping.mesh(), .boundary = now.boundary, .open = {}};
+  result.unexplained = static_cast<int>(away.size());
+  if (!away.empty()) result.at = unit_of(cells.cells()[static_cast<std::size_t>(away.front())].middle());
+  add_open(cells, open, result);
+  return result;
 }
 
 }  // namespace clearloci::loci::surface

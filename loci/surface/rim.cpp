@@ -14,6 +14,8 @@ using core::Interval;
 constexpr double rounding = 1e-11;
 /// A point is moved onto the rim within this part of the edge that crosses it.
 constexpr double near_point = 0.25;
+/// Triangles looked at side by side.
+constexpr std::size_t taken_together = 64;
 
 /// A size of Q_j over the box.
 double size_of_square(Field& field, int root) {
@@ -24,7 +26,9 @@ double size_of_square(Field& field, int root) {
   return size;
 }
 
-class Clipper {
+}  // namespace
+
+class Clipping::Clipper {
  public:
   Clipper(Field& field, Mesh mesh, int root) : field_(field), mesh_(std::move(mesh)), root_(root) {
     const double none = rounding * size_of_square(field, root);
@@ -34,18 +38,26 @@ class Clipper {
     }
   }
 
-  /// `unproven`: gets a point of every triangle that is.
-  Mesh run(std::vector<Point>& unproven) {
+  /// The mesh cut off.
+  Mesh run() {
     before_ = mesh_.points;
-    if (std::any_of(sign_.begin(), sign_.end(), [](int sign) { return sign < 0; })) move_points();
-    for (const Triangle& triangle : mesh_.triangles)
-      if (!is_proven(triangle)) unproven.push_back(middle_of(mesh_, triangle));
-    if (std::none_of(sign_.begin(), sign_.end(), [](int sign) { return sign < 0; })) return std::move(mesh_);
+    if (std::none_of(sign_.begin(), sign_.end(), [](int sign) { return sign < 0; })) return mesh_;
+    move_points();
     Mesh result;
-    const std::vector<Triangle> before = std::move(mesh_.triangles);
-    for (const Triangle& triangle : before) add(triangle, result.triangles);
-    result.points = std::move(mesh_.points);
+    for (const Triangle& triangle : mesh_.triangles) add(triangle, result.triangles);
+    result.points = mesh_.points;
     return compact(result);
+  }
+
+  /// Gets a point of every triangle that is. Required: it has been run.
+  void find_unproven(std::vector<Point>& unproven) {
+    std::vector<Way> ways;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      ways.push_back(way_of(mesh_.triangles[t]));
+      if (ways.size() < taken_together && t + 1 < mesh_.triangles.size()) continue;
+      find_unproven(ways, unproven);
+      ways.clear();
+    }
   }
 
  private:
@@ -185,37 +197,73 @@ class Clipper {
     return result;
   }
 
+  /// A triangle, what it is cut into, and a box round it all the way.
+  struct Way {
+    Triangle triangle{};
+    std::vector<std::array<Moved, 3>> parts;
+    bool still = true;  ///< no corner moves
+    Box box{};
+  };
+
+  Way way_of(const Triangle& t) {
+    Way result{.triangle = t, .parts = parts_of(t)};
+    result.box = box_of({moved(t[0]), moved(t[1]), moved(t[2])});
+    for (const std::array<Moved, 3>& part : result.parts) {
+      const Box own = box_of(part);
+      for (std::size_t i = 0; i < 3; ++i) result.box[i] = hull(result.box[i], own[i]);
+      result.still =
+          result.still && std::all_of(part.begin(), part.end(), [](const Moved& m) { return m.from == m.to; });
+    }
+    return result;
+  }
+
+  bool all(const Triangle& t, int side) const {
+    return std::all_of(t.begin(), t.end(), [&](int i) { return sign(i) == side; });
+  }
+
+  /// Triangles well within the workspace need no more than Q_j, the others the function and its slopes.
+  void find_unproven(const std::vector<Way>& ways, std::vector<Point>& unproven) {
+    const std::vector<Interval> squares = squares_over(ways);
+    std::vector<const Way*> near;
+    std::vector<Box> boxes;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const Way& own = ways[k];
+      if (squares[k].lower() > 0 && own.still && all(own.triangle, 1)) continue;
+      near.push_back(&own);
+      boxes.push_back(own.box);
+    }
+    const std::vector<std::vector<Field::Over>> over = field_.over(boxes);
+    for (std::size_t k = 0; k < near.size(); ++k)
+      if (!is_proven(*near[k], over[k])) unproven.push_back(middle_of(mesh_, near[k]->triangle));
+  }
+
+  std::vector<Interval> squares_over(const std::vector<Way>& ways) {
+    std::vector<Box> boxes;
+    for (const Way& own : ways) boxes.push_back(own.box);
+    return field_.squares_over(boxes, root_);
+  }
+
   /// Whether the rim crosses a triangle as the signs of its corners say, and the triangle stays square enough to the
   /// slopes of the function while its corners move onto the rim.
-  bool is_proven(const Triangle& t) {
-    const std::vector<std::array<Moved, 3>> parts = parts_of(t);
-    Box box = box_of({moved(t[0]), moved(t[1]), moved(t[2])});
-    bool still = true;
-    for (const std::array<Moved, 3>& part : parts) {
-      const Box own = box_of(part);
-      for (std::size_t i = 0; i < 3; ++i) box[i] = hull(box[i], own[i]);
-      still = still && std::all_of(part.begin(), part.end(), [](const Moved& m) { return m.from == m.to; });
-    }
-    const auto all = [&](int side) { return std::all_of(t.begin(), t.end(), [&](int i) { return sign(i) == side; }); };
-    if (still && all(1) && field_.square_over(box, root_).lower() > 0) return true;
-    const std::vector<Field::Over> over = field_.over(box);
+  bool is_proven(const Way& own, const std::vector<Field::Over>& over) {
+    const Triangle& t = own.triangle;
     return std::all_of(over.begin(), over.end(), [&](const Field::Over& f) {
       if (!f.known) return false;
       const Field::Clip* clip = nullptr;
       bool others = false;
-      for (const Field::Clip& own : f.clips) {
-        if (own.root == root_) {
-          clip = &own;
+      for (const Field::Clip& one : f.clips) {
+        if (one.root == root_) {
+          clip = &one;
           continue;
         }
-        if (own.value.upper() < 0) return true;
-        others = others || own.value.lower() <= 0;
+        if (one.value.upper() < 0) return true;
+        others = others || one.value.lower() <= 0;
       }
-      if (clip == nullptr) return still && all(1);
-      if (still && clip->value.sign() != 0) return all(clip->value.sign());
+      if (clip == nullptr) return own.still && all(t, 1);
+      if (own.still && clip->value.sign() != 0) return all(t, clip->value.sign());
       if (others || !ends_as_its_corners_say(t, *clip)) return false;
-      return still || std::all_of(parts.begin(), parts.end(),
-                                  [&](const std::array<Moved, 3>& part) { return stays_square(part, f); });
+      return own.still || std::all_of(own.parts.begin(), own.parts.end(),
+                                      [&](const std::array<Moved, 3>& part) { return stays_square(part, f); });
     });
   }
 
@@ -308,8 +356,6 @@ class Clipper {
   std::unordered_map<std::uint64_t, Cut> cuts_;
 };
 
-}  // namespace
-
 std::optional<int> boundary_of(Field& field, const Mesh& mesh) {
   if (mesh.points.empty()) return std::nullopt;
   for (int root = 0; root < field.roots(); ++root) {
@@ -321,10 +367,21 @@ std::optional<int> boundary_of(Field& field, const Mesh& mesh) {
   return std::nullopt;
 }
 
-Clipped within_workspace(Field& field, Mesh mesh, std::optional<int> boundary) {
-  Clipped result{std::move(mesh), {}};
-  for (int root = 0; root < field.roots(); ++root)
-    if (root != boundary) result.mesh = Clipper(field, std::move(result.mesh), root).run(result.unproven);
+Clipping::Clipping(Field& field, Mesh mesh, std::optional<int> boundary) : mesh_(std::move(mesh)) {
+  for (int root = 0; root < field.roots(); ++root) {
+    if (root == boundary) continue;
+    clippers_.push_back(std::make_unique<Clipper>(field, std::move(mesh_), root));
+    mesh_ = clippers_.back()->run();
+  }
+}
+
+Clipping::Clipping(Clipping&&) noexcept = default;
+Clipping& Clipping::operator=(Clipping&&) noexcept = default;
+Clipping::~Clipping() = default;
+
+std::vector<Point> Clipping::unproven() {
+  std::vector<Point> result;
+  for (const auto& clipper : clippers_) clipper->find_unproven(result);
   return result;
 }
 

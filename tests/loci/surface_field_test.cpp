@@ -99,6 +99,67 @@ TEST_F(SideBySide, BoxesHaveTheirOwnProofs) {
   for (const int count : {outside, free, open}) EXPECT_GT(count, 25);
 }
 
+bool same(const core::Interval& a, const core::Interval& b) {
+  return same(a.lower(), b.lower()) && same(a.upper(), b.upper());
+}
+
+bool same(const Vector& a, const Vector& b) { return same(a[0], b[0]) && same(a[1], b[1]) && same(a[2], b[2]); }
+
+bool same(const Field::Clip& a, const Field::Clip& b) {
+  return a.root == b.root && a.held == b.held && a.times == b.times && same(a.value, b.value) &&
+         same(a.gradient, b.gradient);
+}
+
+bool same(const Field::Over& a, const Field::Over& b) {
+  if (a.known != b.known || !same(a.value, b.value)) return false;
+  if (!a.known) return true;
+  return same(a.gradient, b.gradient) && a.steep.has_value() == b.steep.has_value() &&
+         (!a.steep || same(*a.steep, *b.steep)) && a.reach == b.reach &&
+         std::equal(a.clips.begin(), a.clips.end(), b.clips.begin(), b.clips.end(),
+                    [](const Field::Clip& one, const Field::Clip& other) { return same(one, other); });
+}
+
+TEST_F(SideBySide, BoxesHaveTheirOwnEnclosures) {
+  std::vector<Box> boxes;
+  for (int k = 0; k < 403; ++k) boxes.push_back(box());
+  const auto overs = field_.over(boxes);
+  int unknown = 0, steep = 0, plain = 0;
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const auto alone = field_.over(boxes[k]);
+    EXPECT_TRUE(std::equal(overs[k].begin(), overs[k].end(), alone.begin(), alone.end(),
+                           [](const Field::Over& a, const Field::Over& b) { return same(a, b); }))
+        << k;
+    for (const Field::Over& own : overs[k]) (!own.known ? unknown : own.steep ? steep : plain) += 1;
+  }
+  for (const int count : {unknown, steep, plain}) EXPECT_GT(count, 25);
+}
+
+/// Where a sign is asked for, it is found wherever it is found without, and all that is known is the same elsewhere.
+TEST_F(SideBySide, BoxesKeepSigns) {
+  std::vector<Box> boxes;
+  std::vector<int> signs;
+  for (int k = 0; k < 400; ++k) {
+    boxes.push_back(box());
+    signs.push_back(k % 2 == 0 ? 1 : -1);
+  }
+  const auto overs = field_.over(boxes), asked = field_.over(boxes, signs);
+  const std::vector<bool> kept = field_.keeps_signs(boxes, signs);
+  int found = 0, more = 0, open = 0;
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    bool all = true;
+    for (std::size_t c = 0; c < overs[k].size(); ++c) {
+      const bool settled = asked[k][c].value.sign() == signs[k];
+      all = all && settled;
+      EXPECT_TRUE(same(asked[k][c].value, overs[k][c].value)) << k;
+      EXPECT_TRUE(settled || same(asked[k][c], overs[k][c])) << k;
+    }
+    EXPECT_TRUE(all || !kept[k]) << k;
+    (kept[k] ? found : all ? more : open) += 1;
+  }
+  EXPECT_GT(more, 0);
+  for (const int count : {found, open}) EXPECT_GT(count, 10);
+}
+
 /// What is proven of a box holds at the points in it.
 TEST_F(SideBySide, BoxesHoldTheirPoints) {
   for (int k = 0; k < 400; ++k) {
