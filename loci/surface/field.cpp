@@ -36,18 +36,6 @@ double variable_at(const LocusProblem& problem, std::size_t i, double coordinate
   return t;
 }
 
-Interval variable_over(const LocusProblem& problem, std::size_t i, const Interval& coordinate) {
-  const auto* chart = chart_of(problem, i);
-  if (chart == nullptr) return coordinate;
-  const double lower = core::to_double(problem.lower[i]), upper = core::to_double(problem.upper[i]);
-  const auto t = [&](double angle) { return core::parameter_at(**chart, angle); };
-  // Beyond a half turn the tangent starts anew: the cell is cut to the chart first.
-  const double from = std::max(coordinate.lower(), core::angle_at(**chart, lower));
-  const double to = std::min(coordinate.upper(), core::angle_at(**chart, upper));
-  return meet(Interval(t(from) - angle_rounding, std::max(t(from), t(to)) + angle_rounding),
-              Interval(lower - angle_rounding, upper + angle_rounding));
-}
-
 /// Of a square; beyond the boundary as the root goes on there.
 double root_of(double square) { return std::copysign(std::sqrt(std::abs(square)), square); }
 
@@ -135,7 +123,19 @@ Field::Chart::Chart(const Part& part, const core::WorkingMode& mode)
   for (std::size_t i = 0; i < 3; ++i) {
     lower[i] = coordinate_at(*problem, i, problem->lower[i]);
     upper[i] = coordinate_at(*problem, i, problem->upper[i]);
+    least[i] = core::to_double(problem->lower[i]);
+    most[i] = core::to_double(problem->upper[i]);
   }
+}
+
+Interval Field::Chart::variable_over(std::size_t i, const Interval& coordinate) const {
+  const auto* chart = chart_of(*problem, i);
+  if (chart == nullptr) return coordinate;
+  // Beyond a half turn the tangent starts anew: the cell is cut to the chart first.
+  const double from = core::parameter_at(**chart, std::max(coordinate.lower(), lower[i]));
+  const double to = core::parameter_at(**chart, std::min(coordinate.upper(), upper[i]));
+  return meet(Interval(from - angle_rounding, std::max(from, to) + angle_rounding),
+              Interval(least[i] - angle_rounding, most[i] + angle_rounding));
 }
 
 Field::Field(const std::vector<Part>& parts, core::WorkingMode mode) : mode_(std::move(mode)) {
@@ -211,7 +211,6 @@ void Field::each_batch(const std::vector<Point>& units, const Visit& visit) {
       places.clear();
       for (const std::size_t point : own) places.push_back(frame_.place(units[point]));
       enter(*chart, places, scales);
-      chart->beside.run_values();
       visit(*chart, own, scales);
       own.clear();
     }
@@ -220,8 +219,17 @@ void Field::each_batch(const std::vector<Point>& units, const Visit& visit) {
 
 std::vector<double> Field::values(const std::vector<Point>& units) {
   std::vector<double> result(units.size());
-  each_batch(units, [&](const Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>&) {
+  each_batch(units, [&](Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>&) {
+    chart.beside.run_values();
     for (std::size_t l = 0; l < own.size(); ++l) result[own[l]] = chart.sign * chart.beside.value(0)[l];
+  });
+  return result;
+}
+
+std::vector<double> Field::squares(const std::vector<Point>& units, int root) {
+  std::vector<double> result(units.size());
+  each_batch(units, [&](const Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>&) {
+    for (std::size_t l = 0; l < own.size(); ++l) result[own[l]] = chart.beside.square(root)[l];
   });
   return result;
 }
@@ -230,6 +238,7 @@ std::vector<Field::Sight> Field::look_at(const std::vector<Point>& units) {
   std::vector<Sight> result(units.size());
   gradient_.resize(static_cast<std::size_t>(charts_.front()->program.variables()));
   each_batch(units, [&](Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>& scales) {
+    chart.beside.run_values();
     chart.beside.run_gradients();
     for (std::size_t l = 0; l < own.size(); ++l) {
       Sight& sight = result[own[l]];
@@ -319,7 +328,7 @@ std::vector<Field::Lanes> Field::lanes_of(const Chart& chart, const std::vector<
     if (!meets(chart, places[k])) continue;
     if (result.empty() || result.back().size() == sheet::IntervalBatch::size) result.emplace_back();
     Lane& lane = result.back().emplace_back(Lane{.box = k});
-    for (std::size_t i = 0; i < 3; ++i) lane.variables[i] = variable_over(*chart.problem, i, places[k][i]);
+    for (std::size_t i = 0; i < 3; ++i) lane.variables[i] = chart.variable_over(i, places[k][i]);
   }
   return result;
 }

@@ -80,6 +80,7 @@ class Field {
   std::vector<double> values(const std::vector<Point>& units);
   /// Q_j, with earlier roots as they go on where their squares are negative.
   double square(const Point& unit, int root);
+  std::vector<double> squares(const std::vector<Point>& units, int root);
   /// Every Q_j >= 0.
   bool inside(const Point& unit);
   /// Value and gradient, in unit coordinates; a root whose square is not positive counts as constant.
@@ -141,12 +142,16 @@ class Field {
   struct Chart {
     Chart(const Part& part, const core::WorkingMode& mode);
 
+    /// Of a coordinate's range, cut to the chart.
+    core::Interval variable_over(std::size_t i, const core::Interval& coordinate) const;
+
     const core::LocusProblem* problem;
     sheet::SheetProgram program;
     sheet::SheetProgram::Registers<double> at;
     sheet::SheetProgram::Registers<sheet::Batch> beside;
     sheet::SheetProgram::Registers<sheet::IntervalBatch> over;
     Point lower{}, upper{};  ///< of the coordinates: m, rad
+    Point least{}, most{};   ///< of their variables
     int sign;
   };
   /// The chart that holds a place, or the nearest.
@@ -156,7 +161,7 @@ class Field {
   /// Sets coordinates and roots of at most Batch::size places of a chart; `scales`: as scale_.
   void enter(Chart& chart, const std::vector<Point>& places, std::vector<Point>& scales);
   /// Visits the points a batch at a time, with the chart that holds them, their places among them all and their scales,
-  /// once the function's values are there.
+  /// once their roots are there.
   template <class Visit>
   void each_batch(const std::vector<Point>& units, const Visit& visit);
 

@@ -8,7 +8,6 @@
 
 #include "core/errors.hpp"
 #include "loci/surface/mesh.hpp"
-#include "loci/surface/tetrahedra.hpp"
 
 namespace clearloci::loci::surface {
 namespace {
@@ -130,8 +129,8 @@ bool is_regular(const Part& part, const Slope& g, const std::vector<Field::Over>
 
 /// A part of which more has to be known than over its whole cell.
 struct Doubt {
-  Part part;
-  Slope g;
+  Part part{};
+  Slope g{};
   int orientation = 0;  ///< of the tetrahedron
 };
 
@@ -143,15 +142,16 @@ struct Tetrahedral {
 
 class Homotopy {
  public:
-  Homotopy(Field& field, const Cells& cells, const Marched& marched)
-      : field_(field), cells_(cells), complex_(marched.complex) {
+  Homotopy(Field& field, const Cells& cells, Complex complex)
+      : field_(field), cells_(cells), complex_(std::move(complex)) {
     for (std::size_t i = 0; i < complex_.crossings.size(); ++i)
       crossing_of_.emplace(Complex::key(complex_.crossings[i].a, complex_.crossings[i].b), static_cast<int>(i));
   }
 
   std::vector<int> run(const std::function<bool()>& stop) {
-    const Tetrahedra all = tetrahedra_of(cells_, cells_beside_moved_corners());
-    place_corners(all);
+    add_tetrahedra(cells_, cells_beside_moved_corners(), complex_.cut);
+    place_corners();
+    const Tetrahedra& all = complex_.cut;
     std::vector<int> open;
     std::vector<Tetrahedral> cells;
     for (std::size_t first = 0, last = 0; first < all.tetrahedra.size(); first = last) {
@@ -178,7 +178,7 @@ class Homotopy {
     std::vector<int> result;
     for (std::size_t i = 0; i < complex_.corners.size(); ++i)
       if (complex_.corners[i].on_surface())
-        cells_.each_leaf_at(complex_.places[i], [&](int cell) {
+        cells_.each_leaf_at(complex_.cut.corners[i], [&](int cell) {
           if (!cells_.cells()[static_cast<std::size_t>(cell)].active()) result.push_back(cell);
         });
     std::sort(result.begin(), result.end());
@@ -186,17 +186,15 @@ class Homotopy {
     return result;
   }
 
-  /// The marcher's corners come first, in its order: the active cells are cut first.
-  void place_corners(const Tetrahedra& all) {
-    for (std::size_t i = 0; i < all.corners.size(); ++i) {
-      if (i < complex_.corners.size()) {
-        const Complex::Corner& own = complex_.corners[i];
-        nodes_.push_back({own.at, own.signed_value()});
-      } else {
-        const Point at = unit_of(all.corners[i]);
-        nodes_.push_back({at, Complex::Corner(at, field_.value(at)).signed_value()});
-      }
-    }
+  /// The marcher's corners come first, in its order.
+  void place_corners() {
+    for (const Complex::Corner& own : complex_.corners) nodes_.push_back({own.at, own.signed_value()});
+    std::vector<Point> others;
+    for (std::size_t i = nodes_.size(); i < complex_.cut.corners.size(); ++i)
+      others.push_back(unit_of(complex_.cut.corners[i]));
+    const std::vector<double> values = field_.values(others);
+    for (std::size_t i = 0; i < others.size(); ++i)
+      nodes_.push_back({others[i], Complex::Corner(others[i], values[i]).signed_value()});
   }
 
   /// Of a cell with all its tetrahedra, whose corners may have left it.
@@ -211,6 +209,7 @@ class Homotopy {
 
   /// With f over the whole cell, `over`, then, where that does not do, over the parts' own boxes.
   bool is_regular_in(const Tetrahedra& all, const Tetrahedral& own, const std::vector<Field::Over>& over) {
+    if (!is_regular_on_the_surface(all, own, over)) return false;
     std::vector<Doubt> doubts;
     for (std::size_t t = own.first; t < own.last; ++t) {
       if (!find_doubts(all.tetrahedra[t], over, orientation(all, all.tetrahedra[t]), doubts)) return false;
@@ -223,6 +222,22 @@ class Homotopy {
     for (std::size_t t = own.first; t < own.last; ++t)
       if (!keeps_inside(all, t)) return false;
     return true;
+  }
+
+  /// False: some part that the triangles run through is not regular. These are the likeliest ones: most of the cells
+  /// that stay open are known for it here. True tells nothing.
+  bool is_regular_on_the_surface(const Tetrahedra& all, const Tetrahedral& own, const std::vector<Field::Over>& over) {
+    std::vector<Doubt> doubts;
+    for (std::size_t t = own.first; t < own.last && doubts.size() < side_by_side; ++t) {
+      const std::array<int, 4>& corners = all.tetrahedra[t];
+      const auto value = [&](std::size_t i) { return nodes_[static_cast<std::size_t>(corners[i])].value; };
+      const auto [least, most] = std::minmax({value(0), value(1), value(2), value(3)});
+      if (least > 0 || most < 0) continue;
+      if (!find_doubts(corners, over, orientation(all, corners), doubts)) return false;
+      std::erase_if(doubts, [](const Doubt& doubt) { return sign_of(doubt.part.nodes) != 0; });
+    }
+    if (doubts.size() > side_by_side) doubts.resize(side_by_side);
+    return are_regular(doubts);
   }
 
   /// No zero of the homotopy leaves the cells within the workspace. Beyond the boundary there are cells that are not
@@ -390,7 +405,7 @@ class Homotopy {
 
   Field& field_;
   const Cells& cells_;
-  const Complex& complex_;
+  Complex complex_;
   std::vector<Node> nodes_;
   std::unordered_map<std::uint64_t, int> crossing_of_;
   int examined_ = 0;
@@ -398,8 +413,8 @@ class Homotopy {
 
 }  // namespace
 
-std::vector<int> unproven(Field& field, const Cells& cells, const Marched& marched, const std::function<bool()>& stop) {
-  return Homotopy(field, cells, marched).run(stop);
+std::vector<int> unproven(Field& field, const Cells& cells, Complex complex, const std::function<bool()>& stop) {
+  return Homotopy(field, cells, std::move(complex)).run(stop);
 }
 
 std::vector<std::vector<int>> groups_of(const Cells& cells, const std::vector<int>& leaves) {

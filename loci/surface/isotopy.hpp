@@ -16,8 +16,8 @@
 namespace clearloci::loci::surface {
 
 /// The leaves in which that is not proven, ascending: where the surface may touch itself, or end otherwise than square
-/// to the root of one leg, and where smaller cells might tell.
-std::vector<int> unproven(Field& field, const Cells& cells, const Marched& marched, const std::function<bool()>& stop);
+/// to the root of one leg, and where smaller cells might tell. `complex`: of the marcher.
+std::vector<int> unproven(Field& field, const Cells& cells, Complex complex, const std::function<bool()>& stop);
 
 /// Leaves that touch each other are one group; each ascending.
 std::vector<std::vector<int>> groups_of(const Cells& cells, const std::vector<int>& leaves);

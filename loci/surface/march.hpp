@@ -12,6 +12,7 @@
 
 #include "loci/surface/cells.hpp"
 #include "loci/surface/mesh.hpp"
+#include "loci/surface/tetrahedra.hpp"
 
 namespace clearloci::loci::surface {
 
@@ -35,7 +36,7 @@ struct Complex {
     double part = 0;  ///< of the way from a to b
   };
 
-  std::vector<Place> places;  ///< of the corners, before they were moved
+  Tetrahedra cut;  ///< with the places of the corners before they were moved
   std::vector<Corner> corners;
   std::vector<Crossing> crossings;
 

@@ -42,9 +42,9 @@ struct Drawn {
   Clipping clipping;
 };
 
-/// The leaves in which the topology of a mesh is not proven, ascending.
+/// The leaves in which the topology of a mesh is not proven, ascending. Takes the mesh's complex.
 std::vector<int> open_leaves(Field& field, const Cells& cells, Drawn& drawn, const std::function<bool()>& stop) {
-  std::vector<int> open = unproven(field, cells, drawn.marched, stop);
+  std::vector<int> open = unproven(field, cells, std::move(drawn.marched.complex), stop);
   for (const Point& at : drawn.clipping.unproven()) open.push_back(cells.at(place_below(at), deepest));
   std::sort(open.begin(), open.end());
   open.erase(std::unique(open.begin(), open.end()), open.end());

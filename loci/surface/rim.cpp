@@ -32,10 +32,8 @@ class Clipping::Clipper {
  public:
   Clipper(Field& field, Mesh mesh, int root) : field_(field), mesh_(std::move(mesh)), root_(root) {
     const double none = rounding * size_of_square(field, root);
-    for (const Point& point : mesh_.points) {
-      const double square = field.square(point, root);
+    for (const double square : field.squares(mesh_.points, root))
       sign_.push_back(square < -none ? -1 : square > none ? 1 : 0);
-    }
   }
 
   /// The mesh cut off.

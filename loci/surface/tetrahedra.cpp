@@ -1,32 +1,23 @@
 #include "loci/surface/tetrahedra.hpp"
 
-#include <unordered_map>
-
 namespace clearloci::loci::surface {
 namespace {
 
 class Cutter {
  public:
-  explicit Cutter(const Cells& cells) : cells_(cells) {}
+  Cutter(const Cells& cells, Tetrahedra& result) : cells_(cells), result_(result) {}
 
-  Tetrahedra run(const std::vector<int>& others) {
-    for (std::size_t i = 0; i < cells_.cells().size(); ++i)
-      if (cells_.cells()[i].active()) add(static_cast<int>(i));
-    for (const int cell : others) add(cell);
-    return std::move(result_);
-  }
-
- private:
   void add(int cell) {
     for (int axis = 0; axis < 3; ++axis)
       for (const int side : {-1, 1}) add_face(cells_.cells()[static_cast<std::size_t>(cell)], axis, side);
     result_.cell_of.resize(result_.tetrahedra.size(), cell);
   }
 
+ private:
   int corner(const Place& place) {
     std::uint64_t key = 0;
     for (const std::int32_t coordinate : place) key = key << 20 | static_cast<std::uint64_t>(coordinate);
-    const auto [known, fresh] = known_.try_emplace(key, static_cast<int>(result_.corners.size()));
+    const auto [known, fresh] = result_.corner_at.try_emplace(key, static_cast<int>(result_.corners.size()));
     if (fresh) result_.corners.push_back(place);
     return known->second;
   }
@@ -73,12 +64,23 @@ class Cutter {
   }
 
   const Cells& cells_;
-  Tetrahedra result_;
-  std::unordered_map<std::uint64_t, int> known_;
+  Tetrahedra& result_;
 };
 
 }  // namespace
 
-Tetrahedra tetrahedra_of(const Cells& cells, const std::vector<int>& others) { return Cutter(cells).run(others); }
+Tetrahedra tetrahedra_of(const Cells& cells) {
+  std::vector<int> active;
+  for (std::size_t i = 0; i < cells.cells().size(); ++i)
+    if (cells.cells()[i].active()) active.push_back(static_cast<int>(i));
+  Tetrahedra result;
+  add_tetrahedra(cells, active, result);
+  return result;
+}
+
+void add_tetrahedra(const Cells& cells, const std::vector<int>& leaves, Tetrahedra& all) {
+  Cutter cutter(cells, all);
+  for (const int leaf : leaves) cutter.add(leaf);
+}
 
 }  // namespace clearloci::loci::surface

@@ -3,6 +3,8 @@
 // the middle of that edge is a point of the rim. Private to loci/surface.
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "loci/surface/cells.hpp"
@@ -11,11 +13,13 @@ namespace clearloci::loci::surface {
 
 struct Tetrahedra {
   std::vector<Place> corners;
-  std::vector<std::array<int, 4>> tetrahedra;  ///< those of one cell in a row
-  std::vector<int> cell_of;                    ///< of each tetrahedron
+  std::vector<std::array<int, 4>> tetrahedra;        ///< those of one cell in a row
+  std::vector<int> cell_of;                          ///< of each tetrahedron
+  std::unordered_map<std::uint64_t, int> corner_at;  ///< by place
 };
 
-/// `others`: leaves that are not active and are cut too, after the active ones.
-Tetrahedra tetrahedra_of(const Cells& cells, const std::vector<int>& others = {});
+Tetrahedra tetrahedra_of(const Cells& cells);
+/// Those of leaves that are not active, behind the others.
+void add_tetrahedra(const Cells& cells, const std::vector<int>& leaves, Tetrahedra& all);
 
 }  // namespace clearloci::loci::surface
