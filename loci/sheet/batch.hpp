@@ -1,5 +1,5 @@
 // Eight doubles evaluated side by side: a SheetProgram run over Batch serves eight points for one pass through its
-// instructions, and the loops below become vector instructions.
+// instructions, in as few registers as the processor has for them. A lane has the bytes that it would have alone.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/rational.hpp"
+#include "loci/sheet/interval_batch.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -51,6 +52,20 @@ inline Batch angle_slope(const Batch& y, const Batch& x) { return inverse(x * x 
 inline Batch square_root(const Batch& a) {
   return batch_detail::lane_by_lane([&](std::size_t i) { return std::sqrt(a.lanes[i]); });
 }
+
+namespace batch {
+
+using Instruction = SheetCode::Instruction;
+
+/// The instructions [begin, end) on registers `values`, their results from `results` on.
+void run(const Instruction* begin, const Instruction* end, const Batch* values, Batch* results);
+
+/// The ways in which it may do so; required of the last two: interval_batch::has_avx2(), has_avx512().
+void run_by_lanes(const Instruction* begin, const Instruction* end, const Batch* values, Batch* results);
+void run_by_avx2(const Instruction* begin, const Instruction* end, const Batch* values, Batch* results);
+void run_by_avx512(const Instruction* begin, const Instruction* end, const Batch* values, Batch* results);
+
+}  // namespace batch
 
 inline Batch constant_as(const core::Rational& value, Batch*) { return Batch(core::to_double(value)); }
 

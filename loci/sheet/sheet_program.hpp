@@ -179,6 +179,8 @@ void SheetProgram::Registers<T>::run(int stage) {
   if constexpr (std::is_same_v<T, IntervalBatch> || std::is_same_v<T, JetBatch>) {
     interval_batch::run(code.instructions.data() + begin, code.instructions.data() + end, values,
                         values + offset + begin, lanes_);
+  } else if constexpr (std::is_same_v<T, Batch>) {
+    batch::run(code.instructions.data() + begin, code.instructions.data() + end, values, values + offset + begin);
   } else {
     for (int i = begin; i < end; ++i) {
       const SheetCode::Instruction& instruction = code.instructions[i];

@@ -188,15 +188,27 @@ void Cells::each_leaf_at(const Place& place, const std::function<void(int)>& vis
   }
 }
 
-/// Neighbours are at most half as large: a place beside each half of every edge meets them all.
+/// Neighbours are at most half as large: where one is smaller, a place beside each half of every edge meets them all.
 void Cells::each_neighbour(int leaf, const std::function<void(int)>& visit) const {
   const OctreeCell& cell = cells_[static_cast<std::size_t>(leaf)];
+  // Along an axis: before the cell, its two halves, behind it.
   const std::array<std::int32_t, 4> steps = {-1, 0, cell.size() / 2, cell.size()};
-  for (const std::int32_t x : steps)
-    for (const std::int32_t y : steps)
-      for (const std::int32_t z : steps) {
-        const int other = at({cell.corner[0] + x, cell.corner[1] + y, cell.corner[2] + z}, deepest);
-        if (other >= 0) visit(other);
+  constexpr std::array<std::array<std::size_t, 2>, 3> halves = {{{0, 1}, {1, 3}, {3, 4}}};  // [first, last) of `steps`
+  const auto place = [&](std::size_t x, std::size_t y, std::size_t z) {
+    return Place{cell.corner[0] + steps[x], cell.corner[1] + steps[y], cell.corner[2] + steps[z]};
+  };
+  for (const auto& x : halves)
+    for (const auto& y : halves)
+      for (const auto& z : halves) {
+        const int beside = at(place(x[0], y[0], z[0]), cell.level);
+        if (beside < 0) continue;
+        if (cells_[static_cast<std::size_t>(beside)].leaf()) {
+          visit(beside);
+          continue;
+        }
+        for (std::size_t i = x[0]; i < x[1]; ++i)
+          for (std::size_t k = y[0]; k < y[1]; ++k)
+            for (std::size_t l = z[0]; l < z[1]; ++l) visit(at(place(i, k, l), deepest));
       }
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
-#include <unordered_map>
 
 #include "core/errors.hpp"
 #include "loci/surface/mesh.hpp"
@@ -143,10 +143,7 @@ struct Tetrahedral {
 class Homotopy {
  public:
   Homotopy(Field& field, const Cells& cells, Complex complex)
-      : field_(field), cells_(cells), complex_(std::move(complex)) {
-    for (std::size_t i = 0; i < complex_.crossings.size(); ++i)
-      crossing_of_.emplace(Complex::key(complex_.crossings[i].a, complex_.crossings[i].b), static_cast<int>(i));
-  }
+      : field_(field), cells_(cells), complex_(std::move(complex)) {}
 
   std::vector<int> run(const std::function<bool()>& stop) {
     add_tetrahedra(cells_, cells_beside_moved_corners(), complex_.cut);
@@ -311,11 +308,19 @@ class Homotopy {
     return nodes;
   }
 
-  /// Of a tetrahedron before its corners were moved.
+  /// Of a tetrahedron before its corners were moved: on the lattice, exactly.
   static int orientation(const Tetrahedra& all, const std::array<int, 4>& corners) {
-    Nodes nodes;
-    for (std::size_t i = 0; i < 4; ++i) nodes[i].at = unit_of(all.corners[static_cast<std::size_t>(corners[i])]);
-    return slope_of(nodes).volume.sign();
+    const auto way = [&](std::size_t to) {
+      std::array<std::int64_t, 3> result{};
+      for (std::size_t k = 0; k < 3; ++k)
+        result[k] = all.corners[static_cast<std::size_t>(corners[to])][k] -
+                    all.corners[static_cast<std::size_t>(corners[0])][k];
+      return result;
+    };
+    const auto a = way(1), b = way(2), c = way(3);
+    const std::int64_t volume =
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    return volume > 0 ? 1 : volume < 0 ? -1 : 0;
   }
 
   /// The parts of a tetrahedron for which f over a box that holds it does not do. False: one is not regular.
@@ -376,8 +381,8 @@ class Homotopy {
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = i + 1; k < 4; ++k) {
         if (!(below(i) && above(k)) && !(above(i) && below(k))) continue;
-        const auto known = crossing_of_.find(Complex::key(corners[i], corners[k]));
-        if (known == crossing_of_.end()) return std::nullopt;
+        const auto known = complex_.crossing_of.find(Complex::key(corners[i], corners[k]));
+        if (known == complex_.crossing_of.end()) return std::nullopt;
         result.push_back(known->second);
       }
     std::sort(result.begin(), result.end());
@@ -407,7 +412,6 @@ class Homotopy {
   const Cells& cells_;
   Complex complex_;
   std::vector<Node> nodes_;
-  std::unordered_map<std::uint64_t, int> crossing_of_;
   int examined_ = 0;
 };
 

@@ -77,7 +77,7 @@ class Marcher {
     move_corners();
     Mesh mesh = triangles();
     for (int round = 0; round < most_repairs && repair(mesh); ++round) mesh = triangles();
-    return {compact(mesh), {std::move(cut_), std::move(corners_), std::move(crossings_)}};
+    return {compact(mesh), {std::move(cut_), std::move(corners_), std::move(crossings_), std::move(crossing_of_)}};
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 #include "loci/surface/cells.hpp"
@@ -39,6 +40,7 @@ struct Complex {
   Tetrahedra cut;  ///< with the places of the corners before they were moved
   std::vector<Corner> corners;
   std::vector<Crossing> crossings;
+  std::unordered_map<std::uint64_t, int> crossing_of;  ///< by key()
 
   static std::uint64_t key(int a, int b) {
     return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b));
