@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <utility>
 
 #include "core/angle_chart.hpp"
@@ -27,6 +28,9 @@ constexpr int asked_every = 64;
 struct OpenCell {
   Cell cell;
   int depth = 0;
+  std::shared_ptr<const LiftedLook> look = {};  ///< once it was looked at
+  bool empty = false;                           ///< then: there is no zero in it
+  bool singular = false;                        ///< and: |A| may vanish in it
 };
 
 Interval widened(const Interval& range) {
@@ -116,44 +120,54 @@ class Search {
     return all;
   }
 
-  /// The box of an open cell with its slopes entered; nothing where there is no zero in it.
-  std::optional<LiftedBox> examined(const Cell& cell) {
-    if (++cells_ % asked_every == 0 && limits_.stop && limits_.stop())
-      throw core::LimitReached("the time limit was reached");
-    std::optional<LiftedBox> box = lifted_.lift(cell);
-    if (!box) return std::nullopt;
-    core::ensure(lifted_.enter(*box), "a cell's smooth roots are real");
-    const std::size_t rows = lifted_.rows();
-    const auto excludes = [&](std::size_t row) { return !is_determinant(row) && lifted_.value(row).sign() != 0; };
-    for (std::size_t row = 0; row < rows; ++row)
-      if (excludes(row)) return std::nullopt;
-    const std::vector<Interval> at_middle = values_at(lifted_, middle_of(*box));
-    lifted_.enter(*box);
-    lifted_.differentiate();
-    singular_ = lifted_.functions() > static_cast<int>(first_determinant_);
+  /// Looks at the first cells of a queue, side by side.
+  void look_at(std::deque<OpenCell>& queue) {
+    std::vector<Cell> cells;
+    for (std::size_t i = 0; i < std::min(queue.size(), sheet::IntervalBatch::size); ++i) cells.push_back(queue[i].cell);
+    const auto excludes = [&](const std::vector<Interval>& values) {
+      for (std::size_t row = 0; row < values.size(); ++row)
+        if (!is_determinant(row) && values[row].sign() != 0) return true;
+      return false;
+    };
+    std::vector<LiftedLook> looks =
+        lifted_.look_at(cells, [&](const std::vector<Interval>& values) { return !excludes(values); });
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (++cells_ % asked_every == 0 && limits_.stop && limits_.stop())
+        throw core::LimitReached("the time limit was reached");
+      OpenCell& own = queue[i];
+      own.empty = looks[i].slopes.empty();
+      if (!own.empty) judge(looks[i], own);
+      own.look = std::make_shared<const LiftedLook>(std::move(looks[i]));
+    }
+  }
+
+  /// Whether there is no zero in a cell, and whether |A| may vanish in it.
+  void judge(const LiftedLook& look, OpenCell& own) {
+    lifted_.take(look);
+    own.empty = true;
     bool any = false;
-    for (std::size_t row = 0; row < rows; ++row) {
-      const bool excluded = lifted_.value(row).sign() != 0 || excludes_zero(lifted_, row, *box, at_middle);
+    for (std::size_t row = 0; row < lifted_.rows(); ++row) {
+      const bool excluded = look.values[row].sign() != 0 || excludes_zero(lifted_, row, look.box, look.at_middle);
       if (is_determinant(row))
         any = any || !excluded;
       else if (excluded)
-        return std::nullopt;
+        return;
     }
     const std::vector<std::size_t> all = equations();
     for (const std::size_t row : all) {
       std::vector<std::size_t> others = all;
       std::erase(others, row);
-      if (excludes_zero_with(lifted_, row, others, *box, at_middle)) return std::nullopt;
+      if (excludes_zero_with(lifted_, row, others, look.box, look.at_middle)) return;
     }
-    singular_ = any && !excludes_singularity(*box, all, at_middle);
-    return box;
+    own.empty = false;
+    own.singular = any && !excludes_singularity(look, all);
   }
 
   /// No factor of |A| vanishes where the equations do.
-  bool excludes_singularity(const LiftedBox& box, const std::vector<std::size_t>& all,
-                            const std::vector<Interval>& at_middle) {
+  bool excludes_singularity(const LiftedLook& look, const std::vector<std::size_t>& all) {
     for (std::size_t row = first_determinant_; row < static_cast<std::size_t>(lifted_.functions()); ++row)
-      if (lifted_.value(row).sign() == 0 && !excludes_zero_with(lifted_, row, all, box, at_middle)) return false;
+      if (look.values[row].sign() == 0 && !excludes_zero_with(lifted_, row, all, look.box, look.at_middle))
+        return false;
     return true;
   }
 
@@ -166,23 +180,23 @@ class Search {
     while (!regular.empty() || !singular.empty()) {
       const bool late = regular.empty();
       std::deque<OpenCell>& from = late ? singular : regular;
-      const OpenCell own = from.front();
+      if (!from.front().look) look_at(from);
+      OpenCell own = std::move(from.front());
       from.pop_front();
-      const std::optional<LiftedBox> box = examined(own.cell);
-      if (!box) continue;
-      const bool is_singular = singular_;
-      if (is_singular && !late && own.depth >= limits_.least_depth) {
-        singular.push_back(own);
+      if (own.empty) continue;
+      if (own.singular && !late && own.depth >= limits_.least_depth) {
+        singular.push_back(std::move(own));
         continue;
       }
-      if (settle(own, *box, is_singular)) continue;
+      lifted_.take(*own.look);
+      if (settle(own, own.look->box, own.singular)) continue;
       const bool spent = ++looked_at[late ? 1 : 0] > (late ? limits_.most_cells / 2 : limits_.most_cells);
       if (own.depth >= limits_.most_depth || spent) {
-        result.undecided.push_back({own.cell, is_singular});
+        result.undecided.push_back({own.cell, own.singular});
         result.gave_up = result.gave_up || (spent && !late);
         continue;
       }
-      cut(own, late && is_singular ? singular : regular);
+      cut(own, late && own.singular ? singular : regular);
     }
     if (!result.gave_up) spread_singularity(result.undecided, settled_singular_);
   }
@@ -285,7 +299,6 @@ class Search {
   std::size_t first_determinant_ = 0;
   Cell box_;
   long cells_ = 0;
-  bool singular_ = false;  ///< |A| may vanish in the cell examined last
   std::vector<Cell> settled_singular_;
 };
 

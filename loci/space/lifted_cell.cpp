@@ -50,6 +50,7 @@ LiftedCell::LiftedCell(const core::LocusProblem& problem, core::WorkingMode mode
     : program_(problem.tower, all),
       mode_(std::move(mode)),
       at_(program_.registers<Interval>()),
+      beside_(program_.registers<sheet::IntervalBatch>()),
       place_(mode_.size(), -1),
       roots_(mode_.size()) {
   core::ensure(program_.coordinates() == 3, "three free coordinates");
@@ -104,10 +105,30 @@ Interval LiftedCell::value(std::size_t row) const {
   return squared(roots_[static_cast<std::size_t>(root)]) - at_.square(root);
 }
 
+template <class SquarePartial>
+void LiftedCell::reduce(std::vector<Interval>& by_variable, std::size_t used, const std::vector<int>& place,
+                        const std::vector<Interval>& roots, const SquarePartial& square_partial,
+                        Interval* slopes) const {
+  for (std::size_t v = used; v-- > 3;) {
+    const std::size_t root = v - 3;
+    const Interval own = by_variable[v];
+    if (own.lower() == 0 && own.upper() == 0) continue;
+    if (place[root] >= 0) {
+      slopes[place[root]] = own;
+      continue;
+    }
+    const Interval factor = own * inverse(Interval(2.0) * roots[root]);
+    for (std::size_t w = 0; w < v; ++w)
+      by_variable[w] = by_variable[w] + factor * square_partial(static_cast<int>(root), static_cast<int>(w));
+  }
+  for (std::size_t c = 0; c < 3; ++c) slopes[c] = by_variable[c];
+}
+
 void LiftedCell::differentiate() {
   at_.run_gradients();
   const auto count = static_cast<std::size_t>(functions());
   const std::size_t variables = 3 + mode_.size();
+  const auto square_partial = [&](int root, int v) { return at_.square_partial(root, v); };
   slopes_.assign(rows() * dimension_, Interval(0.0));
   for (std::size_t row = 0; row < rows(); ++row) {
     partial_.assign(variables, Interval(0.0));
@@ -117,23 +138,133 @@ void LiftedCell::differentiate() {
     } else {
       const int root = lifted_[row - count];
       used = 4 + static_cast<std::size_t>(root);
-      for (std::size_t v = 0; v + 1 < used; ++v) partial_[v] = -at_.square_partial(root, static_cast<int>(v));
+      for (std::size_t v = 0; v + 1 < used; ++v) partial_[v] = -square_partial(root, static_cast<int>(v));
       partial_[used - 1] = Interval(2.0) * roots_[static_cast<std::size_t>(root)];
     }
-    for (std::size_t v = used; v-- > 3;) {
-      const std::size_t root = v - 3;
-      const Interval own = partial_[v];
-      if (own.lower() == 0 && own.upper() == 0) continue;
-      if (place_[root] >= 0) {
-        slopes_[row * dimension_ + static_cast<std::size_t>(place_[root])] = own;
-        continue;
-      }
-      const Interval factor = own * inverse(Interval(2.0) * roots_[root]);
-      for (std::size_t w = 0; w < v; ++w)
-        partial_[w] = partial_[w] + factor * at_.square_partial(static_cast<int>(root), static_cast<int>(w));
-    }
-    for (std::size_t c = 0; c < 3; ++c) slopes_[row * dimension_ + c] = partial_[c];
+    reduce(partial_, used, place_, roots_, square_partial, &slopes_[row * dimension_]);
   }
+}
+
+void LiftedCell::lift(const std::vector<Cell>& cells, std::vector<LiftedLook>& looks) {
+  beside_.use_lanes(cells.size());
+  for (std::size_t c = 0; c < 3; ++c) {
+    sheet::IntervalBatch own;
+    for (std::size_t l = 0; l < cells.size(); ++l) own.lanes[l] = cells[l][c];
+    beside_.set(static_cast<int>(c), own);
+  }
+  for (const Cell& cell : cells) {
+    LiftedLook& look = looks.emplace_back();
+    look.box.assign(cell.begin(), cell.end());
+    look.place.assign(mode_.size(), -1);
+  }
+  for (int j = 0; j < program_.roots(); ++j) {
+    const auto own = static_cast<std::size_t>(j);
+    beside_.run_square(j);
+    sheet::IntervalBatch roots;
+    for (std::size_t l = 0; l < cells.size(); ++l) {
+      LiftedLook& look = looks[l];
+      const Interval& square = beside_.square(j).lanes[l];
+      look.any = look.any && !(square.upper() < 0);
+      Interval root = square_root(Interval(square.lower(), std::max(square.upper(), 0.0)));
+      if (square.lower() <= 0) {
+        look.place[own] = static_cast<int>(look.box.size());
+        look.lifted.push_back(j);
+        root = Interval(0.0, root.upper());
+      }
+      root = mode_[own] > 0 ? root : -root;
+      if (square.lower() <= 0) look.box.push_back(root);
+      look.roots.push_back(root);
+      roots.lanes[l] = root;
+    }
+    beside_.set(3 + j, roots);
+  }
+}
+
+std::vector<Interval> LiftedCell::values(const LiftedLook& look, const std::vector<Interval>& roots,
+                                         std::size_t lane) const {
+  std::vector<Interval> result;
+  for (int f = 0; f < functions(); ++f) result.push_back(beside_.value(f).lanes[lane]);
+  for (const int root : look.lifted)
+    result.push_back(squared(roots[static_cast<std::size_t>(root)]) - beside_.square(root).lanes[lane]);
+  return result;
+}
+
+void LiftedCell::enter_middles(std::vector<LiftedLook>& looks, std::vector<bool>& real,
+                               std::vector<std::vector<Interval>>& roots) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    sheet::IntervalBatch own;
+    for (std::size_t l = 0; l < looks.size(); ++l) own.lanes[l] = Interval(looks[l].box[c].middle());
+    beside_.set(static_cast<int>(c), own);
+  }
+  for (int j = 0; j < program_.roots(); ++j) {
+    const auto own = static_cast<std::size_t>(j);
+    beside_.run_square(j);
+    sheet::IntervalBatch root;
+    for (std::size_t l = 0; l < looks.size(); ++l) {
+      const LiftedLook& look = looks[l];
+      const Interval& square = beside_.square(j).lanes[l];
+      if (look.place[own] >= 0)
+        root.lanes[l] = Interval(look.box[static_cast<std::size_t>(look.place[own])].middle());
+      else if (square.lower() <= 0)
+        real[l] = false;
+      else
+        root.lanes[l] = mode_[own] > 0 ? square_root(square) : -square_root(square);
+      roots[l].push_back(root.lanes[l]);
+    }
+    beside_.set(3 + j, root);
+  }
+}
+
+std::vector<LiftedLook> LiftedCell::look_at(const std::vector<Cell>& cells,
+                                            const std::function<bool(const std::vector<Interval>&)>& wanted) {
+  core::ensure(cells.size() <= sheet::IntervalBatch::size, "cells that go side by side");
+  std::vector<LiftedLook> looks;
+  lift(cells, looks);
+  beside_.run_values();
+  std::vector<std::size_t> open;
+  for (std::size_t l = 0; l < looks.size(); ++l) {
+    looks[l].values = values(looks[l], looks[l].roots, l);
+    if (looks[l].any && wanted(looks[l].values)) open.push_back(l);
+  }
+  if (open.empty()) return looks;
+  beside_.run_gradients();
+  const auto count = static_cast<std::size_t>(functions());
+  const std::size_t variables = 3 + mode_.size();
+  for (const std::size_t l : open) {
+    LiftedLook& look = looks[l];
+    const auto square_partial = [&](int root, int v) { return beside_.square_partial(root, v).lanes[l]; };
+    const std::size_t dimension = look.box.size(), all = count + look.lifted.size();
+    look.slopes.assign(all * dimension, Interval(0.0));
+    for (std::size_t row = 0; row < all; ++row) {
+      partial_.assign(variables, Interval(0.0));
+      std::size_t used = variables;
+      if (row < count) {
+        for (std::size_t v = 0; v < variables; ++v)
+          partial_[v] = beside_.partial(static_cast<int>(row), static_cast<int>(v)).lanes[l];
+      } else {
+        const int root = look.lifted[row - count];
+        used = 4 + static_cast<std::size_t>(root);
+        for (std::size_t v = 0; v + 1 < used; ++v) partial_[v] = -square_partial(root, static_cast<int>(v));
+        partial_[used - 1] = Interval(2.0) * look.roots[static_cast<std::size_t>(root)];
+      }
+      reduce(partial_, used, look.place, look.roots, square_partial, &look.slopes[row * dimension]);
+    }
+  }
+  std::vector<bool> real(looks.size(), true);
+  std::vector<std::vector<Interval>> roots(looks.size());
+  enter_middles(looks, real, roots);
+  beside_.run_values();
+  for (const std::size_t l : open)
+    if (real[l]) looks[l].at_middle = values(looks[l], roots[l], l);
+  return looks;
+}
+
+void LiftedCell::take(const LiftedLook& look) {
+  lifted_ = look.lifted;
+  place_ = look.place;
+  roots_ = look.roots;
+  slopes_ = look.slopes;
+  dimension_ = look.box.size();
 }
 
 LiftedBox middle_of(const LiftedBox& box) {

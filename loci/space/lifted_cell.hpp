@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -19,9 +20,27 @@ using Place = std::array<double, 3>;
 using Cell = std::array<Interval, 3>;
 using LiftedBox = std::vector<Interval>;  ///< the three coordinates, then the lifted roots
 
+/// What is known of a cell: of all rows, over the cell lifted.
+struct LiftedLook {
+  bool any = true;          ///< some pose of it can be assembled
+  LiftedBox box;            ///< the cell lifted
+  std::vector<int> lifted;  ///< roots
+  std::vector<int> place;   ///< of every root: its dimension, or -1
+  std::vector<Interval> roots;
+  std::vector<Interval> values, at_middle;  ///< the latter empty where there is no pose
+  std::vector<Interval> slopes;             ///< row after row; empty where they were not asked for
+};
+
 class LiftedCell {
  public:
   LiftedCell(const core::LocusProblem& problem, core::WorkingMode mode, const std::vector<sheet::SheetFunction>& all);
+
+  /// Side by side, each as lift, enter, differentiate and values_at its middle tell it. `wanted`: by the values,
+  /// whether more has to be known of a cell.
+  std::vector<LiftedLook> look_at(const std::vector<Cell>& cells,
+                                  const std::function<bool(const std::vector<Interval>&)>& wanted);
+  /// As if the cell had been lifted, entered and differentiated, but for its values. Required: its slopes are known.
+  void take(const LiftedLook& look);
 
   /// Chooses the lifted roots of a cell and encloses them; nothing where no pose of it can be assembled.
   std::optional<LiftedBox> lift(const Cell& cell);
@@ -40,9 +59,23 @@ class LiftedCell {
   const Interval& slope(std::size_t row, std::size_t dimension) const { return slopes_[row * dimension_ + dimension]; }
 
  private:
+  using Batches = sheet::SheetProgram::Registers<sheet::IntervalBatch>;
+
+  /// Sets coordinates and roots of at most IntervalBatch::size cells.
+  void lift(const std::vector<Cell>& cells, std::vector<LiftedLook>& looks);
+  void enter_middles(std::vector<LiftedLook>& looks, std::vector<bool>& real,
+                     std::vector<std::vector<Interval>>& roots);
+  /// Of the lane's rows.
+  std::vector<Interval> values(const LiftedLook& look, const std::vector<Interval>& roots, std::size_t lane) const;
+  /// Of a row by the dimensions, from those by all variables, of which `used` count, and those of the squares.
+  template <class SquarePartial>
+  void reduce(std::vector<Interval>& by_variable, std::size_t used, const std::vector<int>& place,
+              const std::vector<Interval>& roots, const SquarePartial& square_partial, Interval* slopes) const;
+
   sheet::SheetProgram program_;
   core::WorkingMode mode_;
   sheet::SheetProgram::Registers<Interval> at_;
+  Batches beside_;
   std::vector<int> lifted_;      ///< roots
   std::vector<int> place_;       ///< of every root: its dimension, or -1
   std::vector<Interval> roots_;  ///< as entered
