@@ -34,6 +34,7 @@ int BoxedPolyline::build(const core::Polyline& points, std::size_t from, std::si
       return Interval(std::min(points[from][c], points[to][c]), std::max(points[from][c], points[to][c]));
     };
     node.box = {range(0), range(1)};
+    node.piece = from;
   } else {
     const std::size_t middle = from + (to - from) / 2;
     const int first = build(points, from, middle), second = build(points, middle, to);
@@ -43,6 +44,26 @@ int BoxedPolyline::build(const core::Polyline& points, std::size_t from, std::si
   }
   nodes_.push_back(node);
   return static_cast<int>(nodes_.size()) - 1;
+}
+
+std::vector<std::size_t> BoxedPolyline::pieces_near(const core::Point2& at, double reach) const {
+  std::vector<std::size_t> pieces;
+  if (nodes_.empty()) return pieces;
+  const Cell near = widened({at[0], at[1]}, reach);
+  std::vector<int> pending = {static_cast<int>(nodes_.size()) - 1};
+  while (!pending.empty()) {
+    const int i = pending.back();
+    pending.pop_back();
+    const Node& own = nodes_[static_cast<std::size_t>(i)];
+    if (disjoint(near.x, own.box.x) || disjoint(near.y, own.box.y)) continue;
+    if (own.halves < 0) {
+      pieces.push_back(own.piece);
+    } else {
+      pending.push_back(i - 1);
+      pending.push_back(own.halves);
+    }
+  }
+  return pieces;
 }
 
 std::optional<std::vector<Cell>> near_passes(const BoxedPolyline& a, const BoxedPolyline& b, double reach) {

@@ -19,9 +19,14 @@ class BoxedPolyline {
   friend std::optional<std::vector<sheet::Cell>> near_passes(const BoxedPolyline& a, const BoxedPolyline& b,
                                                              double reach);
 
+  /// Pieces (by their first vertices, ascending) whose boxes are within `reach` (along x and y) of a point: all that
+  /// may be so near.
+  std::vector<std::size_t> pieces_near(const core::Point2& at, double reach) const;
+
  private:
   struct Node {
     sheet::Cell box;
+    std::size_t piece = 0;
     int halves = -1;  ///< the first of two, the second stands right before this; -1: a piece
   };
   int build(const core::Polyline& points, std::size_t from, std::size_t to);

@@ -49,6 +49,7 @@ double distance(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0
 struct Foot {
   std::size_t segment = 0;
   double t = 0, distance = 0;
+  std::size_t last = 0;  ///< of the segments of its pass
   double position() const { return static_cast<double>(segment) + t; }
 };
 
@@ -56,22 +57,20 @@ Foot foot_on(const Polyline& line, std::size_t i, const Point2& at) {
   const Point2 &a = line[i], &b = line[i + 1];
   const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
   const double t = length2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  return {i, t, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1])};
+  return {i, t, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]), i};
 }
 
 /// Where a polyline passes within `reach` of a point: the nearest place of every pass.
-std::vector<Foot> passes(const Polyline& line, const Point2& at, double reach) {
+std::vector<Foot> passes(const Polyline& line, const BoxedPolyline& boxed, const Point2& at, double reach) {
   std::vector<Foot> list;
-  bool near = false;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+  for (const std::size_t i : boxed.pieces_near(at, reach)) {
     const Foot foot = foot_on(line, i, at);
-    if (foot.distance > reach) {
-      near = false;
-      continue;
-    }
-    if (near && foot.distance < list.back().distance) list.back() = foot;
-    if (!near) list.push_back(foot);
-    near = true;
+    if (foot.distance > reach) continue;
+    if (list.empty() || list.back().last + 1 < i)
+      list.push_back(foot);
+    else if (foot.distance < list.back().distance)
+      list.back() = foot;
+    list.back().last = i;
   }
   return list;
 }
@@ -260,6 +259,9 @@ class Builder {
   }
 
   const BoxedPolyline& boxed(const Strand& strand) { return boxed_.try_emplace(&strand, strand.points).first->second; }
+  const BoxedPolyline& boxed_edge(int edge) {
+    return boxed_edges_.try_emplace(edge, graph().edges[static_cast<std::size_t>(edge)].points).first->second;
+  }
 
   /// False: there may be more than are found.
   bool add_crossings_in(const sheet::Cell& place, int a, int b) {
@@ -286,9 +288,9 @@ class Builder {
   }
 
   /// Whether a curve has arcs there.
-  bool passed_by(int owner, const Point2& at) const {
+  bool passed_by(int owner, const Point2& at) {
     return std::any_of(strands_.begin(), strands_.end(), [&](const Strand& strand) {
-      return strand.owner == owner && !passes(strand.points, at, reach_of(strand)).empty();
+      return strand.owner == owner && !passes(strand.points, boxed(strand), at, reach_of(strand)).empty();
     });
   }
 
@@ -371,7 +373,7 @@ class Builder {
   void cut_at(int node) {
     const Point2 at = graph().nodes[static_cast<std::size_t>(node)];
     for (Strand& strand : strands_) {
-      for (const Foot& foot : passes(strand.points, at, reach_of(strand))) {
+      for (const Foot& foot : passes(strand.points, boxed(strand), at, reach_of(strand))) {
         // A vertex is on the curve, also where the curve is singular and nothing near could be moved onto it.
         const auto is_near = [&](std::size_t i) { return distance(strand.points[i], at) <= same_place * size_; };
         const CurveProjection* const own =
@@ -580,8 +582,8 @@ class Builder {
   }
 
   /// Polylines of curves that touch at a node may cross up to where the curves are a tolerance apart.
-  bool close_to_node(int first, int second, const Point2& at) const {
-    const PlaneGraph& g = result_.graph;
+  bool close_to_node(int first, int second, const Point2& at) {
+    const PlaneGraph& g = graph();
     const GraphEdge &a = g.edges[static_cast<std::size_t>(first)], &b = g.edges[static_cast<std::size_t>(second)];
     const double close = 3 * map_.tolerance + same_place * size_;
     for (const int n : {a.from, a.to}) {
@@ -590,7 +592,7 @@ class Builder {
       Polyline points = a.points;
       if (n == a.to) std::reverse(points.begin(), points.end());
       for (const Point2& p : points) {
-        if (passes(b.points, p, close).empty()) break;
+        if (passes(b.points, boxed_edge(second), p, close).empty()) break;
         if (p == at || distance(p, at) <= close) return true;
       }
     }
@@ -607,6 +609,7 @@ class Builder {
   double size_ = 1;
   std::vector<Strand> strands_;
   std::map<const Strand*, BoxedPolyline> boxed_;
+  std::map<int, BoxedPolyline> boxed_edges_;
   CurveProjections& projections_;
   std::unique_ptr<sheet::SheetProgram> factors_;  // made where a curve touches a side
   ZoneGraph result_;

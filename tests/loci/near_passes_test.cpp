@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -48,6 +49,29 @@ TEST(NearPasses, HoldEveryPlaceWithinReach) {
 TEST(NearPasses, SideBySideAreTooMany) {
   const BoxedPolyline first(circle(0, 5, 1000)), beside(circle(0, 4.9999, 900));
   EXPECT_FALSE(near_passes(first, beside, 0.01));
+}
+
+TEST(NearPasses, NameEveryPieceWithinReachOfAPoint) {
+  const core::Polyline points = circle(0, 5, 1000);
+  const BoxedPolyline boxed(points);
+  for (const double reach : {1e-3, 0.05, 6.0})
+    for (const core::Point2& at : {core::Point2{3, 4}, core::Point2{5.01, 0}, core::Point2{0, 0}, points.front()}) {
+      const std::vector<std::size_t> found = boxed.pieces_near(at, reach);
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+      std::size_t next = 0;
+      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const double x =
+            std::clamp(at[0], std::min(points[i][0], points[i + 1][0]), std::max(points[i][0], points[i + 1][0]));
+        const double y =
+            std::clamp(at[1], std::min(points[i][1], points[i + 1][1]), std::max(points[i][1], points[i + 1][1]));
+        const bool is_near = std::abs(x - at[0]) <= reach && std::abs(y - at[1]) <= reach;
+        const bool is_named = next < found.size() && found[next] == i;
+        EXPECT_EQ(is_near, is_named) << i << ", " << reach;
+        next += is_named ? 1 : 0;
+      }
+      EXPECT_EQ(next, found.size());
+    }
+  EXPECT_TRUE(BoxedPolyline({}).pieces_near({0, 0}, 1).empty());
 }
 
 }  // namespace
