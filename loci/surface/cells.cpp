@@ -47,6 +47,13 @@ bool Cells::halve(const std::vector<int>& leaves, int finest) {
 
 void Cells::cut(std::vector<int> front, const std::function<bool(OctreeCell&)>& wanted) {
   while (!front.empty()) {
+    // What is looked at soon is looked at together.
+    std::vector<Place> places;
+    for (const int index : front)
+      if (const OctreeCell& cell = cells_[static_cast<std::size_t>(index)];
+          cell.active() && cell.level >= limits_.level)
+        add_places(cell, places);
+    seen_at(places);
     std::vector<int> next;
     for (const int index : front) {
       // Balancing may have cut it meanwhile: its children were put to the end.
@@ -100,14 +107,19 @@ std::vector<Cells::Seen> Cells::seen_at(const std::vector<Place>& places) {
   return result;
 }
 
-/// At the corners and in the middle. On the rim, where gradients are unbounded, they tell nothing.
-Cells::Look Cells::look_at(const OctreeCell& cell) {
-  std::vector<Place> places = {cell.middle()};
+void Cells::add_places(const OctreeCell& cell, std::vector<Place>& places) {
+  places.push_back(cell.middle());
   for (int which = 0; which < 8; ++which) {
     Place& place = places.emplace_back(cell.corner);
     for (std::size_t i = 0; i < 3; ++i)
       if ((which >> i & 1) != 0) place[i] += cell.size();
   }
+}
+
+/// At the corners and in the middle. On the rim, where gradients are unbounded, they tell nothing.
+Cells::Look Cells::look_at(const OctreeCell& cell) {
+  std::vector<Place> places;
+  add_places(cell, places);
   const std::vector<Seen> seen = seen_at(places);
   const auto& [sign, normal] = seen.front();
   const double length = std::sqrt(dot(normal, normal));

@@ -87,6 +87,8 @@ class Cells {
   void split(int cell);
   void balance(int cell);
   bool worth_splitting(OctreeCell& cell);
+  /// The places by which a cell is looked at: its middle, then its corners.
+  static void add_places(const OctreeCell& cell, std::vector<Place>& places);
   Look look_at(const OctreeCell& cell);
   struct Seen {
     bool negative = false;

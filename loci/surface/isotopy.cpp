@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "loci/surface/mesh.hpp"
@@ -206,7 +207,7 @@ class Homotopy {
 
   /// With f over the whole cell, `over`, then, where that does not do, over the parts' own boxes.
   bool is_regular_in(const Tetrahedra& all, const Tetrahedral& own, const std::vector<Field::Over>& over) {
-    if (!is_regular_on_the_surface(all, own, over)) return false;
+    if (!is_regular_where_likeliest_not(all, own, over)) return false;
     std::vector<Doubt> doubts;
     for (std::size_t t = own.first; t < own.last; ++t) {
       if (!find_doubts(all.tetrahedra[t], over, orientation(all, all.tetrahedra[t]), doubts)) return false;
@@ -221,20 +222,33 @@ class Homotopy {
     return true;
   }
 
-  /// False: some part that the triangles run through is not regular. These are the likeliest ones: most of the cells
-  /// that stay open are known for it here. True tells nothing.
-  bool is_regular_on_the_surface(const Tetrahedra& all, const Tetrahedral& own, const std::vector<Field::Over>& over) {
+  /// False: one of a few parts is not regular. They are the likeliest ones, which the triangles run through, or else
+  /// those where the function is the least: most of the cells that stay open are known for it here. True tells nothing.
+  bool is_regular_where_likeliest_not(const Tetrahedra& all, const Tetrahedral& own,
+                                      const std::vector<Field::Over>& over) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t t = own.first; t < own.last; ++t) order.emplace_back(least_value(all.tetrahedra[t]), t);
     std::vector<Doubt> doubts;
-    for (std::size_t t = own.first; t < own.last && doubts.size() < side_by_side; ++t) {
-      const std::array<int, 4>& corners = all.tetrahedra[t];
-      const auto value = [&](std::size_t i) { return nodes_[static_cast<std::size_t>(corners[i])].value; };
-      const auto [least, most] = std::minmax({value(0), value(1), value(2), value(3)});
-      if (least > 0 || most < 0) continue;
-      if (!find_doubts(corners, over, orientation(all, corners), doubts)) return false;
-      std::erase_if(doubts, [](const Doubt& doubt) { return sign_of(doubt.part.nodes) != 0; });
+    const auto taken = static_cast<std::ptrdiff_t>(std::min(order.size(), many_doubts));
+    std::partial_sort(order.begin(), order.begin() + taken, order.end());
+    const bool runs_through = order.front().first == 0;
+    for (std::ptrdiff_t i = 0; i < taken && doubts.size() < side_by_side; ++i) {
+      const auto& [least, t] = order[static_cast<std::size_t>(i)];
+      if (runs_through && least != 0) break;
+      if (!find_doubts(all.tetrahedra[t], over, orientation(all, all.tetrahedra[t]), doubts)) return false;
+      if (runs_through) std::erase_if(doubts, [](const Doubt& doubt) { return sign_of(doubt.part.nodes) != 0; });
     }
     if (doubts.size() > side_by_side) doubts.resize(side_by_side);
-    return are_regular(doubts);
+    std::vector<const Doubt*> chosen;
+    for (const Doubt& doubt : doubts) chosen.push_back(&doubt);
+    return are_regular_by_slopes(chosen);
+  }
+
+  /// The least size of g at a tetrahedron's corners; 0 where it does not have one sign.
+  double least_value(const std::array<int, 4>& corners) const {
+    const auto value = [&](std::size_t i) { return nodes_[static_cast<std::size_t>(corners[i])].value; };
+    const auto [least, most] = std::minmax({value(0), value(1), value(2), value(3)});
+    return least > 0 ? least : most < 0 ? -most : 0;
   }
 
   /// No zero of the homotopy leaves the cells within the workspace. Beyond the boundary there are cells that are not
@@ -352,15 +366,20 @@ class Homotopy {
     std::size_t next = 0;
     for (const Doubt& own : doubts)
       if (sign_of(own.part.nodes) == 0 || !kept[next++]) open.push_back(&own);
-    for (std::size_t first = 0; first < open.size(); first += side_by_side) {
-      boxes.clear(), signs.clear();
-      for (std::size_t k = first; k < std::min(open.size(), first + side_by_side); ++k) {
-        boxes.push_back(surface::box_of(open[k]->part.nodes));
-        signs.push_back(sign_of(open[k]->part.nodes));
+    return are_regular_by_slopes(open);
+  }
+
+  bool are_regular_by_slopes(const std::vector<const Doubt*>& doubts) {
+    for (std::size_t first = 0; first < doubts.size(); first += side_by_side) {
+      std::vector<Box> boxes;
+      std::vector<int> signs;
+      for (std::size_t k = first; k < std::min(doubts.size(), first + side_by_side); ++k) {
+        boxes.push_back(surface::box_of(doubts[k]->part.nodes));
+        signs.push_back(sign_of(doubts[k]->part.nodes));
       }
       const std::vector<std::vector<Field::Over>> closer = field_.over(boxes, signs);
       for (std::size_t k = 0; k < closer.size(); ++k) {
-        const Doubt& own = *open[first + k];
+        const Doubt& own = *doubts[first + k];
         if (!is_regular(own.part, own.g, closer[k], own.orientation)) return false;
       }
     }
