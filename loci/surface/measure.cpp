@@ -9,6 +9,8 @@ namespace clearloci::loci::surface {
 namespace {
 
 constexpr int most_examined = 200000;
+/// Of the cells that are left over then: further halvings, and boxes looked at in one of them and in all.
+constexpr int further_cuts = 2, most_in_one = 20000, most_further = 100000;
 
 Point place_of(const Frame& frame, const Mesh& mesh, int point) {
   return frame.place(mesh.points[static_cast<std::size_t>(point)]);
@@ -94,6 +96,16 @@ std::vector<int> unexplained(Field& field, const Cells& cells, int level, const 
     if (stop && stop()) throw core::LimitReached("the time limit was reached");
     if (!is_free(field, cell.box(), cell.proof, cuts, budget)) result.push_back(static_cast<int>(c));
   }
+  int further = most_further;
+  std::erase_if(result, [&](int c) {
+    if (stop && stop()) throw core::LimitReached("the time limit was reached");
+    const OctreeCell& cell = cells.cells()[static_cast<std::size_t>(c)];
+    const int before = std::min(further, most_in_one);
+    int left = before;
+    const bool is_known = is_free(field, cell.box(), cell.proof, cuts + further_cuts, left);
+    further -= before - std::max(left, 0);
+    return is_known;
+  });
   return result;
 }
 

@@ -13,8 +13,8 @@ double area(const Frame& frame, const Mesh& mesh);
 /// next to the workspace boundary, where slopes are unbounded, do not count.
 double deviation(Field& field, const Mesh& mesh);
 
-/// The cells in which a zero could not be excluded, though halved so many times more, and no triangle is within two
-/// cells of the mesh's own size.
+/// The cells in which a zero could not be excluded, though halved so many times more, and then, while they are few, a
+/// little further, and no triangle is within two cells of the mesh's own size.
 std::vector<int> unexplained(Field& field, const Cells& cells, int level, const Mesh& mesh, int cuts,
                              const std::function<bool()>& stop);
 

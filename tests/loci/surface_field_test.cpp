@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+
+#include "loci/surface/measure.hpp"
 
 namespace clearloci::loci::surface {
 namespace {
@@ -158,6 +161,30 @@ TEST_F(SideBySide, BoxesKeepSigns) {
   }
   EXPECT_GT(more, 0);
   for (const int count : {found, open}) EXPECT_GT(count, 10);
+}
+
+/// (x - a)^2 + (y - b)^2 + (z - c)^2 + 3e-6 on the unit cube: a cell round (a, b, c) is proven to be free of zeros once
+/// it was halved more than five times.
+TEST(Unexplained, CellsAreCutFurtherBeforeTheyAreLeft) {
+  LocusProblem problem;
+  problem.tower.coordinates = {"x", "y", "z"};
+  problem.lower = {0, 0, 0};
+  problem.upper = {1, 1, 1};
+  const core::Rational a(3, 7), b(4, 9), c(5, 11);
+  const Polynomial function = {3,
+                               {{{2, 0, 0}, 1},
+                                {{0, 2, 0}, 1},
+                                {{0, 0, 2}, 1},
+                                {{1, 0, 0}, -2 * a},
+                                {{0, 1, 0}, -2 * b},
+                                {{0, 0, 1}, -2 * c},
+                                {{0, 0, 0}, a * a + b * b + c * c + core::Rational(3, 1000000)}}};
+  Field field({{&problem, {function}, 1}}, {});
+  constexpr int level = 4, cuts = 5;
+  const Cells cells(field, {.level = level, .finest = level});
+  const auto active = [](const OctreeCell& cell) { return cell.active(); };
+  EXPECT_GT(std::count_if(cells.cells().begin(), cells.cells().end(), active), 0);
+  EXPECT_TRUE(unexplained(field, cells, level, {}, cuts, {}).empty());
 }
 
 /// What is proven of a box holds at the points in it.
