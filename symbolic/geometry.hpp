@@ -141,10 +141,12 @@ class Geometry {
   bool same_for(const std::vector<int>& sides) const;
   /// The numerators of the squared distances divided by, reduced.
   const std::vector<Poly>& denominators() const { return denominators_; }
-  /// Numerators of the ways from one end of a dyad to the other, over positive denominators.
+  /// The way (x, y) / w from one end of a dyad to the other over the tower, w positive, and what is made of that: w^2,
+  /// the numerator d = x^2 + y^2 of the squared distance and 2 d w, the denominator of the way to the point; reduced.
   struct Way {
     mechanism::PointIndex point = 0;
-    Poly x, y;
+    Poly x, y, w;
+    Poly w2, d, twice_dw;
   };
   const std::vector<Way>& dyad_ways() const { return dyad_ways_; }
   /// Polynomials that places divide by and that vanish nowhere: 1 + t^2 of every angle.

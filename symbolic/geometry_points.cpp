@@ -153,10 +153,10 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
                            scale.exact_quotient(shared)}) *
                  shared;
   if (!d.is_constant()) add_denominator(d);
-  if (!form.axis && !rigid) dyad_ways_.push_back({point, x, y});
   const Vector left = cross(n, way);
   const auto component = [&](std::size_t i) { return reduce(kn * (n2 * way[i] - h * n[i]) + s * left[i]); };
   TowerPoint step{component(0), component(1), component(2), reduce(d * w).scaled(2)};
+  if (!form.axis && !rigid) dyad_ways_.push_back({point, x, y, w, w2, d, step.w});
   lighten(step);
   tower_[index(point)] = sum(a, step);
   if (form.axis) keep_in_plane(point, form.from, n);

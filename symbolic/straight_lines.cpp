@@ -15,6 +15,8 @@ using core::StraightLine;
 StraightLines::StraightLines(const Geometry& geometry) : geometry_(&geometry) {
   // Free coordinates and roots are the tower's own variables, in its order.
   const std::vector<int> own = geometry.tower_variables();
+  for (const TowerRoot& root : geometry.roots())
+    for (const TowerRoot& below : geometry.roots()) is_nested_ = is_nested_ || root.square.depends_on(below.variable);
   for (std::size_t i = 0; i < own.size(); ++i) known_[own[i]] = builder_.variable(static_cast<int>(i));
 }
 
@@ -31,8 +33,98 @@ int StraightLines::scaled_value(const Poly& natural, long exponent) {
   for (core::Term& term : scaled.terms) term.coefficient = core::times_power_of_two(term.coefficient, exponent);
   const auto form =
       std::find_if(forms_.begin(), forms_.end(), [&](const DeterminantForm& f) { return f.value == natural; });
-  if (form == forms_.end()) return value(scaled);
-  return determinant(*form, scaled.terms.front().coefficient / plain.terms.front().coefficient);
+  const auto gained = [&] { return Rational(scaled.terms.front().coefficient / plain.terms.front().coefficient); };
+  if (form == forms_.end()) return is_nested_ ? value_by_ways(natural, gained()) : value(scaled);
+  return determinant(*form, gained());
+}
+
+namespace {
+
+/// p with v + by in the place of v.
+Poly moved(const Poly& p, int v, const Poly& by) {
+  const std::vector<Poly> powers = p.coefficients(v);
+  if (powers.size() <= 1) return p;
+  const Poly place = Poly::variable(p.ring(), v) + by;
+  Poly sum(p.ring());
+  for (auto power = powers.rbegin(); power != powers.rend(); ++power) sum = sum * place + *power;
+  return sum;
+}
+
+}  // namespace
+
+int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
+  const std::vector<ArmedPoint>& points = armed_points();
+  const auto written = [&](const std::vector<std::size_t>& arms) {
+    Poly result = natural;
+    for (std::size_t i = points.size(); i-- > 0;) {
+      const Arm& arm = points[i].arms[arms[i]];
+      result = moved(moved(result, points[i].x, arm.x), points[i].y, arm.y);
+    }
+    return result;
+  };
+  std::vector<std::size_t> arms(points.size(), 0), others(points.size(), 1);
+  Poly best = written(arms);
+  if (Poly other = written(others); other.length() < best.length()) {
+    best = std::move(other);
+    arms = others;
+  }
+  for (bool improved = true; improved;) {
+    improved = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      others = arms;
+      others[i] = 1 - others[i];
+      if (Poly other = written(others); other.length() < best.length()) {
+        best = std::move(other);
+        arms = others;
+        improved = true;
+      }
+    }
+  }
+  if (best.length() >= natural.length()) return value(natural.scaled(scale).plain());
+  Polynomial plain = best.scaled(scale).plain();
+  std::vector<int> variables(static_cast<std::size_t>(plain.variables), 0);
+  for (int v = 0; v < plain.variables; ++v) {
+    if (!core::depends_on(plain, v)) continue;
+    int& own = variables[static_cast<std::size_t>(v)];
+    bool is_arm = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Place& step = points[i].arms[arms[i]].step;
+      if (v == points[i].x) own = step[0], is_arm = true;
+      if (v == points[i].y) own = step[1], is_arm = true;
+    }
+    if (!is_arm) own = variable(v);
+  }
+  return builder_.polynomial(plain, variables);
+}
+
+const std::vector<StraightLines::ArmedPoint>& StraightLines::armed_points() {
+  if (armed_points_) return *armed_points_;
+  armed_points_.emplace();
+  for (const ConstructedPoint& point : geometry_->constructed()) {
+    const std::optional<Dyad> known = dyad(point.point);
+    if (!known || known->axis || point.z >= 0) continue;
+    const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
+                                   [&](const TowerRoot& r) { return r.point == point.point; });
+    const auto& form =
+        std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
+    const int own = root->value ? value(root->value->plain()) : known_.at(root->variable);
+    const int s = builder_.multiply(own, builder_.inverse(known->scale));
+    const int half = builder_.constant(Rational(1, 2)), inverse = builder_.inverse(known->distance2);
+    const int shift =
+        builder_.multiply(builder_.multiply(half, builder_.multiply(known->sum, known->difference)), inverse);
+    const int mu = builder_.multiply(builder_.multiply(half, s), inverse);
+    const auto& [u, v, flat] = known->way;
+    const auto arm = [&](mechanism::PointIndex end, int lambda) {
+      const auto& natural = geometry_->natural(end);
+      return Arm{geometry_->poly(natural[0]),
+                 geometry_->poly(natural[1]),
+                 {builder_.subtract(builder_.multiply(lambda, u), builder_.multiply(mu, v)),
+                  builder_.add(builder_.multiply(lambda, v), builder_.multiply(mu, u)), builder_.constant(0)}};
+    };
+    armed_points_->push_back(
+        {point.x, point.y, {arm(form.from, builder_.add(half, shift)), arm(form.to, builder_.subtract(shift, half))}});
+  }
+  return *armed_points_;
 }
 
 namespace {
@@ -226,6 +318,21 @@ StraightLines::Place StraightLines::natural_place(mechanism::PointIndex point) {
   return {x, y, value(geometry_->poly(natural[2]).plain())};
 }
 
+StraightLines::Place StraightLines::way_between(mechanism::PointIndex from, mechanism::PointIndex to) {
+  Place way{};
+  if (!is_nested_) {
+    const Place a = natural_place(from), p = natural_place(to);
+    for (std::size_t i = 0; i < 3; ++i) way[i] = builder_.subtract(p[i], a[i]);
+    return way;
+  }
+  const auto &a = geometry_->natural(from), &p = geometry_->natural(to);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Poly own = geometry_->poly((p[i] - a[i]).expand());
+    way[i] = own.is_zero() ? builder_.constant(0) : value_by_ways(own, 1);
+  }
+  return way;
+}
+
 StraightLines::Place StraightLines::over_tower(const TowerPoint& place) {
   const int w = builder_.inverse(value(place.w.plain()));
   const int x = builder_.multiply(value(place.x.plain()), w), y = builder_.multiply(value(place.y.plain()), w);
@@ -258,18 +365,65 @@ std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex poi
   const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                  [&](const TowerRoot& r) { return r.point == point; });
   if (root == geometry_->roots().end()) return std::nullopt;
-  const Place a = natural_place(own->from), p = natural_place(own->to);
-  Place way{};
-  for (std::size_t i = 0; i < 3; ++i) way[i] = builder_.subtract(p[i], a[i]);
-  const int scale = builder_.multiply(value(root->scale.plain()), builder_.inverse(value(root->scale_divisor.plain())));
+  const Place way = way_between(own->from, own->to);
   const int from = value(from_length.plain()), to = value(to_length.plain());
-  Dyad dyad{way, dot(way, way), scale, builder_.add(from, to), builder_.subtract(from, to)};
+  const int distance2 = dot(way, way);
+  if (is_nested_)
+    for (const Geometry::Way& over_tower : geometry_->dyad_ways())
+      if (over_tower.point == point) know_divisors(over_tower, distance2);
+  Dyad dyad{way, distance2, scale(*root), builder_.add(from, to), builder_.subtract(from, to)};
   if (!own->axis) return dyad;
   const Place n = vector(*own->axis);
   const int n2 = dot(n, n), h = dot(n, way);
   const int d = builder_.subtract(builder_.multiply(n2, dyad.distance2), builder_.power(h, 2));
   dyad.axis = {n, n2, h, d};
   return dyad;
+}
+
+int StraightLines::scale(const TowerRoot& root) {
+  const auto part = [&](const Poly& p) {
+    const std::optional<int> known = is_nested_ ? positive_value(p) : std::nullopt;
+    return known ? *known : value(p.plain());
+  };
+  const int above = part(root.scale);
+  return builder_.multiply(above, builder_.inverse(part(root.scale_divisor)));
+}
+
+std::optional<int> StraightLines::positive_value(const Poly& p) {
+  if (const std::optional<int> product = product_of_divisors(p)) return product;
+  // What was divided by a common factor.
+  Poly rest(p.ring());
+  for (const auto& [whole, own] : divisors_)
+    if (whole.divides(p, rest))
+      if (const std::optional<int> below = product_of_divisors(rest))
+        return builder_.multiply(own, builder_.inverse(*below));
+  return std::nullopt;
+}
+
+std::optional<int> StraightLines::product_of_divisors(Poly p) {
+  int product = builder_.constant(1);
+  Poly rest(p.ring());
+  for (auto known = divisors_.rbegin(); known != divisors_.rend() && !p.is_constant(); ++known)
+    while (p.divides(known->first, rest)) {
+      product = builder_.multiply(product, known->second);
+      std::swap(p, rest);
+    }
+  if (!p.is_constant()) return std::nullopt;
+  return builder_.multiply(builder_.constant(p.constant()), product);
+}
+
+void StraightLines::know_divisors(const Geometry::Way& way, int distance2) {
+  const auto is = [&](const auto& own) { return own.first == way.twice_dw; };
+  if (std::any_of(divisors_.begin(), divisors_.end(), is)) return;
+  const std::optional<int> w = positive_value(way.w);
+  if (!w) return;
+  const int w2 = builder_.power(*w, 2), d = builder_.multiply(distance2, w2);
+  const auto add = [&](const Poly& p, int own) {
+    if (!p.is_constant()) divisors_.emplace_back(p, own);
+  };
+  add(way.w2, w2);
+  add(way.d, d);
+  add(way.twice_dw, builder_.multiply(builder_.multiply(builder_.constant(2), d), *w));
 }
 
 /// B - A in space.

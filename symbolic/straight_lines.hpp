@@ -59,11 +59,25 @@ class StraightLines {
     std::optional<Axis> axis = {};
   };
 
+  /// A constructed point as seen from one of the dyad's ends: what stands for its ring variables then.
+  struct Arm {
+    Poly x, y;   ///< of the end, in natural coordinates
+    Place step;  ///< from there to the point
+  };
+  struct ArmedPoint {
+    int x, y;                 ///< ring variables
+    std::array<Arm, 2> arms;  ///< from either end
+  };
+
   int value(const core::Polynomial& p);
+  /// The same, by the ways from point to point where that takes fewer terms.
+  int value_by_ways(const Poly& natural, const core::Rational& scale);
+  const std::vector<ArmedPoint>& armed_points();
   int scaled_value(const Poly& natural, long exponent);
   int determinant(const DeterminantForm& form, const core::Rational& scale);
   int variable(int ring_variable);
   Place natural_place(mechanism::PointIndex point);
+  Place way_between(mechanism::PointIndex from, mechanism::PointIndex to);
   std::optional<Dyad> dyad(mechanism::PointIndex point);
   Place constructed_place(const ConstructedPoint& point);
   Place elbow(const Dyad& dyad, int s);
@@ -74,12 +88,22 @@ class StraightLines {
   core::StraightLine squared_length(const InverseLength& length);
   core::StraightLine shifted_angle(const TorsionAngle& angle);
   int inverse_of(const InverseLength& length);
+  /// The scale of a root (TowerRoot), without the sums that its polynomials are.
+  int scale(const TowerRoot& root);
+  /// A quotient of products of what dyads divide by, by their factors; none where there are others.
+  std::optional<int> positive_value(const Poly& p);
+  std::optional<int> product_of_divisors(Poly p);
+  /// Those of a dyad join what is known; of `distance2`, the squared length of its way.
+  void know_divisors(const Geometry::Way& way, int distance2);
   int excess(const Dyad& dyad);
 
   const Geometry* geometry_;
+  bool is_nested_ = false;  ///< a root stands on another
   core::StraightLineBuilder builder_;
   std::map<int, int> known_;  ///< ring variable to step
   std::vector<DeterminantForm> forms_;
+  std::vector<std::pair<Poly, int>> divisors_;  ///< of dyads between points that are not fixed, and their values
+  std::optional<std::vector<ArmedPoint>> armed_points_;  ///< those that stand on others last
 };
 
 }  // namespace clearloci::symbolic
