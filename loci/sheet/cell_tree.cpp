@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "loci/sheet/rim_cell.hpp"
 #include "loci/sheet/smooth_cell.hpp"
 
 namespace clearloci::loci::sheet {
@@ -110,7 +111,9 @@ class Judge {
  public:
   Judge(const SheetProgram& program, const core::WorkingMode& mode, double patch_size)
       : program_(program), side_by_side_(program, mode), patch_size_(patch_size) {
-    if (is_smooth_worthwhile(program)) smooth_.emplace(program, mode);
+    if (!is_smooth_worthwhile(program)) return;
+    smooth_.emplace(program, mode);
+    rim_.emplace(program);
   }
 
   std::vector<Judgement> operator()(const std::vector<Cell>& cells) {
@@ -155,19 +158,17 @@ class Judge {
 
   /// Those of which second-order enclosures do not tell all there is to tell.
   std::vector<std::size_t> left_by_smooth_judgement(const std::vector<std::size_t>& cells) {
-    std::vector<std::size_t> asked, left;
-    for (const std::size_t index : cells)
-      (is_tiny((*cells_)[index]) && !smooth_->tells_of_tiny_cells() ? left : asked).push_back(index);
+    std::vector<std::size_t> left;
     std::array<std::array<Interval, 2>, SmoothCells::size> ranges;
-    for (std::size_t first = 0; first < asked.size(); first += SmoothCells::size) {
-      const std::size_t count = std::min(SmoothCells::size, asked.size() - first);
+    for (std::size_t first = 0; first < cells.size(); first += SmoothCells::size) {
+      const std::size_t count = std::min(SmoothCells::size, cells.size() - first);
       for (std::size_t lane = 0; lane < count; ++lane) {
-        const Cell& cell = (*cells_)[asked[first + lane]];
+        const Cell& cell = (*cells_)[cells[first + lane]];
         ranges[lane] = {cell.x, cell.y};
       }
       smooth_->enter(ranges, count);
       for (std::size_t lane = 0; lane < count; ++lane)
-        if (!judge_smoothly(*smooth_, lane, judgements_[asked[first + lane]])) left.push_back(asked[first + lane]);
+        if (!judge_smoothly(*smooth_, lane, judgements_[cells[first + lane]])) left.push_back(cells[first + lane]);
     }
     return left;
   }
@@ -188,8 +189,35 @@ class Judge {
   /// Of the cells that side_by_side_ has entered.
   void judge_by_slopes(const std::vector<std::size_t>& batch) {
     side_by_side_.differentiate();
-    for (std::size_t lane = 0; lane < batch.size(); ++lane)
-      judge_by_slopes(side_by_side_[lane], is_tiny((*cells_)[batch[lane]]), judgements_[batch[lane]]);
+    for (std::size_t lane = 0; lane < batch.size(); ++lane) {
+      Judgement& judgement = judgements_[batch[lane]];
+      judge_by_slopes(side_by_side_[lane], is_tiny((*cells_)[batch[lane]]), judgement);
+      if (judgement.kind == LeafKind::undecided && rim_) judge_at_rim(side_by_side_[lane], judgement);
+    }
+  }
+
+  void judge_at_rim(const SheetCell& cell, Judgement& judgement) {
+    const RimCell::Place place = rim_->enter(cell);
+    if (place == RimCell::Place::unknown) return;
+    if (place == RimCell::Place::outside || rim_->excludes())
+      judgement.kind = LeafKind::empty;
+    else
+      take_steadiest([&](int c) { return rim_->tangent(c); }, {rim_->lifted()}, judgement);
+  }
+
+  /// The coordinate along which the curve runs most steadily, if it is proven to run along any.
+  template <class Tangent>
+  static void take_steadiest(const Tangent& tangent_along, const std::vector<int>& lifted, Judgement& judgement) {
+    double best = 0;
+    for (int c = 0; c < 2 + static_cast<int>(lifted.size()); ++c) {
+      const Interval tangent = tangent_along(c);
+      if (tangent.sign() == 0) continue;
+      const double steadiness = tangent.mignitude() / tangent.magnitude();
+      if (steadiness <= best) continue;
+      best = steadiness;
+      judgement.kind = LeafKind::graph;
+      judgement.along = c < 2 ? c : 2 + lifted[static_cast<std::size_t>(c - 2)];
+    }
   }
 
   static void judge_by_slopes(SheetCell& cell, bool is_tiny, Judgement& judgement) {
@@ -197,16 +225,7 @@ class Judge {
       judgement.kind = LeafKind::empty;
       return;
     }
-    double best = 0;
-    for (int c = 0; c < cell.dimension(); ++c) {
-      const Interval tangent = cell.tangent(0, c);
-      if (tangent.sign() == 0) continue;
-      const double steadiness = tangent.mignitude() / tangent.magnitude();
-      if (steadiness <= best) continue;
-      best = steadiness;
-      judgement.kind = LeafKind::graph;
-      judgement.along = c < 2 ? c : 2 + cell.lifted()[c - 2];
-    }
+    take_steadiest([&](int c) { return cell.tangent(0, c); }, cell.lifted(), judgement);
     if (judgement.kind == LeafKind::undecided && is_tiny && cell.rounding_dominates(0)) {
       cell.sharpen_middle();
       if (!cell.centred(0).contains_zero()) {
@@ -220,6 +239,7 @@ class Judge {
   const SheetProgram& program_;
   SheetCells side_by_side_;
   std::optional<SmoothCells> smooth_;
+  std::optional<RimCell> rim_;
   double patch_size_;
   const std::vector<Cell>* cells_ = nullptr;
   std::vector<Judgement> judgements_;

@@ -86,11 +86,6 @@ bool SheetProgram::is_nested() const {
                      });
 }
 
-bool SheetProgram::has_angles() const {
-  return std::any_of(code_->instructions.begin(), code_->instructions.end(),
-                     [](const SheetCode::Instruction& step) { return step.operation == SheetCode::Operation::angle; });
-}
-
 void SheetProgram::compile(bool tangency) {
   CompiledSheet compiled = compile_sheet(tower_, functions_, lines_, tangency);
   code_ = std::move(compiled.code);

@@ -137,8 +137,6 @@ class SheetProgram {
   bool depends(int function, int v) const { return code_->partials[function][v] != code_->zero; }
   /// A root's square holds another root: a dyad stands on a dyad.
   bool is_nested() const;
-  /// Whether an angle is computed.
-  bool has_angles() const;
   int instructions() const { return static_cast<int>(code_->instructions.size()); }
 
  private:

@@ -25,18 +25,15 @@ Jet root_of(const Jet& square) {
 
 bool excludes_zero(const Jet& a) { return is_known(a) && !a.value.contains_zero(); }
 
+}  // namespace
+
 bool varies_little(const Interval& square) {
   constexpr double near = 0.25;
   return square.lower() > near * square.upper();
 }
 
-}  // namespace
-
 SmoothCell::SmoothCell(const SheetProgram& program, core::WorkingMode mode)
-    : program_(&program),
-      mode_(std::move(mode)),
-      registers_(program.registers<Jet>()),
-      has_angles_(program.has_angles()) {}
+    : program_(&program), mode_(std::move(mode)), registers_(program.registers<Jet>()) {}
 
 SmoothCell::Place SmoothCell::enter(const Interval& x, const Interval& y) {
   registers_.set(0, Jet(x, 0));
@@ -63,10 +60,7 @@ bool SmoothCell::is_far_from_rims() const {
 }
 
 SmoothCells::SmoothCells(const SheetProgram& program, core::WorkingMode mode)
-    : program_(&program),
-      mode_(std::move(mode)),
-      registers_(program.registers<JetBatch>()),
-      has_angles_(program.has_angles()) {}
+    : program_(&program), mode_(std::move(mode)), registers_(program.registers<JetBatch>()) {}
 
 void SmoothCells::enter(const std::array<std::array<Interval, 2>, size>& ranges, std::size_t count) {
   registers_.use_lanes(count);

@@ -13,6 +13,9 @@
 
 namespace clearloci::loci::sheet {
 
+/// Of a root's square: on such a cell the root need not be lifted (sheet_cell.hpp).
+bool varies_little(const Interval& square);
+
 class SmoothCell {
  public:
   SmoothCell(const SheetProgram& program, core::WorkingMode mode);
@@ -23,10 +26,6 @@ class SmoothCell {
     unknown,
   };
   Place enter(const Interval& x, const Interval& y);
-
-  /// On cells of every size it may tell what plain enclosures do not: where an angle is cut the workspace ends so near
-  /// to an extreme of what is left to the cut, a cosine, that plain enclosures exclude only the tiniest cells.
-  bool tells_of_tiny_cells() const { return has_angles_; }
 
   /// After Place::inside.
   const Interval& value() const { return registers_.value(0).value; }
@@ -42,7 +41,6 @@ class SmoothCell {
   const SheetProgram* program_;
   core::WorkingMode mode_;
   SheetProgram::Registers<Jet> registers_;
-  bool has_angles_;
 };
 
 /// Several cells at a time, each as it would be alone.
@@ -57,7 +55,6 @@ class SmoothCells {
   void enter(const std::array<std::array<Interval, 2>, size>& ranges, std::size_t count);
   Place place(std::size_t lane) const { return places_[lane]; }
 
-  bool tells_of_tiny_cells() const { return has_angles_; }
   bool excludes(std::size_t lane, int function) const;
   bool is_far_from_rims(std::size_t lane) const;
   const Interval& slope(std::size_t lane, int c) const {
@@ -69,7 +66,6 @@ class SmoothCells {
   core::WorkingMode mode_;
   SheetProgram::Registers<JetBatch> registers_;
   std::array<Place, size> places_{};
-  bool has_angles_;
 };
 
 bool is_smooth_worthwhile(const SheetProgram& program);

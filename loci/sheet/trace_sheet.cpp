@@ -46,12 +46,16 @@ struct Cut {
   int side = -1;  ///< of the box: 0 to 3 for x0, x1, y0, y1
 };
 
-/// A root's square, as what its zeros are traced by. The straight line shows how it vanishes at an apex.
+/// A root's square, as what its zeros are traced by. The straight line shows how it vanishes at an apex, and of a dyad
+/// on a dyad it is tighter.
 SheetFunction square_of(const core::RootTower& tower, int root, const std::vector<Star>& special) {
   const core::Root& own = tower.roots[static_cast<std::size_t>(root)];
-  const bool at_apex = std::any_of(special.begin(), special.end(),
-                                   [&](const Star& star) { return star.apex && star.power_of_root(root) > 0; });
-  return {without_denominators(own.square, tower), at_apex ? own.line : core::StraightLine{}};
+  bool by_line = std::any_of(special.begin(), special.end(),
+                             [&](const Star& star) { return star.apex && star.power_of_root(root) > 0; });
+  if (own.role == core::RootRole::working_mode)
+    for (std::size_t j = 0; j < tower.roots.size(); ++j)
+      by_line = by_line || core::depends_on(own.square, 2 + static_cast<int>(j));
+  return {without_denominators(own.square, tower), by_line ? own.line : core::StraightLine{}};
 }
 
 /// Whether a function on a part of a tower has zeros in some direction from a star of the partition.
