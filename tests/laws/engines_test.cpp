@@ -165,6 +165,17 @@ TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
   expect_agreement(rails, all_modes(loci::Engine::adaptive_then_exact), test::EndsOnSides::by_place);
 }
 
+// Dyads on dyads: enclosures of the upper ones' roots are tight where they are computed by ways and distances. Four of
+// these curves, and the places of three joints, had been left open after ten times as long.
+TEST(Engines, CertifyTwoDyadsOnAFiveBar) {
+  const core::LocusMap map = trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
+                                                                  "/tests/corpus/loci/five_bar_two_dyads_stacked.yaml"),
+                                        {});
+  EXPECT_GE(map.curves.size(), 15u);
+  for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id;
+  EXPECT_TRUE(map.notes.empty()) << map.notes.front();
+}
+
 /// Both boundaries' circles touch, from outside or from inside, on bases of several inclinations.
 std::vector<test::FiveBarDesign> touching_designs() {
   std::vector<test::FiveBarDesign> designs(5);
