@@ -112,6 +112,7 @@ Meshed mesh_of(Field& field, int level, const std::function<bool()>& stop) {
     cells.look_closer(away, finest + closer_levels);
     now = Drawn(field, cells, stop);
   }
+  if (away.empty() && now.clipping.mesh().triangles.empty()) return {};  // no cell of the workspace holds a zero
   std::vector<int> open = open_leaves(field, cells, now, stop);
   for (int round = 0; round < proof_rounds && cells.halve(worth_halving(cells, open), finest); ++round) {
     cut = true;
