@@ -15,6 +15,15 @@ using core::FactorRole;
 using core::LocusKind;
 using core::Point2;
 
+/// Relative to the region: a point is on the workspace boundary to the rounding of ends.
+constexpr double on_rim = 1e-9;
+/// Of a branch that leaves the boundary: the least share of the root in its tangent that tells on which side it does.
+constexpr double clear_share = 1e-3;
+/// Relative to the region: the error of what is followed.
+constexpr double followed = 1e-13;
+/// Of tangents at both ends of what was followed: the cosine of the angle by which it may turn.
+constexpr double least_cosine = 0.5;
+
 /// Doubles hold the values of an implicit polynomial up to this degree well enough.
 constexpr int low_degree = 8;
 
@@ -30,7 +39,8 @@ struct CurveProjection::OnSheet {
   OnSheet(const core::LocusProblem& problem, const core::LocusCurve& curve, const core::LocusFactor& factor)
       : part(sheet::subtower(problem.tower, curve.mode, {factor.sheet})),
         program(part.tower, std::vector{sheet::narrowed(sheet::SheetFunction{factor.sheet, factor.line}, part)}),
-        follower(program, size_of(problem)),
+        size(size_of(problem)),
+        follower(program, size),
         registers(program.registers<double>()) {}
 
   static double size_of(const core::LocusProblem& problem) {
@@ -38,7 +48,7 @@ struct CurveProjection::OnSheet {
                     core::to_double(problem.upper[1] - problem.lower[1]));
   }
 
-  CurvePoint project(const Point2& near) {
+  sheet::LiftedPoint lifted(const Point2& near) {
     sheet::LiftedPoint point = {near[0], near[1]};
     registers.set(0, near[0]);
     registers.set(1, near[1]);
@@ -48,14 +58,103 @@ struct CurveProjection::OnSheet {
       registers.set(2 + j, root);
       point.push_back(root);
     }
+    return point;
+  }
+
+  CurvePoint project(const Point2& near) {
+    sheet::LiftedPoint point = lifted(near);
     const sheet::LiftedPoint across = follower.tangent(point);
     if (across.empty() || !follower.correct(point, across, sheet::dot(across, point))) return {near, {}};
     const sheet::LiftedPoint tangent = follower.tangent(point);
     return {{point[0], point[1]}, tangent.empty() ? Point2{} : unit(tangent[0], tangent[1])};
   }
 
+  /// The roots that vanish at a point, to the rounding of ends; registers hold it.
+  std::vector<std::size_t> roots_at_rim() {
+    registers.run_gradients();
+    std::vector<std::size_t> list;
+    for (int j = 0; j < program.roots(); ++j) {
+      double slope = 0;
+      for (int v = 0; v < program.variables(); ++v) slope = std::max(slope, std::abs(registers.square_partial(j, v)));
+      if (std::abs(registers.square(j)) <= on_rim * size * slope) list.push_back(static_cast<std::size_t>(j));
+    }
+    return list;
+  }
+
+  bool in_mode(const sheet::LiftedPoint& point) const {
+    for (std::size_t j = 0; j < part.mode.size(); ++j)
+      if (part.mode[j] * point[2 + j] <= 0) return false;
+    return true;
+  }
+
+  std::optional<Point2> at_distance(const Point2& centre, const Point2& next, double radius) {
+    sheet::LiftedPoint start = lifted(centre);
+    const std::vector<std::size_t> vanishing = roots_at_rim();
+    if (vanishing.size() > 1) return std::nullopt;
+    sheet::LiftedPoint row = follower.tangent(start);
+    if (row.empty()) return std::nullopt;
+    if (!vanishing.empty()) {
+      row.assign(start.size(), 0.0);
+      row[2 + vanishing.front()] = 1;
+      start[2 + vanishing.front()] = 0;
+    }
+    if (!follower.correct(start, row, sheet::dot(row, start))) return std::nullopt;
+    if (std::hypot(start[0] - centre[0], start[1] - centre[1]) > on_rim * size) return std::nullopt;
+    sheet::LiftedPoint tangent = follower.tangent(start);
+    if (tangent.empty()) return std::nullopt;
+    double direction = tangent[0] * (next[0] - centre[0]) + tangent[1] * (next[1] - centre[1]);
+    if (!vanishing.empty()) {
+      const std::size_t j = vanishing.front();
+      if (std::abs(tangent[2 + j]) > clear_share) direction = part.mode[j] * tangent[2 + j];
+    }
+    if (direction < 0)
+      for (double& entry : tangent) entry = -entry;
+    return followed_to(start, tangent, centre, next, radius);
+  }
+
+  /// The point at that distance from the centre, of the branch that leaves `start` along the tangent.
+  std::optional<Point2> followed_to(const sheet::LiftedPoint& start, const sheet::LiftedPoint& tangent,
+                                    const Point2& centre, const Point2& next, double radius) {
+    constexpr int most_steps = 20;
+    constexpr double least_speed = 0.1;
+    double ahead = radius / std::max(least_speed, std::hypot(tangent[0], tangent[1]));
+    for (int step = 0; step < most_steps; ++step) {
+      sheet::LiftedPoint point = start;
+      for (std::size_t i = 0; i < point.size(); ++i) point[i] += ahead * tangent[i];
+      if (!follower.correct(point, tangent, sheet::dot(tangent, start) + ahead) || !in_mode(point)) return std::nullopt;
+      const sheet::LiftedPoint there = follower.tangent(point);
+      const double cosine = there.empty() ? 0 : sheet::dot(there, tangent);
+      if (std::abs(cosine) < least_cosine) return std::nullopt;
+      const Point2 off = {point[0] - centre[0], point[1] - centre[1]};
+      const double distance = std::hypot(off[0], off[1]);
+      if (off[0] * (next[0] - centre[0]) + off[1] * (next[1] - centre[1]) <= 0) return std::nullopt;
+      if (std::abs(distance - radius) <= followed * size) return Point2{point[0], point[1]};
+      const double speed = (off[0] * there[0] + off[1] * there[1]) / (distance * cosine);
+      if (!(speed > 0)) return std::nullopt;
+      ahead += (radius - distance) / speed;
+      if (!(ahead > 0)) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Point2> between(const Point2& a, const Point2& b) {
+    const sheet::LiftedPoint from = lifted(a), to = lifted(b);
+    sheet::LiftedPoint point = from, chord = to;
+    double largest = 0;
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      point[i] += (to[i] - from[i]) / 2;
+      chord[i] -= from[i];
+      largest = std::max(largest, std::abs(chord[i]));
+    }
+    if (largest == 0) return std::nullopt;
+    for (double& entry : chord) entry /= largest;
+    if (!follower.correct(point, chord, sheet::dot(chord, point)) || !in_mode(point)) return std::nullopt;
+    return Point2{point[0], point[1]};
+  }
+
   sheet::Subtower part;
   sheet::SheetProgram program;
+  double size;
   sheet::SheetFollower follower;
   sheet::SheetProgram::Registers<double> registers;
 };
@@ -108,6 +207,18 @@ CurvePoint CurveProjection::operator()(const Point2& near) const {
   const Point2 at = self.plane->project(near);
   const PlaneCurve::Jet jet = self.plane->jet(at);
   return {at, unit(-jet.fy, jet.fx)};
+}
+
+std::optional<Point2> CurveProjection::at_distance(const Point2& centre, const Point2& next, double radius) const {
+  if (!implementation_->sheet) return std::nullopt;
+  return implementation_->sheet->at_distance(centre, next, radius);
+}
+
+std::optional<Point2> CurveProjection::between(const Point2& a, const Point2& b) const {
+  if (implementation_->sheet) return implementation_->sheet->between(a, b);
+  const CurvePoint on = (*this)({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
+  if (on.tangent == Point2{}) return std::nullopt;
+  return on.at;
 }
 
 const CurveProjection& CurveProjections::of(int curve) {

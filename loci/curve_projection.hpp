@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
@@ -26,6 +27,14 @@ class CurveProjection {
 
   /// The point itself, without a tangent, where no curve is found near it.
   CurvePoint operator()(const core::Point2& near) const;
+
+  /// Where the curve that leaves the point `centre` of it first is so far from there, followed along its tangent on the
+  /// mode's sheet: also where it touches the workspace boundary, beside which nothing near it can be moved onto it.
+  /// `next`: another point of the branch. None where there is no sheet, more branches than one leave, or it is lost.
+  std::optional<core::Point2> at_distance(const core::Point2& centre, const core::Point2& next, double radius) const;
+
+  /// The point amid two neighbours on the curve, across their chord; none where it is not found.
+  std::optional<core::Point2> between(const core::Point2& a, const core::Point2& b) const;
 
  private:
   struct OnSheet;

@@ -34,11 +34,15 @@ constexpr double beside_a_touch = 1e-5;
 // The order of edges around a node is read off circles of these radii, from the largest that fits.
 constexpr double largest_circle = 0.02, smallest_circle = 3e-8;
 constexpr int agreeing_circles = 1;
-constexpr double rounding = 1e-13;  // of points moved onto a curve
+constexpr double widest_doubt = 1e-4;  // rad; of bearings that are looked for by other means
+constexpr double rounding = 1e-13;     // of points moved onto a curve
 // Tolerances by which chords may cross beside the curves' crossing.
 constexpr double drawn_off = 100;
 // Tolerances by which polylines of arcs that meet are apart at most, with room for rounding.
 constexpr double chords_apart = 2.5;
+// Of chords that cross where their curves do not: as many halvings leave a 65000th of the tolerance between chord and
+// curve.
+constexpr int most_halvings = 8;
 // Curves that leave a star side by side are told apart this far from it.
 constexpr double around_a_star = 0.15;
 // The exact arrangement of two curves is quick up to this degree.
@@ -487,12 +491,14 @@ class Builder {
     }
     std::vector<HalfEdge> order;
     int agreeing = 0;
-    for (; radius > smallest_circle * size_ && agreeing < agreeing_circles; radius *= 0.6) {
-      std::vector<HalfEdge> now = order_on_circle(n, radius);
-      if (now.empty()) continue;
-      agreeing = now == order ? agreeing + 1 : 0;
-      order = std::move(now);
-    }
+    // A curve is followed from the node where no point near it could be moved onto it.
+    for (const bool follow : {false, true})
+      for (double r = radius; r > smallest_circle * size_ && agreeing < agreeing_circles; r *= follow ? 0.9 : 0.6) {
+        std::vector<HalfEdge> now = order_on_circle(n, r, follow);
+        if (now.empty()) continue;
+        agreeing = now == order ? agreeing + 1 : 0;
+        order = std::move(now);
+      }
     if (agreeing < agreeing_circles) doubt("the order of curves around a crossing is not clear");
     if (!order.empty()) around = std::move(order);
   }
@@ -506,7 +512,7 @@ class Builder {
   }
 
   /// Empty where rounding hides the order.
-  std::vector<HalfEdge> order_on_circle(std::size_t n, double radius) {
+  std::vector<HalfEdge> order_on_circle(std::size_t n, double radius, bool follow) {
     const Point2 centre = graph().nodes[n];
     std::vector<std::pair<Bearing, HalfEdge>> bearings;
     for (const HalfEdge half : graph().around[n]) {
@@ -522,7 +528,10 @@ class Builder {
               points[i - 1][1] + t * (points[i][1] - points[i - 1][1])};
         break;
       }
-      bearings.emplace_back(bearing_of_curve(edge.owners.front(), centre, at, radius), half);
+      Bearing bearing = bearing_of_curve(edge.owners.front(), centre, at, radius);
+      if (follow && bearing.doubt > widest_doubt)
+        bearing = followed_bearing(edge.owners.front(), centre, points[1], radius).value_or(bearing);
+      bearings.emplace_back(bearing, half);
     }
     std::sort(bearings.begin(), bearings.end(),
               [](const auto& a, const auto& b) { return a.first.angle < b.first.angle; });
@@ -545,6 +554,14 @@ class Builder {
     double angle = 0;
     double doubt = 0;  ///< by which it may be wrong
   };
+
+  /// The same of a curve that is followed from the node; none where it is not found.
+  std::optional<Bearing> followed_bearing(int owner, const Point2& centre, const Point2& next, double radius) {
+    const CurveProjection* const own = projection(owner);
+    const std::optional<Point2> at = own == nullptr ? std::nullopt : own->at_distance(centre, next, radius);
+    if (!at) return std::nullopt;
+    return Bearing{std::atan2((*at)[1] - centre[1], (*at)[0] - centre[0]), 2 * rounding * size_ / radius};
+  }
 
   /// The angle under which a curve crosses the circle: along its tangent to the radius, then back onto the curve.
   Bearing bearing_of_curve(int owner, const Point2& centre, Point2 at, double radius) {
@@ -571,14 +588,41 @@ class Builder {
   }
 
   /// Edges that are proven to meet at nodes only must not seem to cross elsewhere, unless they are too close to tell.
+  /// Chords that do are halved until they do not.
   void check_separation() {
+    for (int round = 0;; ++round) {
+      std::vector<Segment> amiss;
+      each_crossing(segments_of_edges(), [&](const Segment& s, const Segment& t) {
+        if (!close_to_node(s.of, t.of, s.a) && !close_to_node(s.of, t.of, s.b)) amiss.insert(amiss.end(), {s, t});
+      });
+      if (amiss.empty()) return;
+      if (round == most_halvings || !halve(amiss))
+        return doubt("two curves come closer to each other than the tolerance");
+    }
+  }
+
+  std::vector<Segment> segments_of_edges() {
     std::vector<Segment> segments;
-    const PlaneGraph& g = graph();
-    for (std::size_t e = 0; e < g.edges.size(); ++e) add_segments(g.edges[e].points, static_cast<int>(e), segments);
-    each_crossing(std::move(segments), [&](const Segment& s, const Segment& t) {
-      if (!close_to_node(s.of, t.of, s.a) && !close_to_node(s.of, t.of, s.b))
-        doubt("two curves come closer to each other than the tolerance");
-    });
+    for (std::size_t e = 0; e < graph().edges.size(); ++e)
+      add_segments(graph().edges[e].points, static_cast<int>(e), segments);
+    return segments;
+  }
+
+  /// A point of the curve amid every one of the chords. False: one is not found.
+  bool halve(const std::vector<Segment>& chords) {
+    for (const Segment& chord : chords) {
+      GraphEdge& edge = graph().edges[static_cast<std::size_t>(chord.of)];
+      if (edge.owners.front() == box_owner) continue;
+      const auto start =
+          std::adjacent_find(edge.points.begin(), edge.points.end(),
+                             [&](const Point2& p, const Point2& q) { return p == chord.a && q == chord.b; });
+      if (start == edge.points.end()) continue;  // halved already: it crosses two
+      const std::optional<Point2> on = projection(edge.owners.front())->between(chord.a, chord.b);
+      const Point2 middle = {(chord.a[0] + chord.b[0]) / 2, (chord.a[1] + chord.b[1]) / 2};
+      if (!on || distance(*on, middle) > chords_apart * map_.tolerance) return false;
+      edge.points.insert(start + 1, *on);
+    }
+    return true;
   }
 
   /// Polylines of curves that touch at a node may cross up to where the curves are a tolerance apart.

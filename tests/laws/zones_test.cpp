@@ -171,6 +171,24 @@ TEST(Zones, OfTheCorpusAreCertified) {
   }
 }
 
+// Once open, or traced anew with finer and finer chords: loci touch the boundary beside its crossing with another one,
+// where no point near a locus can be moved onto it; a locus runs next to a boundary that it does not meet.
+TEST(Zones, BesideBoundariesNeedNoFinerLoci) {
+  std::mt19937 random(20110579);
+  for (const auto& [name, zones] : {std::pair<std::string, std::size_t>("coupler_loci_touch_boundaries", 22),
+                                    std::pair<std::string, std::size_t>("coupler_locus_beside_a_boundary", 18)}) {
+    SCOPED_TRACE(name);
+    const mechanism::Mechanism mechanism =
+        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
+    const core::ZoneMap map = find_zones(mechanism);
+    EXPECT_TRUE(certified(map));
+    EXPECT_EQ(map.zones.size(), zones);
+    EXPECT_EQ(map.loci.tolerance, LociRequest().tolerance);
+    expect_one_sign_a_zone(mechanism, map, random);
+    expect_partition(mechanism, map, random);
+  }
+}
+
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
   const core::ZoneMap map = find_zones(example("five_bar"));
   const auto home = std::find_if(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) {

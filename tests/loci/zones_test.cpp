@@ -111,11 +111,28 @@ TEST(ZonesBetween, AnOvalBesideABranch) {
   EXPECT_NEAR(whole_area(map), 16, 1e-5);
 }
 
-TEST(ZonesBetween, CurvesNearerThanTheirPolylinesAreLeftToFinerOnes) {
-  // An ellipse a millimetre around a circle at its flat sides, where chords stray by a centimetre.
-  const Polynomial ellipse = x * x + number(Rational(49, 50)) * y * y - number(Rational(501, 500));
+/// A circle, and an ellipse around it that is so far from it at its flat sides.
+LocusProblem nearly_touching(const Rational& apart, double tolerance) {
+  const Rational radius = 1 + apart;
+  const Polynomial ellipse = x * x + number(Rational(49, 50)) * y * y - number(radius * radius);
   LocusProblem problem = problem_of({circle(0, 0, 1), ellipse});
-  problem.tolerance = 1e-2;
+  problem.tolerance = tolerance;
+  return problem;
+}
+
+TEST(ZonesBetween, CurvesNearerThanTheirPolylinesAreToldApartByFinerChords) {
+  const LocusProblem problem = nearly_touching(Rational(1, 2000), 1e-2);
+  constexpr bool sketch = false, may_leave = true;
+  const CutZones told = zones(problem, trace(problem), sketch, may_leave);
+  EXPECT_FALSE(told.left);
+  ASSERT_EQ(told.map.zones.size(), 3u);
+  for (const core::Zone& zone : told.map.zones) EXPECT_TRUE(zone.certified);
+  const double circle = std::numbers::pi, ellipse = circle * 1.0005 * 1.0005 * std::sqrt(50 / 49.);
+  expect_areas(told.map, {16 - ellipse, circle, ellipse - circle});
+}
+
+TEST(ZonesBetween, CurvesNearerThanSuchChordsAreLeftToFinerOnes) {
+  LocusProblem problem = nearly_touching(Rational(1, 1'000'000'000), 1e-2);
   constexpr bool sketch = false, may_leave = true;
   const CutZones left = zones(problem, trace(problem), sketch, may_leave);
   EXPECT_TRUE(left.left);
