@@ -53,12 +53,24 @@ core::LocusKind kind_of(FactorRole role, core::LocusKind reaction) {
   }
 }
 
-/// Whether a curve of the exact engine is one that an uncertified share stands for.
-bool replaces(const LocusCurve& curve, const LocusProblem& problem, const SheetShare& share) {
-  const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share.factor)];
-  return curve.mode == problem.modes[static_cast<std::size_t>(share.mode)] &&
-         curve.kind == kind_of(factor.role, curve.kind) &&
-         std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
+/// The curves of the exact engine that uncertified shares stand for.
+IsWanted replacing(const LocusProblem& problem, const std::vector<SheetShare*>& shares) {
+  struct Replaced {
+    core::WorkingMode mode;
+    FactorRole role;
+    std::vector<core::Polynomial> implicit;
+  };
+  std::vector<Replaced> all;
+  for (const SheetShare* share : shares) {
+    const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share->factor)];
+    all.push_back({problem.modes[static_cast<std::size_t>(share->mode)], factor.role, factor.implicit});
+  }
+  return [all = std::move(all)](const LocusCurve& curve) {
+    return std::any_of(all.begin(), all.end(), [&](const Replaced& own) {
+      return curve.mode == own.mode && curve.kind == kind_of(own.role, curve.kind) &&
+             std::find(own.implicit.begin(), own.implicit.end(), curve.implicit) != own.implicit.end();
+    });
+  };
 }
 
 /// The exact engine on what the adaptive one left open: shares that have a curve in common go together. Marks those
@@ -114,13 +126,9 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
     const core::WorkingMode& mode = problem.modes[static_cast<std::size_t>(share->mode)];
     if (std::find(rest.modes.begin(), rest.modes.end(), mode) == rest.modes.end()) rest.modes.push_back(mode);
   }
-  LocusMap exact = trace_exactly(rest, options);
+  LocusMap exact = trace_exactly(rest, options, replacing(problem, open));
   if (!exact.complete) throw core::LimitReached("the time limit was reached");
-  for (LocusCurve& curve : exact.curves) {
-    if (std::any_of(open.begin(), open.end(),
-                    [&](const SheetShare* share) { return replaces(curve, problem, *share); }))
-      map.curves.push_back(std::move(curve));
-  }
+  for (LocusCurve& curve : exact.curves) map.curves.push_back(std::move(curve));
   for (core::IsolatedPoint& point : exact.isolated_points) map.isolated_points.push_back(std::move(point));
   for (std::string& note : exact.notes) map.notes.push_back(std::move(note));
   for (SheetShare* share : open) share->settled = true;

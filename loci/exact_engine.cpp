@@ -47,9 +47,10 @@ CurveList distinct_curves(const LocusProblem& problem) {
 
 class ExactTrace {
  public:
-  ExactTrace(const LocusProblem& problem, const TraceOptions& options)
+  ExactTrace(const LocusProblem& problem, const TraceOptions& options, const IsWanted& is_wanted)
       : problem_(problem),
         options_(options),
+        is_wanted_(is_wanted),
         list_(distinct_curves(problem)),
         arrangement_(list_.curves, {problem.lower[0], problem.lower[1]}, {problem.upper[0], problem.upper[1]},
                      [&options] { return options.deadline && std::chrono::steady_clock::now() > *options.deadline; }),
@@ -258,6 +259,7 @@ class ExactTrace {
       curve.mode = mode;
       curve.certified = group.label.proven && decided;
       curve.excited = group.label.excited;
+      if (is_wanted_ && !is_wanted_(curve)) continue;
       const bool ends_on_singularities = curve.kind < LocusKind::direct_singularity;
       const VertexMarks own = without_boundary_of(group.curve, marks, edges);
       for (const EdgeWalk& walk : join_edges(arrangement_, group.edges, own, ends_on_singularities)) {
@@ -267,7 +269,7 @@ class ExactTrace {
       }
       if (!curve.arcs.empty()) map_.curves.push_back(std::move(curve));
     }
-    add_workspace(mode, edges);
+    if (!is_wanted_) add_workspace(mode, edges);
   }
 
   /// The edges between workspace and outside, joined to rings.
@@ -297,6 +299,7 @@ class ExactTrace {
 
   const LocusProblem& problem_;
   const TraceOptions& options_;
+  const IsWanted& is_wanted_;
   CurveList list_;
   CurveArrangement arrangement_;
   SheetSigns signs_;
@@ -308,17 +311,17 @@ class ExactTrace {
   LocusMap map_;
 };
 
-LocusMap trace_without_limit(const LocusProblem& problem, const TraceOptions& options) {
-  return ExactTrace(problem, options).run();
+LocusMap trace_without_limit(const LocusProblem& problem, const TraceOptions& options, const IsWanted& is_wanted) {
+  return ExactTrace(problem, options, is_wanted).run();
 }
 
 }  // namespace
 
-LocusMap trace_exactly(const LocusProblem& problem, const TraceOptions& options) {
-  if (!options.deadline) return trace_without_limit(problem, options);
+LocusMap trace_exactly(const LocusProblem& problem, const TraceOptions& options, const IsWanted& is_wanted) {
+  if (!options.deadline) return trace_without_limit(problem, options, is_wanted);
   // No progress: who shows it may be gone before the engine is.
   const TraceOptions own = {.engine = options.engine, .deadline = options.deadline};
-  return within(*options.deadline, [problem, own] { return trace_without_limit(problem, own); });
+  return within(*options.deadline, [problem, own, is_wanted] { return trace_without_limit(problem, own, is_wanted); });
 }
 
 Found find_exactly(const LocusProblem& problem, const TraceOptions& options) {
