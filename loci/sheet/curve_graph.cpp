@@ -18,6 +18,8 @@ constexpr double smallest_on_edge = 1e-14;
 constexpr std::size_t most_cells_on_edge = 512;
 // Where the curve runs along a part of a patch's border, the rest of that side is searched by so many.
 constexpr std::size_t most_cells_beside_a_run = 64;
+// Of a segment of the border: what cannot be told apart so far from its ends cannot be whatever they are.
+constexpr double well_inside = 1e-6;
 // In a sketch an edge on which so many cells tell nothing, as where the curve runs along it, is left open.
 constexpr std::size_t most_cells_on_edge_of_a_sketch = 16;
 // Of crossings, relative to the patch: a tenth of what vertices are held to.
@@ -52,7 +54,10 @@ class GraphBuilder {
       patch.tree = std::make_unique<CellTree>(*patch.program, mode_, patch.domain, std::move(options));
       // Other cuts do not help where the budget is what runs out.
       graph_.stopped = graph_.stopped || patch.tree->cut_short();
-      last_attempt_ = last_attempt_ || graph_.stopped;
+      const std::vector<Leaf>& leaves = patch.tree->leaves();
+      // Nor where the curve is open in cells that are too small to be cut.
+      if (std::any_of(leaves.begin(), leaves.end(), [](const Leaf& own) { return own.kind == LeafKind::undecided; }))
+        leave_open_for_good();
       if (graph_.stopped && options_.whole_or_nothing) return leave_open(patch);
       at_leaf_.emplace_back(patch.tree->leaves().size());
       open_.emplace_back(patch.tree->leaves().size());
@@ -65,10 +70,14 @@ class GraphBuilder {
     for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) join_clusters(static_cast<int>(p));
     if (!lucky()) return std::nullopt;
     graph_.undecided = clusters(std::move(graph_.undecided));
+    graph_.open_at_corner = open_at_corner_ && !open_for_good_;
     return std::move(graph_);
   }
 
  private:
+  /// What is open would be so with other cuts.
+  void leave_open_for_good() { open_for_good_ = last_attempt_ = true; }
+
   /// Nothing but where the budget ran out.
   CurveGraph leave_open(const Patch& patch) {
     for (const Leaf& own : patch.tree->leaves())
@@ -122,13 +131,28 @@ class GraphBuilder {
     return std::move(found.enclosures);
   }
 
-  /// `runs_along`: there is nothing to be told apart, for no part of the segment is free of zeros.
+  /// Why zeros on a segment cannot be told apart.
+  struct Trouble {
+    bool runs_along = false;  ///< no part of the segment is free of zeros
+    bool inside = false;      ///< with other ends they could not be either
+    bool at_end[2] = {false, false};
+  };
+
   std::optional<std::vector<std::vector<Interval>>> zeros_on(int patch, ZeroSearch& search, int axis, double at,
                                                              double from, double to, std::size_t most_cells,
-                                                             bool& runs_along) {
+                                                             Trouble& trouble) {
     FoundZeros found = search.run({segment_of(axis, at, from, to)}, limits_on_edge(patch, most_cells));
     // As many as that are left where none of all halves, halved again, was excluded.
-    if (found.gave_up && found.undecided.size() >= 2 * most_cells) runs_along = true;
+    trouble.runs_along = found.gave_up && found.undecided.size() >= 2 * most_cells;
+    const double ends = well_inside * (to - from);
+    const auto look = [&](const Interval& range) {
+      trouble.at_end[0] = trouble.at_end[0] || range.lower() <= from + ends;
+      trouble.at_end[1] = trouble.at_end[1] || range.upper() >= to - ends;
+      return range.lower() > from + ends && range.upper() < to - ends;
+    };
+    for (const Cell& cell : found.undecided)
+      if (look(axis == 0 ? cell.y : cell.x) && !found.gave_up) trouble.inside = true;
+    for (const std::vector<Interval>& zero : found.enclosures) look(zero[1 - axis]);
     return told_apart(std::move(found), axis, {from, to});
   }
 
@@ -189,16 +213,32 @@ class GraphBuilder {
           const Interval& other = axis == 0 ? cell.y : cell.x;
           const std::size_t most_cells =
               runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();
-          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, runs_along);
+          Trouble trouble;
+          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, trouble);
+          runs_along = runs_along || trouble.runs_along;
           if (!zeros) {
             give_up_on(patch, index);
-            last_attempt_ = last_attempt_ || runs_along;  // other cuts do not move the border
+            blame(patch, axis, other, trouble, runs_along);
             continue;
           }
           for (std::vector<Interval>& zero : *zeros) hand_over(patch, index, axis, end, std::move(zero));
         }
       }
     }
+  }
+
+  /// Other cuts move neither the border nor a star's corners. `segment`: of the border.
+  void blame(int patch, int axis, const Interval& segment, const Trouble& trouble, bool runs_along) {
+    const Chart& chart = graph_.patches[patch].chart;
+    const Interval& range = axis == 0 ? graph_.patches[patch].domain.y : graph_.patches[patch].domain.x;
+    // Between two charts what reaches the star stands in for the corner, and so does what runs along there.
+    const bool at_corner = (trouble.at_end[0] && segment.lower() == range.lower()) ||
+                           (axis == 0 && trouble.at_end[1] && segment.upper() == range.upper()) ||
+                           (axis == 1 && runs_along);
+    if (chart.side != Side::plane && at_corner)
+      open_at_corner_ = last_attempt_ = true;
+    else if (runs_along || trouble.inside)
+      leave_open_for_good();
   }
 
   /// Position of `side` among the charts of its star.
@@ -267,6 +307,7 @@ class GraphBuilder {
       const std::size_t most_cells = options_.extended ? most_rim_cells : most_rim_cells_of_a_sketch;
       FoundZeros found =
           ZeroSearch(rim, mode, {}).run(seeds, {1e-12 * size, most_cells, accuracy * size, options_.stop});
+      if (!found.undecided.empty() && !found.gave_up) leave_open_for_good();
       for (const Cell& cell : found.undecided) {
         unlucky_ = true;
         graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));
@@ -365,7 +406,7 @@ class GraphBuilder {
   const Partition& parts_;
   TreeOptions options_;
   bool last_attempt_;
-  bool unlucky_ = false;
+  bool unlucky_ = false, open_for_good_ = false, open_at_corner_ = false;
   CurveGraph graph_;
   std::vector<std::vector<std::vector<Seen>>> at_leaf_;  // by patch and leaf
   std::vector<std::vector<bool>> open_;                  // leaves at which something could not be told apart

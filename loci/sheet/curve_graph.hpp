@@ -65,6 +65,7 @@ struct CurveGraph {
   std::vector<Cluster> clusters;
   std::vector<Cell> undecided;  ///< in the plane, clusters included
   bool stopped = false;         ///< by TreeOptions::stop or the budget
+  bool open_at_corner = false;  ///< all that is open may be so because a branch leaves a star towards a corner of it
 };
 
 /// The patches of a sheet over a box, charted and compiled. `box`: x0, x1, y0, y1.

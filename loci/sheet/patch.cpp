@@ -255,7 +255,7 @@ core::Point2 place_of(const Star& star) { return {core::to_double(star.x), core:
 
 /// The rectangle around a star; none: it has nothing to do with the box.
 std::optional<std::array<double, 4>> rectangle_around(const Star& star, const std::array<double, 4>& box,
-                                                      const std::vector<core::Point2>& bases) {
+                                                      const std::vector<core::Point2>& bases, bool skewed) {
   // A star this close to the box's edge, relative to its rectangle, has the rectangle reach across the edge.
   constexpr double margin = 0.05;
   // No round numbers, since sides of rectangles on sides of the box are hard to tell apart.
@@ -264,6 +264,8 @@ std::optional<std::array<double, 4>> rectangle_around(const Star& star, const st
   constexpr double share = 0.2473;  // of the way to the next base
   // Along a common tangent, relative to the way off it: every curve towards the touch then stays in the rectangle.
   constexpr double flat = 0.4931;
+  // Of the way to the sides x0, x1, y0, y1: no corner in a direction in which designs on a lattice have branches.
+  constexpr std::array<double, 4> shares = {0.9371, 0.8533, 0.9713, 0.8117};
   const auto [x, y] = place_of(star);
   double reach = largest * std::max(box[1] - box[0], box[3] - box[2]);
   for (const core::Point2& base : bases) {
@@ -283,14 +285,15 @@ std::optional<std::array<double, 4>> rectangle_around(const Star& star, const st
   };
   const double across = sheared && !star.along_y ? flat * reach : reach;
   const double up = sheared && star.along_y ? flat * reach : reach;
-  return std::array{side(x, across, -1, box[0]), side(x, across, 1, box[1]), side(y, up, -1, box[2]),
-                    side(y, up, 1, box[3])};
+  const auto reach_to = [&](std::size_t s) { return (s < 2 ? across : up) * (skewed ? shares[s] : 1.0); };
+  return std::array{side(x, reach_to(0), -1, box[0]), side(x, reach_to(1), 1, box[1]), side(y, reach_to(2), -1, box[2]),
+                    side(y, reach_to(3), 1, box[3])};
 }
 
 }  // namespace
 
 Partition partition(const core::RootTower& tower, const std::array<double, 4>& box, std::vector<core::Point2> bases,
-                    const std::vector<Star>& special) {
+                    const std::vector<Star>& special, bool skewed) {
   std::vector<Star> all = cones(tower);
   for (const Star& star : special) {
     const bool taken =
@@ -302,7 +305,7 @@ Partition partition(const core::RootTower& tower, const std::array<double, 4>& b
   result.domain = box;
   result.charts.emplace_back();
   for (const Star& star : all) {
-    const auto hole = rectangle_around(star, box, bases);
+    const auto hole = rectangle_around(star, box, bases, skewed);
     if (!hole) continue;
     const int index = static_cast<int>(result.stars.size());
     result.stars.push_back(star);

@@ -100,9 +100,10 @@ struct Partition {
   std::vector<Chart> charts;                 ///< the plane first, then four a star
 };
 /// `bases`: points that no rectangle may come near unless it is their own; those of a whole tower make the partitions
-/// of its parts agree on the rectangles they have in common. `special`: stars besides the cones of the tower.
+/// of its parts agree on the rectangles they have in common. `special`: stars besides the cones of the tower. `skewed`:
+/// rectangles that have their stars off the middle, so that their corners lie in other directions.
 Partition partition(const core::RootTower& tower, const std::array<double, 4>& box, std::vector<core::Point2> bases,
-                    const std::vector<Star>& special);
+                    const std::vector<Star>& special, bool skewed = false);
 
 /// The points of the plane where a denominator of the tower vanishes.
 std::vector<core::Point2> bases(const core::RootTower& tower);

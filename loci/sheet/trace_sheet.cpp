@@ -10,6 +10,7 @@
 #include "loci/sheet/chains.hpp"
 #include "loci/sheet/critical_point.hpp"
 #include "loci/sheet/curve_graph.hpp"
+#include "loci/sheet/exact_zero.hpp"
 #include "loci/sheet/subtower.hpp"
 #include "loci/sheet/vertices.hpp"
 
@@ -116,14 +117,19 @@ class Tracer {
 
   /// All but vertices.
   void find(const std::vector<Cutter>& cutters) {
-    const Partition parts = parts_of(own_);
+    Partition parts = parts_of(own_);
     TreeOptions tree;
     tree.most_cells = options_.most_cells;
     tree.extended = !options_.sketch;
     tree.stop = options_.stop;
     tree.whole_or_nothing = options_.whole_or_nothing;
-    own_stars_ = parts.stars;
     graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+    if (graph_.open_at_corner && !options_.sketch) {
+      skewed_ = true;
+      parts = parts_of(own_);
+      graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+    }
+    own_stars_ = parts.stars;
     if (graph_.stopped && options_.whole_or_nothing) return;
     for (Crossing& crossing : graph_.crossings)
       if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].singular && !cutters.empty())
@@ -174,7 +180,7 @@ class Tracer {
   std::size_t cut_cells() const { return options_.sketch ? most_cut_cells_of_a_sketch : most_cut_cells; }
 
   Partition parts_of(const Subtower& part) const {
-    return partition(part.tower, wide_, bases_, narrowed(options_.special, part));
+    return partition(part.tower, wide_, bases_, narrowed(options_.special, part), skewed_);
   }
 
   /// What the cells of the plane say; those around stars are left open.
@@ -306,12 +312,20 @@ class Tracer {
     return thin <= widest_touch * size && wide <= (cut.side < 0 ? widest_touch : longest_touch) * size;
   }
 
-  /// The curve meets a region's edge in a place that is one point to rounding: where they touch. What it does there is
-  /// seen from its pieces on either side, which are joined again where both belong to the region.
+  /// At a place that is one point to rounding. What the curve does at a region's edge is seen from its pieces on either
+  /// side, which are joined again where both belong to the region; what else vanishes there has to be proven.
+  bool may_cut_at(const Cell& place, const Cut& cut) const {
+    if (cut.keep) return true;
+    const Subtower both = subtower(tower_, mode_, {sheet_.polynomial, cut.sheet.polynomial});
+    return vanish_exactly(both.tower, both.mode,
+                          {narrowed(sheet_.polynomial, both), narrowed(cut.sheet.polynomial, both)}, place);
+  }
+
+  /// The curve meets a region's edge, or a cutter, in a place that is one point to rounding: where they touch.
   bool touch(int patch, const Cell& place, const Cut& cut) {
     const Patch& own = graph_.patches[static_cast<std::size_t>(patch)];
     const double size = std::max(own.domain.x.width(), own.domain.y.width());
-    if (!cut.keep || !is_one_point(place, cut, size)) return false;
+    if (!is_one_point(place, cut, size) || !may_cut_at(own.chart.to_plane(place), cut)) return false;
     SheetCell cell(*own.program, own_.mode);
     if (!cell.enter(place.x, place.y)) return true;  // outside the workspace
     std::vector<Interval> enclosure = {place.x, place.y};
@@ -407,7 +421,8 @@ class Tracer {
       }
     }
     for (const Cell& cell : clusters(std::move(open))) {
-      if (!at_end(cell, cut) && !(cut.keep && is_one_point(cell, cut, size_) && cut_at(cell, crossing_of(cut))))
+      if (!at_end(cell, cut) &&
+          !(is_one_point(cell, cut, size_) && may_cut_at(cell, cut) && cut_at(cell, crossing_of(cut))))
         graph_.undecided.push_back(cell);
     }
   }
@@ -496,6 +511,7 @@ class Tracer {
   std::array<double, 4> box_{}, wide_{};  // the former around the sides, to rounding
   std::vector<core::Point2> bases_;
   double size_ = 0;
+  bool skewed_ = false;  // partitions
   std::vector<Star> own_stars_;
   CurveGraph graph_;
   std::vector<Chain> pieces_;  // point into graph_

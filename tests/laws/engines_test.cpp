@@ -150,6 +150,24 @@ TEST(Engines, ArcsEndInCornersOfALineAndACircle) {
   EXPECT_EQ(ends, 2);
 }
 
+// A locus meets |A| = 0 where that crosses or touches itself, a double zero of both: at a point of the lattice, where
+// all roots are rational. And a branch leaves the base of a leg towards a corner between the charts around it.
+TEST(Engines, TheAdaptiveOneCertifiesWhatTouchesOnTheLattice) {
+  const auto kept = [](const std::string& name) {
+    return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
+  };
+  LociRequest adaptive;
+  adaptive.engine = loci::Engine::adaptive;
+  const mechanism::Mechanism crossing = kept("prrr_r_double_zero_with_singularity");
+  expect_certified(trace_loci(crossing, adaptive));
+  LociRequest of_guide = adaptive;  // the other curves are beyond the exact engine
+  of_guide.joints = {"G1"};
+  expect_agreement(crossing, of_guide, test::EndsOnSides::by_place);
+  for (const core::LocusCurve& curve : trace_loci(kept("prrr_r_zeros_along_an_axis"), adaptive).curves)
+    EXPECT_TRUE(curve.certified) << curve.id;
+  expect_certified(trace_loci(kept("coupler_branch_towards_a_corner"), {}));
+}
+
 // Both rods are level at x = -1/2: two boundaries of the workspace on one line, along which cells can tell nothing.
 TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
   const mechanism::Mechanism rails = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
