@@ -621,6 +621,7 @@ class Builder {
       const Point2 middle = {(chord.a[0] + chord.b[0]) / 2, (chord.a[1] + chord.b[1]) / 2};
       if (!on || distance(*on, middle) > chords_apart * map_.tolerance) return false;
       edge.points.insert(start + 1, *on);
+      boxed_edges_.erase(chord.of);
     }
     return true;
   }
