@@ -370,7 +370,9 @@ class Derivation {
     if (!fresh) return known->second;
     const Poly &a = factors_[i].natural, &b = factors_[k].natural;
     if (a.total_degree() > 1 || b.total_degree() > 1) return false;
-    const std::optional<core::Rational> length2 = elimination_.constant_over_tower(a * a + b * b);
+    const Poly squared = a * a + b * b;
+    if (!shared_.may_be_constant(squared)) return false;
+    const std::optional<core::Rational> length2 = elimination_.constant_over_tower(squared);
     return known->second = length2 && *length2 != 0;
   }
 
@@ -463,12 +465,11 @@ class Derivation {
   /// those that may vanish on such a curve are wanted, of the reactions asked for; and of all of them where it may be
   /// that none grows without bound.
   void mark_orders() {
-    SharedCurves shared(geometry_);
     for (DeterminantPart& part : determinant_parts_) {
       if (part.sheet.too_heavy) continue;
       std::vector<std::size_t> involved;
       for (std::size_t i = 0; i < factors_.size(); ++i)
-        if (shared.may_vanish_along(part.sheet.implicit, part.sheet.sheet, factors_[i].natural)) involved.push_back(i);
+        if (shared_.may_vanish_along(part.sheet.implicit, part.sheet.sheet, factors_[i].natural)) involved.push_back(i);
       const auto among = [](const std::vector<Vanishing>& list, const Vanishing& reaction) {
         return std::any_of(list.begin(), list.end(), [&](const Vanishing& v) {
           return v.joint == reaction.joint && v.quantity == reaction.quantity;
@@ -874,6 +875,7 @@ class Derivation {
   Geometry geometry_;
   FactoredDeterminants determinants_;
   Elimination elimination_;
+  SharedCurves shared_{geometry_};
   Causes causes_;
   std::vector<Reaction> reactions_;
   std::vector<Guide> guides_;

@@ -170,4 +170,19 @@ bool SharedCurves::may_vanish_along(const std::vector<Poly>& curves, const Poly&
   });
 }
 
+bool SharedCurves::may_be_constant(const Poly& natural) {
+  const Poly x = Poly::variable(geometry_.ring(), 0);
+  std::optional<Residue> first;
+  for (const int place : {37, 53}) {
+    const std::optional<Fibre>& points = fibre_of(x - Poly(geometry_.ring(), core::Rational(place, 101)));
+    if (!points) return true;
+    for (const std::vector<Residue>& point : *points) {
+      const Residue here = value(reduced(natural), point);
+      if (!first) first = here;
+      if (!(here == *first)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace clearloci::symbolic

@@ -24,6 +24,9 @@ class SharedCurves {
   /// where `sheet` vanishes. False is certain.
   bool may_vanish_along(const std::vector<Poly>& curves, const Poly& sheet, const Poly& natural);
 
+  /// Whether a natural polynomial may be the same number in every pose. False is certain.
+  bool may_be_constant(const Poly& natural);
+
  private:
   /// A polynomial modulo the prime.
   struct Reduced {
