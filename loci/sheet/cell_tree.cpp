@@ -29,6 +29,11 @@ constexpr std::size_t cells_at_a_time = 64;
 constexpr double growth_in_sight = 1.7;
 constexpr int extended_budget = 12;
 
+// Around places where a curve is hard to tell there are a few cells of every size. Thousands smaller than this,
+// relative to the patch, are along a double curve, or what is one to rounding: they tell nothing more.
+constexpr double tiny = 1e-7;
+constexpr int most_tiny_cells = 4000;
+
 /// A fixed sequence that looks random: in [-1, 1].
 double scatter(unsigned index, unsigned attempt) {
   std::uint64_t z = (std::uint64_t{index} << 8 | attempt) + 0x9e3779b97f4a7c15ull;
@@ -262,7 +267,9 @@ CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, c
 }
 
 void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode, const TreeOptions& options) {
-  Judge judge(program, mode, std::max(domain().x.width(), domain().y.width()));
+  const double size = std::max(domain().x.width(), domain().y.width());
+  int tiny_cells = 0;
+  Judge judge(program, mode, size);
   std::vector<Judgement> ahead;  // of the next cells that are to be judged, in reverse
   const auto judgement_of = [&](std::size_t index) {
     if (ahead.empty()) {
@@ -296,7 +303,8 @@ void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode,
       leaf.along = judgement.along;
       const double widths[2] = {node.cell.x.width(), node.cell.y.width()};
       const bool divisible = judgement.kind == LeafKind::undecided && std::max(widths[0], widths[1]) > smallest_;
-      const bool may_split = divisible && !stopped && budget.allows(nodes_.size());
+      if (std::max(widths[0], widths[1]) < tiny * size) ++tiny_cells;
+      const bool may_split = divisible && !stopped && tiny_cells < most_tiny_cells && budget.allows(nodes_.size());
       cut_short_ = cut_short_ || (divisible && !may_split);
       if (may_split) {
         split = true;
