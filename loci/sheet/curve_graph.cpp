@@ -22,6 +22,8 @@ constexpr std::size_t most_cells_beside_a_run = 64;
 constexpr double well_inside = 1e-6;
 // In a sketch an edge on which so many cells tell nothing, as where the curve runs along it, is left open.
 constexpr std::size_t most_cells_on_edge_of_a_sketch = 16;
+// On most edges few cells tell; others are searched again, so many at a time.
+constexpr std::size_t few_cells_on_edge = 32, hard_edges_at_a_time = 16, many_edges_given_up = 64;
 // Of crossings, relative to the patch: a tenth of what vertices are held to.
 constexpr double accuracy = 1e-13;
 constexpr std::size_t most_rim_cells = 8192;
@@ -162,6 +164,41 @@ class GraphBuilder {
     return ZeroSearch(*graph_.patches[patch].program, mode_, {{0}, {1 - axis}});
   }
 
+  /// Of many edges.
+  std::vector<FoundZeros> zeros_on_each(int patch, int axis, const std::vector<std::vector<Cell>>& edges) {
+    ZeroSearch search = search_along(patch, axis);
+    std::vector<FoundZeros> found =
+        search.run_each(edges, limits_on_edge(patch, std::min(few_cells_on_edge, cells_on_edge())));
+    std::vector<std::size_t> hard;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i].gave_up) hard.push_back(i);
+    if (few_cells_on_edge < cells_on_edge()) search_again(patch, axis, search, edges, std::move(hard), found);
+    return found;
+  }
+
+  /// Edges on which the curve was not told by few cells, by more of them, the longest first. Where it is not told so
+  /// either on many of them the others are left: it is hard to tell from itself there, which other cuts do not change.
+  void search_again(int patch, int axis, ZeroSearch& search, const std::vector<std::vector<Cell>>& edges,
+                    std::vector<std::size_t> hard, std::vector<FoundZeros>& found) {
+    const auto length = [&](std::size_t i) {
+      const Cell& edge = edges[i].front();
+      return (axis == 0 ? edge.y : edge.x).width();
+    };
+    std::stable_sort(hard.begin(), hard.end(), [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
+    std::size_t given_up = 0;
+    for (std::size_t next = 0; next < hard.size() && given_up < many_edges_given_up; next += hard_edges_at_a_time) {
+      const std::size_t end = std::min(next + hard_edges_at_a_time, hard.size());
+      std::vector<std::vector<Cell>> seeds;
+      for (std::size_t i = next; i < end; ++i) seeds.push_back(edges[hard[i]]);
+      std::vector<FoundZeros> again = search.run_each(seeds, limits_on_edge(patch, cells_on_edge()));
+      for (std::size_t i = next; i < end; ++i) {
+        given_up += again[i - next].gave_up ? 1 : 0;
+        found[hard[i]] = std::move(again[i - next]);
+      }
+    }
+    last_attempt_ = last_attempt_ || given_up >= many_edges_given_up;
+  }
+
   void meet_seams(int patch) {
     std::vector<Seam> searched;
     std::vector<std::vector<Cell>> segments[2];  // by axis
@@ -175,8 +212,7 @@ class GraphBuilder {
       segments[seam.axis].push_back({segment_of(seam.axis, seam.at, seam.from, seam.to)});
     }
     std::vector<FoundZeros> found[2];
-    for (const int axis : {0, 1})
-      found[axis] = search_along(patch, axis).run_each(segments[axis], limits_on_edge(patch, cells_on_edge()));
+    for (const int axis : {0, 1}) found[axis] = zeros_on_each(patch, axis, segments[axis]);
     std::size_t next[2] = {0, 0};
     for (const Seam& seam : searched) {
       auto zeros = told_apart(std::move(found[seam.axis][next[seam.axis]++]), seam.axis, {seam.from, seam.to});
