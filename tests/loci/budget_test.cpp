@@ -70,6 +70,18 @@ TEST(Budget, IsHeldToAlongADoubleCurve) {
   }
 }
 
+TEST(Budget, IsNotSpentOnThousandsOfTinyCells) {
+  // A double circle of 3e-7: all its cells are tiny before enclosures could tell anything.
+  const Ring r{2};
+  const auto small = r.x() * r.x() + r.y() * r.y() - r(core::Rational(9, 100000000000000));
+  const SheetTrace trace = traced(small * small, 150000);
+  EXPECT_FALSE(trace.certified);
+  ASSERT_EQ(trace.claims.size(), 1u);
+  EXPECT_LT(trace.claims[0].cells.size(), 20000u);
+  // Alone it has no more cells than another.
+  EXPECT_TRUE(traced(small, 150000).certified);
+}
+
 TEST(Budget, MakesNothingOfACurveThatIsWantedWholeOrNotAtAll) {
   SheetTraceOptions options;
   options.whole_or_nothing = true;
