@@ -113,7 +113,7 @@ const std::vector<StraightLines::ArmedPoint>& StraightLines::armed_points() {
     const int shift =
         builder_.multiply(builder_.multiply(half, builder_.multiply(known->sum, known->difference)), inverse);
     const int mu = builder_.multiply(builder_.multiply(half, s), inverse);
-    const auto& [u, v, flat] = known->way;
+    const int u = known->way[0], v = known->way[1];
     const auto arm = [&](mechanism::PointIndex end, int lambda) {
       const auto& natural = geometry_->natural(end);
       return Arm{geometry_->poly(natural[0]),

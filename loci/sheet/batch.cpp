@@ -48,7 +48,7 @@ void run_by_lanes(const Instruction* begin, const Instruction* end, const Batch*
 namespace {
 
 /// A batch as one number: the compiler takes as many registers as the processor needs for it.
-typedef double Wide __attribute__((vector_size(sizeof(Batch)), aligned(alignof(Batch)), may_alias));
+using Wide __attribute__((vector_size(sizeof(Batch)), aligned(alignof(Batch)), may_alias)) = double;
 
 inline const Wide& wide(const Batch& a) { return reinterpret_cast<const Wide&>(a); }
 inline Wide& wide(Batch& a) { return reinterpret_cast<Wide&>(a); }
