@@ -11,17 +11,6 @@ namespace {
 
 using core::Rational;
 
-Rational value_at(const core::Polynomial& p, const std::vector<Rational>& point) {
-  Rational sum = 0;
-  for (const core::Term& term : p.terms) {
-    Rational product = term.coefficient;
-    for (std::size_t v = 0; v < term.exponents.size(); ++v)
-      for (int k = 0; k < term.exponents[v]; ++k) product *= v < point.size() ? point[v] : Rational(0);
-    sum += product;
-  }
-  return sum;
-}
-
 /// Where an enclosure is a point its own rounding counts.
 Rational shortest_in(const Interval& range) {
   constexpr double rounding = 0x1p-50;
@@ -33,14 +22,16 @@ Rational shortest_in(const Interval& range) {
 
 bool vanish_exactly(const core::RootTower& tower, const core::WorkingMode& mode,
                     const std::vector<core::Polynomial>& functions, const Cell& place) {
-  std::vector<Rational> point = {shortest_in(place.x), shortest_in(place.y)};
+  std::vector<Rational> point(static_cast<std::size_t>(tower.variables()));
+  point[0] = shortest_in(place.x);
+  point[1] = shortest_in(place.y);
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
     if (tower.roots[j].is_angle()) return false;
-    const std::optional<Rational> root = core::square_root(value_at(tower.roots[j].square, point));
+    const std::optional<Rational> root = core::square_root(core::evaluate(tower.roots[j].square, point));
     if (!root || *root == 0) return false;
-    point.push_back(mode[j] > 0 ? *root : Rational(-*root));
+    point[2 + j] = mode[j] > 0 ? *root : Rational(-*root);
   }
-  const auto vanishes = [&](const core::Polynomial& p) { return value_at(p, point) == 0; };
+  const auto vanishes = [&](const core::Polynomial& p) { return core::evaluate(p, point) == 0; };
   return std::none_of(tower.denominators.begin(), tower.denominators.end(), vanishes) &&
          std::all_of(functions.begin(), functions.end(), vanishes);
 }
