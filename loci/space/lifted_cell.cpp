@@ -105,44 +105,47 @@ Interval LiftedCell::value(std::size_t row) const {
   return squared(roots_[static_cast<std::size_t>(root)]) - at_.square(root);
 }
 
-template <class SquarePartial>
-void LiftedCell::reduce(std::vector<Interval>& by_variable, std::size_t used, const std::vector<int>& place,
-                        const std::vector<Interval>& roots, const SquarePartial& square_partial,
-                        Interval* slopes) const {
-  for (std::size_t v = used; v-- > 3;) {
-    const std::size_t root = v - 3;
-    const Interval own = by_variable[v];
-    if (own.lower() == 0 && own.upper() == 0) continue;
-    if (place[root] >= 0) {
-      slopes[place[root]] = own;
-      continue;
+template <class Partial, class SquarePartial>
+std::vector<Interval> LiftedCell::slopes_of(const std::vector<int>& lifted, const std::vector<int>& place,
+                                            const std::vector<Interval>& roots, const Partial& partial,
+                                            const SquarePartial& square_partial) {
+  const auto count = static_cast<std::size_t>(functions());
+  const std::size_t variables = 3 + mode_.size(), rows = count + lifted.size(), dimension = 3 + lifted.size();
+  std::vector<Interval> slopes(rows * dimension, Interval(0.0));
+  for (std::size_t row = 0; row < rows; ++row) {
+    partial_.assign(variables, Interval(0.0));
+    std::size_t used = variables;
+    if (row < count) {
+      for (std::size_t v = 0; v < variables; ++v) partial_[v] = partial(static_cast<int>(row), static_cast<int>(v));
+    } else {
+      const int root = lifted[row - count];
+      used = 4 + static_cast<std::size_t>(root);
+      for (std::size_t v = 0; v + 1 < used; ++v) partial_[v] = -square_partial(root, static_cast<int>(v));
+      partial_[used - 1] = Interval(2.0) * roots[static_cast<std::size_t>(root)];
     }
-    const Interval factor = own * inverse(Interval(2.0) * roots[root]);
-    for (std::size_t w = 0; w < v; ++w)
-      by_variable[w] = by_variable[w] + factor * square_partial(static_cast<int>(root), static_cast<int>(w));
+    Interval* const own_slopes = &slopes[row * dimension];
+    for (std::size_t v = used; v-- > 3;) {
+      const std::size_t root = v - 3;
+      const Interval own = partial_[v];
+      if (own.lower() == 0 && own.upper() == 0) continue;
+      if (place[root] >= 0) {
+        own_slopes[place[root]] = own;
+        continue;
+      }
+      const Interval factor = own * inverse(Interval(2.0) * roots[root]);
+      for (std::size_t w = 0; w < v; ++w)
+        partial_[w] = partial_[w] + factor * square_partial(static_cast<int>(root), static_cast<int>(w));
+    }
+    for (std::size_t c = 0; c < 3; ++c) own_slopes[c] = partial_[c];
   }
-  for (std::size_t c = 0; c < 3; ++c) slopes[c] = by_variable[c];
+  return slopes;
 }
 
 void LiftedCell::differentiate() {
   at_.run_gradients();
-  const auto count = static_cast<std::size_t>(functions());
-  const std::size_t variables = 3 + mode_.size();
-  const auto square_partial = [&](int root, int v) { return at_.square_partial(root, v); };
-  slopes_.assign(rows() * dimension_, Interval(0.0));
-  for (std::size_t row = 0; row < rows(); ++row) {
-    partial_.assign(variables, Interval(0.0));
-    std::size_t used = variables;
-    if (row < count) {
-      for (std::size_t v = 0; v < variables; ++v) partial_[v] = at_.partial(static_cast<int>(row), static_cast<int>(v));
-    } else {
-      const int root = lifted_[row - count];
-      used = 4 + static_cast<std::size_t>(root);
-      for (std::size_t v = 0; v + 1 < used; ++v) partial_[v] = -square_partial(root, static_cast<int>(v));
-      partial_[used - 1] = Interval(2.0) * roots_[static_cast<std::size_t>(root)];
-    }
-    reduce(partial_, used, place_, roots_, square_partial, &slopes_[row * dimension_]);
-  }
+  slopes_ = slopes_of(
+      lifted_, place_, roots_, [&](int f, int v) { return at_.partial(f, v); },
+      [&](int root, int v) { return at_.square_partial(root, v); });
 }
 
 void LiftedCell::lift(const std::vector<Cell>& cells, std::vector<LiftedLook>& looks) {
@@ -228,28 +231,10 @@ std::vector<LiftedLook> LiftedCell::look_at(const std::vector<Cell>& cells,
   }
   if (open.empty()) return looks;
   beside_.run_gradients();
-  const auto count = static_cast<std::size_t>(functions());
-  const std::size_t variables = 3 + mode_.size();
-  for (const std::size_t l : open) {
-    LiftedLook& look = looks[l];
-    const auto square_partial = [&](int root, int v) { return beside_.square_partial(root, v).lanes[l]; };
-    const std::size_t dimension = look.box.size(), all = count + look.lifted.size();
-    look.slopes.assign(all * dimension, Interval(0.0));
-    for (std::size_t row = 0; row < all; ++row) {
-      partial_.assign(variables, Interval(0.0));
-      std::size_t used = variables;
-      if (row < count) {
-        for (std::size_t v = 0; v < variables; ++v)
-          partial_[v] = beside_.partial(static_cast<int>(row), static_cast<int>(v)).lanes[l];
-      } else {
-        const int root = look.lifted[row - count];
-        used = 4 + static_cast<std::size_t>(root);
-        for (std::size_t v = 0; v + 1 < used; ++v) partial_[v] = -square_partial(root, static_cast<int>(v));
-        partial_[used - 1] = Interval(2.0) * look.roots[static_cast<std::size_t>(root)];
-      }
-      reduce(partial_, used, look.place, look.roots, square_partial, &look.slopes[row * dimension]);
-    }
-  }
+  for (const std::size_t l : open)
+    looks[l].slopes = slopes_of(
+        looks[l].lifted, looks[l].place, looks[l].roots, [&](int f, int v) { return beside_.partial(f, v).lanes[l]; },
+        [&](int root, int v) { return beside_.square_partial(root, v).lanes[l]; });
   std::vector<bool> real(looks.size(), true);
   std::vector<std::vector<Interval>> roots(looks.size());
   enter_middles(looks, real, roots);

@@ -67,10 +67,11 @@ class LiftedCell {
                      std::vector<std::vector<Interval>>& roots);
   /// Of the lane's rows.
   std::vector<Interval> values(const LiftedLook& look, const std::vector<Interval>& roots, std::size_t lane) const;
-  /// Of a row by the dimensions, from those by all variables, of which `used` count, and those of the squares.
-  template <class SquarePartial>
-  void reduce(std::vector<Interval>& by_variable, std::size_t used, const std::vector<int>& place,
-              const std::vector<Interval>& roots, const SquarePartial& square_partial, Interval* slopes) const;
+  /// Of all rows by the dimensions, row after row, from those of the functions and of the squares by all variables.
+  template <class Partial, class SquarePartial>
+  std::vector<Interval> slopes_of(const std::vector<int>& lifted, const std::vector<int>& place,
+                                  const std::vector<Interval>& roots, const Partial& partial,
+                                  const SquarePartial& square_partial);
 
   sheet::SheetProgram program_;
   core::WorkingMode mode_;
