@@ -1,46 +1,13 @@
 #include "loci/sheet/batch.hpp"
 
 #include "core/errors.hpp"
+#include "loci/sheet/result_of.hpp"
 
 namespace clearloci::loci::sheet::batch {
-namespace {
-
-using Operation = SheetCode::Operation;
-
-/// What is computed a lane at a time in any case: seldom asked for.
-void run_alone(Operation operation, const Batch& a, const Batch& b, Batch& result) {
-  if (operation == Operation::angle)
-    result = angle_of(a, b);
-  else
-    result = angle_slope(a, b);
-}
-
-}  // namespace
 
 void run_by_lanes(const Instruction* begin, const Instruction* end, const Batch* values, Batch* results) {
-  for (const Instruction* own = begin; own != end; ++own, ++results) {
-    const Batch& a = values[own->first];
-    const Batch& b = values[own->second];
-    switch (own->operation) {
-      case Operation::add:
-        *results = a + b;
-        break;
-      case Operation::subtract:
-        *results = a - b;
-        break;
-      case Operation::multiply:
-        *results = a * b;
-        break;
-      case Operation::square:
-        *results = squared(a);
-        break;
-      case Operation::inverse:
-        *results = inverse(a);
-        break;
-      default:
-        run_alone(own->operation, a, b, *results);
-    }
-  }
+  for (const Instruction* own = begin; own != end; ++own, ++results)
+    *results = result_of(own->operation, values[own->first], values[own->second]);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -55,6 +22,7 @@ inline Wide& wide(Batch& a) { return reinterpret_cast<Wide&>(a); }
 
 __attribute__((always_inline)) inline void run_wide(const Instruction* begin, const Instruction* end,
                                                     const Batch* values, Batch* results) {
+  using Operation = SheetCode::Operation;
   for (const Instruction* own = begin; own != end; ++own, ++results) {
     const Batch& a = values[own->first];
     const Batch& b = values[own->second];
@@ -75,7 +43,7 @@ __attribute__((always_inline)) inline void run_wide(const Instruction* begin, co
         wide(*results) = 1 / wide(a);
         break;
       default:
-        run_alone(own->operation, a, b, *results);
+        *results = result_of(own->operation, a, b);
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include "core/errors.hpp"
 #include "loci/sheet/jet_batch.hpp"
+#include "loci/sheet/result_of.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
@@ -25,12 +26,7 @@ void lane_by_lane(IntervalBatch& result, std::size_t count, const Apply& apply) 
 /// What is computed a lane at a time in any case: seldom asked for.
 void run_alone(Operation operation, const IntervalBatch& a, const IntervalBatch& b, IntervalBatch& result,
                std::size_t count) {
-  if (operation == Operation::inverse)
-    lane_by_lane(result, count, [&](std::size_t l) { return inverse(a.lanes[l]); });
-  else if (operation == Operation::angle)
-    lane_by_lane(result, count, [&](std::size_t l) { return angle_of(a.lanes[l], b.lanes[l]); });
-  else
-    lane_by_lane(result, count, [&](std::size_t l) { return angle_slope(a.lanes[l], b.lanes[l]); });
+  lane_by_lane(result, count, [&](std::size_t l) { return result_of(operation, a.lanes[l], b.lanes[l]); });
 }
 
 }  // namespace
@@ -60,27 +56,6 @@ void run_by_lanes(const Instruction* begin, const Instruction* end, const Interv
 }
 
 namespace {
-
-Jet result_of(Operation operation, const Jet& a, const Jet& b) {
-  switch (operation) {
-    case Operation::add:
-      return a + b;
-    case Operation::subtract:
-      return a - b;
-    case Operation::multiply:
-      return a * b;
-    case Operation::square:
-      return squared(a);
-    case Operation::inverse:
-      return inverse(a);
-    case Operation::angle:
-      return angle_of(a, b);
-    case Operation::angle_slope:
-      return angle_slope(a, b);
-  }
-  core::ensure(false, "every operation is known");
-  return a;
-}
 
 void run_alone(Operation operation, const JetBatch& a, const JetBatch& b, JetBatch& result, std::size_t count) {
   for (std::size_t l = 0; l < count; ++l) result.set_lane(l, result_of(operation, a.lane(l), b.lane(l)));

@@ -4,6 +4,7 @@
 // per half width of the cell: X_c - m_c = r_c [-1, 1].
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -35,6 +36,14 @@ struct JetOver {
   }
 };
 using Jet = JetOver<2>;
+
+template <std::size_t N>
+bool is_known(const JetOver<N>& a) {
+  const auto is_finite = [](const Interval& range) {
+    return std::isfinite(range.lower()) && std::isfinite(range.upper());
+  };
+  return a.bounded && is_finite(a.value) && std::all_of(a.slope.begin(), a.slope.end(), is_finite);
+}
 
 namespace jet_detail {
 template <std::size_t N>

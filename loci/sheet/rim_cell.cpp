@@ -1,20 +1,6 @@
 #include "loci/sheet/rim_cell.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace clearloci::loci::sheet {
-namespace {
-
-template <class Jet>
-bool is_told(const Jet& a) {
-  const auto is_finite = [](const Interval& range) {
-    return std::isfinite(range.lower()) && std::isfinite(range.upper());
-  };
-  return a.bounded && is_finite(a.value) && std::all_of(a.slope.begin(), a.slope.end(), is_finite);
-}
-
-}  // namespace
 
 RimCell::Place RimCell::enter(const SheetCell& cell) {
   lifted_ = -1;
@@ -22,7 +8,7 @@ RimCell::Place RimCell::enter(const SheetCell& cell) {
   for (int j = 0; j < program_->roots(); ++j) {
     registers_.run_square(j);
     const Jet3& square = registers_.square(j);
-    if (!is_told(square)) return Place::unknown;
+    if (!is_known(square)) return Place::unknown;
     if (square.value.upper() < 0) return Place::outside;
     if (lifted_ < 0 && !varies_little(square.value)) {
       lifted_ = j;
@@ -36,7 +22,7 @@ RimCell::Place RimCell::enter(const SheetCell& cell) {
     registers_.set(2 + j, cell.mode()[static_cast<std::size_t>(j)] > 0 ? root : -root);
   }
   registers_.run_values();
-  return lifted_ >= 0 && is_told(registers_.value(0)) && is_told(bond_) ? Place::inside : Place::unknown;
+  return lifted_ >= 0 && is_known(registers_.value(0)) && is_known(bond_) ? Place::inside : Place::unknown;
 }
 
 bool RimCell::excludes() const { return !registers_.value(0).value.contains_zero() || !bond_.value.contains_zero(); }

@@ -6,11 +6,10 @@
 //     det d(f, g, s_j^2 - Q_j) / d(x, y, s1..sm)
 // On the sheet it vanishes where the curve f = 0 runs along a level line of g.
 // Where a function or a square comes with its straight line, that is compiled instead of the polynomial: it is shorter
-// and its enclosures are tighter. One program serves double, Batch, Interval, IntervalBatch,
-// DoubleDouble and MultiInterval.
+// and its enclosures are tighter. One program serves double, Batch, Interval, IntervalBatch, DoubleDouble and
+// MultiInterval.
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -24,6 +23,7 @@
 #include "loci/sheet/jet.hpp"
 #include "loci/sheet/jet_batch.hpp"
 #include "loci/sheet/multi_interval.hpp"
+#include "loci/sheet/result_of.hpp"
 #include "loci/sheet/sheet_code.hpp"
 
 namespace clearloci::loci::sheet {
@@ -47,11 +47,6 @@ T enclosed_as(const core::Rational& value, const core::Rational& radius, T* type
   else
     return constant_as(value, type);
 }
-
-inline double squared(double a) { return a * a; }
-inline double inverse(double a) { return 1 / a; }
-inline double angle_of(double y, double x) { return std::atan2(y, x); }
-inline double angle_slope(double y, double x) { return 1 / (x * x + y * y); }
 
 /// p(..., v + shift, ...).
 core::Polynomial shifted(const core::Polynomial& p, int variable, const core::Rational& shift);
@@ -168,7 +163,6 @@ SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&p
 
 template <class T>
 void SheetProgram::Registers<T>::run(int stage) {
-  using Operation = SheetCode::Operation;
   const SheetCode& code = *program_->code_;
   const int begin = stage == 0 ? 0 : code.stage_end[stage - 1];
   const int end = code.stage_end[stage];
@@ -182,31 +176,7 @@ void SheetProgram::Registers<T>::run(int stage) {
   } else {
     for (int i = begin; i < end; ++i) {
       const SheetCode::Instruction& instruction = code.instructions[i];
-      const T& a = values[instruction.first];
-      const T& b = values[instruction.second];
-      switch (instruction.operation) {
-        case Operation::add:
-          values[offset + i] = a + b;
-          break;
-        case Operation::subtract:
-          values[offset + i] = a - b;
-          break;
-        case Operation::multiply:
-          values[offset + i] = a * b;
-          break;
-        case Operation::square:
-          values[offset + i] = squared(a);
-          break;
-        case Operation::inverse:
-          values[offset + i] = inverse(a);
-          break;
-        case Operation::angle:
-          values[offset + i] = angle_of(a, b);
-          break;
-        case Operation::angle_slope:
-          values[offset + i] = angle_slope(a, b);
-          break;
-      }
+      values[offset + i] = result_of(instruction.operation, values[instruction.first], values[instruction.second]);
     }
   }
 }

@@ -1,18 +1,10 @@
 #include "loci/sheet/smooth_cell.hpp"
 
-#include <cmath>
-
 namespace clearloci::loci::sheet {
 namespace {
 
 // Longer programs come of expanded polynomials, whose cancellation second-order enclosures mend little of.
 constexpr int most_steps = 6000;
-
-bool is_finite(const Interval& a) { return std::isfinite(a.lower()) && std::isfinite(a.upper()); }
-
-bool is_known(const Jet& a) {
-  return a.bounded && is_finite(a.value) && is_finite(a.slope[0]) && is_finite(a.slope[1]);
-}
 
 /// Not known where it may be 0, though a later root may be proven to have no value all the same: an angle is told by no
 /// enclosure where it is cut, where the root of what is left to the cut ends the workspace.
