@@ -256,10 +256,9 @@ class Run {
       part.deviation = deviation_between(at, part.point, leg, plane(at), plane(part.point));
       if (part.deviation <= tolerance_) return part;
     }
-    // No point between is found; the ends are on the curve. At a star, whose crossings may be told in another direction
-    // than the leg's, that is no doubt: what is left there is short.
+    // No point between is found: how near the chord is is not known.
     end.deviation = 0;
-    end.open = chart_->side == Chart::Side::plane;
+    end.open = true;
     return end;
   }
 
@@ -293,19 +292,22 @@ core::Point2 point_inside(const CurveGraph& graph, const std::vector<Leg>& legs,
 PlacedArc place_vertices(const CurveGraph& graph, const core::WorkingMode& mode, const std::vector<Leg>& legs,
                          double tolerance, double size) {
   PlacedArc arc;
-  const auto crossing = [&](const Leg& leg, bool start) {
-    return graph.crossings[leg.stretch->ends[leg.forward == start ? 0 : 1].crossing].at;
+  const auto crossing = [&](const Leg& leg, bool start) -> const Crossing& {
+    return graph.crossings[leg.stretch->ends[leg.forward == start ? 0 : 1].crossing];
   };
-  arc.points.push_back(crossing(legs.front(), true));
+  arc.points.push_back(crossing(legs.front(), true).at);
   for (std::size_t begin = 0; begin < legs.size();) {
-    std::size_t end = begin;
-    while (end < legs.size() && legs[end].stretch->patch == legs[begin].stretch->patch) ++end;
+    // Through a star a curve goes on in another direction: in the chart's coordinates, at another place.
+    std::size_t end = begin + 1;
+    while (end < legs.size() && legs[end].stretch->patch == legs[begin].stretch->patch &&
+           crossing(legs[end], true).kind != Crossing::Kind::star)
+      ++end;
     Run run(graph, mode, legs[begin].stretch->patch, tolerance, size);
     run.follow({legs.begin() + static_cast<std::ptrdiff_t>(begin), legs.begin() + static_cast<std::ptrdiff_t>(end)},
                arc);
     begin = end;
   }
-  arc.points.back() = crossing(legs.back(), false);
+  arc.points.back() = crossing(legs.back(), false).at;
   return arc;
 }
 
