@@ -167,6 +167,17 @@ core::Polyline points_all_over_face(const std::vector<core::Polyline>& rings, do
   return points;
 }
 
+core::Polyline clear_of(const std::vector<core::Polyline>& rings, core::Polyline points, double room) {
+  std::erase_if(points, [&](const core::Point2& at) {
+    return std::any_of(rings.begin(), rings.end(), [&](const core::Polyline& ring) {
+      for (std::size_t i = 1; i < ring.size(); ++i)
+        if (distance(at, ring[i - 1], ring[i]) <= room) return true;
+      return false;
+    });
+  });
+  return points;
+}
+
 int head(const PlaneGraph& graph, HalfEdge half) {
   const GraphEdge& edge = graph.edges[static_cast<std::size_t>(half.edge)];
   return half.reversed ? edge.from : edge.to;

@@ -48,6 +48,9 @@ core::Polyline points_in_face(const std::vector<core::Polyline>& rings);
 /// Points in every part of a face that is wider than `narrowest` where lines at many heights pass it.
 core::Polyline points_all_over_face(const std::vector<core::Polyline>& rings, double narrowest);
 
+/// Those of the points that are farther than `room` from every ring.
+core::Polyline clear_of(const std::vector<core::Polyline>& rings, core::Polyline points, double room);
+
 /// The points along a walk, the first repeated at the end.
 core::Polyline ring_of(const PlaneGraph& graph, const std::vector<HalfEdge>& walk);
 

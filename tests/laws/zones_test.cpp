@@ -189,6 +189,25 @@ TEST(Zones, BesideBoundariesNeedNoFinerLoci) {
   }
 }
 
+// Once taken for none, traced anew three times for it: slivers between a locus and the boundary, at an angle to the
+// lines on which points of them are looked for; and beside a touch of two boundaries that |A| = 0 passes through, the
+// first chord behind which was 2 mm off.
+TEST(Zones, OfSliversAndBehindATouchNeedNoFinerLoci) {
+  std::mt19937 random(20110580);
+  for (const auto& [name, zones] : {std::pair<std::string, std::size_t>("prrr_r_slivers_at_an_angle", 17),
+                                    std::pair<std::string, std::size_t>("prrr_r_singularity_through_a_touch", 9)}) {
+    SCOPED_TRACE(name);
+    const mechanism::Mechanism mechanism =
+        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
+    const core::ZoneMap map = find_zones(mechanism);
+    EXPECT_TRUE(certified(map));
+    EXPECT_EQ(map.zones.size(), zones);
+    EXPECT_EQ(map.loci.tolerance, LociRequest().tolerance);
+    expect_one_sign_a_zone(mechanism, map, random);
+    expect_partition(mechanism, map, random);
+  }
+}
+
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
   const core::ZoneMap map = find_zones(example("five_bar"));
   const auto home = std::find_if(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) {

@@ -33,5 +33,12 @@ TEST(PointsAllOverFace, AreInEveryPartThatIsWide) {
   for (const Point2& p : points_all_over_face({u, hole}, 0.3)) EXPECT_FALSE(p[0] < 1 && p[1] > 1.5 && p[1] < 2.5);
 }
 
+TEST(ClearOf, LeavesPointsWithRoomBesideThem) {
+  // Between the legs and in them, beside the hole, next to a side from within and from without.
+  const Polyline points = {{1.5, 2}, {2.5, 2}, {0.875, 2}, {2.5, 0.05}, {2.5, -0.05}};
+  EXPECT_EQ(clear_of({u, hole}, points, 0.1), (Polyline{{1.5, 2}, {2.5, 2}, {0.875, 2}}));
+  EXPECT_EQ(clear_of({u, hole}, points, 0.2), (Polyline{{1.5, 2}, {2.5, 2}}));
+}
+
 }  // namespace
 }  // namespace clearloci::loci
