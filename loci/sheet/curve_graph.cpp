@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include "core/errors.hpp"
 #include "loci/sheet/subtower.hpp"
@@ -23,7 +24,9 @@ constexpr double well_inside = 1e-6;
 // In a sketch an edge on which so many cells tell nothing, as where the curve runs along it, is left open.
 constexpr std::size_t most_cells_on_edge_of_a_sketch = 16;
 // On most edges few cells tell; others are searched again, so many at a time.
-constexpr std::size_t few_cells_on_edge = 32, hard_edges_at_a_time = 16, many_edges_given_up = 64;
+constexpr std::size_t few_cells_on_edge = 32, edges_at_a_time = 256, many_hard_edges = 256;
+constexpr std::size_t hard_edges_at_a_time = 16;
+constexpr std::ptrdiff_t many_edges_given_up = 64;
 // Of crossings, relative to the patch: a tenth of what vertices are held to.
 constexpr double accuracy = 1e-13;
 constexpr std::size_t most_rim_cells = 8192;
@@ -164,37 +167,61 @@ class GraphBuilder {
     return ZeroSearch(*graph_.patches[patch].program, mode_, {{0}, {1 - axis}});
   }
 
-  /// Of many edges.
+  /// Of many edges, the longest first. Where the curve cannot be told on most of many, the others are left: next to a
+  /// place where it is hard to tell from itself.
   std::vector<FoundZeros> zeros_on_each(int patch, int axis, const std::vector<std::vector<Cell>>& edges) {
     ZeroSearch search = search_along(patch, axis);
-    std::vector<FoundZeros> found =
-        search.run_each(edges, limits_on_edge(patch, std::min(few_cells_on_edge, cells_on_edge())));
-    std::vector<std::size_t> hard;
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i].gave_up) hard.push_back(i);
-    if (few_cells_on_edge < cells_on_edge()) search_again(patch, axis, search, edges, std::move(hard), found);
+    FoundZeros left;
+    left.gave_up = true;
+    std::vector<FoundZeros> found(edges.size(), left);
+    for (std::size_t i = 0; i < edges.size(); ++i) found[i].undecided = edges[i];
+    std::vector<std::size_t> order(edges.size()), hard;
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    put_longest_first(axis, edges, order);
+    const ZeroSearch::Limits few = limits_on_edge(patch, std::min(few_cells_on_edge, cells_on_edge()));
+    for (std::size_t next = 0; next < order.size() && hard.size() <= std::max(many_hard_edges, next / 2);
+         next += edges_at_a_time) {
+      const std::span<const std::size_t> own = part_of(order, next, edges_at_a_time);
+      search_some(search, few, edges, own, found);
+      std::copy_if(own.begin(), own.end(), std::back_inserter(hard), [&](std::size_t i) { return found[i].gave_up; });
+    }
+    if (few_cells_on_edge < cells_on_edge()) search_again(patch, search, edges, hard, found);
     return found;
   }
 
-  /// Edges on which the curve was not told by few cells, by more of them, the longest first. Where it is not told so
-  /// either on many of them the others are left: it is hard to tell from itself there, which other cuts do not change.
-  void search_again(int patch, int axis, ZeroSearch& search, const std::vector<std::vector<Cell>>& edges,
-                    std::vector<std::size_t> hard, std::vector<FoundZeros>& found) {
+  static std::span<const std::size_t> part_of(const std::vector<std::size_t>& order, std::size_t first,
+                                              std::size_t count) {
+    return std::span(order).subspan(first, std::min(count, order.size() - first));
+  }
+
+  static void put_longest_first(int axis, const std::vector<std::vector<Cell>>& edges,
+                                std::vector<std::size_t>& order) {
     const auto length = [&](std::size_t i) {
       const Cell& edge = edges[i].front();
       return (axis == 0 ? edge.y : edge.x).width();
     };
-    std::stable_sort(hard.begin(), hard.end(), [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
-    std::size_t given_up = 0;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
+  }
+
+  static void search_some(ZeroSearch& search, const ZeroSearch::Limits& limits,
+                          const std::vector<std::vector<Cell>>& edges, std::span<const std::size_t> those,
+                          std::vector<FoundZeros>& found) {
+    std::vector<std::vector<Cell>> seeds;
+    for (const std::size_t i : those) seeds.push_back(edges[i]);
+    std::vector<FoundZeros> own = search.run_each(seeds, limits);
+    for (std::size_t i = 0; i < those.size(); ++i) found[those[i]] = std::move(own[i]);
+  }
+
+  /// Edges on which the curve was not told by few cells, by more of them. Where it is not told so either on many of
+  /// them the others are left: other cuts do not change what is hard to tell there.
+  void search_again(int patch, ZeroSearch& search, const std::vector<std::vector<Cell>>& edges,
+                    const std::vector<std::size_t>& hard, std::vector<FoundZeros>& found) {
+    const ZeroSearch::Limits many = limits_on_edge(patch, cells_on_edge());
+    std::ptrdiff_t given_up = 0;
     for (std::size_t next = 0; next < hard.size() && given_up < many_edges_given_up; next += hard_edges_at_a_time) {
-      const std::size_t end = std::min(next + hard_edges_at_a_time, hard.size());
-      std::vector<std::vector<Cell>> seeds;
-      for (std::size_t i = next; i < end; ++i) seeds.push_back(edges[hard[i]]);
-      std::vector<FoundZeros> again = search.run_each(seeds, limits_on_edge(patch, cells_on_edge()));
-      for (std::size_t i = next; i < end; ++i) {
-        given_up += again[i - next].gave_up ? 1 : 0;
-        found[hard[i]] = std::move(again[i - next]);
-      }
+      const std::span<const std::size_t> own = part_of(hard, next, hard_edges_at_a_time);
+      search_some(search, many, edges, own, found);
+      given_up += std::count_if(own.begin(), own.end(), [&](std::size_t i) { return found[i].gave_up; });
     }
     last_attempt_ = last_attempt_ || given_up >= many_edges_given_up;
   }
