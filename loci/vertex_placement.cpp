@@ -59,9 +59,13 @@ class Placement {
       const PlaneCurve::Jet jet = curve_.jet(chord);
       double off = jet.distance();
       if (off < 0) {
-        // Where the gradient nearly vanishes the vertical distance bounds the true one; it is dear, so only there.
+        // Where the gradient nearly vanishes, of the curve's point above or below its distance from the chord, which
+        // may be steep; it is dear, so only there.
         if (length > cautious_ || isolation == Isolation::none) return 2 * tolerance_;
-        off = chord[0] > start_[0] && chord[0] < end_[0] ? std::abs(at(chord[0])[1] - chord[1]) : 0;
+        if (chord[0] > start_[0] && chord[0] < end_[0])
+          off = std::abs(at(chord[0])[1] - chord[1]) * std::abs(b[0] - a[0]) / length;
+        else
+          off = 0;
       } else if (jet.curvature() * length * length > 32 * tolerance_) {
         off = std::max(off, 2 * tolerance_);
       }
