@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -116,6 +117,7 @@ int run_over_volume(const ErrorCommand& arguments, const std::set<std::string>& 
 
 int run(const ErrorCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::ErrorMap>());
+  const std::future<void> letters = report::prepare_pictures(formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "error.json", incomplete_body(name, "the errors were"));

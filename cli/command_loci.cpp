@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -41,6 +42,7 @@ void check_formats(const std::set<std::string>& formats, std::size_t coordinates
 
 int run(const LociCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<report::LociSheet>());
+  const std::future<void> letters = report::prepare_pictures(formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   check_formats(formats, mechanism.coordinates.size());
   if (!arguments.certificate.empty()) require_certifiable(mechanism);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -74,6 +75,7 @@ TrajectoryRequest request_of(const TrajectoryCommand& arguments, const mechanism
 int run(const TrajectoryCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats =
       parse_formats(arguments.formats, report::format_names<core::TrajectoryResult>());
+  const std::future<void> letters = report::prepare_pictures(formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   const mechanism::Trajectory trajectory = mechanism::read_trajectory(arguments.path, mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -100,6 +101,7 @@ int run_over_poses(const VerifyCommand& arguments, const std::set<std::string>& 
 
 int run(const VerifyCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::Verification>());
+  const std::future<void> letters = report::prepare_pictures(formats);
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
   const bool over_poses = mechanism::is_pose_task(arguments.task, mechanism);

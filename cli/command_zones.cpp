@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -55,6 +56,7 @@ int run(const ZonesCommand& arguments, TimeLimit& limit) {
   const bool over_poses = mechanism::has_pose_tasks(mechanism);
   const std::set<std::string> formats =
       over_poses ? std::set<std::string>{} : parse_formats(arguments.formats, report::format_names<core::ZoneMap>());
+  const std::future<void> letters = report::prepare_pictures(formats);
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "zones.json", incomplete_body(name, "the zones were"));

@@ -20,6 +20,7 @@
 #include "report/pose_zones.hpp"
 #include "report/trajectory.hpp"
 #include "report/trajectory_plots.hpp"
+#include "report/typesetting.hpp"
 #include "report/validation.hpp"
 #include "report/verification.hpp"
 #include "report/viewer.hpp"
@@ -242,6 +243,11 @@ bool can_hold(std::string_view name, std::size_t coordinates) {
   });
 }
 
+std::future<void> prepare_pictures(const std::set<std::string>& names) {
+  const bool any_picture = names.contains("svg") || names.contains("png") || names.contains("pdf");
+  return any_picture ? std::async(std::launch::async, load_fonts) : std::future<void>();
+}
+
 void write_files(const Files& files, const std::filesystem::path& directory,
                  std::vector<std::filesystem::path>& paths) {
   for (const File& file : files) {
@@ -272,11 +278,8 @@ std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult
                                                     const std::filesystem::path& directory,
                                                     const std::set<std::string>& names,
                                                     const std::function<void(double, std::string_view)>& progress) {
-  const auto asked = named(names);
-  std::size_t seen = 0;
-  return write_wanted(result, directory, [&](const Format& format) {
-    if (progress) progress(0.5 + 0.5 * static_cast<double>(seen++) / static_cast<double>(formats().size()), "files");
-    return asked(format);
+  return write_wanted(result, directory, named(names), [&](double part) {
+    if (progress) progress(0.5 + 0.5 * part, "files");
   });
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <set>
 #include <string>
 #include <string_view>
@@ -80,16 +81,27 @@ Files files_of(const Answer& answer, const std::set<std::string>& names) {
 /// Each is whole or not there; their paths join `paths`. Throws core::InputError where the directory cannot be written.
 void write_files(const Files& files, const std::filesystem::path& directory, std::vector<std::filesystem::path>& paths);
 
-/// Writes what the formats that `wanted` picks make of an answer, one format at a time.
+/// Writes what the formats that `wanted` picks make of an answer: made side by side, for they know nothing of one
+/// another, and written one after the other, each as soon as it is made. `written`: the part of them that is.
 template <class Answer, class Wanted>
 std::vector<std::filesystem::path> write_wanted(const Answer& answer, const std::filesystem::path& directory,
-                                                Wanted wanted) {
-  std::vector<std::filesystem::path> paths;
+                                                Wanted wanted, const std::function<void(double part)>& written = {}) {
+  std::vector<std::future<Files>> made;
   for (const Format& format : formats())
     if (format.maker<Answer>() != nullptr && wanted(format))
-      write_files(format.maker<Answer>()(answer), directory, paths);
+      made.push_back(std::async(std::launch::async, format.maker<Answer>(), std::cref(answer)));
+  std::vector<std::filesystem::path> paths;
+  double count = 0;
+  for (std::future<Files>& files : made) {
+    write_files(files.get(), directory, paths);
+    if (written) written(++count / static_cast<double>(made.size()));
+  }
   return paths;
 }
+
+/// Loads the letters that pictures are written in, in a thread of its own, where there is a picture among the formats
+/// named: what reads and traces need not wait for that. The future waits for its end.
+std::future<void> prepare_pictures(const std::set<std::string>& names);
 
 /// Writes the answer in the formats named, and as json always, and returns the files in the order written:
 /// `zones.json`, `error.csv`, ..., each for all modes; pictures one a mode: `zones.svg`, or `zones-left-right.svg`, ...

@@ -11,9 +11,28 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// "12.345678" as "12.346"; zeros at the end go.
-std::string rounded(const std::string& number) {
-  std::string text = fmt::format("{:.3f}", std::strtod(number.c_str(), nullptr));
+/// Adds one to the last digit of a number in decimals.
+void round_up(std::string& text) {
+  for (std::size_t i = text.size(); i-- > 0;) {
+    if (text[i] == '.') continue;
+    if (text[i] != '9') {
+      ++text[i];
+      return;
+    }
+    text[i] = '0';
+  }
+  text.insert(0, 1, '1');
+}
+
+/// "12.345678" as "12.346"; zeros at the end go. `decimals`: how many there are, more than 3.
+std::string rounded(std::string_view number, std::size_t decimals) {
+  const std::string_view cut = number.substr(number.size() - decimals + 3);
+  std::string text(number.substr(0, number.size() - cut.size()));
+  // Where a half is cut off it is the nearest double that tells, as everywhere.
+  if (cut.front() == '5' && cut.find_first_not_of('0', 1) == std::string_view::npos)
+    text = fmt::format("{:.3f}", std::strtod(std::string(number).c_str(), nullptr));
+  else if (cut.front() >= '5')
+    round_up(text);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;
@@ -33,7 +52,8 @@ std::string round_numbers(const std::string& svg) {
     if (end < svg.size() && svg[end] == '.') {
       for (++end; end < svg.size() && is_digit(svg[end]); ++end) ++decimals;
     }
-    out += decimals > 3 ? rounded(svg.substr(i, end - i)) : svg.substr(i, end - i);
+    const std::string_view number(svg.data() + i, end - i);
+    out += decimals > 3 ? rounded(number, decimals) : number;
     i = end;
   }
   return out;

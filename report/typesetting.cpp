@@ -31,6 +31,10 @@ void choose_font(const Cairo::RefPtr<Cairo::Context>& context, const Font& font)
   context->set_font_size(font.size);
 }
 
+void load_fonts() {
+  for (const bool bold : {false, true}) text_width("0", {.bold = bold});
+}
+
 double text_width(const std::string& text, const Font& font) {
   const auto context = ruler();
   choose_font(context, font);

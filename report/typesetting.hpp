@@ -21,6 +21,9 @@ enum class Align { left, centre, right };
 /// Sets the font on a context. Metrics are not rounded to pixels, so that SVG, PDF and PNG break lines alike.
 void choose_font(const Cairo::RefPtr<Cairo::Context>& context, const Font& font);
 
+/// Finds the fonts and opens them, which the first letters of a process would wait for: some milliseconds.
+void load_fonts();
+
 /// Advance of `text` in points.
 double text_width(const std::string& text, const Font& font);
 

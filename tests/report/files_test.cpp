@@ -94,6 +94,17 @@ TEST(WriteLoci, OneModeNeedsNoModeInItsNames) {
   EXPECT_EQ(names, expected);
 }
 
+TEST(WriteLoci, WhatIsMadeSideBySideIsWhatEachFormatMakes) {
+  const ScratchFolder scratch;
+  const auto map = fixture::five_bar_map_in_all_modes();
+  const std::vector<std::string> all = format_names<LociSheet>();
+  const LociSheet loci{map, {}};
+  EXPECT_GT(write_loci(loci, scratch.path(), {all.begin(), all.end()}).size(), all.size());
+  for (const std::string& name : all)
+    for (const File& file : can_hold(name, 2) ? files_of(loci, {name}) : Files{})
+      EXPECT_TRUE(read_file(scratch.path() / file.name) == file.bytes) << file.name;
+}
+
 TEST(WriteLoci, SeveralModesHaveAPictureEach) {
   const ScratchFolder scratch;
   const auto written = write_loci({fixture::five_bar_map_in_all_modes(), {}}, scratch.path(), {"svg"});

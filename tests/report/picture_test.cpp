@@ -6,8 +6,11 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <random>
 #include <set>
 
 #include "report/files.hpp"
@@ -100,11 +103,51 @@ TEST(SvgText, NumbersAreRoundedNotCut) {
             "<g d=\"M 1 -1.235 L 10.5 3\"/></svg>");
 }
 
+TEST(SvgText, NumbersAreRoundedAsTheNearestDoublesAre) {
+  std::mt19937 random(7);
+  std::string svg = "<svg >\n", rounded = "<svg  role=\"img\">\n<title></title>\n<desc></desc>\n";
+  const auto text = [](const char* format, auto... values) {
+    std::array<char, 64> bytes{};
+    std::snprintf(bytes.data(), bytes.size(), format, values...);
+    return std::string(bytes.data());
+  };
+  const auto add = [&](const std::string& number) {
+    svg += number + " ";
+    std::string own = text("%.3f", std::stod(number));
+    own.erase(own.find_last_not_of('0') + 1);
+    if (own.back() == '.') own.pop_back();
+    rounded += own + " ";
+  };
+  for (const char* const edge : {"9.9996", "99.99951", "0.9995", "0.0005", "2.0015", "7.12350", "1.00049999", "0.0004"})
+    add(edge);
+  for (int i = 0; i < 20000; ++i)
+    add(text("%d.%0*d", static_cast<int>(random() % 1500), static_cast<int>(4 + random() % 4),
+             static_cast<int>(random() % 10000)));
+  EXPECT_EQ(finish_svg(svg, "", ""), rounded);
+}
+
 /// Big-endian number at `at`.
 std::size_t number_at(const std::string& bytes, std::size_t at) {
   std::size_t value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
   return value;
+}
+
+/// What follows the length and the type of a PNG's data.
+std::string data_of(const std::string& png) {
+  const std::size_t at = png.find("IDAT");
+  return png.substr(at + 4, number_at(png, at - 4));
+}
+
+/// The bytes of a PNG's rows; `most`: how many they may be.
+std::string inflated(const std::string& data, std::size_t most) {
+  std::string rows(most, '\0');
+  uLongf size = rows.size();
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(rows.data()), &size, reinterpret_cast<const Bytef*>(data.data()),
+                       data.size()),
+            Z_OK);
+  rows.resize(size);
+  return rows;
 }
 
 /// Decodes what encode_png writes, by the format's specification: sizes, checksums, unfiltered rows.
@@ -132,12 +175,6 @@ TEST(Png, PixelsComeBack) {
     at += size + 12;
   }
   EXPECT_EQ(types, "IHDR pHYs IDAT IEND ");
-  std::string rows(100, '\0');
-  uLongf size = rows.size();
-  ASSERT_EQ(uncompress(reinterpret_cast<Bytef*>(rows.data()), &size, reinterpret_cast<const Bytef*>(data.data()),
-                       data.size()),
-            Z_OK);
-  rows.resize(size);
   std::string expected;
   for (int y = 0; y < height; ++y) {
     expected += '\0';
@@ -145,7 +182,32 @@ TEST(Png, PixelsComeBack) {
       for (const int factor : {1, 2, 3}) expected += static_cast<char>(factor * (1 + x + 10 * y));
     }
   }
-  EXPECT_EQ(rows, expected);
+  EXPECT_EQ(inflated(data, 100), expected);
+}
+
+TEST(Png, RowsAreCompressedAsIfTheyCameAtOnce) {
+  constexpr int width = 700, height = 400;
+  std::mt19937 random(3);
+  std::vector<std::uint32_t> pixels(width * height, 0xFFFFFFU);
+  for (int i = 0; i < 60000; ++i)
+    pixels[random() % pixels.size()] = random() % 5 == 0 ? 0x336699U : static_cast<std::uint32_t>(random());
+  const std::string data =
+      data_of(encode_png(reinterpret_cast<const unsigned char*>(pixels.data()), width, height, 4 * width, 144));
+  EXPECT_GT(data.size(), std::size_t{1} << 16) << "several pieces";
+  const std::string rows = inflated(data, height * (3 * width + 1));
+  uLongf size = compressBound(rows.size());
+  std::string at_once(size, '\0');
+  ASSERT_EQ(compress2(reinterpret_cast<Bytef*>(at_once.data()), &size, reinterpret_cast<const Bytef*>(rows.data()),
+                      rows.size(), 1),
+            Z_OK);
+  at_once.resize(size);
+  EXPECT_TRUE(data == at_once);
+  std::size_t at = 0;
+  for (const std::uint32_t pixel : pixels) {
+    if (at % (3 * width + 1) == 0) ++at;
+    for (const int shift : {16, 8, 0}) ASSERT_EQ(static_cast<unsigned char>(rows[at++]), (pixel >> shift) & 0xFF);
+  }
+  EXPECT_EQ(at, rows.size());
 }
 
 struct Case {
