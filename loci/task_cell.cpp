@@ -33,7 +33,7 @@ bool TaskCell::nonzero(int function) {
   return differentiate() && cell_->centred(function).sign() != 0;
 }
 
-bool TaskCell::positive(const std::vector<std::pair<Interval, int>>& sum, bool with_slopes) {
+bool TaskCell::positive(const Sum& sum, bool with_slopes) {
   Interval value = 0;
   for (const auto& [weight, function] : sum)
     value = value + weight * (with_slopes ? cell_->middle_value(function) : cell_->value(function));
@@ -47,50 +47,149 @@ bool TaskCell::positive(const std::vector<std::pair<Interval, int>>& sum, bool w
   return value.lower() > 0;
 }
 
-std::vector<double> TaskCell::values(const std::vector<int>& functions) const {
-  std::vector<double> list;
+void TaskCell::take_values(const std::vector<int>& functions, std::vector<double>& list) const {
+  list.clear();
   for (const int f : functions)
     list.push_back(differentiated_ ? cell_->middle_value(f).middle() : cell_->value(f).middle());
-  return list;
 }
 
 bool TaskCell::holds(const TaskCondition& condition) {
   if (!condition.unloaded.empty()) return false;
   if (!std::all_of(condition.factors.begin(), condition.factors.end(), [&](int f) { return nonzero(f); })) return false;
   if (condition.parts.empty()) return true;
-  const bool size = condition.least > 0;
   for (const bool with_slopes : {false, true}) {
     if (with_slopes && !differentiate()) return false;
-    const std::vector<double> a = values(condition.parts.front()), b = values(condition.parts.back());
-    const double t = nearest_part(a, b);
-    std::vector<double> n;
-    Interval square = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      n.push_back(a[i] + t * (b[i] - a[i]));
-      square = square + squared(Interval(n.back()));
-    }
-    if (!(square.lower() > 0)) return false;
-    // n is no unit vector: |n.w| <= |n| |w|.
-    Interval share = 0;
-    if (size) {
-      Interval length = square_root(square);
-      if (condition.squared_axis >= 0) length = length * square_root(cell_->value(condition.squared_axis));
-      const Interval& d =
-          with_slopes ? cell_->middle_value(condition.denominator) : cell_->value(condition.denominator);
-      // The cell proves that |A| has a sign; so has D, a part of it.
-      if (d.sign() == 0) continue;
-      share = least_[static_cast<std::size_t>(&condition - conditions_.conditions.data())] * length *
-              Interval(d.sign() > 0 ? -1.0 : 1.0);
-    }
-    const auto clear = [&](const std::vector<int>& parts) {
-      std::vector<std::pair<Interval, int>> sum;
-      for (std::size_t i = 0; i < parts.size(); ++i) sum.emplace_back(Interval(n[i]), parts[i]);
-      if (size) sum.emplace_back(share, condition.denominator);
-      return positive(sum, with_slopes);
-    };
-    if (std::all_of(condition.parts.begin(), condition.parts.end(), clear)) return true;
+    const std::vector<Sum>* const sums = sums_of(condition, with_slopes);
+    if (sums != nullptr &&
+        std::all_of(sums->begin(), sums->end(), [&](const Sum& sum) { return positive(sum, with_slopes); }))
+      return true;
   }
   return false;
+}
+
+const std::vector<TaskCell::Sum>* TaskCell::sums_of(const TaskCondition& condition, bool with_slopes) {
+  auto& [a, b] = ends_;
+  take_values(condition.parts.front(), a);
+  take_values(condition.parts.back(), b);
+  const double t = nearest_part(a, b);
+  Interval square = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    a[i] += t * (b[i] - a[i]);
+    square = square + squared(Interval(a[i]));
+  }
+  if (!(square.lower() > 0)) return nullptr;
+  const bool size = condition.least > 0;
+  // n is no unit vector: |n.w| <= |n| |w|.
+  Interval share = 0;
+  if (size) {
+    Interval length = square_root(square);
+    if (condition.squared_axis >= 0) length = length * square_root(cell_->value(condition.squared_axis));
+    const Interval& d = with_slopes ? cell_->middle_value(condition.denominator) : cell_->value(condition.denominator);
+    // The cell proves that |A| has a sign; so has D, a part of it.
+    if (d.sign() == 0) return nullptr;
+    share = least_[static_cast<std::size_t>(&condition - conditions_.conditions.data())] * length *
+            Interval(d.sign() > 0 ? -1.0 : 1.0);
+  }
+  sums_.resize(condition.parts.size());
+  for (std::size_t load = 0; load < sums_.size(); ++load) {
+    const std::vector<int>& parts = condition.parts[load];
+    sums_[load].clear();
+    for (std::size_t i = 0; i < parts.size(); ++i) sums_[load].emplace_back(Interval(a[i]), parts[i]);
+    if (size) sums_[load].emplace_back(share, condition.denominator);
+  }
+  return &sums_;
+}
+
+bool TaskCell::positive(const Bound& bound) const {
+  Interval all = bound.value;
+  for (int c = 0; c < 2; ++c)
+    all = all + bound.slopes[static_cast<std::size_t>(c)] * (cell_->local(c) - Interval(cell_->middle(c)));
+  return all.lower() > 0;
+}
+
+TaskCell::Bound TaskCell::square_bound(int lifted) const {
+  // s^2 less the bond, which depends on the other lifted roots alone.
+  Bound bound{squared(Interval(cell_->middle(2 + lifted))) - cell_->middle_bond(lifted),
+              {-cell_->bond_slope(lifted, 0), -cell_->bond_slope(lifted, 1)}};
+  for (int c = 2; c < cell_->dimension(); ++c)
+    if (c != 2 + lifted)
+      bound.value = bound.value - cell_->bond_slope(lifted, c) * (cell_->local(c) - Interval(cell_->middle(c)));
+  return bound;
+}
+
+void TaskCell::add_bounds(const Sum& sum, const Judgement& what, bool either_side, Doubt& doubt) const {
+  Interval middle = 0;
+  for (const auto& [weight, function] : sum) middle = middle + weight * cell_->middle_value(function);
+  std::vector<Interval> slopes, changes;  // along each coordinate, over the cell
+  for (int c = 0; c < cell_->dimension(); ++c) {
+    Interval slope = 0;
+    for (const auto& [weight, function] : sum) slope = slope + weight * cell_->slope(function, c);
+    slopes.push_back(slope);
+    changes.push_back(slope * (cell_->local(c) - Interval(cell_->middle(c))));
+  }
+  /// At the middle of some coordinates, anywhere along the others.
+  const auto without = [&](auto at_middle) {
+    Interval value = middle;
+    for (std::size_t c = 0; c < changes.size(); ++c)
+      if (!at_middle(c)) value = value + changes[c];
+    return value;
+  };
+  const Interval value = without([](std::size_t c) { return c < 2; });
+  std::vector<Bound> bounds = {{value, {slopes[0], slopes[1]}}};
+  if (either_side) bounds.push_back({-value, {-slopes[0], -slopes[1]}});
+  for (std::size_t c = 2; c < slopes.size(); ++c) {
+    // Where it grows with a root's size r it is positive but for the least r: r^2 <= square.
+    const int own = static_cast<int>(c);
+    const double side = cell_->mode()[static_cast<std::size_t>(cell_->lifted()[c - 2])];
+    const int sign = (Interval(side) * slopes[c]).sign();
+    if (sign == 0 || (sign < 0 && !either_side)) continue;
+    const Interval growth = Interval(sign * side) * slopes[c];
+    const double rest = (Interval(sign) * without([&](std::size_t k) { return k == c; })).lower();
+    const double least = (Interval(side * cell_->middle(own)) -
+                          Interval(rest) * inverse(Interval(rest > 0 ? growth.upper() : growth.lower())))
+                             .upper();
+    if (least < 0) return;
+    Bound bound = square_bound(own - 2);
+    bound.value = bound.value - squared(Interval(least));
+    bounds.push_back(bound);
+  }
+  if (std::none_of(bounds.begin(), bounds.end(), [&](const Bound& own) { return positive(own); }))
+    doubt.unproven.push_back({what, std::move(bounds), either_side, either_side});
+}
+
+bool TaskCell::add_bounds(const TaskCondition& condition, const Judgement& what, Doubt& doubt) {
+  if (!condition.unloaded.empty()) return false;
+  for (const int f : condition.factors)
+    if (!nonzero(f)) add_bounds({{1, f}}, what, true, doubt);
+  if (condition.parts.empty()) return true;
+  const std::vector<Sum>* const sums = sums_of(condition, true);
+  if (sums == nullptr) return false;
+  // A single component under a single load keeps away from zero on either side of it.
+  const bool either_side = sums->size() == 1 && sums->front().size() == 1;
+  for (const Sum& sum : *sums) add_bounds(sum, what, either_side, doubt);
+  return true;
+}
+
+TaskCell::Doubt TaskCell::doubt() {
+  Doubt doubt;
+  doubt.middle = {cell_->middle(0), cell_->middle(1)};
+  differentiated_ = true;
+  const Judgement boundary{State::boundary}, singular{State::singular};
+  for (int l = 0; l + 2 < cell_->dimension(); ++l)
+    if (cell_->square(cell_->lifted()[static_cast<std::size_t>(l)]).sign() <= 0)
+      if (const Bound bound = square_bound(l); !positive(bound)) doubt.unproven.push_back({boundary, {bound}, true});
+  const auto nonzero_or_bounded = [&](const std::vector<int>& functions, const Judgement& what) {
+    for (const int f : functions)
+      if (!nonzero(f)) add_bounds({{1, f}}, what, true, doubt);
+  };
+  nonzero_or_bounded(conditions_.denominators, boundary);
+  nonzero_or_bounded(conditions_.determinant, singular);
+  doubt.anywhere = false;
+  for (std::size_t i = 0; i < conditions_.conditions.size(); ++i) {
+    const TaskCondition& own = conditions_.conditions[i];
+    if (!holds(own) && !add_bounds(own, {State::unmet, static_cast<int>(i)}, doubt)) doubt.anywhere = true;
+  }
+  return doubt;
 }
 
 /// Nothing where slopes are wanted that are not there.
@@ -115,7 +214,9 @@ std::optional<TaskCell::Judgement> TaskCell::look(sheet::SheetCell& cell, bool i
   return told(State::proven);
 }
 
-std::vector<TaskCell::Judgement> TaskCell::judge(const std::vector<std::array<Interval, 2>>& cells) {
+std::vector<TaskCell::Judgement> TaskCell::judge(const std::vector<std::array<Interval, 2>>& cells,
+                                                 std::vector<Doubt>* doubts) {
+  if (doubts != nullptr) doubts->assign(cells.size(), {});
   constexpr std::size_t size = sheet::SheetCells::size;
   std::vector<Judgement> judgements(cells.size());
   std::vector<std::size_t> open;  // slopes are wanted
@@ -126,7 +227,12 @@ std::vector<TaskCell::Judgement> TaskCell::judge(const std::vector<std::array<In
     if (with_slopes) side_by_side_.differentiate();
     for (std::size_t lane = 0; lane < count; ++lane) {
       const auto judgement = look(side_by_side_[lane], side_by_side_.inside(lane), with_slopes);
-      judgement ? void(judgements[indices[lane]] = *judgement) : open.push_back(indices[lane]);
+      const bool doubtful = judgement && judgement->state != State::proven && judgement->state != State::outside;
+      if (judgement && (doubts == nullptr || !doubtful || with_slopes))
+        judgements[indices[lane]] = *judgement;
+      else
+        open.push_back(indices[lane]);
+      if (doubts != nullptr && doubtful && with_slopes) (*doubts)[indices[lane]] = doubt();
     }
   };
   std::vector<std::size_t> all(cells.size());

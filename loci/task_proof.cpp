@@ -14,11 +14,20 @@ namespace {
 using core::Interval;
 using core::Point2;
 
+/// How far what is not proven over a cell is from the task.
+struct Reach {
+  double least = 0;                                       ///< at least
+  double most = std::numeric_limits<double>::infinity();  ///< at most, where that is known: at `at`
+  Point2 at{};
+  TaskCell::Judgement what{};
+};
+
 struct Cell {
   Interval x, y;
   int depth = 0;
   double distance = 0;                                ///< at least so far from the task
   std::optional<TaskCell::Judgement> judgement = {};  ///< where it has been judged ahead of its turn
+  Reach reach = {};                                   ///< then: of what is not proven
 
   Point2 middle() const { return {x.middle(), y.middle()}; }
   double width() const { return std::max(x.width(), y.width()); }
@@ -56,8 +65,9 @@ bool out_of_time(const TaskEffort& effort, int cells) {
   return effort.deadline && cells % between_looks == 0 && std::chrono::steady_clock::now() >= *effort.deadline;
 }
 
-/// Looks for a pose of the task that the witness refutes: poses of cells that were not proven, and places between two
-/// of them where something changes its sign.
+/// Looks for a pose of the task that the witness refutes: poses of cells that
+/// were not proven, and places between two of them where something changes its
+/// sign.
 class Refutation {
  public:
   Refutation(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
@@ -70,7 +80,8 @@ class Refutation {
         seen_(point_.watched()),
         tried_(point_.watched(), std::numeric_limits<double>::infinity()) {}
 
-  /// Of the task itself, before any cell: its corners and the like are where engineers put zeros.
+  /// Of the task itself, before any cell: its corners and the like are where
+  /// engineers put zeros.
   bool by_samples() {
     for (const Point2& at : region_.samples())
       if (refuted_at(at, true) || crossed(at)) return true;
@@ -79,7 +90,8 @@ class Refutation {
 
   bool by_suspect(const Point2& at) {
     if (refuted_at(at, true)) return true;
-    // Close enough to be on either side of one curve, far enough for signs to be decided.
+    // Close enough to be on either side of one curve, far enough for signs to
+    // be decided.
     const double step = 1e-7 * (size_of(region_, margin_) + margin_);
     for (int i = 0; i < 8; ++i) {
       const double angle = i * std::numbers::pi / 4;
@@ -99,8 +111,8 @@ class Refutation {
   static constexpr int between_steps = 4, most_steps = 12, most_starts = 400;
   static constexpr std::size_t remembered = 48;
 
-  /// Only poses of the task, to rounding, or of its margin: one that is as far away as the margin demands is far
-  /// enough.
+  /// Only poses of the task, to rounding, or of its margin: one that is as far
+  /// away as the margin demands is far enough.
   bool refuted_at(const Point2& at, bool closely) const {
     const double distance = region_.signed_distance(at);
     const double rounding =
@@ -120,7 +132,8 @@ class Refutation {
     return at;
   }
 
-  /// Whether something has another sign here than at a pose seen before, and the witness refutes a pose between.
+  /// Whether something has another sign here than at a pose seen before, and
+  /// the witness refutes a pose between.
   bool crossed(const Point2& at) {
     if (!point_.enter(at)) return refuted_at(at, true);
     std::vector<int> signs;
@@ -135,7 +148,8 @@ class Refutation {
       const Point2* nearest = nullptr;
       for (const Point2& p : other)
         if (nearest == nullptr || apart(at, p) < apart(at, *nearest)) nearest = &p;
-      // Closer and closer pairs: between them the straight way stays within the task.
+      // Closer and closer pairs: between them the straight way stays within the
+      // task.
       if (nearest != nullptr && apart(at, *nearest) < 0.5 * tried_[w]) {
         tried_[w] = apart(at, *nearest);
         if (between(w, at, *nearest, signs[w])) return true;
@@ -192,8 +206,8 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   }
   TaskCell judge(conditions, mode);
   const double size = size_of(region, margin), reach = margin + hair_of(region, margin);
-  // The largest first: a part of the task that fails is met on large cells, before doubtful places are looked at
-  // closely.
+  // The largest first: a part of the task that fails is met on large cells,
+  // before doubtful places are looked at closely.
   std::deque<Cell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
                             Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
   const auto left_open = [&](const Cell& cell) {
@@ -256,12 +270,94 @@ bool refuted_near(const core::TaskConditions& conditions, const core::WorkingMod
   return std::any_of(suspects.begin(), suspects.end(), [&](const Point2& at) { return refutation.by_suspect(at); });
 }
 
+namespace {
+
+/// How far from the task what cells leave in doubt may fail.
+class Reaches {
+ public:
+  explicit Reaches(const TaskRegion& region) : region_(region) {}
+
+  /// `closely`: also where it does fail.
+  Reach of(const TaskCell::Doubt& doubt, const Cell& cell, bool closely) {
+    Reach reach;
+    if (doubt.anywhere) return reach;
+    reach.least = std::numeric_limits<double>::infinity();
+    for (const TaskCell::Unproven& own : doubt.unproven) {
+      if (reach.least <= cell.distance) return reach;
+      const double least = nearest(own.any.data(), own.any.size(), false, doubt.middle, cell).distance;
+      reach.least = std::min(reach.least, least);
+      if (!closely || !own.sharp || !(least < reach.most)) continue;
+      TaskRegion::Nearest most = nearest(own.any.data(), 1, true, doubt.middle, cell);
+      if (own.either_side)
+        if (const auto other = nearest(&own.any[1], 1, true, doubt.middle, cell); other.distance > most.distance)
+          most = other;
+      if (most.distance < reach.most) reach = {reach.least, most.distance, most.at, own.what};
+    }
+    return reach;
+  }
+
+ private:
+  /// The nearest place at which none of some bounds over a cell is positive, by what they are at least, or at most; an
+  /// infinite distance where one always is. To rounding.
+  TaskRegion::Nearest nearest(const TaskCell::Bound* first, std::size_t count, bool at_most, const Point2& middle,
+                              const Cell& cell) {
+    part_ = {{cell.x.lower(), cell.y.lower()},
+             {cell.x.upper(), cell.y.lower()},
+             {cell.x.upper(), cell.y.upper()},
+             {cell.x.lower(), cell.y.upper()}};
+    const Point2 half = {std::max(cell.x.upper() - middle[0], middle[0] - cell.x.lower()),
+                         std::max(cell.y.upper() - middle[1], middle[1] - cell.y.lower())};
+    for (std::size_t i = 0; i < count; ++i) {
+      // A slope of its middle, and what the others make of the cell's extent.
+      double value = at_most ? first[i].value.upper() : first[i].value.lower(), doubt = 0, size = std::abs(value);
+      Point2 slope{};
+      for (std::size_t c = 0; c < 2; ++c) {
+        const Interval& own = first[i].slopes[c];
+        slope[c] = own.middle();
+        doubt += std::max(own.upper() - slope[c], slope[c] - own.lower()) * half[c];
+        size += own.magnitude() * half[c];
+      }
+      constexpr double roundings = 1e-14;
+      value += (at_most ? doubt : -doubt) - roundings * size;
+      cut(value, slope, middle);
+    }
+    if (part_.empty()) return {std::numeric_limits<double>::infinity()};
+    return region_.nearest(part_);
+  }
+
+  /// Keeps the part on which value + slope . (p - middle) <= 0.
+  void cut(double value, const Point2& slope, const Point2& middle) {
+    whole_.swap(part_);
+    part_.clear();
+    const auto height = [&](const Point2& p) {
+      return value + slope[0] * (p[0] - middle[0]) + slope[1] * (p[1] - middle[1]);
+    };
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      const Point2 &p = whole_[i], &q = whole_[(i + 1) % whole_.size()];
+      const double at_p = height(p), at_q = height(q);
+      if (at_p <= 0) part_.push_back(p);
+      if ((at_p < 0) == (at_q < 0) || at_p == 0 || at_q == 0) continue;
+      const double t = at_p / (at_p - at_q);
+      part_.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+    }
+  }
+
+  const TaskRegion& region_;
+  core::Polyline part_, whole_;
+};
+
+}  // namespace
+
 TaskClearance proven_clearance(const core::TaskConditions& conditions, const core::WorkingMode& mode,
                                const TaskRegion& region, double from, double limit, const TaskEffort& effort) {
-  // What ends the margin is told apart to this part of it.
-  constexpr double resolution = 1e-4;
+  // What ends the margin is told apart to this part of it; where bounds tell what does, they tell it to that part.
+  constexpr double resolution = 1e-4, known = 1e-5;
+  // Cells this wide, as a part of their distance, may tell it so well.
+  constexpr double close = 0.02;
   TaskCell judge(conditions, mode);
+  Reaches reaches(region);
   const double hair = hair_of(region, limit), size = size_of(region, 0);
+  const auto at_hand = [&](const Cell& cell) { return std::max(cell.distance, resolution * size); };
   const auto farther = [](const Cell& a, const Cell& b) { return a.distance > b.distance; };
   std::vector<Cell> open;  // a heap, the nearest in front
   const auto push = [&](const Cell& cell) {
@@ -288,8 +384,12 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
       next.push_back(&cell);
       places.push_back({cell.x, cell.y});
     }
-    const std::vector<TaskCell::Judgement> judgements = judge.judge(places);
-    for (std::size_t i = 0; i < next.size(); ++i) next[i]->judgement = judgements[i];
+    std::vector<TaskCell::Doubt> doubts;
+    const std::vector<TaskCell::Judgement> judgements = judge.judge(places, &doubts);
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      next[i]->judgement = judgements[i];
+      next[i]->reach = reaches.of(doubts[i], *next[i], next[i]->width() <= close * at_hand(*next[i]));
+    }
   };
   for (int cells = 0; !open.empty(); ++cells) {
     if (Cell& nearest = open.front(); !nearest.judgement && nearest.distance < limit && !is_covered(nearest))
@@ -303,15 +403,22 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
       return result;
     }
     if (!cell.judgement) continue;  // the task's proof has covered it
-    const auto [state, unmet] = *cell.judgement;
-    if (state == TaskCell::State::proven) continue;
-    if (cell.width() <= resolution * std::max(cell.distance, resolution * size)) {
+    if (cell.judgement->state == TaskCell::State::proven) continue;
+    if (cell.reach.least > cell.distance) {  // its turn comes later
+      Cell later = cell;
+      later.distance = cell.reach.least;
+      push(later);
+      continue;
+    }
+    const bool is_known = cell.reach.most <= cell.distance + known * at_hand(cell);
+    if (is_known || cell.width() <= resolution * at_hand(cell)) {
       proven_to(cell.distance);
-      result.at = cell.middle();
-      result.kind = state == TaskCell::State::singular ? core::LocusKind::direct_singularity
-                    : state == TaskCell::State::unmet  ? core::LocusKind::contact_loss
-                                                       : core::LocusKind::workspace_boundary;
-      result.condition = unmet;
+      const auto [what, which] = is_known ? cell.reach.what : *cell.judgement;
+      result.at = is_known ? cell.reach.at : cell.middle();
+      result.kind = what == TaskCell::State::singular ? core::LocusKind::direct_singularity
+                    : what == TaskCell::State::unmet  ? core::LocusKind::contact_loss
+                                                      : core::LocusKind::workspace_boundary;
+      result.condition = which;
       return result;
     }
     for (Cell part : cell.halves()) {

@@ -16,6 +16,13 @@ class TaskRegion {
   /// Not more than the least distance of a cell from the shape; 0 where they meet.
   double distance(const core::Interval& x, const core::Interval& y) const;
 
+  struct Nearest {
+    double distance = 0;
+    core::Point2 at{};
+  };
+  /// Likewise of a convex polygon, given by its corners, and a point of it that is so far.
+  Nearest nearest(const core::Polyline& polygon) const;
+
   /// The point of the shape nearest to a place; of a place inside the place itself.
   core::Point2 closest(const core::Point2& to) const;
 
@@ -26,6 +33,7 @@ class TaskRegion {
 
  private:
   bool inside(const core::Point2& at) const;
+  Nearest nearest_to_box(const core::Polyline& polygon) const;
 
   bool circle_ = false, box_ = false, filled_ = true;
   core::Polyline line_;  ///< the border, closed, of a circle by chords; or the path
