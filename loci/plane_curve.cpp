@@ -69,7 +69,8 @@ PlaneCurve::PlaneCurve(const core::Polynomial& implicit) {
     const int i = term.exponents[0], j = term.exponents[1];
     const core::Rational exact = term.coefficient / scale;
     const double c = core::to_double(exact), rest = core::to_double(exact - core::Rational(c));
-    terms_.push_back({i, j, c, rest, Interval(c - std::abs(c) * 0x1p-52, c + std::abs(c) * 0x1p-52)});
+    terms_.push_back(
+        {i, j, c, rest, Interval(c - std::abs(c) * 0x1p-52, c + std::abs(c) * 0x1p-52), sheet::DoubleDouble(exact)});
     degree_x_ = std::max(degree_x_, i);
     degree_y_ = std::max(degree_y_, j);
   }
@@ -81,11 +82,7 @@ PlaneCurve::Derivatives<Number> PlaneCurve::derivatives(const Number& x, const N
   Derivatives<Number> d;
   for (const Term& term : terms_) {
     const int i = term.i, j = term.j;
-    Number c{0.0};
-    if constexpr (std::is_same_v<Number, double>)
-      c = term.coefficient;
-    else
-      c = term.enclosure;
+    const Number c = term.as<Number>();
     const Number zero(0.0);
     const Number x1 = i > 0 ? xs[i - 1] * Number(term.i) : zero, y1 = j > 0 ? ys[j - 1] * Number(term.j) : zero;
     const Number cy = c * ys[j], cx = c * xs[i];
@@ -99,7 +96,28 @@ PlaneCurve::Derivatives<Number> PlaneCurve::derivatives(const Number& x, const N
   return d;
 }
 
-PlaneCurve::Jet PlaneCurve::jet(const core::Point2& at) const { return {derivatives<double>(at[0], at[1])}; }
+template <typename Number>
+Number PlaneCurve::Term::as() const {
+  if constexpr (std::is_same_v<Number, double>) return coefficient;
+  if constexpr (std::is_same_v<Number, TwoDoubles>) return {coefficient, rest};
+  if constexpr (std::is_same_v<Number, Interval>) return enclosure;
+  if constexpr (std::is_same_v<Number, sheet::DoubleDouble>) return precise;
+}
+
+PlaneCurve::Jet PlaneCurve::jet(const core::Point2& at) const {
+  const Jet quick{derivatives<double>(at[0], at[1])};
+  constexpr double known = 1e-10;  // how well the distance from the curve is, relative to the coordinates
+  if (rounding(at) <= known * std::max(std::abs(at[0]), std::abs(at[1])) * quick.slope()) return quick;
+  const Derivatives<TwoDoubles> fine = derivatives<TwoDoubles>(at[0], at[1]);
+  return {{fine.f.high, fine.fx.high, fine.fy.high, fine.fxx.high, fine.fxy.high, fine.fyy.high}};
+}
+
+double PlaneCurve::rounding(const core::Point2& at) const {
+  double terms = 0;
+  const Powers<double> xs(at[0], degree_x_), ys(at[1], degree_y_);
+  for (const Term& term : terms_) terms += std::abs(term.coefficient * xs[term.i] * ys[term.j]);
+  return (degree_x_ + degree_y_) * std::numeric_limits<double>::epsilon() * terms;
+}
 
 double PlaneCurve::precise_value(const core::Point2& at) const {
   const Powers<TwoDoubles> xs(at[0], degree_x_), ys(at[1], degree_y_);
@@ -123,13 +141,11 @@ core::Point2 PlaneCurve::project(core::Point2 near) const {
   }
   // Next to a double point the rounding errors of the terms, over the small gradient, are more than the coordinates
   // resolve: the value is taken with twice the digits there. Twice, because the first step may still be a long one.
-  double terms = 0;
-  const Powers<double> xs(near[0], degree_x_), ys(near[1], degree_y_);
-  for (const Term& term : terms_) terms += std::abs(term.coefficient * xs[term.i] * ys[term.j]);
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   constexpr double spacings = 16;  // where a few spacings are at stake, doubles will do
-  const double resolved = spacings * epsilon * std::max(std::abs(near[0]), std::abs(near[1]));
-  for (int i = 0; i < 2 && (degree_x_ + degree_y_) * epsilon * terms > resolved * slope; ++i) {
+  const double resolved =
+      spacings * std::numeric_limits<double>::epsilon() * std::max(std::abs(near[0]), std::abs(near[1]));
+  const bool is_fine = rounding(near) <= resolved * slope;
+  for (int i = 0; i < 2 && !is_fine; ++i) {
     const Jet at = jet(near);
     const double g2 = at.fx * at.fx + at.fy * at.fy;
     const double f = precise_value(near);
@@ -141,6 +157,9 @@ core::Point2 PlaneCurve::project(core::Point2 near) const {
 
 namespace {
 
+Interval enclosure_of(const Interval& number) { return number; }
+Interval enclosure_of(const sheet::DoubleDouble& number) { return number.enclosure(); }
+
 /// Signs on the long sides of a box that differ: the branch cannot leave through them.
 bool differ(const std::array<int, 2>& sign) { return sign[0] != 0 && sign[0] == -sign[1]; }
 
@@ -150,9 +169,13 @@ bool PlaneCurve::joined(const core::Point2& a, const core::Point2& b, double off
   const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
   constexpr double wide = 0.25;  // of the chord's length: what does where no other branch is near
   constexpr double spare = 4;    // times how far the branch strays from its chord: what it must do where one is
-  constexpr double rounding = 1e-14;
-  const double margin = wide * length + rounding, thin = spare * off + rounding;
-  return joined_within(a, b, margin) || joined_closely(a, b, std::min(margin, thin));
+  constexpr double least = 1e-14;
+  const double margin = wide * length + least, thin = spare * off + least;
+  const double close = std::min(margin, thin);
+  if (joined_within(a, b, margin) || joined_closely<Interval>(a, b, close)) return true;
+  constexpr double tells = 1e-3;  // of what decides
+  const core::Point2 middle = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+  return rounding(middle) > tells * close * jet(middle).slope() && joined_closely<sheet::DoubleDouble>(a, b, close);
 }
 
 bool PlaneCurve::joined_within(const core::Point2& a, const core::Point2& b, double margin) const {
@@ -179,30 +202,34 @@ bool PlaneCurve::joined_within(const core::Point2& a, const core::Point2& b, dou
   return differ(sign);
 }
 
+template <typename Number>
 PlaneCurve::Sheared PlaneCurve::along_chord(const core::Point2& middle, std::size_t along, double rise) const {
   const std::array<int, 2> degree = {along == 0 ? degree_x_ : degree_y_, along == 0 ? degree_y_ : degree_x_};
   Sheared result{degree[0] + degree[1], degree[1], {}};
-  result.coefficients.resize(static_cast<std::size_t>(result.along + 1) * static_cast<std::size_t>(result.across + 1));
-  for (const Term& term : terms_)
-    result.at(along == 0 ? term.i : term.j, along == 0 ? term.j : term.i) = term.enclosure;
+  std::vector<Number> coefficients(static_cast<std::size_t>(result.along + 1) *
+                                   static_cast<std::size_t>(result.across + 1));
+  const auto own = [&](int i, int j) -> Number& { return coefficients[result.place(i, j)]; };
+  for (const Term& term : terms_) own(along == 0 ? term.i : term.j, along == 0 ? term.j : term.i) = term.as<Number>();
   // Horner's scheme, once a power: a -> middle + a, b -> middle + b, and last b -> rise a + b.
-  const Interval a(middle[along]), b(middle[1 - along]), s(rise);
+  const Number a(middle[along]), b(middle[1 - along]), s(rise);
   for (int from = 0; from < degree[0]; ++from)
     for (int i = degree[0] - 1; i >= from; --i)
-      for (int j = 0; j <= degree[1]; ++j) result.at(i, j) = result.at(i, j) + a * result.at(i + 1, j);
+      for (int j = 0; j <= degree[1]; ++j) own(i, j) = own(i, j) + a * own(i + 1, j);
   for (int from = 0; from < degree[1]; ++from)
     for (int j = degree[1] - 1; j >= from; --j)
-      for (int i = 0; i <= degree[0]; ++i) result.at(i, j) = result.at(i, j) + b * result.at(i, j + 1);
+      for (int i = 0; i <= degree[0]; ++i) own(i, j) = own(i, j) + b * own(i, j + 1);
   for (int from = 0; from < degree[1]; ++from)
     for (int j = degree[1] - 1; j >= from; --j)
-      for (int i = result.along; i > 0; --i) result.at(i, j) = result.at(i, j) + s * result.at(i - 1, j + 1);
+      for (int i = result.along; i > 0; --i) own(i, j) = own(i, j) + s * own(i - 1, j + 1);
+  for (const Number& coefficient : coefficients) result.coefficients.push_back(enclosure_of(coefficient));
   return result;
 }
 
+template <typename Number>
 bool PlaneCurve::joined_closely(const core::Point2& a, const core::Point2& b, double margin) const {
   const std::size_t along = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1, across = 1 - along;
   const core::Point2 middle = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-  const Sheared f = along_chord(middle, along, (b[across] - a[across]) / (b[along] - a[along]));
+  const Sheared f = along_chord<Number>(middle, along, (b[across] - a[across]) / (b[along] - a[along]));
   const Interval d = Interval(std::min(a[along], b[along]), std::max(a[along], b[along])) - Interval(middle[along]);
   const Powers<Interval> ds(d, f.along), ws(Interval(-margin, margin), f.across);
   Interval slope(0.0);

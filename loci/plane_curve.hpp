@@ -8,6 +8,7 @@
 #include "core/interval.hpp"
 #include "core/locus_map.hpp"
 #include "core/polynomial.hpp"
+#include "loci/sheet/double_double.hpp"
 
 namespace clearloci::loci {
 
@@ -26,6 +27,7 @@ class PlaneCurve {
     /// First-order distance of the point from the curve, m; negative where the gradient is too small to tell.
     double distance() const;
   };
+  /// In twice the digits of doubles where terms that cancel leave too few.
   Jet jet(const core::Point2& at) const;
 
   /// The point of the curve nearest to `near` by Newton along the gradient; `near` itself where that leads nowhere.
@@ -46,6 +48,8 @@ class PlaneCurve {
   bool joined_within(const core::Point2& a, const core::Point2& b, double margin) const;
   /// The same over a parallelogram along the chord, f in powers of the distances from its middle: dearer, but it loses
   /// nothing to terms that cancel there, nor to the chord's own rise.
+  /// The powers are taken in `Number`, an interval or what is finer than one.
+  template <typename Number>
   bool joined_closely(const core::Point2& a, const core::Point2& b, double margin) const;
 
   /// f in powers of the coordinate along a chord and of what the other one is off it.
@@ -55,11 +59,13 @@ class PlaneCurve {
     std::size_t place(int i, int j) const {
       return static_cast<std::size_t>(i) * static_cast<std::size_t>(across + 1) + static_cast<std::size_t>(j);
     }
-    Interval& at(int i, int j) { return coefficients[place(i, j)]; }
     const Interval& at(int i, int j) const { return coefficients[place(i, j)]; }
   };
+  template <typename Number>
   Sheared along_chord(const core::Point2& middle, std::size_t along, double rise) const;
 
+  /// About how far rounding takes f in doubles from its value.
+  double rounding(const core::Point2& at) const;
   /// f at the point with twice the digits of a double.
   double precise_value(const core::Point2& at) const;
 
@@ -67,6 +73,10 @@ class PlaneCurve {
     int i, j;
     double coefficient, rest;  ///< their sum is the coefficient to twice the digits of a double
     Interval enclosure;
+    sheet::DoubleDouble precise;
+
+    template <typename Number>
+    Number as() const;
   };
   std::vector<Term> terms_;
   int degree_x_ = 0, degree_y_ = 0;
