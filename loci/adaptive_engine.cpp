@@ -1,6 +1,7 @@
 #include "loci/adaptive_engine.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "loci/arc_check.hpp"
@@ -73,11 +74,9 @@ IsWanted replacing(const LocusProblem& problem, const std::vector<SheetShare*>& 
   };
 }
 
-/// The exact engine on what the adaptive one left open: shares that have a curve in common go together. Marks those
-/// that it settled.
-void settle_exactly(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares,
-                    LocusMap& map) {
-  if (core::has_angles(problem.tower)) return;  // its algebra knows roots of polynomials only
+/// Shares that the adaptive engine left open, and those that have a curve in common with them, unless all that would
+/// have to be told together is beyond the exact engine.
+std::vector<SheetShare*> bearable_open(const LocusProblem& problem, std::vector<SheetShare>& shares) {
   const auto factor_of = [&](const SheetShare& share) -> const LocusFactor& {
     return problem.factors[static_cast<std::size_t>(share.factor)];
   };
@@ -102,9 +101,75 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
       break;
     }
   }
-  if (open.empty()) return;
-  if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
-    throw core::LimitReached("the time limit was reached");
+  return open;
+}
+
+/// About what the crossings of two factors' curves take.
+double cost_of_crossings(const LocusFactor& a, const LocusFactor& b) {
+  double cost = 0;
+  for (const core::Polynomial& p : a.implicit)
+    for (const core::Polynomial& q : b.implicit) {
+      const double number = static_cast<double>(core::total_degree(p)) * core::total_degree(q);
+      cost += number * number;
+    }
+  return cost;
+}
+
+using Group = std::vector<SheetShare*>;
+
+/// Shares that have a curve in common go together, for all modes.
+std::vector<Group> connected(const LocusProblem& problem, const Group& open) {
+  const auto has_common = [&](const Group& group, const SheetShare* share) {
+    return std::any_of(group.begin(), group.end(), [&](const SheetShare* other) {
+      return other->factor == share->factor || shares_curve(problem.factors[static_cast<std::size_t>(other->factor)],
+                                                            problem.factors[static_cast<std::size_t>(share->factor)]);
+    });
+  };
+  std::vector<Group> groups;
+  for (SheetShare* share : open) {
+    Group own = {share};
+    for (Group& group : groups)
+      if (has_common(group, share)) {
+        own.insert(own.end(), group.begin(), group.end());
+        group.clear();
+      }
+    std::erase_if(groups, [](const Group& group) { return group.empty(); });
+    groups.push_back(std::move(own));
+  }
+  return groups;
+}
+
+/// What goes into one arrangement. Crossings of groups with each other are not asked for; two go together where these
+/// take no longer than those of boundaries and singularities, which every arrangement has.
+std::vector<Group> arrangements_of(const LocusProblem& problem, const Group& open) {
+  double context = 0;
+  for (const LocusFactor& a : problem.factors)
+    for (const LocusFactor& b : problem.factors)
+      if (is_context(a) && is_context(b)) context += cost_of_crossings(a, b);
+  const auto cost = [&](const Group& a, const Group& b) {
+    double sum = 0;
+    for (const SheetShare* one : a)
+      for (const SheetShare* other : b) {
+        const LocusFactor& factor = problem.factors[static_cast<std::size_t>(one->factor)];
+        if (!is_context(factor))
+          sum += cost_of_crossings(factor, problem.factors[static_cast<std::size_t>(other->factor)]);
+      }
+    return sum;
+  };
+  std::vector<Group> arrangements;
+  for (Group& group : connected(problem, open)) {
+    const auto other = std::find_if(arrangements.begin(), arrangements.end(),
+                                    [&](const Group& own) { return cost(group, own) <= context; });
+    if (other == arrangements.end())
+      arrangements.push_back(std::move(group));
+    else
+      other->insert(other->end(), group.begin(), group.end());
+  }
+  return arrangements;
+}
+
+/// The problem of these shares alone; none: what comes with them is beyond the exact engine.
+std::optional<LocusProblem> problem_of(const LocusProblem& problem, const Group& open) {
   LocusProblem rest = problem;
   rest.factors.clear();
   rest.modes.clear();
@@ -112,26 +177,52 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
     const bool own = std::any_of(open.begin(), open.end(),
                                  [&](const SheetShare* share) { return share->factor == static_cast<int>(f); });
     if (!own && !is_context(problem.factors[f])) {
-      // Its curves are settled; its orders along those that are not may still count.
+      // Its curves are settled, or in another arrangement; its orders along those that are not may still count.
       if (problem.factors[f].role != FactorRole::reaction) continue;
       rest.factors.push_back(problem.factors[f]);
       rest.factors.back().implicit.clear();
       rest.factors.back().implicit_too_heavy = false;
       continue;
     }
-    if (is_too_heavy(problem.factors[f])) return;
+    if (is_too_heavy(problem.factors[f])) return std::nullopt;
     rest.factors.push_back(problem.factors[f]);
   }
   for (const SheetShare* share : open) {
     const core::WorkingMode& mode = problem.modes[static_cast<std::size_t>(share->mode)];
     if (std::find(rest.modes.begin(), rest.modes.end(), mode) == rest.modes.end()) rest.modes.push_back(mode);
   }
-  LocusMap exact = trace_exactly(rest, options, replacing(problem, open));
-  if (!exact.complete) throw core::LimitReached("the time limit was reached");
-  for (LocusCurve& curve : exact.curves) map.curves.push_back(std::move(curve));
-  for (core::IsolatedPoint& point : exact.isolated_points) map.isolated_points.push_back(std::move(point));
-  for (std::string& note : exact.notes) map.notes.push_back(std::move(note));
-  for (SheetShare* share : open) share->settled = true;
+  return rest;
+}
+
+/// Points of the boundaries and singularities, and what is said of them, come with every arrangement.
+void take_points_and_notes(LocusMap& exact, LocusMap& map) {
+  for (core::IsolatedPoint& point : exact.isolated_points) {
+    const bool known =
+        std::any_of(map.isolated_points.begin(), map.isolated_points.end(), [&](const core::IsolatedPoint& own) {
+          return own.mode == point.mode && own.kind == point.kind && own.vanishing == point.vanishing &&
+                 own.at == point.at;
+        });
+    if (!known) map.isolated_points.push_back(std::move(point));
+  }
+  for (std::string& note : exact.notes)
+    if (std::find(map.notes.begin(), map.notes.end(), note) == map.notes.end()) map.notes.push_back(std::move(note));
+}
+
+/// The exact engine on what the adaptive one left open. Marks the shares that it settled.
+void settle_exactly(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares,
+                    LocusMap& map) {
+  if (core::has_angles(problem.tower)) return;  // its algebra knows roots of polynomials only
+  for (const Group& open : arrangements_of(problem, bearable_open(problem, shares))) {
+    if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
+      throw core::LimitReached("the time limit was reached");
+    const std::optional<LocusProblem> own = problem_of(problem, open);
+    if (!own) return;
+    LocusMap exact = trace_exactly(*own, options, replacing(problem, open));
+    if (!exact.complete) throw core::LimitReached("the time limit was reached");
+    for (LocusCurve& curve : exact.curves) map.curves.push_back(std::move(curve));
+    take_points_and_notes(exact, map);
+    for (SheetShare* share : open) share->settled = true;
+  }
 }
 
 /// By factor: the cells after which it is left to the exact engine, where that will surely settle it; 0 where it may

@@ -168,6 +168,26 @@ TEST(Engines, TheAdaptiveOneCertifiesWhatTouchesOnTheLattice) {
   expect_certified(trace_loci(kept("coupler_branch_towards_a_corner"), {}));
 }
 
+// The rail touches the circle of the crank, and all lengths are 3/4: where S1 and B2 meet in that point, on the lower
+// half of the circle around it, |A| is never negative. The couple in A2 is beyond the exact engine there.
+TEST(Engines, CertifyWhereTheSingularityIsDouble) {
+  const core::LocusMap map =
+      trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
+                                           "/tests/corpus/loci/prrr_r_rail_touches_crank_circle.yaml"),
+                 {});
+  int open = 0;
+  std::size_t vertices = 0;
+  for (const core::LocusCurve& curve : map.curves) {
+    if (!curve.certified) ++open;
+    for (const core::Arc& arc : curve.arcs) vertices += arc.points.size();
+  }
+  EXPECT_EQ(open, 1);
+  EXPECT_LE(vertices, 2000u);  // 2170 where chords were too short beside branches that nearly touch
+  const std::vector<double> half = lengths(map, core::LocusKind::direct_singularity, {0, -0.5}, 0.75);
+  ASSERT_EQ(half.size(), 1u);
+  EXPECT_NEAR(half[0], 0.75 * std::numbers::pi, 1e-9);
+}
+
 // Both rods are level at x = -1/2: two boundaries of the workspace on one line, along which cells can tell nothing.
 TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
   const mechanism::Mechanism rails = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
