@@ -177,7 +177,8 @@ core::Polyline close_vertices(const core::Polyline& points, const core::ClosedFo
 }
 
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
-                              const CurveAlgebras& algebras, sheet::SheetTraceOptions options) {
+                              const CurveAlgebras& algebras, const std::vector<sheet::NestedMeeting>& nested,
+                              sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
   std::vector<core::ClosedForm> forms;
   std::vector<std::shared_ptr<CurveAlgebra>> algebra;
@@ -189,7 +190,7 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
     if (factor.implicit.size() > 1) curves.emplace_back(p);
   }
   if (curves.size() > 1) options.colour = [&curves](const Point2& at) { return nearest_curve(curves, at); };
-  for (sheet::Star& corner : sheet::corners_on(problem.tower, factor.sheet)) {
+  for (sheet::Star& corner : sheet::corners_on(problem.tower, factor.sheet, nested)) {
     corner.singular = is_singular(problem, mode, corner);
     options.special.push_back(std::move(corner));
   }
@@ -472,6 +473,8 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
       special[m].push_back(std::move(cone));
   }
 
+  const std::vector<sheet::NestedMeeting> nested = sheet::nested_meetings(problem.tower);
+
   std::vector<SheetShare> shares;
   for (std::size_t m = 0; m < problem.modes.size(); ++m)
     for (std::size_t f = 0; f < problem.factors.size(); ++f)
@@ -499,7 +502,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
       own.whole_or_nothing = true;
       own.most_cells = settled_after[factor];
     }
-    share.traced = trace_share(problem, problem.factors[factor], problem.modes[mode], algebras, std::move(own));
+    share.traced = trace_share(problem, problem.factors[factor], problem.modes[mode], algebras, nested, std::move(own));
     const std::lock_guard lock(mutex);
     if (options.progress)
       options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");

@@ -1,6 +1,8 @@
 #include "loci/sheet/boundary_curves.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "loci/sheet/star.hpp"
 
@@ -146,6 +148,117 @@ std::vector<BoundaryMeeting> boundary_meetings(const core::RootTower& tower) {
       if (a.root == b.root) continue;
       if (std::optional<BoundaryMeeting> meeting = meeting_of(a, b)) meetings.push_back(std::move(*meeting));
     }
+  return meetings;
+}
+
+namespace {
+
+/// The root that a square stands on; none where there are several or none.
+std::optional<int> only_root_below(const Polynomial& square, int roots) {
+  std::optional<int> only;
+  for (int j = 0; j < roots; ++j) {
+    if (!core::depends_on(square, 2 + j)) continue;
+    if (only) return std::nullopt;
+    only = j;
+  }
+  return only;
+}
+
+/// A polynomial's values in doubles in the plane, all roots being 0.
+class PlaneValues {
+ public:
+  explicit PlaneValues(const Polynomial& p) {
+    for (const core::Term& term : p.terms) {
+      if (std::any_of(term.exponents.begin() + 2, term.exponents.end(), [](int e) { return e != 0; })) continue;
+      terms_.push_back({core::to_double(term.coefficient), static_cast<std::size_t>(term.exponents[0]),
+                        static_cast<std::size_t>(term.exponents[1])});
+      degree_ = std::max(degree_, term.exponents[0] + term.exponents[1]);
+    }
+  }
+
+  double operator()(double x, double y) {
+    const auto size = static_cast<std::size_t>(degree_) + 1;
+    powers_.assign(2 * size, 1.0);
+    for (std::size_t i = 1; i < size; ++i) {
+      powers_[i] = powers_[i - 1] * x;
+      powers_[size + i] = powers_[size + i - 1] * y;
+    }
+    double sum = 0;
+    for (const auto& [factor, i, k] : terms_) sum += factor * powers_[i] * powers_[size + k];
+    return sum;
+  }
+
+ private:
+  struct PlaneTerm {
+    double factor;
+    std::size_t i, k;
+  };
+  std::vector<PlaneTerm> terms_;
+  int degree_ = 0;
+  std::vector<double> powers_;
+};
+
+/// Points of a circle with short coordinates at which a polynomial seems to vanish, from doubles: candidates.
+std::vector<std::array<Rational, 2>> short_points_near_zeros(const BoundaryCurve& circle, const Polynomial& p) {
+  constexpr int pieces = 64, halvings = 50;
+  // Of points, relative to the radius; of a double zero's value, relative to the largest.
+  constexpr double accuracy = 1e-10, nearly_zero = 1e-12;
+  // No piece ends where designs on a lattice have their zeros.
+  constexpr double off = 0.0391, step = 2 * std::numbers::pi / pieces;
+  PlaneValues value(p), by_x(core::derivative(p, 0)), by_y(core::derivative(p, 1));
+  const double a = core::to_double(circle.x), b = core::to_double(circle.y);
+  const double radius = std::sqrt(core::to_double(circle.radius_squared));
+  const auto at = [&](double angle) { return value(a + radius * std::cos(angle), b + radius * std::sin(angle)); };
+  const auto slope = [&](double angle) {
+    const double c = std::cos(angle), s = std::sin(angle), x = a + radius * c, y = b + radius * s;
+    return c * by_y(x, y) - s * by_x(x, y);
+  };
+  std::vector<double> angles;
+  double largest = 0;
+  const auto look = [&](const auto& f, double most) {
+    for (int i = 0; i < pieces; ++i) {
+      double from = off + i * step, to = from + step;
+      const bool before = f(from) > 0;
+      if (before == (f(to) > 0)) continue;
+      for (int k = 0; k < halvings; ++k) ((f((from + to) / 2) > 0) == before ? from : to) = (from + to) / 2;
+      if (std::abs(at(from)) <= most) angles.push_back(from);
+    }
+  };
+  for (int i = 0; i < pieces; ++i) largest = std::max(largest, std::abs(at(off + i * step)));
+  look(at, largest);
+  look(slope, nearly_zero * largest);
+  std::vector<std::array<Rational, 2>> points;
+  for (const double angle : angles) {
+    const auto shortest = [&](double v) {
+      return core::simplest_rational_near(Rational(v), Rational(accuracy * radius));
+    };
+    points.push_back({shortest(a + radius * std::cos(angle)), shortest(b + radius * std::sin(angle))});
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<NestedMeeting> nested_meetings(const core::RootTower& tower) {
+  std::vector<NestedMeeting> meetings;
+  for (int upper = 1; upper < static_cast<int>(tower.roots.size()); ++upper) {
+    const core::Root& root = tower.roots[static_cast<std::size_t>(upper)];
+    const std::optional<int> lower = root.is_angle() ? std::nullopt : only_root_below(root.square, upper);
+    if (!lower || tower.roots[static_cast<std::size_t>(*lower)].is_angle()) continue;
+    for (const BoundaryCurve& circle : circles_of(tower, *lower))
+      for (const std::array<Rational, 2>& at : short_points_near_zeros(circle, root.square)) {
+        std::vector<Rational> point(static_cast<std::size_t>(tower.variables()), Rational(0));
+        point[0] = at[0];
+        point[1] = at[1];
+        const auto value = [&](const Polynomial& p) { return core::evaluate(p, point); };
+        const std::array<Rational, 2> normal = circle.normal_at(at);
+        if (square_of(normal) != circle.radius_squared || value(root.square) != 0) continue;
+        const Rational along =
+            normal[0] * value(core::derivative(root.square, 1)) - normal[1] * value(core::derivative(root.square, 0));
+        const bool by_root = value(core::derivative(root.square, 2 + *lower)) != 0;
+        meetings.push_back({circle, upper, at, by_root, along != 0});
+      }
+  }
   return meetings;
 }
 

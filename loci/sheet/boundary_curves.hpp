@@ -38,4 +38,17 @@ std::optional<BoundaryMeeting> meeting_of(const BoundaryCurve& a, const Boundary
 
 std::vector<BoundaryMeeting> boundary_meetings(const core::RootTower& tower);
 
+/// A rational point of a circle at which the square of another root, `upper`, vanishes too, which stands on the
+/// circle's: where a dyad stands on another one and both are stretched or folded.
+struct NestedMeeting {
+  BoundaryCurve lower;
+  int upper = 0;
+  std::array<core::Rational, 2> at;
+  bool by_root = false;  ///< Q_k changes with s_j in first order
+  bool along = false;    ///< and with the way along the circle
+};
+
+/// Those that stand on one other root alone.
+std::vector<NestedMeeting> nested_meetings(const core::RootTower& tower);
+
 }  // namespace clearloci::loci::sheet

@@ -46,7 +46,7 @@ class GraphBuilder {
  public:
   GraphBuilder(const core::RootTower& tower, const SheetFunction& curve, const core::WorkingMode& mode,
                const Partition& parts, const TreeOptions& options, bool last_attempt)
-      : mode_(mode), parts_(parts), options_(options), last_attempt_(last_attempt) {
+      : tower_(tower), curve_(curve), mode_(mode), parts_(parts), options_(options), last_attempt_(last_attempt) {
     graph_.patches = make_patches(tower, curve, parts);
   }
 
@@ -125,15 +125,50 @@ class GraphBuilder {
   }
 
   /// Zeros of the curve on a segment; nothing if they cannot be told apart or lie at its ends.
-  static std::optional<std::vector<std::vector<Interval>>> told_apart(FoundZeros found, int axis,
-                                                                      const Interval& segment) {
+  /// `patch`: whose star the segment is; -1: none's.
+  std::optional<std::vector<std::vector<Interval>>> told_apart(FoundZeros found, int axis, const Interval& segment,
+                                                               int patch = -1) {
     if (!found.undecided.empty()) return std::nullopt;
-    for (const std::vector<Interval>& zero : found.enclosures) {
+    for (const std::vector<Interval>& zero : found.enclosures)
       if (!inside(zero[1 - axis], segment)) return std::nullopt;
-      for (std::size_t v = 2; v < zero.size(); ++v)
+    if (patch >= 0 && !leave_those_in_mode(patch, found.enclosures)) return std::nullopt;
+    for (const std::vector<Interval>& zero : found.enclosures)
+      for (std::size_t v = 2; patch < 0 && v < zero.size(); ++v)
         if (zero[v].sign() == 0) return std::nullopt;
-    }
     return std::move(found.enclosures);
+  }
+
+  /// Whether the curve goes onto the mode's sheet from a zero at a star where one root vanishes: the root has the
+  /// mode's sign ahead. None where that is not told. At the star the function is the root times what does not vanish:
+  /// no number that may be 0 decides that the root does.
+  std::optional<bool> enters_mode(int patch, const std::vector<Interval>& zero) const {
+    std::vector<int> vanishing;
+    for (std::size_t j = 0; j < mode_.size(); ++j)
+      if (zero[2 + j].sign() == 0) vanishing.push_back(static_cast<int>(j));
+    const Star& star = parts_.stars[static_cast<std::size_t>(graph_.patches[patch].chart.star)];
+    if (vanishing.size() != 1 || star.apex) return std::nullopt;
+    const auto j = static_cast<std::size_t>(vanishing.front());
+    if (!vanishes_with(star, tower_, around(star, curve_.polynomial), vanishing.front())) return std::nullopt;
+    SheetCell cell(*graph_.patches[patch].program, mode_);
+    if (!cell.enter_local({zero[0], zero[1], zero[2 + j]}, vanishing)) return std::nullopt;
+    cell.differentiate();
+    const int outward = cell.tangent(0, 0).sign(), by_root = cell.tangent(0, 2).sign();
+    if (outward == 0 || by_root == 0 || cell.slope(0, 2).sign() == 0) return std::nullopt;
+    return outward * by_root == mode_[j];
+  }
+
+  /// Of zeros at a star those from which the curve goes onto the mode's sheet. False: of one that is not told.
+  bool leave_those_in_mode(int patch, std::vector<std::vector<Interval>>& zeros) {
+    std::vector<std::vector<Interval>> left;
+    for (std::vector<Interval>& zero : zeros) {
+      const bool clear = std::none_of(zero.begin() + 2, zero.end(), [](const Interval& s) { return s.sign() == 0; });
+      const std::optional<bool> enters = clear ? true : enters_mode(patch, zero);
+      if (!enters) return false;
+      if (!clear) rims_at_stars_.push_back({patch, zero});
+      if (*enters) left.push_back(std::move(zero));
+    }
+    zeros = std::move(left);
+    return true;
   }
 
   /// Why zeros on a segment cannot be told apart.
@@ -145,7 +180,7 @@ class GraphBuilder {
 
   std::optional<std::vector<std::vector<Interval>>> zeros_on(int patch, ZeroSearch& search, int axis, double at,
                                                              double from, double to, std::size_t most_cells,
-                                                             Trouble& trouble) {
+                                                             bool at_star, Trouble& trouble) {
     FoundZeros found = search.run({segment_of(axis, at, from, to)}, limits_on_edge(patch, most_cells));
     // As many as that are left where none of all halves, halved again, was excluded.
     trouble.runs_along = found.gave_up && found.undecided.size() >= 2 * most_cells;
@@ -158,7 +193,7 @@ class GraphBuilder {
     for (const Cell& cell : found.undecided)
       if (look(axis == 0 ? cell.y : cell.x) && !found.gave_up) trouble.inside = true;
     for (const std::vector<Interval>& zero : found.enclosures) look(zero[1 - axis]);
-    return told_apart(std::move(found), axis, {from, to});
+    return told_apart(std::move(found), axis, {from, to}, at_star ? patch : -1);
   }
 
   std::size_t cells_on_edge() const { return options_.extended ? most_cells_on_edge : most_cells_on_edge_of_a_sketch; }
@@ -277,7 +312,8 @@ class GraphBuilder {
           const std::size_t most_cells =
               runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();
           Trouble trouble;
-          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, trouble);
+          const bool at_star = side != Side::plane && axis == 0 && end < 0;
+          auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, at_star, trouble);
           runs_along = runs_along || trouble.runs_along;
           if (!zeros) {
             give_up_on(patch, index);
@@ -347,6 +383,19 @@ class GraphBuilder {
     at_leaf_[other][other_leaf].push_back({crossing, std::move(there)});
   }
 
+  /// Whether a zero on a rim is one that was met at a star: both are in one box in which there is one at most.
+  bool is_met_at_star(int patch, const std::vector<Interval>& zero, const SheetProgram& rim,
+                      const core::WorkingMode& mode) const {
+    if (graph_.patches[patch].chart.side == Side::plane || zero[0].lower() > 0) return false;
+    return std::any_of(rims_at_stars_.begin(), rims_at_stars_.end(), [&](const RimAtStar& met) {
+      if (met.patch != patch) return false;
+      SheetCell both(rim, mode);
+      if (!both.enter(hull(zero[0], met.zero[0]), hull(zero[1], met.zero[1])) || !both.lifted().empty()) return false;
+      both.differentiate();
+      return (both.slope(0, 0) * both.slope(1, 1) - both.slope(0, 1) * both.slope(1, 0)).sign() != 0;
+    });
+  }
+
   /// Where the curve meets Q_j = 0: zeros of (N, Q_j) with s_j = 0.
   void meet_rims(int patch) {
     const SheetProgram& program = *graph_.patches[patch].program;
@@ -376,6 +425,7 @@ class GraphBuilder {
         graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));
       }
       for (std::vector<Interval>& zero : found.enclosures) {
+        if (is_met_at_star(patch, zero, rim, mode)) continue;
         const int index = graph_.patches[patch].tree->locate(zero[0], zero[1]);
         const bool corner = std::any_of(zero.begin() + 2, zero.end(), [](const Interval& s) { return s.sign() == 0; });
         zero.insert(zero.begin() + 2 + j, Interval(0.0));
@@ -465,6 +515,8 @@ class GraphBuilder {
     }
   }
 
+  const core::RootTower& tower_;
+  const SheetFunction& curve_;
   core::WorkingMode mode_;
   const Partition& parts_;
   TreeOptions options_;
@@ -473,6 +525,11 @@ class GraphBuilder {
   CurveGraph graph_;
   std::vector<std::vector<std::vector<Seen>>> at_leaf_;  // by patch and leaf
   std::vector<std::vector<bool>> open_;                  // leaves at which something could not be told apart
+  struct RimAtStar {
+    int patch;
+    std::vector<Interval> zero;
+  };
+  std::vector<RimAtStar> rims_at_stars_;  // zeros at stars at which one more root vanishes
   struct Touching {
     int patch, first, second;
   };

@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
+#include "core/dense_terms.hpp"
 #include "core/errors.hpp"
-#include "loci/sheet/boundary_curves.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -137,7 +137,41 @@ std::vector<Star> touches(const core::RootTower& tower) {
   return result;
 }
 
-std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& function) {
+namespace {
+
+/// With s_j on the boundary of its own and Q_k = a s_j + b X + ..., X along that: where a is 0 both boundaries cross,
+/// or, where b is too, the ends of the upper dyad meet on the lower one's boundary; where it is not they touch, and s_j
+/// vanishes as X does. None where b alone is 0: there coordinates would have to bend with the boundary.
+std::optional<Star> star_of(const NestedMeeting& meeting) {
+  const int lower = meeting.lower.root;
+  if (meeting.by_root && !meeting.along) return std::nullopt;
+  Star star;
+  star.x = meeting.at[0];
+  star.y = meeting.at[1];
+  star.roots = {lower, meeting.upper};
+  star.shape = meeting.by_root ? Star::Shape::bend : meeting.along ? Star::Shape::corner : Star::Shape::touch;
+  if (meeting.by_root) star.roots.push_back(lower);
+  if (star.is_sheared()) set_tangent(star, meeting.lower);
+  return star;
+}
+
+}  // namespace
+
+namespace {
+
+/// Without the roots that are in every term: where these vanish a curve is traced along their boundaries.
+Polynomial without_roots_as_factors(Polynomial function) {
+  for (std::size_t v = 2; v < static_cast<std::size_t>(function.variables); ++v)
+    while (!function.is_zero() && std::all_of(function.terms.begin(), function.terms.end(),
+                                              [&](const core::Term& term) { return term.exponents[v] > 0; }))
+      for (core::Term& term : function.terms) --term.exponents[v];
+  return function;
+}
+
+}  // namespace
+
+std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& function,
+                             const std::vector<NestedMeeting>& nested) {
   std::vector<Star> result;
   for (const BoundaryMeeting& meeting : boundary_meetings(tower)) {
     const int first = meeting.first.root, second = meeting.second.root;
@@ -169,6 +203,21 @@ std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& fun
       }
       if (alone(tower, star)) add(result, std::move(star));
     }
+  }
+  const Polynomial inner = without_roots_as_factors(function);
+  const bool has_roots_inside =
+      std::any_of(inner.terms.begin(), inner.terms.end(), [](const core::Term& term) { return has_roots(term); });
+  for (const NestedMeeting& meeting : nested) {
+    std::vector<Rational> at(static_cast<std::size_t>(tower.variables()), Rational(0));
+    at[0] = meeting.at[0];
+    at[1] = meeting.at[1];
+    std::optional<Star> star = star_of(meeting);
+    if (!star || !alone(tower, *star)) continue;
+    // Along boundaries, which are smooth where they only cross or touch, nothing is gained.
+    const bool is_singular = star->shape == Star::Shape::touch;
+    if (core::evaluate(is_singular ? function : inner, at) != 0 || (!is_singular && !has_roots_inside)) continue;
+    const Polynomial& square = tower.roots[static_cast<std::size_t>(meeting.upper)].square;
+    if (is_singular || !exact_quotient(square, inner)) add(result, std::move(*star));
   }
   return result;
 }
@@ -254,6 +303,16 @@ int order_at(const Star& star, const Polynomial& around_star) {
   int order = std::numeric_limits<int>::max();
   for (const core::Term& term : around_star.terms) order = std::min(order, order_of(star, term));
   return order;
+}
+
+bool vanishes_with(const Star& star, const core::RootTower& tower, const Polynomial& around_star, int root) {
+  const int v = 2 + root, order = order_at(star, around_star);
+  const bool is_stood_on = std::any_of(tower.roots.begin(), tower.roots.end(),
+                                       [&](const core::Root& other) { return core::depends_on(other.square, v); });
+  if (is_stood_on || around_star.is_zero()) return false;
+  return std::all_of(around_star.terms.begin(), around_star.terms.end(), [&](const core::Term& term) {
+    return order_of(star, term) > order || term.exponents[static_cast<std::size_t>(v)] == 1;
+  });
 }
 
 core::StraightLine polar_line(const Star& star, const Polynomial& around_star, int order) {

@@ -7,7 +7,9 @@
 //     cone    (1, 1)  a dyad's ends meet and its lengths are equal: Q = 4 a^2 D - k^2 has a factor D = |P - A|^2
 //     touch   (1, 2)  two workspace boundaries touch: X along the common tangent, Y off it, both roots vanish as u does
 //     corner  (2, 2)  two workspace boundaries cross where the curve passes: both roots vanish as u does
-//     bend    (2, 4)  the same where the curve touches the second boundary, whose root vanishes as u^2 does: X along it
+//     bend    (2, 4)  the same where the curve touches the second boundary, whose root vanishes as u^2 does: X along
+//     it;
+//                     or where the second one is that of a dyad, and the first one that of a dyad on it
 #pragma once
 
 #include <array>
@@ -15,6 +17,7 @@
 #include <vector>
 
 #include "core/root_tower.hpp"
+#include "loci/sheet/boundary_curves.hpp"
 #include "loci/sheet/subtower.hpp"
 
 namespace clearloci::loci::sheet {
@@ -64,7 +67,9 @@ std::vector<Star> cones(const core::RootTower& tower);
 std::vector<Star> touches(const core::RootTower& tower);
 
 /// The rational points at which the boundary curves of two roots cross and the function vanishes with both roots.
-std::vector<Star> corners_on(const core::RootTower& tower, const core::Polynomial& function);
+/// `nested`: what nested_meetings() finds in the tower, where the boundaries may touch too.
+std::vector<Star> corners_on(const core::RootTower& tower, const core::Polynomial& function,
+                             const std::vector<NestedMeeting>& nested);
 
 /// Stars of a whole tower for a part of it, and for the tower without one root.
 std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part);
@@ -79,6 +84,10 @@ core::Polynomial around(const Star& star, const core::Polynomial& p);
 
 /// The lowest power of u in such a polynomial.
 int order_at(const Star& star, const core::Polynomial& around_star);
+
+/// Whether all terms of the lowest power of u hold a root that no other one stands on: without that power the function
+/// is the root times a function free of it at the star. Required: at most the first power of the root.
+bool vanishes_with(const Star& star, const core::RootTower& tower, const core::Polynomial& around_star, int root);
 
 /// Such a polynomial as a straight line in (u, X', Y', roots...), the star's roots divided by their powers of u,
 /// without `order` powers of u.

@@ -188,6 +188,23 @@ TEST(Engines, CertifyWhereTheSingularityIsDouble) {
   EXPECT_NEAR(half[0], 0.75 * std::numbers::pi, 1e-9);
 }
 
+// At (0, -1/4) the leg of the coupler is folded, and C is on A1: the ends of the other leg meet, on the boundary of the
+// one that they stand on. At (6/25, -193/100) both legs are stretched; there a locus meets the boundary of the upper
+// one in the same place. Both couples, |A| = 0 and two of the boundaries had been left open for it.
+TEST(Engines, TheAdaptiveOneCertifiesWhereLegsOnLegsAreStretchedOrMeet) {
+  LociRequest adaptive;
+  adaptive.engine = loci::Engine::adaptive;
+  const core::LocusMap map = trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
+                                                                  "/tests/corpus/loci/coupler_base_on_a_boundary.yaml"),
+                                        adaptive);
+  ASSERT_EQ(map.curves.size(), 6u);
+  for (const core::LocusCurve& curve : map.curves) {
+    EXPECT_TRUE(curve.certified) << curve.id;
+    for (const core::Arc& arc : curve.arcs)
+      for (const core::ArcEnd end : arc.ends) EXPECT_NE(end, core::ArcEnd::crossing) << curve.id;
+  }
+}
+
 // Both rods are level at x = -1/2: two boundaries of the workspace on one line, along which cells can tell nothing.
 TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
   const mechanism::Mechanism rails = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "loci/sheet/star.hpp"
 #include "tests/loci/sheet_cases.hpp"
 
 namespace clearloci::loci::sheet {
@@ -83,6 +84,53 @@ TEST(BoundaryCurves, TwoLines) {
 TEST(BoundaryCurves, ASquareOfAnotherFormHasNone) {
   const Polynomial ellipse = ring(4) - ring.x() * ring.x() - ring(2) * ring.y() * ring.y();
   EXPECT_TRUE(boundary_meetings(of(between_lines(1), ellipse, {})).empty());
+}
+
+/// s1 is that of the circle of radius 5 around the origin, s2 stands on it.
+core::RootTower standing_on_a_circle(const Polynomial& second) {
+  core::RootTower tower;
+  const Polynomial distance = ring.x() * ring.x() + ring.y() * ring.y();
+  tower.denominators.push_back(distance);
+  return of(ring(25) - distance, second, std::move(tower));
+}
+
+// With Q2 = 0 at (3, 4) and (3, -4): to first order in s1 and along the circle, along it alone, in neither.
+TEST(NestedMeetings, AreStarsOnWhichBothRootsAreDividedByAllTheirPowers) {
+  const Polynomial off = ring.x() - ring(3);
+  const std::vector<std::pair<Polynomial, Star::Shape>> cases = {{off + ring.y() * ring.s(1), Star::Shape::bend},
+                                                                 {off + off * ring.s(1), Star::Shape::corner},
+                                                                 {off * off + off * ring.s(1), Star::Shape::touch}};
+  for (const auto& [square, shape] : cases) {
+    const core::RootTower tower = standing_on_a_circle(square);
+    const auto meetings = nested_meetings(tower);
+    ASSERT_EQ(meetings.size(), 2u);
+    for (const NestedMeeting& meeting : meetings) {
+      EXPECT_EQ(meeting.upper, 1);
+      EXPECT_EQ(meeting.lower.root, 0);
+      EXPECT_EQ(meeting.at[0], 3);
+      EXPECT_EQ(abs(meeting.at[1]), 4);
+    }
+    EXPECT_TRUE(corners_on(tower, ring(1) + ring.s(1), meetings).empty());
+    const std::vector<Star> stars = corners_on(tower, ring.s(1) + ring.s(2), meetings);
+    ASSERT_EQ(stars.size(), 2u);
+    for (const Star& star : stars) {
+      EXPECT_EQ(star.shape, shape);
+      for (const int j : {0, 1})
+        EXPECT_EQ(order_at(star, around(star, tower.roots[static_cast<std::size_t>(j)].square)),
+                  2 * star.power_of_root(j));
+    }
+  }
+}
+
+TEST(NestedMeetings, AreNoneWhereTheUpperSquareBendsWithTheCircle) {
+  // At (0, 5) the circle is level, and y - 5 is of second order along it.
+  const Polynomial up = ring.y() - ring(5);
+  const core::RootTower tower = standing_on_a_circle(ring.s(1) + up);
+  const auto meetings = nested_meetings(tower);
+  ASSERT_EQ(meetings.size(), 1u);
+  EXPECT_TRUE(meetings.front().by_root);
+  EXPECT_FALSE(meetings.front().along);
+  EXPECT_TRUE(corners_on(tower, ring.s(1) + ring.s(2), meetings).empty());
 }
 
 }  // namespace
