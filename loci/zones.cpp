@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <map>
 
 #include "core/errors.hpp"
@@ -90,9 +91,11 @@ class ModeZones {
     core::ModeArea account;
     account.mode = mode_;
     account.workspace = workspace_faces(problem_, mode_, map_).area;
-    const AreaBounds bounds = workspace_area(problem_, mode_);
-    if (account.workspace < (1 - area_slack) * bounds.least || account.workspace > (1 + area_slack) * bounds.most)
-      account.workspace = bounds.most;  // the boundary has gaps: what is certain is only what enclosures tell
+    if (!sketch_) {
+      const AreaBounds bounds = workspace_area(problem_, mode_);
+      if (account.workspace < (1 - area_slack) * bounds.least || account.workspace > (1 + area_slack) * bounds.most)
+        account.workspace = bounds.most;  // the boundary has gaps: what is certain is only what enclosures tell
+    }
     double covered = 0;
     for (const Zone& zone : found) covered += zone.area;
     const double amiss = std::abs(account.workspace - covered);
@@ -273,8 +276,10 @@ class ModeZones {
     for (const auto& walk : face.inner) add(walk);
     const Polyline points = isolated();
     const double width = 2 * zone.area / length;
+    const double step =
+        sketch_ ? std::max(width / 4, length / most_sites_of_a_sketch) : std::max(width / 8, length / most_sites);
     Polyline sites = points;
-    for (const Obstacle& border : borders) sample(*border.line, std::max(width / 8, length / most_sites), sites);
+    for (const Obstacle& border : borders) sample(*border.line, step, sites);
 
     std::vector<Circle> candidates;
     for (const Circle& circle : voronoi_circles(sites)) {
@@ -289,10 +294,27 @@ class ModeZones {
     for (const Circle& candidate : candidates) {
       // No circle about a place grows by more than one moves it.
       if (best && (1 + farthest_polished) * candidate.radius < best->radius) continue;
-      const Circle circle = sketch_ ? candidate : polished(candidate, borders, points, map_.tolerance);
+      const Circle circle =
+          sketch_ ? free_of(borders, points, candidate.centre) : polished(candidate, borders, points, map_.tolerance);
       if (inside(circle.centre) && (!best || circle.radius > best->radius)) best = circle;
     }
     return best;
+  }
+
+  /// As large as chords and points let it be about this place.
+  static Circle free_of(const std::vector<Obstacle>& borders, const Polyline& points, const Point2& centre) {
+    double squared = std::numeric_limits<double>::infinity();
+    const auto meet = [&](const Point2& a, const Point2& b) {
+      const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+      const double along = (centre[0] - a[0]) * dx + (centre[1] - a[1]) * dy;
+      const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+      const double x = a[0] + t * dx - centre[0], y = a[1] + t * dy - centre[1];
+      squared = std::min(squared, x * x + y * y);
+    };
+    for (const Obstacle& border : borders)
+      for (std::size_t i = 1; i < border.line->size(); ++i) meet((*border.line)[i - 1], (*border.line)[i]);
+    for (const Point2& point : points) meet(point, point);
+    return {centre, std::sqrt(squared)};
   }
 
   static double length_of(const Polyline& points) {
@@ -322,7 +344,7 @@ class ModeZones {
   static constexpr double clear_of_chords = 8;
   static constexpr double area_slack = 1e-5;  ///< relative: what the boundary's curved sides may hide of an area
   static constexpr int most_refinements = 8;
-  static constexpr double most_sites = 4000;  ///< on a zone's border
+  static constexpr double most_sites = 4000, most_sites_of_a_sketch = 250;  ///< on a zone's border
   static constexpr std::size_t most_candidates = 3;
 
   const core::LocusProblem& problem_;

@@ -14,9 +14,9 @@ struct CutZones {
 
 /// Polylines of borders get more vertices where areas correct to 1e-6 need them; `assembly_mode` and `signs` are left
 /// to the caller, who knows reactions. `traced`: the loci of the problem, complete. Two free coordinates required.
-/// `sketch`: as of zone_graph; areas are those of the polylines, inscribed circles near the largest ones, and what is
-/// not certified is not spoken of in notes. `may_leave`: nothing is measured where finer polylines may certify how
-/// curves cut the workspace, and these do not.
+/// `sketch`: as of zone_graph; areas are those of the polylines, inscribed circles are free of them and near the
+/// largest ones, in long slivers perhaps half as large, and what is not certified is not spoken of in notes.
+/// `may_leave`: nothing is measured where finer polylines may certify how curves cut the workspace, and these do not.
 CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch = false, bool may_leave = false);
 
 }  // namespace clearloci::loci

@@ -11,6 +11,7 @@
 
 #include "loci/edge_area.hpp"
 #include "loci/inscribed_circle.hpp"
+#include "loci/plane_graph.hpp"
 #include "loci/trace.hpp"
 
 namespace clearloci::loci {
@@ -103,6 +104,32 @@ TEST(ZonesBetween, ThreeLinesThroughOnePoint) {
   const std::vector<Polynomial> lines = {x - y, x + y, y};
   const core::ZoneMap map = zones_between(lines);
   expect_areas(map, {4, 4, 2, 2, 2, 2});
+}
+
+/// The zones of a picture are those that are certified, with circles near the largest; a long sliver (between circles
+/// of 1 and 1.02) has one too.
+TEST(ZonesBetween, ASketchHasTheSameZones) {
+  const std::vector<std::vector<Polynomial>> all = {
+      {circle(0, 0, 1)},
+      {circle(Rational(-1, 2), 0, 1), circle(Rational(1, 2), 0, 1)},
+      {circle(0, 0, 1), circle(0, 0, Rational(10404, 10000))},
+      {y * y - x * x + x * x * x * x, x - y},
+  };
+  for (const std::vector<Polynomial>& curves : all) {
+    const LocusProblem problem = problem_of(curves);
+    const core::ZoneMap certified = zones(problem, trace(problem)).map;
+    const core::ZoneMap sketch = zones(problem, trace(problem), true).map;
+    ASSERT_EQ(sketch.zones.size(), certified.zones.size());
+    for (std::size_t i = 0; i < sketch.zones.size(); ++i) {
+      const core::Zone &own = sketch.zones[i], &other = certified.zones[i];
+      EXPECT_NEAR(own.area, other.area, 1e-3 * other.area) << i;
+      const bool is_sliver = other.inscribed.radius < 0.02;
+      EXPECT_LT(own.inscribed.radius, 1.001 * other.inscribed.radius) << i;
+      EXPECT_GT(own.inscribed.radius, (is_sliver ? 0.3 : 0.95) * other.inscribed.radius) << i;
+      EXPECT_TRUE(inside_ring(own.outer, own.sample)) << i;
+      for (const core::Polyline& ring : own.holes) EXPECT_FALSE(inside_ring(ring, own.sample)) << i;
+    }
+  }
 }
 
 TEST(ZonesBetween, AnOvalBesideABranch) {
