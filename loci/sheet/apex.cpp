@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "core/errors.hpp"
+#include "loci/sheet/double_double.hpp"
+#include "loci/sheet/fine_zero.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
 
 namespace clearloci::loci::sheet {
@@ -23,7 +25,7 @@ struct Expansion {
   int power = 0;
   int regular = 0;  ///< step
   bool zero = false;
-  std::optional<Interval> at_apex = {};
+  std::optional<DoubleDouble> at_apex = {};
   std::optional<int> slope = {};
 };
 
@@ -83,7 +85,7 @@ class AroundApex {
     switch (step.operation) {
       case Operation::constant:
         return Expansion{0, builder_.constant(step.value(), step.radius()), step.value() == 0 && step.radius() == 0,
-                         enclosed_as(step.value(), step.radius(), static_cast<Interval*>(nullptr)),
+                         enclosed_as(step.value(), step.radius(), static_cast<DoubleDouble*>(nullptr)),
                          builder_.constant(0)};
       case Operation::variable:
         return variable(step.first);
@@ -105,7 +107,7 @@ class AroundApex {
       const Rational& value = index == 0 ? star_.x : star_.y;
       const int slope = builder_.variable(1 + index);
       const int regular = builder_.add(builder_.constant(value, star_.apex->radius), builder_.multiply(u_, slope));
-      return {0, regular, false, enclosed_as(value, star_.apex->radius, static_cast<Interval*>(nullptr)), slope};
+      return {0, regular, false, enclosed_as(value, star_.apex->radius, static_cast<DoubleDouble*>(nullptr)), slope};
     }
     const int root = index - 2;
     const auto [place, fresh] = roots_.try_emplace(root);
@@ -119,7 +121,7 @@ class AroundApex {
     const Apex::Value& value = star_.apex->roots[static_cast<std::size_t>(root)];
     Expansion result{0, own, false, std::nullopt, std::nullopt};
     if (!value.known) return result;
-    result.at_apex = enclosed_as(value.middle, value.radius, static_cast<Interval*>(nullptr));
+    result.at_apex = enclosed_as(value.middle, value.radius, static_cast<DoubleDouble*>(nullptr));
     // (s - s0) / u = ((Q - Q0) / u) / (s + s0)
     const std::optional<Expansion> square = of(form_of(tower_.roots[static_cast<std::size_t>(root)]));
     if (square && square->power == 0 && square->slope) {
@@ -153,7 +155,7 @@ class AroundApex {
     const int left = a.zero ? builder_.constant(0) : raised(a, power), right = raised(b, power);
     Expansion result{power, subtract ? builder_.subtract(left, right) : builder_.add(left, right), false, {}, {}};
     if (power != 0) return result;
-    const auto value = [](const Expansion& e) { return e.power > 0 ? std::optional(Interval(0.0)) : e.at_apex; };
+    const auto value = [](const Expansion& e) { return e.power > 0 ? std::optional(DoubleDouble(0.0)) : e.at_apex; };
     if (value(a) && value(b)) result.at_apex = subtract ? *value(a) - *value(b) : *value(a) + *value(b);
     const std::optional<int> first = slope_of(a), second = slope_of(b);
     if (first && second) result.slope = subtract ? builder_.subtract(*first, *second) : builder_.add(*first, *second);
@@ -189,7 +191,7 @@ class AroundApex {
     if (a.zero) return std::nullopt;
     const int regular = builder_.inverse(a.regular);
     Expansion result{-a.power, regular, false, {}, {}};
-    if (a.power != 0 || !a.at_apex || a.at_apex->contains_zero()) return result;
+    if (a.power != 0 || !a.at_apex || a.at_apex->sign() == 0) return result;
     result.at_apex = inverse(*a.at_apex);
     if (a.slope)
       result.slope = builder_.subtract(
@@ -197,8 +199,8 @@ class AroundApex {
     return result;
   }
 
-  int enclosed(const Interval& value) {
-    const Rational lower(value.lower()), upper(value.upper());
+  int enclosed(const DoubleDouble& value) {
+    const Rational lower = value.lower_end(), upper = value.upper_end();
     return builder_.constant((lower + upper) / 2, (upper - lower) / 2);
   }
 
@@ -224,28 +226,21 @@ void find_roots(Star& star, const core::RootTower& tower) {
 
 /// The apex where both functions of a base vanish, as an enclosure.
 std::optional<Star> star_at(const SheetZero& zero, const core::DyadBase& base, const core::RootTower& tower,
-                            const Subtower& part) {
+                            const Subtower& part, const SheetProgram& program) {
   constexpr double slack = 4;
-  Star star;
-  star.x = Rational(zero.x);
-  star.y = Rational(zero.y);
-  Apex apex;
   const double radius = slack * std::max(zero.radius, 0x1p-50 * std::max(std::abs(zero.x), std::abs(zero.y)));
-  apex.radius = Rational(radius);
+  const std::optional<FineZero> fine =
+      fine_zero(program, part.mode, {zero.x - radius, zero.x + radius}, {zero.y - radius, zero.y + radius});
+  if (!fine) return std::nullopt;
+  Star star;
+  star.x = fine->x;
+  star.y = fine->y;
+  Apex apex;
+  apex.radius = fine->radius;
   apex.roots.resize(tower.roots.size());
-  const SheetProgram program(part.tower, std::vector<SheetFunction>{});
-  auto registers = program.registers<Interval>();
-  registers.set(0, {zero.x - radius, zero.x + radius});
-  registers.set(1, {zero.y - radius, zero.y + radius});
-  for (int j = 0; j < program.roots(); ++j) {
-    registers.run_square(j);
-    if (registers.square(j).lower() <= 0) return std::nullopt;
-    const Interval root = square_root(registers.square(j));
-    registers.set(2 + j, part.mode[static_cast<std::size_t>(j)] > 0 ? root : -root);
-    const Interval value = registers.root(j);
-    const Rational lower(value.lower()), upper(value.upper());
-    apex.roots[static_cast<std::size_t>(part.kept[static_cast<std::size_t>(j)])] = {(lower + upper) / 2,
-                                                                                    (upper - lower) / 2, true};
+  for (std::size_t j = 0; j < fine->roots.size(); ++j) {
+    const Rational lower = fine->roots[j].lower_end(), upper = fine->roots[j].upper_end();
+    apex.roots[static_cast<std::size_t>(part.kept[j])] = {(lower + upper) / 2, (upper - lower) / 2, true};
   }
   apex.way[0] = base.x_line;
   apex.way[1] = base.y_line;
@@ -270,11 +265,14 @@ std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::Worki
   for (const core::DyadBase& base : tower.bases) {
     const Subtower part = subtower(tower, mode, {base.x, base.y});
     if (part.kept.empty()) continue;  // at a rational point, or nowhere
-    const ZeroSet found = isolated_zeros(part.tower, part.mode, {narrowed(base.x, part), narrowed(base.x_line, part)},
-                                         {narrowed(base.y, part), narrowed(base.y_line, part)}, from, to);
+    const SheetFunction x = {narrowed(base.x, part), narrowed(base.x_line, part)};
+    const SheetFunction y = {narrowed(base.y, part), narrowed(base.y_line, part)};
+    const ZeroSet found = isolated_zeros(part.tower, part.mode, x, y, from, to);
+    if (found.zeros.empty()) continue;
+    const SheetProgram program(part.tower, {x, y});
     for (const SheetZero& zero : found.zeros) {
       if (!zero.inside_workspace) continue;
-      if (std::optional<Star> star = star_at(zero, base, tower, part)) stars.push_back(std::move(*star));
+      if (std::optional<Star> star = star_at(zero, base, tower, part, program)) stars.push_back(std::move(*star));
     }
   }
   return stars;

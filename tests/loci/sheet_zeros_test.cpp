@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "loci/sheet/fine_zero.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
 #include "loci/sheet/zero_search.hpp"
 #include "tests/loci/sheet_cases.hpp"
@@ -96,6 +97,31 @@ TEST(IsolatedZeros, OnTheSheetOfTheModeOnly) {
     EXPECT_TRUE(has(minus, core::to_double(c), -y, 1e-14));
     EXPECT_TRUE(plus.undecided.empty() && minus.undecided.empty());
   }
+}
+
+// On the sphere, s = y at x = 3/5: y = 2/5 sqrt(2), whose square is 8/25.
+TEST(FineZero, IsKnownToManyDigits) {
+  const Ring r{3};
+  const auto tower = testing::one_root(r(1) - r.x() * r.x() - r.y() * r.y());
+  const SheetProgram program(tower, {r.x() - r(Rational(3, 5)), r.s(1) - r.y()});
+  const double y = 0.4 * std::sqrt(2.0);
+  for (const int mode : {1, -1}) {
+    const double near = mode * y;
+    const auto zero = fine_zero(program, {mode}, {0.6 - 1e-14, 0.6 + 2e-14}, {near - 2e-14, near + 1e-14});
+    ASSERT_TRUE(zero.has_value());
+    EXPECT_GT(zero->radius, 0);
+    EXPECT_LT(core::to_double(zero->radius), 1e-55);
+    EXPECT_LE(Rational(abs(zero->x - Rational(3, 5))), zero->radius);
+    const Rational low = zero->y - zero->radius, high = zero->y + zero->radius;
+    EXPECT_LE(std::min(Rational(low * low), Rational(high * high)), Rational(8, 25));
+    EXPECT_GE(std::max(Rational(low * low), Rational(high * high)), Rational(8, 25));
+    EXPECT_EQ(sgn(zero->y), mode);
+    ASSERT_EQ(zero->roots.size(), 1u);
+    EXPECT_LE(zero->roots[0].lower_end(), high);
+    EXPECT_GE(zero->roots[0].upper_end(), low);
+  }
+  // Next to the boundary the root may vanish.
+  EXPECT_FALSE(fine_zero(program, {1}, {0.6 - 1e-14, 0.6 + 1e-14}, {0.79, 0.81}).has_value());
 }
 
 // Zeros at distance 5e-13 from the boundary Q = 0, where s = 1e-6 and its slope is 1e6: one on each sheet.
