@@ -65,9 +65,8 @@ bool out_of_time(const TaskEffort& effort, int cells) {
   return effort.deadline && cells % between_looks == 0 && std::chrono::steady_clock::now() >= *effort.deadline;
 }
 
-/// Looks for a pose of the task that the witness refutes: poses of cells that
-/// were not proven, and places between two of them where something changes its
-/// sign.
+/// Looks for a pose of the task that the witness refutes: poses of cells that were not proven, and places between two
+/// of them where something changes its sign.
 class Refutation {
  public:
   Refutation(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
@@ -80,8 +79,7 @@ class Refutation {
         seen_(point_.watched()),
         tried_(point_.watched(), std::numeric_limits<double>::infinity()) {}
 
-  /// Of the task itself, before any cell: its corners and the like are where
-  /// engineers put zeros.
+  /// Of the task itself, before any cell: its corners and the like are where engineers put zeros.
   bool by_samples() {
     for (const Point2& at : region_.samples())
       if (refuted_at(at, true) || crossed(at)) return true;
@@ -90,8 +88,7 @@ class Refutation {
 
   bool by_suspect(const Point2& at) {
     if (refuted_at(at, true)) return true;
-    // Close enough to be on either side of one curve, far enough for signs to
-    // be decided.
+    // Close enough to be on either side of one curve, far enough for signs to be decided.
     const double step = 1e-7 * (size_of(region_, margin_) + margin_);
     for (int i = 0; i < 8; ++i) {
       const double angle = i * std::numbers::pi / 4;
@@ -111,8 +108,8 @@ class Refutation {
   static constexpr int between_steps = 4, most_steps = 12, most_starts = 400;
   static constexpr std::size_t remembered = 48;
 
-  /// Only poses of the task, to rounding, or of its margin: one that is as far
-  /// away as the margin demands is far enough.
+  /// Only poses of the task, to rounding, or of its margin: one that is as far away as the margin demands is far
+  /// enough.
   bool refuted_at(const Point2& at, bool closely) const {
     const double distance = region_.signed_distance(at);
     const double rounding =
@@ -132,8 +129,7 @@ class Refutation {
     return at;
   }
 
-  /// Whether something has another sign here than at a pose seen before, and
-  /// the witness refutes a pose between.
+  /// Whether something has another sign here than at a pose seen before, and the witness refutes a pose between.
   bool crossed(const Point2& at) {
     if (!point_.enter(at)) return refuted_at(at, true);
     std::vector<int> signs;
@@ -148,8 +144,7 @@ class Refutation {
       const Point2* nearest = nullptr;
       for (const Point2& p : other)
         if (nearest == nullptr || apart(at, p) < apart(at, *nearest)) nearest = &p;
-      // Closer and closer pairs: between them the straight way stays within the
-      // task.
+      // Closer and closer pairs: between them the straight way stays within the task.
       if (nearest != nullptr && apart(at, *nearest) < 0.5 * tried_[w]) {
         tried_[w] = apart(at, *nearest);
         if (between(w, at, *nearest, signs[w])) return true;
@@ -206,8 +201,8 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   }
   TaskCell judge(conditions, mode);
   const double size = size_of(region, margin), reach = margin + hair_of(region, margin);
-  // The largest first: a part of the task that fails is met on large cells,
-  // before doubtful places are looked at closely.
+  // The largest first: a part of the task that fails is met on large cells, before doubtful places are looked at
+  // closely.
   std::deque<Cell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
                             Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
   const auto left_open = [&](const Cell& cell) {
