@@ -91,7 +91,8 @@ std::vector<Star> cones(const core::RootTower& tower) {
     star.x = (*place)[0];
     star.y = (*place)[1];
     bool reachable = true;
-    for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    // Nothing is asked of the roots above one that is not there: their squares may have thousands of terms.
+    for (std::size_t j = 0; reachable && j < tower.roots.size(); ++j) {
       if (tower.roots[j].is_angle()) continue;  // in every direction it has a value
       const Polynomial square = around(star, tower.roots[j].square);
       if (!square.is_zero())
