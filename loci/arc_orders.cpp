@@ -159,6 +159,16 @@ bool ArcOrders::place_roots_on(int side) {
       squares.push_back(Germ{0, 1});
       continue;
     }
+    // What is computed in fewer steps than its polynomial has terms is known more sharply by them, too.
+    const core::Root& own = tower_.roots[j];
+    if (own.square.terms.size() > own.line.steps.size())
+      if (const std::optional<MultiInterval> value = evaluate(own.line, at_); value && value->sign() != 0) {
+        if (value->sign() < 0) return false;
+        const MultiInterval root = square_root(*value);
+        at_.push_back(mode_[j] > 0 ? root : -root);
+        squares.push_back(Germ{0, 1});
+        continue;
+      }
     const std::optional<Germ> square = germ(tower_.roots[j].square, side);
     if (!square) decided_ = false;
     if (!square || square->sign < 0) return false;
@@ -210,6 +220,11 @@ int ArcOrders::sign_at_point(const Polynomial& p) {
   if (sign == 0) sign = evaluate(p, at).sign();
   signs_.emplace_back(p, sign);
   return sign;
+}
+
+bool ArcOrders::is_nonzero(const core::StraightLine& line) const {
+  const std::optional<MultiInterval> value = evaluate(line, at_);
+  return value && value->sign() != 0;
 }
 
 std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {

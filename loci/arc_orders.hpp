@@ -98,6 +98,8 @@ class ArcOrders {
   /// Orders times this are whole numbers: 2 on a simple boundary.
   int ramification() const { return ramification_; }
 
+  /// Whether what is computed is proven not to vanish on the arc. Required: nothing but the tower's variables occurs.
+  bool is_nonzero(const core::StraightLine& line) const;
   /// Of a sheet polynomial. Nothing: not decided.
   std::optional<Germ> germ(const core::Polynomial& p, int side);
 

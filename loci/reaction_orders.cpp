@@ -75,6 +75,8 @@ ReactionOrders reaction_orders(const LocusProblem& problem, ArcOrders& arc, cons
     std::vector<Rational> orders(reactions.size(), Rational(0));
     for (const int f : candidates) {
       const LocusFactor& factor = problem.factors[static_cast<std::size_t>(f)];
+      // A polynomial of thousands of terms is not looked at where a few steps tell that it does not vanish.
+      if (factor.sheet.terms.size() > factor.line.steps.size() && arc.is_nonzero(factor.line)) continue;
       const std::optional<Rational> order = order_of(factor.sheet, arc, side);
       if (!order) {
         result.decided = false;

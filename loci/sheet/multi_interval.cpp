@@ -214,6 +214,40 @@ MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterva
   return sum;
 }
 
+std::optional<MultiInterval> evaluate(const core::StraightLine& line, const std::vector<MultiInterval>& at) {
+  using Operation = core::StraightLine::Operation;
+  std::vector<MultiInterval> values;
+  values.reserve(line.steps.size());
+  for (const core::StraightLine::Step& step : line.steps) {
+    const auto first = static_cast<std::size_t>(step.first), second = static_cast<std::size_t>(step.second);
+    switch (step.operation) {
+      case Operation::constant:
+        values.emplace_back(step.value() - step.radius(), step.value() + step.radius());
+        break;
+      case Operation::variable:
+        values.push_back(at[first]);
+        break;
+      case Operation::add:
+        values.push_back(values[first] + values[second]);
+        break;
+      case Operation::subtract:
+        values.push_back(values[first] - values[second]);
+        break;
+      case Operation::multiply:
+        values.push_back(first == second ? squared(values[first]) : values[first] * values[second]);
+        break;
+      case Operation::inverse:
+        if (values[first].sign() == 0) return std::nullopt;
+        values.push_back(inverse(values[first]));
+        break;
+      case Operation::angle:
+        values.push_back(angle_of(values[first], values[second]));
+        break;
+    }
+  }
+  return line.empty() ? std::nullopt : std::optional(values.back());
+}
+
 MultiInterval angle_root(const core::Root& root, const std::vector<MultiInterval>& at) {
   const MultiInterval cosine = evaluate(root.cosine_and_sine[0], at), sine = evaluate(root.cosine_and_sine[1], at);
   return MultiInterval(core::Rational(core::angle_shift)) + angle_of(sine, cosine);

@@ -1,6 +1,7 @@
 // The rung above double intervals: intervals with ends n / 2^precision, for signs that doubles cannot decide.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/polynomial.hpp"
@@ -50,6 +51,9 @@ class MultiInterval {
 
 /// Value of a polynomial. Of variables that do not occur, the last ones may be left out.
 MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterval>& at);
+
+/// Value of what is computed; nothing where it divides by what may be zero.
+std::optional<MultiInterval> evaluate(const core::StraightLine& line, const std::vector<MultiInterval>& at);
 
 /// The value of a root that is an angle, from those of the variables before it.
 MultiInterval angle_root(const core::Root& root, const std::vector<MultiInterval>& at);

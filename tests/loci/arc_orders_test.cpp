@@ -52,6 +52,19 @@ TEST(ArcOrders, CountInTheRootOnTheBoundary) {
   EXPECT_EQ(order(arc, X * S - Circle, 1), Rational(1, 2));
 }
 
+TEST(ArcOrders, KnowByTheStepsWhatDoesNotVanish) {
+  core::StraightLineBuilder builder;
+  const int line = builder.subtract(builder.variable(0), builder.constant({1, 5}));               // x - 1/5, 2/5 there
+  const int below = builder.inverse(builder.subtract(builder.variable(2), builder.constant(0)));  // 1 / s, s = 0 there
+  const int vanishing = builder.subtract(builder.variable(0), builder.constant({3, 5}));
+  ArcOrders arc(over(circle), {1}, circle, exactly({3, 5}, {4, 5}));
+  ASSERT_TRUE(arc.decided());
+  EXPECT_TRUE(arc.is_nonzero(builder.line(line)));
+  EXPECT_FALSE(arc.is_nonzero(builder.line(vanishing)));
+  EXPECT_FALSE(arc.is_nonzero(builder.line(builder.multiply(line, below))));
+  EXPECT_FALSE(arc.is_nonzero({}));
+}
+
 TEST(ArcOrders, TellTheSheetsApartWhereTermsCancel) {
   // s^2 = 1 + y: along y = 0 the root is 1 on one sheet and -1 on the other; s - 1 = y/2 + ..., s - 1 - y/2 = -y^2/8.
   const RootTower tower = over(plane(1) + y);
