@@ -2,6 +2,8 @@
 
 #include <flint/ulong_extras.h>
 
+#include <bit>
+
 #include "core/errors.hpp"
 
 namespace clearloci::symbolic {
@@ -72,6 +74,75 @@ unsigned long residue(const core::Rational& value) {
   const unsigned long bottom = mpz_fdiv_ui(value.get_den_mpz_t(), prime);
   core::ensure(bottom != 0, "a denominator that the prime does not divide");
   return bottom == 1 ? top : product(top, inverse(bottom));
+}
+
+namespace {
+
+using Element = Extension::Element;
+
+Element lower_half(const Element& a) { return {a.begin(), a.begin() + static_cast<std::ptrdiff_t>(a.size() / 2)}; }
+Element upper_half(const Element& a) { return {a.begin() + static_cast<std::ptrdiff_t>(a.size() / 2), a.end()}; }
+
+/// low + high t, where t is the root of elements of twice the size of `half`.
+Element joined(Element low, Element high, std::size_t half) {
+  low.resize(half);
+  high.resize(half);
+  low.insert(low.end(), high.begin(), high.end());
+  return low;
+}
+
+Element opposite(Element a) {
+  for (Residue& part : a) part = -part;
+  return a;
+}
+
+}  // namespace
+
+const Element& Extension::square_of(const Element& a) const {
+  return squares_[static_cast<std::size_t>(std::countr_zero(a.size())) - 1];
+}
+
+Element Extension::adjoin(Element square) {
+  squares_.push_back(std::move(square));
+  return joined({}, {{1, 0}}, std::size_t{1} << (squares_.size() - 1));
+}
+
+Element Extension::add(const Element& a, const Element& b) {
+  Element sum = a.size() < b.size() ? b : a;
+  const Element& other = a.size() < b.size() ? a : b;
+  for (std::size_t i = 0; i < other.size(); ++i) sum[i] = sum[i] + other[i];
+  return sum;
+}
+
+Element Extension::multiply(const Element& a, const Element& b) const {
+  if (a.size() < b.size()) return multiply(b, a);
+  if (b.size() == 1) {
+    Element product = a;
+    for (Residue& part : product) part = part * b[0];
+    return product;
+  }
+  const std::size_t half = a.size() / 2;
+  const Element a0 = lower_half(a), a1 = upper_half(a);
+  if (b.size() < a.size()) return joined(multiply(a0, b), multiply(a1, b), half);
+  const Element b0 = lower_half(b), b1 = upper_half(b);
+  return joined(add(multiply(a0, b0), multiply(multiply(a1, b1), square_of(a))),
+                add(multiply(a0, b1), multiply(a1, b0)), half);
+}
+
+Element Extension::conjugate_product(const Element& a) const {
+  const Element a0 = lower_half(a), a1 = upper_half(a);
+  Element product = add(multiply(a0, a0), opposite(multiply(multiply(a1, a1), square_of(a))));
+  product.resize(a.size() / 2);
+  return product;
+}
+
+Residue Extension::norm(const Element& a) const { return a.size() == 1 ? a[0] : norm(conjugate_product(a)); }
+
+std::optional<Element> Extension::inverse(const Element& a) const {
+  if (a.size() == 1) return a[0].is_zero() ? std::nullopt : std::optional(Element{symbolic::inverse(a[0])});
+  const std::optional<Element> below = inverse(conjugate_product(a));
+  if (!below) return std::nullopt;
+  return multiply(joined(lower_half(a), opposite(upper_half(a)), a.size() / 2), *below);
 }
 
 }  // namespace clearloci::symbolic

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/rational.hpp"
 
@@ -30,5 +31,34 @@ std::optional<Residue> square_root(const Residue& a);
 
 /// Modulo the prime, which must not divide the denominator.
 unsigned long residue(const core::Rational& value);
+
+/// Square roots adjoined to the field of residues: elements a + b t with t^2 = q, where a, b and q are elements over
+/// the roots adjoined before. Whether q is a square already does not matter: where it is, an element stands for its
+/// values for both signs of t.
+class Extension {
+ public:
+  /// Coefficients of the products of roots: of k roots the first 2^k, the last root that of the upper half.
+  using Element = std::vector<Residue>;
+
+  static Element number(const Residue& value) { return {value}; }
+
+  /// Adjoins a root of an element; returns the root.
+  Element adjoin(Element square);
+
+  static Element add(const Element& a, const Element& b);
+  Element multiply(const Element& a, const Element& b) const;
+  /// The product of an element's values for all signs of the roots: zero where one of them is.
+  Residue norm(const Element& a) const;
+  /// Nothing where the element is zero for some signs.
+  std::optional<Element> inverse(const Element& a) const;
+
+ private:
+  /// Of the last root that an element is written with.
+  const Element& square_of(const Element& a) const;
+  /// (a + b t) (a - b t).
+  Element conjugate_product(const Element& a) const;
+
+  std::vector<Element> squares_;
+};
 
 }  // namespace clearloci::symbolic

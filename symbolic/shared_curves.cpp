@@ -5,6 +5,7 @@
 #include <flint/ulong_extras.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/errors.hpp"
 
@@ -13,8 +14,7 @@ namespace {
 
 constexpr unsigned long prime = Residue::prime;
 
-/// Lines tried until the curve has a point on one of them above which every root is in the field: of m roots that is
-/// about one in 2^m where the point is in the extension or roots stand below roots, and else the first.
+/// Lines tried until the curve has a point on one of them in the field or its extension.
 constexpr unsigned lines_tried = 200;
 
 /// Numbers that follow no pattern, the same in every run.
@@ -91,19 +91,34 @@ const SharedCurves::Reduced& SharedCurves::reduced(const Poly& p) {
   return known_.emplace_back(p, std::move(result)).second;
 }
 
-Residue SharedCurves::value(const Reduced& p, const std::vector<Residue>& at) const {
-  Residue total;
+Extension::Element SharedCurves::value(const Reduced& p, const Point& point) {
+  const Extension& field = point.field;
+  std::map<std::pair<int, int>, Extension::Element> powers;
+  const auto power_of = [&](const std::pair<int, int>& factor) -> const Extension::Element& {
+    const auto [known, fresh] = powers.try_emplace(factor);
+    if (fresh) {
+      known->second = Extension::number({1, 0});
+      for (int k = 0; k < factor.second; ++k)
+        known->second = field.multiply(known->second, point.at[static_cast<std::size_t>(factor.first)]);
+    }
+    return known->second;
+  };
+  Extension::Element total = Extension::number({});
   for (std::size_t i = 0; i < p.coefficients.size(); ++i) {
-    Residue term{p.coefficients[i], 0};
-    for (const auto& [variable, exponent] : p.monomials[i])
-      term = term * power(at[static_cast<std::size_t>(variable)], exponent);
-    total = total + term;
+    Extension::Element term = Extension::number({p.coefficients[i], 0});
+    for (const auto& factor : p.monomials[i]) term = field.multiply(power_of(factor), term);
+    total = Extension::add(total, term);
   }
   return total;
 }
 
-/// The points above one point of the curve; nothing where some root of theirs is not in the field, or a place divides
-/// by zero.
+Residue SharedCurves::value(const Poly& p, const std::vector<Residue>& at) {
+  Point point;
+  for (const Residue& coordinate : at) point.at.push_back(Extension::number(coordinate));
+  return value(reduced(p), point)[0];
+}
+
+/// The points above one point of the curve; nothing where a place divides by zero.
 std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsigned seed) {
   std::vector<Residue> start(static_cast<std::size_t>(geometry_.ring().size()));
   int along = geometry_.coordinates() - 1;
@@ -111,44 +126,57 @@ std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsign
   for (int i = 0; i < geometry_.coordinates(); ++i)
     if (i != along) start[static_cast<std::size_t>(i)] = {scattered(seed * 8UL + static_cast<unsigned long>(i)), 0};
   std::vector<unsigned long> coefficients;
-  for (const Poly& coefficient : curve.coefficients(along))
-    coefficients.push_back(value(reduced(coefficient), start).real);
+  for (const Poly& coefficient : curve.coefficients(along)) coefficients.push_back(value(coefficient, start).real);
   const std::optional<Residue> root = root_of(coefficients);
   if (!root) return std::nullopt;
   start[static_cast<std::size_t>(along)] = *root;
-  Fibre points = {start};
+  Point first;
+  for (const Residue& coordinate : start) first.at.push_back(Extension::number(coordinate));
+  Fibre points = {std::move(first)};
   for (const TowerRoot& own : geometry_.roots()) {
+    const auto variable = static_cast<std::size_t>(own.variable);
     Fibre next;
-    for (std::vector<Residue>& point : points) {
+    for (Point& point : points) {
       if (own.is_angle()) {  // depends on nothing algebraic: any value
-        point[static_cast<std::size_t>(own.variable)] = {
-            scattered(seed * 8UL + static_cast<unsigned long>(own.variable)), 0};
+        point.at[variable] = Extension::number({scattered(seed * 8UL + static_cast<unsigned long>(own.variable)), 0});
         next.push_back(std::move(point));
         continue;
       }
-      const std::optional<Residue> root_there = square_root(value(reduced(own.square), point));
-      if (!root_there) return std::nullopt;
-      Residue& s = point[static_cast<std::size_t>(own.variable)];
-      s = *root_there;
-      if (!s.is_zero()) {
-        next.push_back(point);
-        s = -s;
+      const Extension::Element square = value(reduced(own.square), point);
+      const std::optional<Residue> root_there = square.size() == 1 ? square_root(square[0]) : std::nullopt;
+      if (!root_there) {
+        point.at[variable] = point.field.adjoin(square);
+        next.push_back(std::move(point));
+        continue;
       }
+      if (!root_there->is_zero()) {
+        next.push_back(point);
+        next.back().at[variable] = Extension::number(-*root_there);
+      }
+      point.at[variable] = Extension::number(*root_there);
       next.push_back(std::move(point));
     }
     points = std::move(next);
   }
-  const std::vector<Substitution> places = geometry_.substitutions();
-  for (std::vector<Residue>& point : points)
-    for (auto pair = places.rbegin(); pair != places.rend(); ++pair) {
-      const Residue w = value(reduced(pair->place.w), point);
-      if (w.is_zero()) return std::nullopt;
-      const Residue below = inverse(w);
-      point[static_cast<std::size_t>(pair->x)] = value(reduced(pair->place.x), point) * below;
-      if (pair->y >= 0) point[static_cast<std::size_t>(pair->y)] = value(reduced(pair->place.y), point) * below;
-      if (pair->z >= 0) point[static_cast<std::size_t>(pair->z)] = value(reduced(pair->place.z), point) * below;
-    }
+  for (Point& point : points)
+    if (!place(point)) return std::nullopt;
   return points;
+}
+
+bool SharedCurves::place(Point& point) {
+  const std::vector<Substitution> places = geometry_.substitutions();
+  for (auto pair = places.rbegin(); pair != places.rend(); ++pair) {
+    const std::optional<Extension::Element> below = point.field.inverse(value(reduced(pair->place.w), point));
+    if (!below) return false;
+    const auto put = [&](int variable, const Poly& numerator) {
+      if (variable >= 0)
+        point.at[static_cast<std::size_t>(variable)] = point.field.multiply(value(reduced(numerator), point), *below);
+    };
+    put(pair->x, pair->place.x);
+    put(pair->y, pair->place.y);
+    put(pair->z, pair->place.z);
+  }
+  return true;
 }
 
 const std::optional<SharedCurves::Fibre>& SharedCurves::fibre_of(const Poly& curve) {
@@ -164,8 +192,9 @@ const std::optional<SharedCurves::Fibre>& SharedCurves::fibre_of(const Poly& cur
 bool SharedCurves::may_vanish_along(const std::vector<Poly>& curves, const Poly& sheet, const Poly& natural) {
   return std::any_of(curves.begin(), curves.end(), [&](const Poly& curve) {
     const std::optional<Fibre>& points = fibre_of(curve);
-    return !points || std::any_of(points->begin(), points->end(), [&](const std::vector<Residue>& point) {
-      return value(reduced(sheet), point).is_zero() && value(reduced(natural), point).is_zero();
+    return !points || std::any_of(points->begin(), points->end(), [&](const Point& point) {
+      const auto vanishes = [&](const Poly& p) { return point.field.norm(value(reduced(p), point)).is_zero(); };
+      return vanishes(sheet) && vanishes(natural);
     });
   });
 }
@@ -176,10 +205,11 @@ bool SharedCurves::may_be_constant(const Poly& natural) {
   for (const int place : {37, 53}) {
     const std::optional<Fibre>& points = fibre_of(x - Poly(geometry_.ring(), core::Rational(place, 101)));
     if (!points) return true;
-    for (const std::vector<Residue>& point : *points) {
-      const Residue here = value(reduced(natural), point);
-      if (!first) first = here;
-      if (!(here == *first)) return false;
+    for (const Point& point : *points) {
+      Extension::Element here = value(reduced(natural), point);
+      if (!first) first = here[0];
+      here[0] = here[0] + -*first;
+      if (std::any_of(here.begin(), here.end(), [](const Residue& part) { return !part.is_zero(); })) return false;
     }
   }
   return true;

@@ -15,7 +15,8 @@ namespace clearloci::symbolic {
 /// whichever signs of the roots: one point at which it does not, for any signs, is a proof that there is no such
 /// component. Nothing is expanded for it. Points are taken in the quadratic extension of the field of the prime, where
 /// every number of the field has a root: else a curve along which a product of roots is rational and no square modulo
-/// the prime, or one that falls into two over such a root, would have no point at all.
+/// the prime, or one that falls into two over such a root, would have no point at all. A root that stands on others may
+/// be in no such field: it is kept as what squares to its square, for both signs at once.
 class SharedCurves {
  public:
   explicit SharedCurves(const Geometry& geometry);
@@ -33,11 +34,20 @@ class SharedCurves {
     std::vector<unsigned long> coefficients;
     std::vector<std::vector<std::pair<int, int>>> monomials;  ///< ring variable, power
   };
-  /// All points above one point of a curve: values of the ring's variables, one set for each choice of signs.
-  using Fibre = std::vector<std::vector<Residue>>;
+  /// Values of the ring's variables for one choice of signs of the roots that are in the field, and for both signs of
+  /// the others.
+  struct Point {
+    Extension field;
+    std::vector<Extension::Element> at;
+  };
+  /// All points above one point of a curve.
+  using Fibre = std::vector<Point>;
 
   const Reduced& reduced(const Poly& p);
-  Residue value(const Reduced& p, const std::vector<Residue>& at) const;
+  static Extension::Element value(const Reduced& p, const Point& point);
+  Residue value(const Poly& p, const std::vector<Residue>& at);
+  /// Into the constructed points. False: a place divides by zero.
+  bool place(Point& point);
   std::optional<Fibre> fibre(const Poly& curve, unsigned seed);
   const std::optional<Fibre>& fibre_of(const Poly& curve);
 
