@@ -141,12 +141,13 @@ class Geometry {
   bool same_for(const std::vector<int>& sides) const;
   /// The numerators of the squared distances divided by, reduced.
   const std::vector<Poly>& denominators() const { return denominators_; }
-  /// The way (x, y) / w from one end of a dyad to the other over the tower, w positive, and what is made of that: w^2,
-  /// the numerator d = x^2 + y^2 of the squared distance and 2 d w, the denominator of the way to the point; reduced.
+  /// The way (x, y) / w from one end of a dyad to the other over the tower, w positive, its squared distance d / w2 and
+  /// 2 d w, the denominator of the way to the point; reduced.
   struct Way {
     mechanism::PointIndex point = 0;
     Poly x, y, w;
     Poly w2, d, twice_dw;
+    bool is_squared = true;  ///< w2 = w^2, d = x^2 + y^2; else a shorter fraction
   };
   const std::vector<Way>& dyad_ways() const { return dyad_ways_; }
   /// Polynomials that places divide by and that vanish nowhere: 1 + t^2 of every angle.
@@ -254,6 +255,11 @@ class Geometry {
   void lighten(TowerPoint& place) const;
   Poly common_positive(Poly a, Poly b) const;
   /// p / divisor, where that holds neither coordinates nor roots; none of zero.
+  /// A squared distance in natural coordinates, with the squared lengths of dyads' links put in where that lowers its
+  /// degree: of the distance between a point on a crank and a fixed one it is linear in the crank's end.
+  Poly by_known_lengths(Poly squared) const;
+  /// In the plane over the tower: numerator and positive denominator.
+  std::array<Poly, 2> squared_distance(mechanism::PointIndex from, mechanism::PointIndex to) const;
   std::optional<Poly> constant_quotient(const Poly& p, const Poly& divisor) const;
   /// A squared length that is divided by; its factors join what is known to be positive.
   void add_denominator(const Poly& squared_length);

@@ -21,6 +21,9 @@ using Vector = std::array<Poly, 3>;
 
 Poly dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// Over the tower. A longer one is written anew: dyads on dyads have thousands of terms where hundreds will do.
+constexpr std::size_t most_terms_of_a_distance = 100;
+
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -124,6 +127,47 @@ void Geometry::construct(PointIndex point) {
                             own->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(own->z)))};
 }
 
+Poly Geometry::by_known_lengths(Poly squared) const {
+  const auto squared_way = [&](PointIndex from, PointIndex to) {
+    const auto &a = natural(from), &b = natural(to);
+    const Poly x = poly((b[0] - a[0]).expand()), y = poly((b[1] - a[1]).expand());
+    return x * x + y * y;
+  };
+  for (auto elbow = constructed_.rbegin(); elbow != constructed_.rend(); ++elbow) {
+    const auto* dyad = std::get_if<DyadPoint>(&mechanism_->points[index(elbow->point)].form);
+    const std::vector<int> pair = {elbow->x, elbow->y};
+    if (dyad == nullptr || dyad->axis || squared.degree(pair) != 2) continue;
+    const Poly factor = squared.coefficients(elbow->x).back();
+    if (!factor.is_constant()) continue;
+    std::optional<Poly> best;
+    for (const auto& [end, length] : {std::pair{dyad->from, dyad->from_length}, {dyad->to, dyad->to_length}}) {
+      const Poly own = poly(expression(length).expand());
+      Poly less = squared - factor * (squared_way(end, elbow->point) - own * own);
+      if (less.degree(pair) < 2 && (!best || less.length() < best->length())) best = std::move(less);
+    }
+    if (best) squared = std::move(*best);
+  }
+  return squared;
+}
+
+std::array<Poly, 2> Geometry::squared_distance(PointIndex from, PointIndex to) const {
+  const auto &a = natural(from), &b = natural(to);
+  const Poly x = poly((b[0] - a[0]).expand()), y = poly((b[1] - a[1]).expand());
+  Poly above = by_known_lengths(x * x + y * y), below(*ring_, 1), less_above(*ring_), less_below(*ring_);
+  for (const Substitution& pair : substitutions()) {
+    const int degree = degree_in(above, pair);
+    if (degree == 0) continue;
+    above = substituted(above, pair, degree);
+    below = reduce(below * pair.place.w.pow(static_cast<unsigned>(degree)));
+    for (const Poly& divisor : positive_)
+      while (above.divides(divisor, less_above) && below.divides(divisor, less_below)) {
+        std::swap(above, less_above);
+        std::swap(below, less_below);
+      }
+  }
+  return {above, below};
+}
+
 void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   construct(point);
   const TowerPoint& a = tower(form.from);
@@ -138,8 +182,17 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   // Between two points of one link D is the same number in every pose, and k and Q are: with D / 1 in place of d / w^2
   // the point is a fixed combination of the two, and no denominator of theirs is taken twice.
   const std::optional<Poly> rigid = form.axis ? std::nullopt : constant_quotient(whole_d, whole_w2);
-  const Poly w2 = rigid ? Poly(*ring_, 1) : whole_w2, d = rigid.value_or(whole_d);
-  Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + (rigid ? d : way2));
+  Poly w2 = rigid ? Poly(*ring_, 1) : whole_w2, d = rigid.value_or(whole_d);
+  bool is_squared = true;
+  if (!rigid && !form.axis && d.length() > most_terms_of_a_distance) {
+    auto [above, below] = squared_distance(form.from, form.to);
+    if (above.length() < d.length()) {
+      is_squared = false;
+      d = std::move(above);
+      w2 = std::move(below);
+    }
+  }
+  Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + (rigid || !form.axis ? d : way2));
   Poly square = reduce((from_length * from_length * d * w2).scaled(4) - n2 * kn * kn);
   // What divides k and the root alike is taken out of the root.
   Poly scale(*ring_, 1), less(*ring_), quotient(*ring_);
@@ -156,7 +209,7 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   const Vector left = cross(n, way);
   const auto component = [&](std::size_t i) { return reduce(kn * (n2 * way[i] - h * n[i]) + s * left[i]); };
   TowerPoint step{component(0), component(1), component(2), reduce(d * w).scaled(2)};
-  if (!form.axis && !rigid) dyad_ways_.push_back({point, x, y, w, w2, d, step.w});
+  if (!form.axis && !rigid) dyad_ways_.push_back({point, x, y, w, w2, d, step.w, is_squared});
   lighten(step);
   tower_[index(point)] = sum(a, step);
   if (form.axis) keep_in_plane(point, form.from, n);

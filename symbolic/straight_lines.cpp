@@ -254,6 +254,13 @@ StraightLine StraightLines::square(std::size_t root) {
   return builder_.line(builder_.multiply(scale, builder_.multiply(outer, inner)));
 }
 
+std::optional<std::array<StraightLine, 2>> StraightLines::rims(mechanism::PointIndex point) {
+  const std::optional<Dyad> known = dyad(point);
+  if (!known || known->axis) return std::nullopt;
+  return std::array{builder_.line(builder_.subtract(builder_.power(known->sum, 2), known->distance2)),
+                    builder_.line(builder_.subtract(known->distance2, builder_.power(known->difference, 2)))};
+}
+
 /// |v|^2 in the unit of the root.
 StraightLine StraightLines::squared_length(const InverseLength& length) {
   const TowerRoot& root = geometry_->roots()[static_cast<std::size_t>(length.root)];
@@ -417,7 +424,9 @@ void StraightLines::know_divisors(const Geometry::Way& way, int distance2) {
   if (std::any_of(divisors_.begin(), divisors_.end(), is)) return;
   const std::optional<int> w = positive_value(way.w);
   if (!w) return;
-  const int w2 = builder_.power(*w, 2), d = builder_.multiply(distance2, w2);
+  const std::optional<int> below = way.is_squared ? builder_.power(*w, 2) : positive_value(way.w2);
+  if (!below) return;
+  const int w2 = *below, d = builder_.multiply(distance2, w2);
   const auto add = [&](const Poly& p, int own) {
     if (!p.is_constant()) divisors_.emplace_back(p, own);
   };

@@ -41,6 +41,9 @@ class StraightLines {
   /// The square of a root of the tower; empty where no better form than its polynomial is known.
   core::StraightLine square(std::size_t root);
 
+  /// (a + b)^2 - D and D - (a - b)^2 of a dyad, in this order; nothing where no better form is known.
+  std::optional<std::array<core::StraightLine, 2>> rims(mechanism::PointIndex point);
+
   /// x and y of the way from one end of a dyad to the other; nothing where no better form is known.
   std::optional<std::array<core::StraightLine, 2>> way(mechanism::PointIndex point);
 
