@@ -15,6 +15,13 @@
 
 namespace clearloci::inline core {
 
+/// A factor of a root's square: over a tower elements have no unique factors, so that it need not divide the square's
+/// polynomial.
+struct Rim {
+  Polynomial polynomial;  ///< in the variables of the root's square
+  StraightLine line;      ///< a multiple of it as it is computed, zero besides only where denominators are
+};
+
 /// One root s = +-sqrt(square), or what stands for an angle among them: s = 4 + angle of (cosine, sine), which is
 /// positive, so that it is +sqrt(line) with line = (4 + angle)^2 like any root of role `length`, but no algebraic
 /// number. `point` is the constructed point that it places ("B1").
@@ -26,6 +33,9 @@ struct Root {
   /// What the signs + and - of a working mode are called.
   std::array<std::string, 2> sides = {"left", "right"};
   StraightLine line = {};  ///< the same element as it is computed; may be empty, but of an angle
+  /// Where it is zero, told apart: of a dyad where it is stretched, (a + b)^2 - D, and folded, D - (a - b)^2. Empty
+  /// where the square's own factors are used.
+  std::vector<Rim> rims = {};
   /// Of an angle: positive multiples of its cosine and sine, in the same variables; `square` is the sum of their
   /// squares.
   std::vector<Polynomial> cosine_and_sine = {};
@@ -39,6 +49,7 @@ struct Root {
 template <class Rewrite>
 void rewrite(Root& root, const Rewrite& as) {
   root.square = as(root.square);
+  for (Rim& rim : root.rims) rim.polynomial = as(rim.polynomial);
   for (Polynomial& part : root.cosine_and_sine) part = as(part);
 }
 

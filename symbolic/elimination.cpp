@@ -1,6 +1,7 @@
 #include "symbolic/elimination.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/errors.hpp"
 #include "symbolic/dependent_roots.hpp"
@@ -26,7 +27,9 @@ void insert_distinct(std::vector<Poly>& list, const Poly& p) {
 
 Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
   std::vector<Poly> found;
-  for (const Poly& denominator : geometry.denominators()) eliminate(denominator, found);
+  // Of a plane what is beyond use divides no norm that is made.
+  for (const Poly& denominator : geometry.denominators())
+    if (geometry.coordinates() != 2 || !is_beyond_use(norm_degree(denominator))) eliminate(denominator, found);
   denominator_factors_ = std::move(found);
   known_denominators_ = geometry.denominators();
   // What vanishes nowhere is divided out like a denominator, but is no place where the mode may change.
@@ -34,11 +37,64 @@ Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
   known_denominators_.insert(known_denominators_.end(), units.begin(), units.end());
   for (const TowerRoot& root : geometry.roots())
     if (!root.is_angle() && (!root.value || root.square.constant() != 1)) independent_roots_.push_back(root);
+  know_stretched();
+}
+
+namespace {
+
+/// The way between two points of the plane, in natural coordinates.
+std::array<Poly, 2> way(const Geometry& geometry, mechanism::PointIndex from, mechanism::PointIndex to) {
+  const auto &a = geometry.natural(from), &b = geometry.natural(to);
+  return {geometry.poly((b[0] - a[0]).expand()), geometry.poly((b[1] - a[1]).expand())};
+}
+
+const mechanism::DyadPoint* plane_dyad(const Geometry& geometry, mechanism::PointIndex point) {
+  if (point < 0) return nullptr;
+  const auto* dyad =
+      std::get_if<mechanism::DyadPoint>(&geometry.mechanism().points[static_cast<std::size_t>(point)].form);
+  return dyad == nullptr || dyad->axis ? nullptr : dyad;
+}
+
+}  // namespace
+
+void Elimination::know_stretched() {
+  const auto& roots = geometry_->roots();
+  for (const TowerRoot& root : roots) {
+    const mechanism::DyadPoint* const dyad = plane_dyad(*geometry_, root.point);
+    const bool nested = std::any_of(roots.begin(), roots.end(),
+                                    [&](const TowerRoot& below) { return root.square.depends_on(below.variable); });
+    if (dyad == nullptr || !nested || root.value) continue;
+    const auto [u, v] = way(*geometry_, dyad->from, dyad->to);
+    const auto [x, y] = way(*geometry_, dyad->from, root.point);
+    stretched_.push_back({(u * y - v * x).primitive(), Poly::variable(geometry_->ring(), root.variable)});
+  }
+}
+
+const Elimination::Stretched* Elimination::stretched(const Poly& natural) const {
+  if (stretched_.empty() || natural.is_zero()) return nullptr;
+  const Poly primitive = natural.primitive();
+  const auto known = std::find_if(stretched_.begin(), stretched_.end(),
+                                  [&](const Stretched& own) { return own.natural == primitive; });
+  return known == stretched_.end() ? nullptr : &*known;
+}
+
+bool Elimination::are_components_of_link(const Poly& a, const Poly& b) const {
+  for (const ConstructedPoint& elbow : geometry_->constructed()) {
+    const mechanism::DyadPoint* const dyad = plane_dyad(*geometry_, elbow.point);
+    if (dyad == nullptr) continue;
+    for (const mechanism::PointIndex end : {dyad->from, dyad->to}) {
+      const auto [x, y] = way(*geometry_, end, elbow.point);
+      const auto is = [](const Poly& one, const Poly& other) { return one.primitive() == other.primitive(); };
+      if (!x.is_zero() && !y.is_zero() && ((is(a, x) && is(b, y)) || (is(a, y) && is(b, x)))) return true;
+    }
+  }
+  return false;
 }
 
 const Poly& Elimination::over_tower(const Poly& natural) const {
   for (const auto& [asked, known] : over_tower_)
     if (asked == natural) return known;
+  if (const Stretched* const own = stretched(natural)) return over_tower_.emplace_back(natural, own->root).second;
   Poly result = natural;
   for (const Substitution& pair : geometry_->substitutions()) {
     const int degree = Geometry::degree_in(result, pair);
@@ -224,6 +280,7 @@ bool Elimination::is_beyond_use(double norm_degree) const {
 }
 
 bool Elimination::is_too_heavy_over_tower(const Poly& natural) const {
+  if (stretched(natural) != nullptr) return is_too_heavy(over_tower(natural));
   // On a line degrees may drop, and what divides a polynomial divides it there: what is beyond use there is so
   // anywhere.
   if (geometry_->coordinates() > 1 && is_beyond_use(norm_degree(over_tower_on_line(natural)))) return true;

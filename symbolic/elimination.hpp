@@ -34,6 +34,11 @@ class Elimination {
   /// The value of a natural polynomial that is the same number in every pose, such as |B1 - P|^2; empty for others.
   std::optional<core::Rational> constant_over_tower(const Poly& natural) const;
 
+  /// Whether two natural polynomials are, but for constant factors, the components of a link's length between two
+  /// points of which one is a dyad's: then their squares add up to a positive number in every pose. Only of the plane;
+  /// false says nothing.
+  bool are_components_of_link(const Poly& a, const Poly& b) const;
+
   /// The factors of a non-zero sheet polynomial that can vanish inside the workspace: constants and squared distances
   /// are dropped. `implicit` is left empty unless wanted; where it is, factors without zeros in any mode are dropped
   /// too, into `without_zeros` where that is given.
@@ -90,6 +95,12 @@ class Elimination {
     std::vector<Poly> denominators;
   };
   const LineTower& line_tower() const;
+  /// Of a dyad on others: (P - A) x (B - A) = s / 2, which need not be multiplied out to be known.
+  struct Stretched {
+    Poly natural, root;
+  };
+  void know_stretched();
+  const Stretched* stretched(const Poly& natural) const;
   /// Of every ring variable: what it counts in a degree over the tower, a root half of its square's.
   const std::vector<double>& degree_weights() const;
 
@@ -98,6 +109,7 @@ class Elimination {
   mutable std::vector<double> degree_weights_;           ///< likewise
   mutable std::list<std::pair<Poly, Poly>> over_tower_;  ///< what has been asked for: many numerators share factors
   mutable std::list<std::pair<Poly, bool>> vanishing_;   ///< likewise
+  std::vector<Stretched> stretched_;
   std::vector<TowerRoot> independent_roots_;
   std::vector<Poly> known_denominators_;   ///< over the tower
   std::vector<Poly> denominator_factors_;  ///< irreducible, in the free coordinates

@@ -370,6 +370,7 @@ class Derivation {
     if (!fresh) return known->second;
     const Poly &a = factors_[i].natural, &b = factors_[k].natural;
     if (a.total_degree() > 1 || b.total_degree() > 1) return false;
+    if (elimination_.are_components_of_link(a, b)) return known->second = true;
     const Poly squared = a * a + b * b;
     if (!shared_.may_be_constant(squared)) return false;
     const std::optional<core::Rational> length2 = elimination_.constant_over_tower(squared);
@@ -647,10 +648,41 @@ class Derivation {
     }
   }
 
+  /// Where a dyad on others is stretched and where it is folded, each by itself: the product of both, which the square
+  /// of its root is, has many more terms, and a norm of twice the degree. False where the square will do.
+  bool add_rims(std::size_t index) {
+    const TowerRoot& root = geometry_.roots()[index];
+    if (geometry_.coordinates() != 2) return false;
+    const auto own = std::find_if(geometry_.dyad_ways().begin(), geometry_.dyad_ways().end(),
+                                  [&](const Geometry::Way& way) { return way.point == root.point; });
+    if (own == geometry_.dyad_ways().end() || !elimination_.is_too_heavy(root.square)) return false;
+    const auto lines = lines_.rims(root.point);
+    if (!lines) return false;
+    const auto& dyad = std::get<mechanism::DyadPoint>(mechanism_.points[static_cast<std::size_t>(root.point)].form);
+    const auto squared = [](const Poly& length) { return length * length; };
+    const Poly a = geometry_.poly(geometry_.expression(dyad.from_length).expand());
+    const Poly b = geometry_.poly(geometry_.expression(dyad.to_length).expand());
+    const std::array<Poly, 2> rims = {geometry_.reduce(squared(a + b) * own->w2 - own->d),
+                                      geometry_.reduce(own->d - squared(a - b) * own->w2)};
+    for (std::size_t k = 0; k < rims.size(); ++k) {
+      const std::size_t first = result_.problem.factors.size();
+      add(FactorRole::workspace_boundary, nullptr, rims[k], true, stretched(root));
+      const bool alone = result_.problem.factors.size() == first + 1;
+      for (std::size_t f = first; f < result_.problem.factors.size(); ++f) {
+        LocusFactor& factor = result_.problem.factors[f];
+        if (alone) factor.line = (*lines)[k];
+        result_.problem.tower.roots[index].rims.push_back({factor.sheet, factor.line});
+      }
+    }
+    return true;
+  }
+
   void add_boundaries() {
-    for (const TowerRoot& root : geometry_.roots())
-      if (root.role == core::RootRole::working_mode && !root.value)
+    for (std::size_t i = 0; i < geometry_.roots().size(); ++i) {
+      const TowerRoot& root = geometry_.roots()[i];
+      if (root.role == core::RootRole::working_mode && !root.value && !add_rims(i))
         add(FactorRole::workspace_boundary, nullptr, root.square, true, stretched(root));
+    }
     for (const Fold& fold : geometry_.folds()) add_fold(fold);
     add_limits();
     const std::vector<int> variables = geometry_.tower_variables();

@@ -43,6 +43,7 @@ Subtower subtower(const core::RootTower& whole, const core::WorkingMode& mode,
   for (core::Root& root : part.tower.roots) {
     core::rewrite(root, [&](const core::Polynomial& p) { return narrowed(p, part); });
     root.line = narrowed(root.line, part);
+    for (core::Rim& rim : root.rims) rim.line = narrowed(rim.line, part);
   }
   for (const core::Polynomial& denominator : whole.denominators)
     if (std::none_of(part.dropped.begin(), part.dropped.end(),
@@ -138,6 +139,7 @@ core::RootTower on_rim(const core::RootTower& tower, int root) {
   for (core::Root& other : result.roots) {
     core::rewrite(other, [&](const core::Polynomial& p) { return without_variable(p, 2 + root); });
     other.line = without_variable(other.line, 2 + root);
+    for (core::Rim& rim : other.rims) rim.line = without_variable(rim.line, 2 + root);
   }
   result.bases.clear();  // special points of a rim are those of the tower
   result.denominators.clear();

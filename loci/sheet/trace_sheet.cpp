@@ -540,6 +540,24 @@ std::shared_ptr<const Tracer> found(const core::RootTower& tower, const core::Wo
   return options.known->get<Tracer>(key, find);
 }
 
+/// What is traced on the plane below a root where a sheet is the root's rim or a factor of its square; nothing where it
+/// is neither.
+std::optional<SheetFunction> on_rim_of(const core::RootTower& tower, int root, const core::Polynomial& sheet,
+                                       const std::vector<Star>& special) {
+  const core::Root& own = tower.roots[static_cast<std::size_t>(root)];
+  if (core::depends_on(sheet, 2 + root)) return std::nullopt;
+  for (const core::Rim& rim : own.rims)
+    if (rim.polynomial == sheet) return SheetFunction{rim.polynomial, rim.line};
+  if (!own.rims.empty()) return std::nullopt;
+  const std::optional<core::Polynomial> rest = exact_quotient(own.square, sheet);
+  if (!rest) return std::nullopt;
+  SheetFunction boundary = square_of(tower, root, special);
+  // The line is that of the whole square: of the boundary where the rest are denominators.
+  if (!without_denominators(*rest, tower).is_constant()) boundary.line = {};
+  boundary.polynomial = sheet;
+  return boundary;
+}
+
 bool divisible_by_variable(const core::Polynomial& p, int variable) {
   return !p.is_zero() && std::all_of(p.terms.begin(), p.terms.end(),
                                      [&](const core::Term& term) { return term.exponents[variable] > 0; });
@@ -575,11 +593,8 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
   // s_j = 0 and the factors of Q_j are the workspace boundary: curves of the plane below root j.
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
     const int v = 2 + static_cast<int>(j);
-    const core::Polynomial& square = tower.roots[j].square;
     if (tower.roots[j].is_angle()) continue;
-    const std::optional<core::Polynomial> rest_of_square =
-        core::depends_on(sheet, v) ? std::nullopt : exact_quotient(square, sheet);
-    const bool rim = rest_of_square.has_value();
+    const std::optional<SheetFunction> rim = on_rim_of(tower, static_cast<int>(j), sheet, options.special);
     if (!rim && !divisible_by_variable(sheet, v)) continue;
     core::WorkingMode rest = mode;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(j));
@@ -589,10 +604,7 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
       if (!there.polynomial.is_constant()) on_boundary.push_back({there, cutter.label});
     }
     const core::RootTower below = on_rim(tower, static_cast<int>(j));
-    SheetFunction boundary = square_of(tower, static_cast<int>(j), options.special);
-    // The line is that of the whole square: of the boundary where the rest are denominators.
-    if (rim && !without_denominators(*rest_of_square, tower).is_constant()) boundary.line = {};
-    if (rim) boundary.polynomial = sheet;
+    const SheetFunction boundary = rim ? *rim : square_of(tower, static_cast<int>(j), options.special);
     SheetTraceOptions there = options;
     there.special = on_rim(options.special, static_cast<int>(j));
     SheetTrace all = trace_sheet(below, rest, lower, upper, without_variable(boundary, v), on_boundary, there);

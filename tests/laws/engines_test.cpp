@@ -231,6 +231,20 @@ TEST(Engines, CertifyTwoDyadsOnAFiveBar) {
   EXPECT_TRUE(map.notes.empty()) << map.notes.front();
 }
 
+// A third dyad. On the small circle about A2, on which leg 2 is folded, the crank turns ten times as fast as P, and the
+// chain of four links above it is not told there: that is said, in seconds; everything else is proven.
+TEST(Engines, CertifyThreeDyadsButOnOneCircle) {
+  const core::LocusMap map =
+      trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
+                                           "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml"),
+                 {});
+  EXPECT_GE(map.curves.size(), 15u);
+  EXPECT_TRUE(map.complete);
+  for (const core::LocusCurve& curve : map.curves)
+    EXPECT_TRUE(curve.certified || curve.cause == "P, B2, A2 aligned") << curve.id << " " << curve.cause;
+  EXPECT_LE(map.notes.size(), 1u);
+}
+
 /// Both boundaries' circles touch, from outside or from inside, on bases of several inclinations.
 std::vector<test::FiveBarDesign> touching_designs() {
   std::vector<test::FiveBarDesign> designs(5);

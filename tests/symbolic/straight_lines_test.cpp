@@ -2,7 +2,11 @@
 // and a factor's line vanishes where its polynomial does.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <random>
@@ -105,7 +109,8 @@ class StraightLineForms : public testing::TestWithParam<std::string> {
  protected:
   static mechanism::Mechanism mechanism() {
     if (GetParam() == "seven_bar") return mechanism::parse_mechanism(seven_bar, "seven_bar.yaml");
-    if (GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_two_dyads_stacked")
+    if (GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_two_dyads_stacked" ||
+        GetParam() == "five_bar_three_dyads_stacked")
       return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + GetParam() +
                                        ".yaml");
     return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + GetParam() + ".yaml");
@@ -127,8 +132,9 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
                                                              core::to_double(problem.upper[c]))(random));
       return coordinates;
     };
-    std::map<const core::LocusFactor*, int> signs;                           // of line and polynomial together
-    const int samples = GetParam() == "seven_bar_on_both_legs" ? 100 : 400;  // of thousands of terms
+    std::map<const core::LocusFactor*, int> signs;  // of line and polynomial together
+    const bool is_long = GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_three_dyads_stacked";
+    const int samples = is_long ? 100 : 400;  // of thousands of terms
     for (int sample = 0; sample < samples; ++sample) {
       const std::vector<double> from = pose(), to = pose();
       const auto start = on_sheet(tower, mode, from);
@@ -192,13 +198,69 @@ TEST(StraightLinesOfTowers, AreShort) {
   EXPECT_LT(longest, 500u);  // 1100 by coordinates
   const DerivedProblem stacked = derived("five_bar_two_dyads_stacked");
   ASSERT_EQ(stacked.problem.tower.roots.size(), 4u);
-  EXPECT_GT(stacked.problem.tower.roots[3].square.terms.size(), 500u);
+  EXPECT_LT(stacked.problem.tower.roots[3].square.terms.size(), 300u);  // 583 with D as a sum of squares
   EXPECT_LT(stacked.problem.tower.roots[3].line.steps.size(), 120u);
+}
+
+// A third dyad: nothing of it is longer than it must be, and its two rims are known apart, each by a polynomial and by
+// what is computed. On the sheets their product is a positive multiple of the root's square.
+TEST(StraightLinesOfTowers, TellTheRimsOfADyadOnDyadsApart) {
+  // With a shorter last rod than the file's there are poses beyond it.
+  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string lengths = "[A5, Q5], lengths: [0.4, 0.6]";
+  ASSERT_NE(text.find(lengths), std::string::npos);
+  text.replace(text.find(lengths), lengths.size(), "[A5, Q5], lengths: [0.4, 0.3]");
+  const DerivedProblem derived = locus_problem(mechanism::parse_mechanism(text, "three_dyads.yaml"), {});
+  const core::LocusProblem& problem = derived.problem;
+  const core::Root& last = problem.tower.roots.back();
+  EXPECT_LT(last.square.terms.size(), 2000u);  // 9500 with D as a sum of squares
+  ASSERT_EQ(last.rims.size(), 2u);
+  for (const core::Rim& rim : last.rims) {
+    EXPECT_LT(rim.polynomial.terms.size(), 400u);
+    ASSERT_FALSE(rim.line.empty());
+    EXPECT_TRUE(std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+      return factor.role == core::FactorRole::workspace_boundary && factor.sheet == rim.polynomial &&
+             factor.implicit.size() == 1;
+    }));
+  }
+  std::mt19937 random(29);
+  std::array<int, 2> signs = {0, 0};
+  int inside = 0, outside = 0;
+  for (int sample = 0; sample < 600; ++sample) {
+    std::vector<double> all = {std::uniform_real_distribution(-0.5, 1.0)(random),
+                               std::uniform_real_distribution(-1.0, 1.0)(random)};
+    all.resize(static_cast<std::size_t>(problem.tower.variables()), 0.0);
+    bool is_reached = true;
+    for (std::size_t r = 0; r + 1 < problem.tower.roots.size() && is_reached; ++r) {
+      const double square = core::evaluate(problem.tower.roots[r].square, std::span<const double>(all));
+      is_reached = square >= 0;
+      all[2 + r] = is_reached ? problem.modes.front()[r] * std::sqrt(square) : 0;
+    }
+    if (!is_reached) continue;
+    double product = 1;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double line = evaluate(last.rims[k].line, all);
+      product *= line;
+      const double polynomial = core::evaluate(last.rims[k].polynomial, std::span<const double>(all));
+      if (std::abs(polynomial) <= rounding(last.rims[k].polynomial, all)) continue;
+      const int sign = (polynomial > 0) == (line > 0) ? 1 : -1;
+      if (signs[k] == 0) signs[k] = sign;
+      EXPECT_EQ(sign, signs[k]);
+    }
+    const double square = core::evaluate(last.square, std::span<const double>(all));
+    if (std::abs(square) <= rounding(last.square, all)) continue;
+    EXPECT_EQ(square > 0, product > 0);
+    ++(square > 0 ? inside : outside);
+  }
+  EXPECT_GT(inside, 20);
+  EXPECT_GT(outside, 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Mechanisms, StraightLineForms,
                          testing::Values("five_bar_weights", "five_bar_coupler", "three_rrr", "seven_bar",
-                                         "seven_bar_on_both_legs", "five_bar_two_dyads_stacked", "stephenson_six_bar"),
+                                         "seven_bar_on_both_legs", "five_bar_two_dyads_stacked",
+                                         "five_bar_three_dyads_stacked", "stephenson_six_bar"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
