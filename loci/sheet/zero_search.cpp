@@ -32,6 +32,8 @@ constexpr std::size_t most_touch_trials = 256;
 constexpr std::size_t cells_at_a_time = 64;
 // Of searches side by side; more would only fill memory.
 constexpr std::size_t searches_at_a_time = 256;
+// Times the budget of live cells that are borne while ever fewer of them are left.
+constexpr std::size_t most_patience = 4;
 // Fewer than these are looked at one by one.
 constexpr std::size_t few_candidates = 3;
 
@@ -90,11 +92,16 @@ void ZeroSearch::run_some(std::span<const std::vector<Cell>> seeds, std::vector<
 }
 
 void ZeroSearch::give_up(std::vector<Box>& live) {
-  for (State& state : states_) state.live = 0;
+  for (State& state : states_) {
+    state.before = state.live;
+    state.live = 0;
+  }
   for (const Box& box : live) ++states_[box.search].live;
+  // Along a curve each halving leaves at least four in three; where fewer are left the end is near.
   const auto has_too_many = [&](const Box& box) {
     const State& own = states_[box.search];
-    return own.live > limits_.most_cells + own.seeds;
+    const std::size_t most = limits_.most_cells + own.seeds;
+    return own.live > most && (own.live > most_patience * most || 3 * own.live > 4 * own.before);
   };
   for (const Box& box : live)
     if (has_too_many(box)) {

@@ -37,8 +37,10 @@ class ZeroSearch {
   ZeroSearch(const SheetProgram& program, const core::WorkingMode& mode, System system);
 
   struct Limits {
-    double smallest;                  ///< width below which a cell is left undecided
-    std::size_t most_cells;           ///< more live cells than that of one size mean that the functions share a curve
+    double smallest;  ///< width below which a cell is left undecided
+    /// More live cells than that of one size, of which the next halving leaves more, mean that the functions share a
+    /// curve.
+    std::size_t most_cells;
     double accuracy;                  ///< width of enclosures that is worth multi-precision to get below
     std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
     TouchSearch* touches = nullptr;   ///< settles places where the curves touch; none: they stay undecided
@@ -74,6 +76,7 @@ class ZeroSearch {
     std::size_t touch_trials = 0;
     std::vector<Cell> undecided;
     std::size_t seeds = 0, live = 0;  ///< how many there were, and cells there are now
+    std::size_t before = 0;           ///< cells there were when these were twice as large
     bool gave_up = false;
   };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/loci.hpp"
 #include "analysis/zones.hpp"
@@ -110,6 +111,34 @@ TEST(OnceDisputed, AnElbowThatIsNowhere) {
   request.quantities = {core::Quantity::M};
   request.engine = loci::Engine::exact;
   EXPECT_TRUE(trace_loci(corpus("witness/stacked_5r_on_a_base"), request).isolated_points.empty());
+}
+
+// Both components of A2 nearly vanish together along a curve: one halving leaves more cells than the budget, and the
+// next ones ever fewer.
+TEST(OnceDisputed, APlaceThatTakesManyCells) {
+  const core::LocusMap map = trace_loci(corpus("witness/stacked_5r"));
+  for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id;
+  EXPECT_TRUE(map.notes.empty()) << map.notes.front();
+}
+
+// P on A2, where leg 2 has no elbow, ends the curves that reach it whether or not a side of the box passes through it.
+TEST(OnceDisputed, AnElbowThatIsNowhereOnASideOfTheBox) {
+  for (const core::Rational& upper : {core::Rational(1, 2), core::Rational(3, 2)}) {
+    mechanism::Mechanism m = corpus("witness/stacked_5r_on_a_base");
+    m.coordinates[1].upper = upper;
+    int singular = 0, lost = 0;
+    for (const core::LocusCurve& curve : trace_loci(m).curves)
+      for (const core::Arc& arc : curve.arcs)
+        for (const std::size_t end : {0u, 1u}) {
+          const core::Point2& at = end == 0 ? arc.points.front() : arc.points.back();
+          if (std::hypot(at[0] - 1.25, at[1] - 0.5) > 1e-9) continue;
+          const bool is_singular = curve.kind == core::LocusKind::direct_singularity;
+          EXPECT_EQ(arc.ends[end], is_singular ? core::ArcEnd::boundary : core::ArcEnd::direct_singularity) << curve.id;
+          ++(is_singular ? singular : lost);
+        }
+    EXPECT_GE(singular, 1);
+    EXPECT_GE(lost, 1);
+  }
 }
 
 // Numerators and |A| vanish together where the parallelogram is flat.
