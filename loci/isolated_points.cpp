@@ -68,6 +68,13 @@ bool on_contact_loss_curve(const LocusMap& map, const WorkingMode& mode, const s
   });
 }
 
+/// By its steps where they are fewer than the terms of its polynomial.
+MultiInterval square_of(const core::Root& root, const std::vector<MultiInterval>& at) {
+  if (root.square.terms.size() > root.line.steps.size())
+    if (std::optional<MultiInterval> value = evaluate(root.line, at)) return *value;
+  return evaluate(root.square, at);
+}
+
 /// The point on the mode's sheet; empty where it lies outside the workspace.
 std::vector<MultiInterval> on_sheet(const core::RootTower& tower, const WorkingMode& mode, const PointEnclosure& at) {
   std::vector<MultiInterval> variables;
@@ -78,12 +85,20 @@ std::vector<MultiInterval> on_sheet(const core::RootTower& tower, const WorkingM
       variables[2 + j] = sheet::angle_root(tower.roots[j], variables);
       continue;
     }
-    const MultiInterval square = evaluate(tower.roots[j].square, variables);
+    const MultiInterval square = square_of(tower.roots[j], variables);
     if (!square.non_negative()) return {};
     const MultiInterval root = square_root(square);
     variables[2 + j] = mode[j] > 0 ? root : -root;
   }
   return variables;
+}
+
+/// Whether enclosures tell that a factor does not vanish: of the polynomial, or of what is computed, which is sharper
+/// where terms of a long polynomial all but cancel.
+bool is_nonzero(const core::LocusFactor& factor, const std::vector<MultiInterval>& at) {
+  if (evaluate(factor.sheet, at).sign() != 0) return true;
+  const std::optional<MultiInterval> value = evaluate(factor.line, at);
+  return value && value->sign() != 0;
 }
 
 /// Where |A| vanishes too the numerators say nothing about the reaction, 0/0: every joint's vanish there together.
@@ -92,7 +107,7 @@ bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode,
   const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
   return !at.empty() &&
          std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
-           return factor.role == FactorRole::direct_singularity && evaluate(factor.sheet, at).sign() == 0;
+           return factor.role == FactorRole::direct_singularity && !is_nonzero(factor, at);
          });
 }
 
