@@ -229,7 +229,8 @@ TEST(Engines, CertifyTwoDyadsOnAFiveBar) {
   EXPECT_GE(map.curves.size(), 15u);
   for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id;
   EXPECT_TRUE(map.notes.empty()) << map.notes.front();
-  // A2 bears nothing at two poses. Of |A|'s polynomials nothing but rounding is left there, though |A| is far from zero.
+  // A2 bears nothing at two poses. Of |A|'s polynomials nothing but rounding is left there, though |A| is far from
+  // zero.
   EXPECT_EQ(map.isolated_points.size(), 2u);
   for (const core::IsolatedPoint& point : map.isolated_points) {
     EXPECT_EQ(point.kind, core::LocusKind::contact_loss);
