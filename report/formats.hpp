@@ -81,20 +81,28 @@ Files files_of(const Answer& answer, const std::set<std::string>& names) {
 /// Each is whole or not there; their paths join `paths`. Throws core::InputError where the directory cannot be written.
 void write_files(const Files& files, const std::filesystem::path& directory, std::vector<std::filesystem::path>& paths);
 
-/// Writes what the formats that `wanted` picks make of an answer: made side by side, for they know nothing of one
-/// another, and written one after the other, each as soon as it is made. `written`: the part of them that is.
+/// Writes what the formats that `wanted` picks make of an answer: the first at once, json, which is to be there
+/// whatever ends the process later; then the others, made side by side, for they know nothing of one another, and
+/// written one after the other, each as soon as it is made. `written`: the part of them that is.
 template <class Answer, class Wanted>
 std::vector<std::filesystem::path> write_wanted(const Answer& answer, const std::filesystem::path& directory,
                                                 Wanted wanted, const std::function<void(double part)>& written = {}) {
-  std::vector<std::future<Files>> made;
-  for (const Format& format : formats())
-    if (format.maker<Answer>() != nullptr && wanted(format))
-      made.push_back(std::async(std::launch::async, format.maker<Answer>(), std::cref(answer)));
   std::vector<std::filesystem::path> paths;
-  double count = 0;
+  std::vector<std::future<Files>> made;
+  bool is_first = true;
+  for (const Format& format : formats()) {
+    const Maker<Answer> maker = format.maker<Answer>();
+    if (maker == nullptr || !wanted(format)) continue;
+    if (is_first)
+      write_files(maker(answer), directory, paths);
+    else
+      made.push_back(std::async(std::launch::async, maker, std::cref(answer)));
+    is_first = false;
+  }
+  double count = 1;
   for (std::future<Files>& files : made) {
     write_files(files.get(), directory, paths);
-    if (written) written(++count / static_cast<double>(made.size()));
+    if (written) written(++count / static_cast<double>(made.size() + 1));
   }
   return paths;
 }
