@@ -245,7 +245,7 @@ bool can_hold(std::string_view name, std::size_t coordinates) {
 
 std::future<void> prepare_pictures(const std::set<std::string>& names) {
   const bool any_picture = names.contains("svg") || names.contains("png") || names.contains("pdf");
-  return any_picture ? std::async(std::launch::async, load_fonts) : std::future<void>();
+  return any_picture ? std::async(load_fonts) : std::future<void>();
 }
 
 void write_files(const Files& files, const std::filesystem::path& directory,

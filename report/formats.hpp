@@ -83,7 +83,8 @@ void write_files(const Files& files, const std::filesystem::path& directory, std
 
 /// Writes what the formats that `wanted` picks make of an answer: the first at once, json, which is to be there
 /// whatever ends the process later; then the others, made side by side, for they know nothing of one another, and
-/// written one after the other, each as soon as it is made. `written`: the part of them that is.
+/// written one after the other, each as soon as it is made, or made when its turn comes where no thread is to be had.
+/// `written`: the part of them that is.
 template <class Answer, class Wanted>
 std::vector<std::filesystem::path> write_wanted(const Answer& answer, const std::filesystem::path& directory,
                                                 Wanted wanted, const std::function<void(double part)>& written = {}) {
@@ -96,7 +97,7 @@ std::vector<std::filesystem::path> write_wanted(const Answer& answer, const std:
     if (is_first)
       write_files(maker(answer), directory, paths);
     else
-      made.push_back(std::async(std::launch::async, maker, std::cref(answer)));
+      made.push_back(std::async(maker, std::cref(answer)));
     is_first = false;
   }
   double count = 1;
