@@ -222,6 +222,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
 /// surfaces that is not known.
 bool closes_nowhere(const core::LocusMap& map) {
   if (!map.complete || map.lower.size() > 2) return false;
+  if (!map.curves.empty() || !map.isolated_points.empty()) return false;
   return map.reachable.empty() && std::all_of(map.workspace.begin(), map.workspace.end(),
                                               [](const auto& region) { return region.rings.empty(); });
 }

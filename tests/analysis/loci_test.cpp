@@ -27,6 +27,8 @@ TEST(Loci, SayThatNoPoseIsReached) {
   EXPECT_THAT(notes("four_bar.yaml", {}), testing::IsEmpty());
   EXPECT_THAT(notes("three_rpr.yaml", {}), testing::Not(testing::Contains(note)));
   EXPECT_THAT(notes("gough_stewart.yaml", {}), testing::Not(testing::Contains(note)));
+  // The workspace is not told from the disc in its middle, but poses on its curves are reached.
+  EXPECT_THAT(notes("../tests/corpus/loci/coaxial_cones_on_a_circle.yaml", {}), testing::Not(testing::Contains(note)));
 }
 
 /// An example under gravity, with a mass at the end of every cylinder and rod of its three legs.
