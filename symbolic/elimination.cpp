@@ -48,6 +48,9 @@ std::array<Poly, 2> way(const Geometry& geometry, mechanism::PointIndex from, me
   return {geometry.poly((b[0] - a[0]).expand()), geometry.poly((b[1] - a[1]).expand())};
 }
 
+/// Of what the polynomial is times its primitive part.
+int sign_of_content(const Poly& p) { return sgn(p.exact_quotient(p.primitive()).constant()); }
+
 const mechanism::DyadPoint* plane_dyad(const Geometry& geometry, mechanism::PointIndex point) {
   if (point < 0) return nullptr;
   const auto* dyad =
@@ -66,7 +69,9 @@ void Elimination::know_stretched() {
     if (dyad == nullptr || !nested || root.value) continue;
     const auto [u, v] = way(*geometry_, dyad->from, dyad->to);
     const auto [x, y] = way(*geometry_, dyad->from, root.point);
-    stretched_.push_back({(u * y - v * x).primitive(), Poly::variable(geometry_->ring(), root.variable)});
+    const Poly twice = u * y - v * x;
+    const Poly s = Poly::variable(geometry_->ring(), root.variable);
+    stretched_.push_back({twice.primitive(), s.scaled(sign_of_content(twice))});
   }
 }
 
@@ -94,7 +99,8 @@ bool Elimination::are_components_of_link(const Poly& a, const Poly& b) const {
 const Poly& Elimination::over_tower(const Poly& natural) const {
   for (const auto& [asked, known] : over_tower_)
     if (asked == natural) return known;
-  if (const Stretched* const own = stretched(natural)) return over_tower_.emplace_back(natural, own->root).second;
+  if (const Stretched* const own = stretched(natural))
+    return over_tower_.emplace_back(natural, own->root.scaled(sign_of_content(natural))).second;
   Poly result = natural;
   for (const Substitution& pair : geometry_->substitutions()) {
     const int degree = Geometry::degree_in(result, pair);
