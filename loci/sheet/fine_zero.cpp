@@ -56,8 +56,9 @@ std::optional<Slopes> slopes_over(const SheetProgram& program, const core::Worki
   cell.differentiate();
   Slopes slopes;
   std::array<double, 4> middle;
-  for (int f = 0; f < 2; ++f)
-    for (int c = 0; c < 2; ++c) middle[static_cast<std::size_t>(2 * f + c)] = cell.slope(f, c).middle();
+  std::size_t place = 0;
+  for (const int f : {0, 1})
+    for (const int c : {0, 1}) middle[place++] = cell.slope(f, c).middle();
   if (!invert(middle, slopes.inverse, 2)) return std::nullopt;
   double worst = 0;
   for (std::size_t row = 0; row < 2; ++row) {
