@@ -68,7 +68,7 @@ std::vector<EdgeWalk> join_edges(const CurveArrangement& arrangement, const std:
   // Vertices in the order of their positions, so that the result does not depend on how the arrangement was built.
   std::vector<int> order;
   for (const auto& [v, steps] : joiner.incident()) order.push_back(v);
-  const auto at = [&](int v) { return arrangement.vertices()[static_cast<std::size_t>(v)].at; };
+  const auto at = [&](int v) { return arrangement.at(v); };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return before(at(a), at(b)); });
 
   std::vector<EdgeWalk> walks;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "core/errors.hpp"
 
@@ -33,6 +34,8 @@ using Bivariate = Traits::Polynomial_2;
 /// the same from run to run.
 constexpr int vertex_bits = 56;
 constexpr int fine_bits = 90;
+/// What tells that a vertex is outside the box, or on none of its sides.
+constexpr int rough_bits = 20;
 constexpr int sample_bits = 100;
 
 Rational rational(const Bound& value) {
@@ -91,8 +94,27 @@ struct CurveArrangement::Implementation {
   std::pair<Bound, Bound> enclose_y(const Point& p, int bits) const {
     return plane_kernel.approximate_absolute_y_2_object()(p.xy(), bits);
   }
-  core::Point2 position(const Point& p) const {
-    return {rounded(enclose_x(p, fine_bits)), rounded(enclose_y(p, fine_bits))};
+  core::Point2 position(const Point& p, int bits = fine_bits) const {
+    return {rounded(enclose_x(p, bits)), rounded(enclose_y(p, bits))};
+  }
+
+  struct Vertex {
+    Arrangement::Vertex_const_handle handle;
+    core::Point2 rough{};                 ///< to `rough_error`
+    std::optional<core::Point2> at = {};  ///< once it was asked for
+  };
+  static constexpr double rough_error = 0x1p-18;
+
+  const core::Point2& at(Vertex& vertex) const {
+    if (!vertex.at) vertex.at = position(vertex.handle->point());
+    return *vertex.at;
+  }
+  bool in_box(Vertex& vertex, double slack) const {
+    if (!in_box(vertex.rough, slack + rough_error)) return false;
+    return in_box(vertex.rough, slack - rough_error) || in_box(at(vertex), slack);
+  }
+  bool on_side(Vertex& vertex, double slack) const {
+    return on_side(vertex.rough, slack + rough_error) && on_side(at(vertex), slack);
   }
 
   bool in_box(const core::Point2& p, double slack) const {
@@ -123,7 +145,7 @@ struct CurveArrangement::Implementation {
   Kernel1 line_kernel;
   Traits traits;
   Arrangement arrangement{&traits};
-  std::vector<ArrangementVertex> vertices;
+  mutable std::vector<Vertex> vertices;  ///< whose exact places are found out in turn
   std::vector<ArrangementEdge> edges;
   std::vector<ArrangementPoint> points;
   std::vector<Arc> arcs;  ///< of every edge
@@ -188,10 +210,10 @@ void CurveArrangement::Implementation::build(const std::function<bool()>& interr
   const auto vertex = [&](Arrangement::Vertex_const_handle v) {
     const auto [entry, fresh] = vertex_index.try_emplace(v, -1);
     if (fresh) {
-      const core::Point2 at = position(v->point());
-      if (in_box(at, slack)) {
+      Vertex own{v, position(v->point(), rough_bits)};
+      if (in_box(own, slack)) {
         entry->second = static_cast<int>(vertices.size());
-        vertices.push_back({at});
+        vertices.push_back(std::move(own));
       }
     }
     return entry->second;
@@ -203,7 +225,7 @@ void CurveArrangement::Implementation::build(const std::function<bool()>& interr
     const int to = vertex(forward ? e->target() : e->source());
     if (from < 0 || to < 0) continue;
     // What leaves the box and comes back has both ends in it.
-    const auto on_rim = [&](int v) { return on_side(vertices[static_cast<std::size_t>(v)].at, slack); };
+    const auto on_rim = [&](int v) { return on_side(vertices[static_cast<std::size_t>(v)], slack); };
     if (on_rim(from) && on_rim(to) && is_outside(sample(e->curve(), e->curve().is_vertical(), 0))) continue;
     edges.push_back({index_of.at(e->curve().curve().id()), from, to, e->curve().is_vertical()});
     arcs.push_back(e->curve());
@@ -226,9 +248,20 @@ CurveArrangement::~CurveArrangement() {
 }
 
 const std::vector<core::Polynomial>& CurveArrangement::curves() const { return implementation_->curves; }
-const std::vector<ArrangementVertex>& CurveArrangement::vertices() const { return implementation_->vertices; }
+std::size_t CurveArrangement::vertices() const { return implementation_->vertices.size(); }
 const std::vector<ArrangementEdge>& CurveArrangement::edges() const { return implementation_->edges; }
 const std::vector<ArrangementPoint>& CurveArrangement::isolated_points() const { return implementation_->points; }
+
+core::Point2 CurveArrangement::at(int vertex) const {
+  const auto turn = kernel_turn();
+  return implementation_->at(implementation_->vertices[static_cast<std::size_t>(vertex)]);
+}
+
+bool CurveArrangement::is_near(int vertex, const core::Point2& point, double distance) const {
+  const auto away = [&](const core::Point2& own) { return std::hypot(own[0] - point[0], own[1] - point[1]); };
+  const core::Point2& rough = implementation_->vertices[static_cast<std::size_t>(vertex)].rough;
+  return away(rough) < distance + 2 * Implementation::rough_error && away(at(vertex)) < distance;
+}
 
 PointEnclosure CurveArrangement::sample(int edge, int attempt) const {
   const auto turn = kernel_turn();

@@ -17,10 +17,6 @@ struct PointEnclosure {
   std::array<core::Rational, 2> lower, upper;
 };
 
-struct ArrangementVertex {
-  core::Point2 at{};  ///< within 1e-15 of the exact point, absolutely
-};
-
 /// A smooth, x-monotone (or vertical) piece of one curve between two vertices, meeting no other curve inside.
 struct ArrangementEdge {
   int curve = 0;
@@ -48,9 +44,15 @@ class CurveArrangement {
 
   /// The given curves, then those of the box's sides that were not among them.
   const std::vector<core::Polynomial>& curves() const;
-  const std::vector<ArrangementVertex>& vertices() const;
+  std::size_t vertices() const;
   const std::vector<ArrangementEdge>& edges() const;
   const std::vector<ArrangementPoint>& isolated_points() const;
+
+  /// Where a vertex is, within 1e-15, absolutely. It is worked out when it is asked for: a millisecond where curves of
+  /// high degree cross.
+  core::Point2 at(int vertex) const;
+  /// Whether a vertex is nearer than `distance` to a point.
+  bool is_near(int vertex, const core::Point2& point, double distance) const;
 
   /// A point in the interior of an edge; other attempts give other points, the first ones with more and more digits.
   PointEnclosure sample(int edge, int attempt) const;

@@ -82,7 +82,7 @@ class ExactTrace {
     if (options_.progress) options_.progress(fraction, stage);
   }
 
-  const Point2& position(int vertex) const { return arrangement_.vertices()[static_cast<std::size_t>(vertex)].at; }
+  Point2 position(int vertex) const { return arrangement_.at(vertex); }
 
   /// Vertices along one edge, computed once.
   const Polyline& line_of(int edge) {
@@ -139,7 +139,7 @@ class ExactTrace {
   }
 
   VertexMarks mark_vertices(const std::vector<EdgeInMode>& edges) const {
-    const std::size_t count = arrangement_.vertices().size();
+    const std::size_t count = arrangement_.vertices();
     VertexMarks marks{std::vector<bool>(count), std::vector<bool>(count), std::vector<bool>(count)};
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const ArrangementEdge& edge = arrangement_.edges()[e];
@@ -160,10 +160,8 @@ class ExactTrace {
   }
 
   void mark_at(const Point2& at, std::vector<bool>& list) const {
-    for (std::size_t v = 0; v < list.size(); ++v) {
-      const Point2& vertex = arrangement_.vertices()[v].at;
-      if (std::hypot(vertex[0] - at[0], vertex[1] - at[1]) < 1e-14 * scale()) list[v] = true;
-    }
+    for (std::size_t v = 0; v < list.size(); ++v)
+      if (arrangement_.is_near(static_cast<int>(v), at, 1e-14 * scale())) list[v] = true;
   }
 
   /// A root vanishes in the point where a construction is undefined.
@@ -228,7 +226,7 @@ class ExactTrace {
         std::find_if(edges.begin(), edges.end(), [](const EdgeInMode& edge) { return !edge.decided; }) - edges.begin();
     const bool decided = open == static_cast<std::ptrdiff_t>(edges.size());
     if (!decided) {
-      const Point2& at = position(arrangement_.edges()[static_cast<std::size_t>(open)].from);
+      const Point2 at = position(arrangement_.edges()[static_cast<std::size_t>(open)].from);
       map_.notes.push_back("a sign on an arc from (" + std::to_string(at[0]) + ", " + std::to_string(at[1]) +
                            ") could not be decided");
     }

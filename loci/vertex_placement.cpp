@@ -19,8 +19,8 @@ class Placement {
   Placement(const CurveArrangement& arrangement, int edge, const PlaneCurve& curve, double tolerance)
       : arrangement_(arrangement), edge_(edge), curve_(curve), tolerance_(tolerance) {
     const ArrangementEdge& e = arrangement.edges()[static_cast<std::size_t>(edge)];
-    start_ = arrangement.vertices()[static_cast<std::size_t>(e.from)].at;
-    end_ = arrangement.vertices()[static_cast<std::size_t>(e.to)].at;
+    start_ = arrangement.at(e.from);
+    end_ = arrangement.at(e.to);
     cautious_ = std::sqrt(8 * tolerance * distance(start_, end_));
   }
 
@@ -158,8 +158,7 @@ core::Polyline place_vertices(const CurveArrangement& arrangement, int edge, con
                               double tolerance) {
   const ArrangementEdge& e = arrangement.edges()[static_cast<std::size_t>(edge)];
   if (e.vertical) {
-    return {arrangement.vertices()[static_cast<std::size_t>(e.from)].at,
-            arrangement.vertices()[static_cast<std::size_t>(e.to)].at};
+    return {arrangement.at(e.from), arrangement.at(e.to)};
   }
   return Placement(arrangement, edge, curve, tolerance).run();
 }

@@ -354,14 +354,14 @@ class Builder {
       return doubt_for_good("crossings of " + a.id + " and " + b.id + " are not proven");
     const CurveArrangement both({a.implicit, b.implicit}, {map_.lower[0], map_.lower[1]},
                                 {map_.upper[0], map_.upper[1]});
-    std::vector<std::array<bool, 2>> on(both.vertices().size(), {false, false});
+    std::vector<std::array<bool, 2>> on(both.vertices(), {false, false});
     for (const ArrangementEdge& edge : both.edges()) {
       if (edge.curve > 1) continue;
       for (const int v : {edge.from, edge.to})
         on[static_cast<std::size_t>(v)][static_cast<std::size_t>(edge.curve)] = true;
     }
     for (std::size_t v = 0; v < on.size(); ++v) {
-      if (on[v][0] && on[v][1]) node_at(both.vertices()[v].at);
+      if (on[v][0] && on[v][1]) node_at(both.at(static_cast<int>(v)));
     }
   }
 

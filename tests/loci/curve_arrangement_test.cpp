@@ -22,6 +22,12 @@ Polynomial circle(const Rational& a, const Rational& b, const Rational& r) {
   return core::primitive_part((x - number(a)) * (x - number(a)) + (y - number(b)) * (y - number(b)) - number(r * r));
 }
 
+std::vector<core::Point2> vertices_of(const CurveArrangement& arrangement) {
+  std::vector<core::Point2> list;
+  for (int v = 0; v < static_cast<int>(arrangement.vertices()); ++v) list.push_back(arrangement.at(v));
+  return list;
+}
+
 long edges_on(const CurveArrangement& arrangement, int curve) {
   return std::count_if(arrangement.edges().begin(), arrangement.edges().end(),
                        [&](const ArrangementEdge& e) { return e.curve == curve; });
@@ -31,8 +37,9 @@ TEST(CurveArrangement, EulersFormulaHoldsInsideTheBox) {
   // Two circles that cross, inside the box: V - E + F = 1 + C with the box's rim as a second component.
   const CurveArrangement arrangement({circle(0, 0, 1), circle(1, 0, 1)}, {-3, -3}, {3, 3});
   EXPECT_EQ(arrangement.curves().size(), 6u);
-  const auto crossing = std::count_if(arrangement.vertices().begin(), arrangement.vertices().end(), [](const auto& v) {
-    return std::hypot(v.at[0] - 0.5, std::abs(v.at[1]) - std::sqrt(0.75)) < 1e-14;
+  const std::vector<core::Point2> at = vertices_of(arrangement);
+  const auto crossing = std::count_if(at.begin(), at.end(), [](const core::Point2& v) {
+    return std::hypot(v[0] - 0.5, std::abs(v[1]) - std::sqrt(0.75)) < 1e-14;
   });
   EXPECT_EQ(crossing, 2);
 }
@@ -40,9 +47,9 @@ TEST(CurveArrangement, EulersFormulaHoldsInsideTheBox) {
 TEST(CurveArrangement, TheBoxCutsAndNothingOutsideIsKept) {
   const CurveArrangement arrangement({circle(0, 0, 1)}, {0, 0}, {2, 2});
   EXPECT_EQ(edges_on(arrangement, 0), 1);
-  for (const ArrangementVertex& v : arrangement.vertices()) {
-    EXPECT_GE(v.at[0], -1e-12);
-    EXPECT_GE(v.at[1], -1e-12);
+  for (const core::Point2& v : vertices_of(arrangement)) {
+    EXPECT_GE(v[0], -1e-12);
+    EXPECT_GE(v[1], -1e-12);
   }
 }
 
@@ -76,8 +83,12 @@ TEST(CurveArrangement, AnIsolatedPointIsFoundEvenOnAnotherCurve) {
   EXPECT_EQ(arrangement.isolated_points()[0].curve, 0);
   EXPECT_NEAR(arrangement.isolated_points()[0].at[0], 0, 1e-15);
   // It splits the line there.
-  EXPECT_TRUE(std::any_of(arrangement.vertices().begin(), arrangement.vertices().end(),
-                          [](const auto& v) { return std::hypot(v.at[0], v.at[1]) < 1e-15; }));
+  int there = 0;
+  for (int v = 0; v < static_cast<int>(arrangement.vertices()); ++v) {
+    EXPECT_EQ(arrangement.is_near(v, {0, 0}, 1e-15), std::hypot(arrangement.at(v)[0], arrangement.at(v)[1]) < 1e-15);
+    if (arrangement.is_near(v, {0, 0}, 1e-15)) ++there;
+  }
+  EXPECT_EQ(there, 1);
 }
 
 TEST(CurveArrangement, SamplesLieOnTheirEdge) {
