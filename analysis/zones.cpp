@@ -23,8 +23,31 @@ using Clock = std::chrono::steady_clock;
 /// +1 or -1 where rounding cannot have changed it, else 0.
 int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 : value.value < -value.error ? -1 : 0; }
 
+/// Whether N or T of a guide whose ends are not known has one sign in every zone. Its own curve cuts none; it has none
+/// where it was asked for and none was found, and where the other of the two is zero in every pose it is that of the
+/// force.
+bool keeps_sign_in_zones(const core::Vanishing& what, const LociRequest& request, const core::LocusMap& loci,
+                         const std::vector<core::Vanishing>& always_zero) {
+  const auto is = [&](core::Quantity quantity) {
+    return [&joint = what.joint, quantity](const core::Vanishing& own) {
+      return own.joint == joint && own.quantity == quantity;
+    };
+  };
+  const auto asked = [&](core::Quantity quantity) {
+    return std::find(request.quantities.begin(), request.quantities.end(), quantity) != request.quantities.end();
+  };
+  if (asked(what.quantity))
+    return std::none_of(loci.curves.begin(), loci.curves.end(), [&](const core::LocusCurve& curve) {
+      return curve.kind == core::LocusKind::component &&
+             std::any_of(curve.vanishing.begin(), curve.vanishing.end(), is(what.quantity));
+    });
+  const core::Quantity other = what.quantity == core::Quantity::N ? core::Quantity::T : core::Quantity::N;
+  return asked(core::Quantity::f) && std::any_of(always_zero.begin(), always_zero.end(), is(other));
+}
+
 /// Signs of |A| and of every wanted couple and the like in the zones, by the independent witness at their samples.
-void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request, core::ZoneMap& map) {
+void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request,
+               const std::vector<core::Vanishing>& always_zero, core::ZoneMap& map) {
   const numeric::NumericModel model = numeric::compile(mechanism);
   const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request);
   const std::vector<numeric::JointColumns> columns_of_joints = numeric::joint_columns(model);
@@ -46,8 +69,9 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
       const bool chosen = std::any_of(wanted.begin(), wanted.end(), [&](const numeric::TracedReaction& reaction) {
         return reaction.joint == joint && reaction.quantity == q;
       });
-      if (!component && chosen)
-        zone.signs.emplace_back(core::Vanishing{joint, q, 1}, sign(at.values[k]) * zone.assembly_mode);
+      const core::Vanishing what{joint, q, 1};
+      if (!component && chosen && (!guide || keeps_sign_in_zones(what, request, map.loci, always_zero)))
+        zone.signs.emplace_back(what, sign(at.values[k]) * zone.assembly_mode);
     }
     for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
       for (const auto& [end, side] : mechanism::guide_end_signs)
@@ -132,6 +156,7 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
     TracedProblem traced = trace_problem(mechanism, finer, {certificate, &known, family});
     if (!traced.map.complete) throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
+    const std::vector<core::Vanishing> always_zero = traced.problem.always_zero;
     loci::CutZones cut = zones_of(std::move(traced), attempt < attempts);
     core::ZoneMap& map = cut.map;
     const bool certified = std::all_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return z.certified; });
@@ -139,7 +164,7 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
       finer.tolerance /= 16;
       continue;
     }
-    add_signs(mechanism, request, map);
+    add_signs(mechanism, request, always_zero, map);
     const std::chrono::duration<double> taken = Clock::now() - start;
     map.loci.timing.emplace_back("zones", taken.count());
     return std::move(map);

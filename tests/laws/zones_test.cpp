@@ -309,5 +309,28 @@ TEST(ZonesOfRandomDesigns, OfOtherFamiliesPartitionTheWorkspace) {
   EXPECT_GE(proven, (designs - refused) / 2);
 }
 
+// N of S2 vanishes on a ray from A2: a guide whose ends are not known loses no contact there, so the ray cuts no zone,
+// and the zones that it crosses have no sign of N.
+TEST(Zones, HaveNoSignOfWhatChangesInsideThem) {
+  const mechanism::Mechanism rprpr = mechanism::read_mechanism(
+      std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/rprpr_component_crosses_a_zone.yaml");
+  LociRequest asked;
+  asked.quantities = {core::Quantity::N, core::Quantity::T, core::Quantity::F, core::Quantity::f};
+  for (const LociRequest& request : {asked, LociRequest{}}) {
+    const core::ZoneMap map = find_zones(rprpr, request);
+    ASSERT_GE(map.zones.size(), 3u);
+    for (const core::Zone& zone : map.zones) {
+      const auto told = [&](core::Quantity quantity) {
+        return std::count_if(zone.signs.begin(), zone.signs.end(), [&](const auto& own) {
+          return own.first.joint == "S2" && own.first.quantity == quantity;
+        });
+      };
+      EXPECT_EQ(told(core::Quantity::N), 0) << zone.id;
+      EXPECT_EQ(told(core::Quantity::T), request.quantities == asked.quantities ? 1 : 0) << zone.id;
+      EXPECT_EQ(told(core::Quantity::F), 1) << zone.id;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace clearloci
