@@ -171,12 +171,9 @@ TEST(Zones, OfTheCorpusAreCertified) {
   }
 }
 
-// Once open, or traced anew with finer and finer chords: loci touch the boundary beside its crossing with another one,
-// where no point near a locus can be moved onto it; a locus runs next to a boundary that it does not meet.
-TEST(Zones, BesideBoundariesNeedNoFinerLoci) {
-  std::mt19937 random(20110579);
-  for (const auto& [name, zones] : {std::pair<std::string, std::size_t>("coupler_loci_touch_boundaries", 22),
-                                    std::pair<std::string, std::size_t>("coupler_locus_beside_a_boundary", 18)}) {
+/// Designs of the corpus, certified with so many zones and the tolerance asked for.
+void expect_no_finer_loci(const std::vector<std::pair<std::string, std::size_t>>& designs, std::mt19937 random) {
+  for (const auto& [name, zones] : designs) {
     SCOPED_TRACE(name);
     const mechanism::Mechanism mechanism =
         mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
@@ -189,23 +186,19 @@ TEST(Zones, BesideBoundariesNeedNoFinerLoci) {
   }
 }
 
+// Once open, or traced anew with finer and finer chords: loci touch the boundary beside its crossing with another one,
+// where no point near a locus can be moved onto it; a locus runs next to a boundary that it does not meet.
+TEST(Zones, BesideBoundariesNeedNoFinerLoci) {
+  expect_no_finer_loci({{"coupler_loci_touch_boundaries", 22}, {"coupler_locus_beside_a_boundary", 18}},
+                       std::mt19937(20110579));
+}
+
 // Once taken for none, traced anew three times for it: slivers between a locus and the boundary, at an angle to the
 // lines on which points of them are looked for; and beside a touch of two boundaries that |A| = 0 passes through, the
 // first chord behind which was 2 mm off.
 TEST(Zones, OfSliversAndBehindATouchNeedNoFinerLoci) {
-  std::mt19937 random(20110580);
-  for (const auto& [name, zones] : {std::pair<std::string, std::size_t>("prrr_r_slivers_at_an_angle", 17),
-                                    std::pair<std::string, std::size_t>("prrr_r_singularity_through_a_touch", 9)}) {
-    SCOPED_TRACE(name);
-    const mechanism::Mechanism mechanism =
-        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
-    const core::ZoneMap map = find_zones(mechanism);
-    EXPECT_TRUE(certified(map));
-    EXPECT_EQ(map.zones.size(), zones);
-    EXPECT_EQ(map.loci.tolerance, LociRequest().tolerance);
-    expect_one_sign_a_zone(mechanism, map, random);
-    expect_partition(mechanism, map, random);
-  }
+  expect_no_finer_loci({{"prrr_r_slivers_at_an_angle", 17}, {"prrr_r_singularity_through_a_touch", 9}},
+                       std::mt19937(20110580));
 }
 
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
