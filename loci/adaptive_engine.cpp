@@ -26,6 +26,10 @@ constexpr int bearable_degree = 14;
 /// fourth power of the degree, a tenth of a second for degree 8 and a second for degree 14.
 constexpr int cells_a_fourth_power = 8, fewest_cells = 20000, most_cells = 150000;
 
+const LocusFactor& factor_of(const LocusProblem& problem, const SheetShare& share) {
+  return problem.factors[static_cast<std::size_t>(share.factor)];
+}
+
 int highest_degree(const LocusFactor& factor) {
   int degree = -1;
   for (const core::Polynomial& p : factor.implicit) degree = std::max(degree, core::total_degree(p));
@@ -63,7 +67,7 @@ IsWanted replacing(const LocusProblem& problem, const std::vector<SheetShare*>& 
   };
   std::vector<Replaced> all;
   for (const SheetShare* share : shares) {
-    const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share->factor)];
+    const LocusFactor& factor = factor_of(problem, *share);
     all.push_back({problem.modes[static_cast<std::size_t>(share->mode)], factor.role, factor.implicit});
   }
   return [all = std::move(all)](const LocusCurve& curve) {
@@ -77,14 +81,12 @@ IsWanted replacing(const LocusProblem& problem, const std::vector<SheetShare*>& 
 /// Shares that the adaptive engine left open, and those that have a curve in common with them, unless all that would
 /// have to be told together is beyond the exact engine.
 std::vector<SheetShare*> bearable_open(const LocusProblem& problem, std::vector<SheetShare>& shares) {
-  const auto factor_of = [&](const SheetShare& share) -> const LocusFactor& {
-    return problem.factors[static_cast<std::size_t>(share.factor)];
-  };
   std::vector<SheetShare*> open;
   for (SheetShare& share : shares) {
     const bool is_open = std::any_of(shares.begin(), shares.end(), [&](const SheetShare& other) {
-      return other.mode == share.mode && !other.traced.certified && factor_of(other).role == factor_of(share).role &&
-             shares_curve(factor_of(other), factor_of(share));
+      return other.mode == share.mode && !other.traced.certified &&
+             factor_of(problem, other).role == factor_of(problem, share).role &&
+             shares_curve(factor_of(problem, other), factor_of(problem, share));
     });
     if (is_open) open.push_back(&share);
   }
@@ -92,10 +94,10 @@ std::vector<SheetShare*> bearable_open(const LocusProblem& problem, std::vector<
   for (bool left = true; left;) {
     left = false;
     for (const SheetShare* heavy : open) {
-      const LocusFactor& factor = factor_of(*heavy);
+      const LocusFactor& factor = factor_of(problem, *heavy);
       if (!is_too_heavy(factor)) continue;
       std::erase_if(open, [&](const SheetShare* share) {
-        return share->mode == heavy->mode && (share == heavy || shares_curve(factor_of(*share), factor));
+        return share->mode == heavy->mode && (share == heavy || shares_curve(factor_of(problem, *share), factor));
       });
       left = true;
       break;
@@ -121,8 +123,7 @@ using Group = std::vector<SheetShare*>;
 std::vector<Group> connected(const LocusProblem& problem, const Group& open) {
   const auto has_common = [&](const Group& group, const SheetShare* share) {
     return std::any_of(group.begin(), group.end(), [&](const SheetShare* other) {
-      return other->factor == share->factor || shares_curve(problem.factors[static_cast<std::size_t>(other->factor)],
-                                                            problem.factors[static_cast<std::size_t>(share->factor)]);
+      return other->factor == share->factor || shares_curve(factor_of(problem, *other), factor_of(problem, *share));
     });
   };
   std::vector<Group> groups;
@@ -150,9 +151,8 @@ std::vector<Group> arrangements_of(const LocusProblem& problem, const Group& ope
     double sum = 0;
     for (const SheetShare* one : a)
       for (const SheetShare* other : b) {
-        const LocusFactor& factor = problem.factors[static_cast<std::size_t>(one->factor)];
-        if (!is_context(factor))
-          sum += cost_of_crossings(factor, problem.factors[static_cast<std::size_t>(other->factor)]);
+        const LocusFactor& factor = factor_of(problem, *one);
+        if (!is_context(factor)) sum += cost_of_crossings(factor, factor_of(problem, *other));
       }
     return sum;
   };
@@ -253,7 +253,7 @@ std::vector<int> cells_before_exact(const LocusProblem& problem, const TraceOpti
 /// Hands out the claims of shares that were proven on the sheets.
 void certify(const LocusProblem& problem, const std::vector<SheetShare>& shares, core::Certificate& certificate) {
   for (const SheetShare& share : shares) {
-    const LocusFactor& factor = problem.factors[static_cast<std::size_t>(share.factor)];
+    const LocusFactor& factor = factor_of(problem, share);
     if (share.settled || !share.traced.certified || share.traced.stopped) continue;
     for (core::SheetClaim claim : share.traced.claims) {
       claim.mode = share.mode;
@@ -288,7 +288,7 @@ bool reopen(const LocusProblem& problem, const std::vector<WrongArc>& wrong, con
     for (SheetShare& share : shares) {
       const LocusCurve& curve = map.curves[arc.curve];
       if (!share.traced.certified || curve.mode != problem.modes[static_cast<std::size_t>(share.mode)] ||
-          !owns(problem.factors[static_cast<std::size_t>(share.factor)], curve))
+          !owns(factor_of(problem, share), curve))
         continue;
       const core::Point2& at = arc.fault.at;
       share.traced.certified = false;

@@ -94,19 +94,17 @@ std::optional<FineZero> fine_zero(const SheetProgram& program, const core::Worki
   for (int step = 0; step < most_steps; ++step) {
     if (!values.run(MultiInterval(at[0]), MultiInterval(at[1]))) return std::nullopt;
     Rational longest = 0;
+    bool in_box = true;
     std::array<Rational, 2> next;
     for (std::size_t c = 0; c < 2; ++c) {
       const MultiInterval own = MultiInterval(slopes->inverse[2 * c]) * values.value(0) +
                                 MultiInterval(slopes->inverse[2 * c + 1]) * values.value(1);
       longest = std::max(longest, magnitude(own));
       next[c] = (MultiInterval(at[c]) - own).lower_end();
+      in_box = in_box && Rational(box[c]->lower()) <= next[c] && next[c] <= Rational(box[c]->upper());
     }
     const Rational radius = longest / (1 - Rational(slopes->defect));
     if (step == 0 || radius < zero.radius) zero = {at[0], at[1], radius, {}};
-    const bool in_box = std::all_of(next.begin(), next.end(), [&, c = std::size_t{0}](const Rational& value) mutable {
-      const Interval& range = *box[c++];
-      return Rational(range.lower()) <= value && value <= Rational(range.upper());
-    });
     if (!in_box || zero.radius < fine_enough) break;
     at = next;
   }
