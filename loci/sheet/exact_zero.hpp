@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/root_tower.hpp"
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/sheet/zero_search.hpp"
 
 namespace clearloci::loci::sheet {
 
