@@ -11,6 +11,7 @@
 Units are SI throughout: m, rad, N, N m. Names and defaults are those of the command line.
 """
 
+from . import _needs  # first: says in a line what is missing
 from ._clearloci import InputError, LimitReached, __version__
 from .answers import Curve, Loci, Surface, Validation, Verification, Zone, Zones
 from .design import Designs, design
@@ -43,3 +44,5 @@ __all__ = [
     "parse",
     "read",
 ]
+
+del _needs

@@ -1,4 +1,4 @@
-// Held against ezdxf, an independent reader (package python3-ezdxf, which script/bootstrap installs).
+// Held against ezdxf, an independent reader (package python3-ezdxf, which script/bootstrap --tests installs).
 #include <gtest/gtest.h>
 
 #include <algorithm>
