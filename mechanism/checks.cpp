@@ -5,6 +5,7 @@
 #include "mechanism/actions.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
+#include "mechanism/redundancy.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -140,14 +141,14 @@ void check_square(const Mechanism& mechanism, const core::SourcePosition& joints
                              std::to_string(equations) + " equations (" +
                              std::to_string(equations_per_link(mechanism)) + " for each of " +
                              std::to_string(mechanism.links.size()) + " links)";
-  if (columns > equations)
-    throw InputError(
-        joints,
-        "the equations are not square: " + counts + ", over-constrained by " + std::to_string(columns - equations),
-        "remove joints or actuators, or add the missing links");
-  throw InputError(
-      joints, "the equations are not square: " + counts + ", under-actuated by " + std::to_string(equations - columns),
-      "add joints or actuate more of them (actuated: true)");
+  const bool over = columns > equations;
+  const std::size_t count = over ? columns - equations : equations - columns;
+  const Advice advice = over ? too_many(mechanism, count) : too_few(mechanism);
+  throw InputError(joints,
+                   "the equations are not square: " + counts +
+                       (over ? ", over-constrained by " : ", under-actuated by ") + std::to_string(count) +
+                       advice.problem,
+                   advice.mend);
 }
 
 void check_names(const Mechanism& mechanism) {

@@ -58,7 +58,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   mechanism.units = read_units(root.find("units"));
   read_parameters(mechanism, root.find("parameters"), overrides);
   read_workspace(mechanism, root.at("workspace"));
-  read_points(mechanism, root.at("points"), root.find("frames"));
+  read_points(mechanism, root.at("points"), root.find("frames"), root.find("links"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
   fill_inertia(mechanism);

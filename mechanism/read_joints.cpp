@@ -4,24 +4,42 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/fits.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/other_words.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
-/// "revolute, prismatic, ... or cylindrical".
-std::string names_of_joint_types() {
-  std::string names;
-  const auto types = joint_types();
-  for (std::size_t i = 0; i < types.size(); ++i)
-    names += (i == 0 ? "" : i + 1 == types.size() ? " or " : ", ") + std::string(types[i].name);
-  return names;
+/// "revolute, prismatic, ... or cylindrical", as far as there are such in the plane.
+std::string names_of_joint_types(const Mechanism& mechanism) {
+  std::vector<std::string> types;
+  for (const JointTraits& type : joint_types())
+    if (mechanism.space == Space::spatial || type.in_plane) types.emplace_back(type.name);
+  const std::string last = types.back();
+  types.pop_back();
+  return join(types) + " or " + last;
 }
 
 using core::InputError;
 
 std::string link_text(const Mechanism& mechanism, LinkIndex link) {
   return link == ground ? "ground" : "link " + mechanism.links[static_cast<std::size_t>(link)].name;
+}
+
+/// Throws where a joint of no type that exists has a key that seems to name one: of two links.
+void refuse_type(const Mechanism& mechanism, const Entry& entry) {
+  static const std::vector<std::string> others = {"at", "axis", "axes", "actuated", "clearance"};
+  std::vector<std::string> types;
+  for (const JointTraits& type : joint_types())
+    if (mechanism.space == Space::spatial || type.in_plane) types.emplace_back(type.name);
+  for (const Entry& part : entries(entry.value)) {
+    if (std::find(others.begin(), others.end(), part.key) != others.end()) continue;
+    if (mechanism.space == Space::planar && !part.value.is_sequence()) continue;
+    std::string mend = suggest(part.key, types, "types");
+    if (mend.find("did you mean") == std::string::npos)
+      mend = what_to_write_for(part.key, types).value_or("write " + names_of_joint_types(mechanism) + ": [from, to]");
+    throw InputError(part.where, "joint " + entry.key + ": '" + part.key + "' is no type of joint", mend);
+  }
 }
 
 /// The type of a joint, by the key that names its links.
@@ -40,13 +58,7 @@ JointType read_type(const Mechanism& mechanism, const Entry& entry) {
                          "use revolute and prismatic joints in the plane, or write space: spatial");
     }
   }
-  if (!found && mechanism.space == Space::spatial && entry.value.is_map())
-    for (const Entry& part : entries(entry.value)) {
-      static const std::vector<std::string> others = {"at", "axis", "axes", "actuated", "clearance"};
-      if (std::find(others.begin(), others.end(), part.key) == others.end())
-        throw InputError(part.where, "joint " + entry.key + ": '" + part.key + "' is no type of joint",
-                         "write " + names_of_joint_types() + ": [from, to]");
-    }
+  if (!found && entry.value.is_map()) refuse_type(mechanism, entry);
   // Without any of the keys the revolute one is asked for, which says what is missing or misspelt.
   return found.value_or(JointType::revolute);
 }

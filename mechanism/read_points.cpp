@@ -3,6 +3,7 @@
 #include <map>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/point_order.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
@@ -223,70 +224,6 @@ OffsetPoint read_offset(const Mechanism& mechanism, const Value& value) {
 
 bool has_key(const Value& value, const std::string& key) { return value.node.has(key); }
 
-/// Names that a point's form mentions, as far as it is written well enough to tell.
-std::vector<Value> mentioned_points(const Value& value) {
-  std::vector<Value> mentioned;
-  if (!value.is_map()) return mentioned;
-  for (const Entry& entry : entries(value)) {
-    if (entry.key == "from" && entry.value.is_scalar()) mentioned.push_back(entry.value);
-    if (entry.key != "dyad" && entry.key != "on" && entry.key != "mean" && entry.key != "slider") continue;
-    if (!entry.value.is_sequence()) continue;
-    const std::vector<Value> parts = elements(entry.value);
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      if (parts[i].is_scalar() && (entry.key != "slider" || i == 0)) mentioned.push_back(parts[i]);
-  }
-  return mentioned;
-}
-
-/// Cycles and uses of later points, before any point is read.
-class OrderCheck {
- public:
-  explicit OrderCheck(const std::vector<Entry>& points) : points_(points), state_(points.size(), State::unseen) {
-    for (std::size_t i = 0; i < points.size(); ++i) index_[points[i].key] = i;
-    for (std::size_t i = 0; i < points.size(); ++i) visit(i);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      for (const Value& used : mentioned_points(points[i].value)) {
-        const auto found = index_.find(used.node.Scalar());
-        if (found == index_.end() || found->second < i) continue;
-        throw InputError(used.where,
-                         "point " + points[i].key + " uses " + found->first + ", which is written below it in line " +
-                             std::to_string(points[found->second].where.line),
-                         "write " + found->first + " above " + points[i].key);
-      }
-    }
-  }
-
- private:
-  enum class State { unseen, open, done };
-
-  void visit(std::size_t i) {
-    if (state_[i] == State::done) return;
-    if (state_[i] == State::open) refuse_cycle(i);
-    state_[i] = State::open;
-    path_.push_back(i);
-    for (const Value& used : mentioned_points(points_[i].value)) {
-      const auto found = index_.find(used.node.Scalar());
-      if (found != index_.end()) visit(found->second);
-    }
-    path_.pop_back();
-    state_[i] = State::done;
-  }
-
-  [[noreturn]] void refuse_cycle(std::size_t closing) const {
-    const auto start = std::find(path_.begin(), path_.end(), closing);
-    std::string cycle;
-    for (auto i = start; i != path_.end(); ++i) cycle += points_[*i].key + " -> ";
-    cycle += points_[closing].key;
-    throw InputError(points_[closing].where, "the points use each other in a cycle: " + cycle,
-                     "build one of them from points that are known without it");
-  }
-
-  const std::vector<Entry>& points_;
-  std::map<std::string, std::size_t> index_;
-  std::vector<State> state_;
-  std::vector<std::size_t> path_;
-};
-
 }  // namespace
 
 void check_polynomial(const Mechanism& mechanism, const Value& value, const Expression& expression,
@@ -337,10 +274,11 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
                    suggest(written.front().key, forms, "forms"));
 }
 
-void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames) {
+void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames,
+                 const std::optional<Value>& links) {
   const std::vector<Entry> points = entries(value);
   if (points.empty()) throw InputError(value.where, "there are no points", "write such as A: [0, 0]");
-  const OrderCheck in_order(points);
+  check_order(points, links);
   for (const Entry& entry : points) {
     check_label(entry.key, entry.where, "a point");
     Value form = entry.value;

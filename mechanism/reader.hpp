@@ -56,8 +56,9 @@ void check_polynomial(const Mechanism& mechanism, const Value& value, const Expr
                       const std::string& mend);
 /// The same of what a load may be: with arc tangents of such polynomials besides.
 void check_load(const Mechanism& mechanism, const Value& value, const Expression& expression);
-/// `frames`: those of the file, each read as soon as its origin is known.
-void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames);
+/// `frames`: those of the file, each read as soon as its origin is known. `links`: as they are written, for messages.
+void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames,
+                 const std::optional<Value>& links);
 
 // --- read_frames.cpp
 /// A point {in: frame, place: [u, v, w]} as its coordinates.

@@ -1,5 +1,7 @@
 #include "mechanism/yaml_input.hpp"
 
+#include "mechanism/other_words.hpp"
+
 #include <algorithm>
 #include <map>
 
@@ -148,6 +150,8 @@ std::string suggest(const std::string& wrong, const std::vector<std::string>& kn
   });
   const std::size_t limit = std::max<std::size_t>(1, nearest->size() / 3);
   if (wrong.size() > 1 && distance(*nearest) <= limit) return "did you mean '" + *nearest + "'?";
+  if (plural == "keys")
+    if (const auto instead = what_to_write_for(wrong, known)) return *instead;
   return "the " + plural + " are " + join(known);
 }
 

@@ -1,6 +1,7 @@
 #include "symbolic/determinants.hpp"
 
 #include "core/errors.hpp"
+#include "mechanism/redundancy.hpp"
 
 namespace clearloci::symbolic {
 
@@ -23,8 +24,9 @@ std::optional<FactoredDeterminants> derived(std::optional<std::size_t> most_term
                  : cramer_determinants(geometry.ring(), matrix, loads);
   if (!cramer) return std::nullopt;
   if (cramer->determinant.is_zero()) {
-    throw core::InputError({geometry.mechanism().file}, "the equations are singular in every pose: |A| = 0",
-                           "a part moves freely while another is over-constrained; check joints and actuators");
+    const mechanism::Advice advice = mechanism::misplaced(geometry.mechanism());
+    throw core::InputError({geometry.mechanism().file},
+                           "the equations are singular in every pose: |A| = 0" + advice.problem, advice.mend);
   }
   for (const ColumnDivisor& shared : equations.divisors) {
     const FactoredPoly divisor = factored(shared.divisor, cramer->determinant.factors);

@@ -1,0 +1,310 @@
+#include "mechanism/redundancy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "mechanism/idle.hpp"
+#include "mechanism/joint_traits.hpp"
+#include "mechanism/posture_sample.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using Vector = std::array<double, 3>;
+using Matrix = std::vector<std::vector<double>>;  ///< row after row
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vector unit(const Vector& v) {
+  const double length = std::hypot(v[0], v[1], v[2]);
+  return length > 0 ? Vector{v[0] / length, v[1] / length, v[2] / length} : v;
+}
+
+/// Two directions across u.
+std::array<Vector, 2> across(const Vector& u) {
+  const auto least =
+      std::min_element(u.begin(), u.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) - u.begin();
+  Vector other{};
+  other[static_cast<std::size_t>(least)] = 1;
+  const Vector first = unit(cross(u, other));
+  return {first, cross(u, first)};
+}
+
+/// A unit reaction that a joint can bear: a force at its point, or a couple.
+struct Column {
+  JointIndex joint = 0;
+  bool motor = false;
+  Vector force{}, couple{};
+};
+
+constexpr std::array<Vector, 3> xyz = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& axes, std::vector<Column>& columns) {
+  const Joint& joint = m.joints[static_cast<std::size_t>(index)];
+  const JointTraits& own = traits(joint);
+  const auto force = [&](const Vector& v) { columns.push_back({index, false, v, {}}); };
+  const auto couple = [&](const Vector& v) { columns.push_back({index, false, {}, v}); };
+  if (m.space == Space::planar) {
+    if (is_guide(m, joint)) {
+      force({-axes[0][1], axes[0][0], 0});
+      couple(xyz[2]);
+    } else {
+      force(xyz[0]);
+      force(xyz[1]);
+    }
+    return;
+  }
+  if (own.slides)
+    for (const Vector& v : across(axes[0])) force(v);
+  else
+    for (const Vector& v : xyz) force(v);
+  if (holds_idle_freedom(joint))
+    couple(axes[0]);
+  else if (own.couple == BorneCouple::cross)
+    couple(unit(cross(axes[0], axes[1])));
+  else if (own.couple == BorneCouple::across_axis)
+    for (const Vector& v : across(axes[0])) couple(v);
+  else if (own.couple == BorneCouple::any)
+    for (const Vector& v : xyz) couple(v);
+}
+
+/// Columns of every joint's unknowns; nothing where an axis is not known in this pose.
+std::optional<std::vector<Column>> columns_at(const Mechanism& m, const std::vector<double>& pose) {
+  std::vector<Column> columns;
+  for (std::size_t j = 0; j < m.joints.size(); ++j) {
+    const Joint& joint = m.joints[j];
+    std::vector<Vector> axes;
+    for (const VectorExpression& written : joint.axes) {
+      const auto axis = sample_vector(m, written, pose);
+      if (!axis) return std::nullopt;
+      axes.push_back(unit(*axis));
+    }
+    const auto index = static_cast<JointIndex>(j);
+    add_borne(m, index, axes, columns);
+    if (!joint.actuated) continue;
+    const Vector along = axes.empty() ? xyz[2] : axes[0];
+    if (actuator_quantity(joint) == core::Quantity::F)
+      columns.push_back({index, true, along, {}});
+    else
+      columns.push_back({index, true, {}, along});
+  }
+  return columns;
+}
+
+/// Force and moment balances of every link, in lengths of the mechanism's size.
+Matrix equilibrium(const Mechanism& m, const std::vector<Column>& columns, const std::vector<Vector>& places) {
+  double size = 0;
+  for (const Vector& p : places)
+    for (const Vector& q : places) size = std::max(size, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+  if (!(size > 0)) size = 1;
+  const std::size_t rows = equations_per_link(m);
+  Matrix matrix(rows * m.links.size(), std::vector<double>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const Joint& joint = m.joints[static_cast<std::size_t>(columns[c].joint)];
+    const Vector& at = places[static_cast<std::size_t>(joint.at)];
+    Vector arm{};
+    for (std::size_t i = 0; i < 3; ++i) arm[i] = (at[i] - places.front()[i]) / size;
+    const Vector turned = cross(arm, columns[c].force);
+    const auto add = [&](LinkIndex link, double sign) {
+      if (link == ground) return;
+      std::vector<double> all(columns[c].force.begin(), columns[c].force.end());
+      for (std::size_t i = 0; i < 3; ++i) all.push_back(turned[i] + columns[c].couple[i]);
+      if (rows == 3) all = {all[0], all[1], all[5]};
+      for (std::size_t i = 0; i < rows; ++i) matrix[rows * static_cast<std::size_t>(link) + i][c] += sign * all[i];
+    };
+    add(joint.to, 1);
+    add(joint.from, -1);
+  }
+  return matrix;
+}
+
+/// The columns in which some vector of the null space is not zero: Gauss-Jordan elimination with full pivoting. Entries
+/// are of the order of one.
+std::set<std::size_t> dependent_columns(Matrix a) {
+  constexpr double rounding = 1e-9;  // far above what a few hundred operations on numbers of about one leave
+  const std::size_t rows = a.size(), columns = rows == 0 ? 0 : a.front().size();
+  std::vector<std::size_t> pivots;  // the column of each row done so far
+  std::vector<bool> taken(columns);
+  for (std::size_t done = 0; done < rows; ++done) {
+    std::size_t row = done, column = columns;
+    double best = rounding;
+    for (std::size_t i = done; i < rows; ++i)
+      for (std::size_t j = 0; j < columns; ++j)
+        if (!taken[j] && std::abs(a[i][j]) > best) best = std::abs(a[row = i][column = j]);
+    if (column == columns) break;
+    std::swap(a[done], a[row]);
+    taken[column] = true;
+    pivots.push_back(column);
+    const double pivot = a[done][column];
+    for (double& entry : a[done]) entry /= pivot;
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double factor = a[i][column];
+      if (i == done || factor == 0) continue;
+      for (std::size_t j = 0; j < columns; ++j) a[i][j] -= factor * a[done][j];
+    }
+  }
+  std::set<std::size_t> dependent;
+  for (std::size_t j = 0; j < columns; ++j) {
+    if (taken[j]) continue;
+    dependent.insert(j);
+    for (std::size_t i = 0; i < pivots.size(); ++i)
+      if (std::abs(a[i][j]) > rounding) dependent.insert(pivots[i]);
+  }
+  return dependent;
+}
+
+Matrix transposed(const Matrix& a) {
+  Matrix result(a.empty() ? 0 : a.front().size(), std::vector<double>(a.size()));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < a[i].size(); ++j) result[j][i] = a[i][j];
+  return result;
+}
+
+/// Whether a link only passes a force on from one pin to another.
+bool is_rod(const Mechanism& m, LinkIndex link) {
+  if (link == m.end_effector_link || link == m.relative_to) return false;
+  std::size_t pins = 0;
+  for (const Joint& joint : m.joints) {
+    if (joint.from != link && joint.to != link) continue;
+    const bool turns_freely = m.space == Space::planar ? !traits(joint).slides
+                                                       : traits(joint).couple == BorneCouple::none ||
+                                                             traits(joint).couple == BorneCouple::cross;
+    if (!turns_freely || joint.actuated || joint.effort) return false;
+    ++pins;
+  }
+  return pins == 2;
+}
+
+struct Dependent {
+  std::set<JointIndex> motors, joints;
+  std::set<LinkIndex> loose;
+};
+
+/// In one posture.
+std::optional<Dependent> dependent_at(const Mechanism& m, const std::vector<double>& pose) {
+  const auto columns = columns_at(m, pose);
+  if (!columns || columns->size() != unknowns(m).size()) return std::nullopt;
+  std::vector<Vector> places;
+  for (const auto& place : sample_points(m, pose)) {
+    if (!place) return std::nullopt;
+    places.push_back(*place);
+  }
+  const Matrix matrix = equilibrium(m, *columns, places);
+  Dependent found;
+  for (const std::size_t c : dependent_columns(matrix))
+    ((*columns)[c].motor ? found.motors : found.joints).insert((*columns)[c].joint);
+  for (const std::size_t row : dependent_columns(transposed(matrix)))
+    found.loose.insert(static_cast<LinkIndex>(row / equations_per_link(m)));
+  return found;
+}
+
+std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t most = 10;
+  std::string more;
+  if (names.size() > most + 1) {
+    more = " and " + std::to_string(names.size() - most) + " more";
+    names.resize(most);
+  }
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text + more;
+}
+
+/// "motor A1", "motors A1, A2".
+std::string named(const std::string& what, const std::vector<std::string>& names) {
+  return what + (names.size() == 1 ? " " : "s ") + listed(names);
+}
+
+const std::string general_excess = "remove joints or actuators, or add the missing links";
+
+}  // namespace
+
+std::optional<Redundancy> redundancy(const Mechanism& m) {
+  // What depends on each other in all postures does in these: single ones may be singular.
+  constexpr std::size_t poses = 256, enough = 3;
+  std::optional<Dependent> all;
+  std::size_t sampled = 0;
+  const auto common = [](auto& first, const auto& second) {
+    std::erase_if(first, [&](const auto& one) { return !second.contains(one); });
+  };
+  for (const std::vector<double>& pose : spread_poses(m, poses)) {
+    const auto found = dependent_at(m, pose);
+    if (!found) continue;
+    if (all) {
+      common(all->motors, found->motors);
+      common(all->joints, found->joints);
+      common(all->loose, found->loose);
+    } else {
+      all = found;
+    }
+    if (++sampled == enough) break;
+  }
+  if (!all) return std::nullopt;
+  Redundancy result;
+  const auto joint_name = [&](JointIndex j) { return m.joints[static_cast<std::size_t>(j)].name; };
+  for (const JointIndex j : all->motors) result.motors.push_back(joint_name(j));
+  for (const JointIndex j : all->joints) result.joints.push_back(joint_name(j));
+  for (const LinkIndex link : all->loose) result.loose.push_back(m.links[static_cast<std::size_t>(link)].name);
+  for (std::size_t l = 0; l < m.links.size(); ++l) {
+    const auto link = static_cast<LinkIndex>(l);
+    const bool braced = std::any_of(all->joints.begin(), all->joints.end(), [&](JointIndex j) {
+      const Joint& joint = m.joints[static_cast<std::size_t>(j)];
+      return joint.from == link || joint.to == link;
+    });
+    if (braced && is_rod(m, link)) result.rods.push_back(m.links[l].name);
+  }
+  return result;
+}
+
+Advice too_many(const Mechanism& m, std::size_t count) {
+  const auto found = redundancy(m);
+  if (!found || found->joints.size() + found->motors.size() == 0) return {"", general_excess};
+  const std::string number = std::to_string(count) + " of ";
+  if (found->motors.empty() && found->rods.empty())
+    return {": joints " + listed(found->joints) + " brace against each other",
+            m.space == Space::spatial
+                ? "let some of them bear less: spherical, universal or cylindrical instead of revolute or prismatic"
+                : "leave out " + number + "the links between them, with one of its joints"};
+  std::string problem, mend;
+  if (!found->motors.empty()) {
+    problem = named("motor", found->motors);
+    mend = number +
+           "these motors (actuated: false), or give as many a known effort, which is a load (actuated: "
+           "{effort: 0})";
+  }
+  if (!found->rods.empty()) {
+    problem += (problem.empty() ? "" : " and ") + named("rod", found->rods);
+    mend += (mend.empty() ? number : ", or leave out ") + "these rods with their joints";
+  }
+  return {": " + problem + " brace against each other", "leave out " + mend};
+}
+
+Advice too_few(const Mechanism& m) {
+  const auto found = redundancy(m);
+  const std::string general = "add joints or actuate more of them (actuated: true)";
+  if (!found || found->loose.empty()) return {"", general};
+  const bool one = found->loose.size() == 1;
+  return {": " + named("link", found->loose) + (one ? " moves" : " move") + " while every motor stands still",
+          std::string("actuate a joint of ") + (one ? "it" : "these") + " (actuated: true), or join " +
+              (one ? "it" : "them") + " to more links"};
+}
+
+Advice misplaced(const Mechanism& m) {
+  const auto found = redundancy(m);
+  if (!found || found->loose.empty() || found->joints.size() + found->motors.size() == 0)
+    return {"", "a part moves freely while another is over-constrained; check joints and actuators"};
+  std::string braced = named("joint", found->joints);
+  if (!found->motors.empty())
+    braced = named("motor", found->motors);
+  else if (!found->rods.empty())
+    braced = named("rod", found->rods);
+  return {": " + named("link", found->loose) + (found->loose.size() == 1 ? " moves" : " move") +
+              " while every motor stands still, and " + braced + " brace against each other",
+          "actuate a joint of the former, and let one of the latter go"};
+}
+
+}  // namespace clearloci::mechanism
