@@ -58,18 +58,18 @@ int run(const CheckCommand& arguments, TimeLimit& limit) {
 }  // namespace
 
 Command add_check_command(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("check", "Verify a certificate from the model, by means of its own");
+  CLI::App* app = program.add_subcommand("check", "Check a certificate against the model, with independent code");
   const auto arguments = std::make_shared<CheckCommand>();
   app->add_option("MODEL", arguments->common.model, "The mechanism file that the certificate was made for")->required();
   app->add_option("FILE", arguments->certificate, "What --certificate of loci or zones wrote")->required();
   app->add_option("--time-limit", arguments->common.time_limit,
-                  "Seconds; then nothing is said, and the exit status is 3")
+                  "Seconds after which the check gives up, with exit status 3")
       ->type_name("SECONDS");
   app->add_flag("--json", arguments->common.json, "Print the examination as JSON");
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --certificate out/five_bar.cert\n"
       "         clearloci check examples/five_bar.yaml out/five_bar.cert\n"
-      "Ends with 0 where every claim was shown, with 1 where one was not, with 2 where a file cannot be read.");
+      "Exit status: 0 every claim is shown; 1 a claim is not; 2 a file cannot be read.");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

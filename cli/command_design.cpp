@@ -139,14 +139,14 @@ Command add_design_command(CLI::App& program) {
   app->add_flag("--resume", arguments->resume, "Go on where a run of the same study was stopped");
   app->add_option("--threads", arguments->threads, "Designs judged at a time (default: as many as there are cores)")
       ->type_name("COUNT");
-  app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides designs.json, several after commas: {}",
-                              fmt::join(report::study_format_names(), ", ")))
+  app->add_option(
+         "--export", arguments->formats,
+         fmt::format("Files besides designs.json, comma-separated: {}", fmt::join(report::study_format_names(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   app->footer(
       "Example: clearloci design examples/five_bar.yaml examples/studies/link_lengths.yaml\n"
-      "Ends with 3 where the time limit came first; --resume then goes on. The same study gives the same files\n"
+      "Exit status 3: the time limit came first; --resume goes on. The same study gives the same files\n"
       "whatever the number of threads. They go to ./out/<name of MODEL>, or to the folder of -o.");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });

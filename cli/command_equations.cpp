@@ -131,7 +131,7 @@ Command add_equations_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("equations", "Print the equations behind the loci, exact and factored");
   const auto arguments = std::make_shared<EquationsCommand>();
   add_common_arguments(*app, arguments->common);
-  app->add_option("--language", arguments->languages, "text, latex, c, python, matlab; several after commas")
+  app->add_option("--language", arguments->languages, "text, latex, c, python, matlab; comma-separated")
       ->type_name("LIST")
       ->capture_default_str();
   app->add_flag("--symbolic", arguments->keep_parameters, "Keep the parameters as symbols");

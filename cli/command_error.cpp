@@ -163,7 +163,7 @@ Command add_error_command(CLI::App& program) {
                   "middle of the last coordinate)")
       ->type_name("NAME=VALUE");
   app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides error.json, several after commas: {}",
+                  fmt::format("Files besides error.json, comma-separated: {}",
                               fmt::join(report::format_names<core::ErrorMap>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();

@@ -82,7 +82,7 @@ Command add_loci_command(CLI::App& program) {
   add_locus_arguments(*app, arguments->loci);
   add_mesh_argument(*app, arguments->loci);
   app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides loci.json, several after commas: {}",
+                  fmt::format("Files besides loci.json, comma-separated: {}",
                               fmt::join(report::format_names<report::LociSheet>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();

@@ -116,7 +116,7 @@ Command add_trajectory_command(CLI::App& program) {
                   "left or right for every dyad, e.g. right,left (default: the file's)")
       ->type_name("SIDES");
   app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides trajectory.json, several after commas: {}",
+                  fmt::format("Files besides trajectory.json, comma-separated: {}",
                               fmt::join(report::format_names<core::TrajectoryResult>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();

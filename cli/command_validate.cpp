@@ -73,7 +73,8 @@ int run(const ValidateCommand& arguments, TimeLimit& limit) {
 }  // namespace
 
 Command add_validate_command(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("validate", "Hold the loci against reactions solved numerically on a grid");
+  CLI::App* app =
+      program.add_subcommand("validate", "Compare the loci with reactions that are solved numerically on a grid");
   const auto arguments = std::make_shared<ValidateCommand>();
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
@@ -82,7 +83,7 @@ Command add_validate_command(CLI::App& program) {
       ->type_name("NXxNY|NXxNYxNZ|N");
   app->footer(
       "Example: clearloci validate examples/five_bar.yaml --grid 400x400\n"
-      "Exit status 1 where an edge of the grid is disputed. With -o, DIR/validation.json is written.");
+      "Exit status 1 where the reactions contradict the loci. With -o, DIR/validation.json is written.");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

@@ -155,16 +155,15 @@ Command add_verify_command(CLI::App& program) {
       ->expected(0, 1)
       ->default_str("nearest");
   app->add_option("--export", arguments->formats,
-                  fmt::format("Pictures besides verify.json, several after commas: {}",
+                  fmt::format("Pictures besides verify.json, comma-separated: {}",
                               fmt::join(report::format_names<core::Verification>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate);
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
-      "Ends with 0 where the task is verified: proven for every pose of it and every load; with 1 where it is refuted: "
-      "a\n"
-      "witness is confirmed numerically; with 3 where it is undecided, within the time limit or by doubles at all.\n"
+      "Exit status: 0 verified: proven for every pose of the task and every load; 1 refuted: a witness is confirmed\n"
+      "numerically; 3 undecided within the time limit or the resolution of doubles.\n"
       "The files go to ./out/<name of MODEL>, or to the folder of -o.");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });

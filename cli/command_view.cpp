@@ -50,7 +50,8 @@ int run(const ViewCommand&) {
 }  // namespace
 
 Command add_view_command(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("view", "Design in a browser: loci, zones and reactions follow the hand");
+  CLI::App* app =
+      program.add_subcommand("view", "Open the workbench in a browser: loci and zones follow while you drag");
   const auto arguments = std::make_shared<ViewCommand>();
   app->add_option("MODEL", arguments->common.model, "The mechanism file (YAML)")->required()->type_name("FILE");
   app->add_option("--set", arguments->common.overrides, "Override a parameter of the file: name=value (repeatable)")
@@ -64,9 +65,9 @@ Command add_view_command(CLI::App& program) {
       ->type_name("SECONDS");
   app->footer(
       "Example: clearloci view examples/five_bar.yaml\n"
-      "Prints an address of this machine (127.0.0.1) for the browser; nobody else can reach it, and nothing is "
-      "written\n"
-      "but what is downloaded there. Ends with Ctrl-C.");
+      "Prints an address of this machine (127.0.0.1) for the browser; other machines cannot reach it. It writes no "
+      "files:\n"
+      "the browser downloads them. Ctrl-C ends it.");
   return {app, [arguments] { return run(*arguments); }};
 }
 

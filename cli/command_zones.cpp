@@ -92,7 +92,7 @@ Command add_zones_command(CLI::App& program) {
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
   app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides zones.json, several after commas: {}; by cells svg, png, pdf, vtk, stl",
+                  fmt::format("Files besides zones.json, comma-separated: {}; by cells svg, png, pdf, vtk, stl",
                               fmt::join(report::format_names<core::ZoneMap>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();

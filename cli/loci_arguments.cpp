@@ -61,8 +61,7 @@ void add_tracing_arguments(CLI::App& command, LociArguments& arguments) {
 }
 
 void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
-  command
-      .add_option("--quantity", arguments.quantities, "What vanishes: f, N, T, M, F, fx to mz, several after commas")
+  command.add_option("--quantity", arguments.quantities, "What vanishes: f, N, T, M, F, fx to mz, comma-separated")
       ->type_name("LIST")
       ->capture_default_str();
   command.add_option("--min-force", arguments.min_force, "Also the curves on which a contact force has this value")
@@ -79,7 +78,7 @@ void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
 void add_mesh_argument(CLI::App& command, LociArguments& arguments) {
   command
       .add_option("--mesh-size", arguments.mesh_size,
-                  "Over three coordinates: edges of a surface's triangles, about, as a part of the box")
+                  "Over three coordinates: approximate length of the triangles' edges, as a part of the box")
       ->type_name("PART")
       ->capture_default_str();
 }

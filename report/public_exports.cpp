@@ -85,6 +85,10 @@ Paths export_verification(const Verification& answer, const std::filesystem::pat
                           const std::set<std::string>& formats) {
   return write_checked(answer, folder, formats);
 }
+Paths export_verification(const PoseVerification& answer, const std::filesystem::path& folder,
+                          const std::set<std::string>& formats) {
+  return write_checked(answer, folder, formats);
+}
 Paths export_errors(const ErrorMap& errors, const std::filesystem::path& folder, const std::set<std::string>& formats) {
   return write_checked(errors, folder, formats);
 }
@@ -112,6 +116,9 @@ std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std:
   return files_checked(zones, formats, pose_zone_formats(zones.coordinates.size()));
 }
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats) {
+  return files_checked(answer, formats);
+}
+std::vector<ExportedFile> verification_files(const PoseVerification& answer, const std::set<std::string>& formats) {
   return files_checked(answer, formats);
 }
 std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats) {

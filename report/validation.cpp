@@ -32,13 +32,13 @@ std::string tallies_text(const core::Validation& validation) {
   const core::WorkingMode* mode = nullptr;
   for (const core::ReactionTally& tally : validation.report.tallies) {
     if (mode == nullptr || *mode != tally.mode) {
-      text += fmt::format("\n{:<16}{:>10}{:>10}{:>10}{:>10}  edges{}\n", "reaction", "held", "disputed", "undecided",
-                          "outside", after(validation, tally.mode));
+      text += fmt::format("\n{:<16}{:>14}{:>14}{:>14}{:>10}  edges{}\n", "reaction", "confirmed", "contradicted",
+                          "unresolved", "outside", after(validation, tally.mode));
       mode = &tally.mode;
     }
     const std::string name = reaction_name(tally.reaction);
-    text += tally.identically_zero ? fmt::format("{:<16}{:>10}\n", name, "zero in every pose")
-                                   : fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}\n", name, tally.held, tally.disputed,
+    text += tally.identically_zero ? fmt::format("{:<16}{:>14}\n", name, "zero in every pose")
+                                   : fmt::format("{:<16}{:>14}{:>14}{:>14}{:>10}\n", name, tally.held, tally.disputed,
                                                  tally.undecided, tally.outside);
   }
   return text;
@@ -96,21 +96,21 @@ std::string validation_text(const core::Validation& validation) {
   std::string text = fmt::format("{}: loci against reactions at {} nodes\n", validation.map.mechanism,
                                  fmt::join(validation.nodes, " x "));
   text += tallies_text(validation);
-  text += fmt::format("\n{} edges held, {} disputed, {} undecided, {} outside\n", report.held, report.disputed,
-                      report.undecided, report.outside);
+  text += fmt::format("\n{} edges confirmed, {} contradicted, {} unresolved, {} outside\n", report.held,
+                      report.disputed, report.undecided, report.outside);
   for (std::size_t i = 0; i < report.disputed_edges.size() && i < edges_shown; ++i) {
     const core::DisputedEdge& edge = report.disputed_edges[i];
-    text += fmt::format("disputed: {} {} from ({}) to ({}), crossed by {} {}{}\n", reaction_name(edge.reaction),
+    text += fmt::format("contradicted: {} {} from ({}) to ({}), crossed by {} {}{}\n", reaction_name(edge.reaction),
                         edge.sign_change ? "changes sign" : "keeps its sign", fmt::join(edge.from, ", "),
                         fmt::join(edge.to, ", "), edge.crossings, loci, after(validation, edge.mode));
   }
-  if (report.disputed_edges.size() > edges_shown) text += "... --json lists more disputed edges\n";
-  text += fmt::format("{} reactions along {} held, {} disputed, {} undecided\n", report.arcs_held, loci,
+  if (report.disputed_edges.size() > edges_shown) text += "... --json lists more contradicted edges\n";
+  text += fmt::format("{} reactions along {} confirmed, {} contradicted, {} unresolved\n", report.arcs_held, loci,
                       report.disputed_arcs.size(), report.arcs_undecided);
   for (std::size_t i = 0; i < report.disputed_arcs.size() && i < edges_shown; ++i) {
     const core::DisputedArc& arc = report.disputed_arcs[i];
     const char* what = arc.unbounded ? "grows without bound" : arc.claimed ? "does not vanish" : "vanishes unnamed";
-    text += fmt::format("disputed: {} {} along {} near ({}){}\n", reaction_name(arc.reaction), what, arc.curve,
+    text += fmt::format("contradicted: {} {} along {} near ({}){}\n", reaction_name(arc.reaction), what, arc.curve,
                         fmt::join(arc.at, ", "), after(validation, arc.mode));
   }
   return text;

@@ -49,6 +49,9 @@ std::vector<std::filesystem::path> export_zones(const PoseZones& zones, const st
                                                 const std::set<std::string>& formats = {"svg", "png"});
 std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
                                                        const std::set<std::string>& formats = {"svg", "png"});
+std::vector<std::filesystem::path> export_verification(const PoseVerification& answer,
+                                                       const std::filesystem::path& folder,
+                                                       const std::set<std::string>& formats = {"svg", "png"});
 std::vector<std::filesystem::path> export_errors(const ErrorMap& errors, const std::filesystem::path& folder,
                                                  const std::set<std::string>& formats = {"png"});
 std::vector<std::filesystem::path> export_errors(const CoordinateErrors& errors, const std::filesystem::path& folder,
@@ -71,6 +74,7 @@ std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, c
 std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats);
 std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std::string>& formats);
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats);
+std::vector<ExportedFile> verification_files(const PoseVerification& answer, const std::set<std::string>& formats);
 std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats);
 std::vector<ExportedFile> error_files(const CoordinateErrors& errors, const std::set<std::string>& formats);
 std::vector<ExportedFile> error_files(const VolumeErrors& errors, const std::set<std::string>& formats,

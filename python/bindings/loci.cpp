@@ -136,7 +136,7 @@ py::dict dict_of(const LocusMap& map) {
   all["coordinates"] = map.tower.coordinates;
   all["box"] = box;
   all["complete"] = map.complete;
-  all["notes"] = map.notes;
+  all["notes"] = in_python(map.notes);
   all["curves"] = curves;
   all["surfaces"] = surfaces;
   all["isolated_points"] = points;

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cctype>
+#include <map>
+
 #include "bindings/bindings.hpp"
 
 namespace clearloci::python {
@@ -12,20 +16,48 @@ void bind_errors(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const InputError& error) {
-      const py::object own = input_error(error.what());
-      own.attr("file") = error.position().file;
+      const py::object own = input_error(in_python(error.what()));
+      own.attr("file") = in_python(error.position().file);
       own.attr("line") = error.position().line;
       own.attr("column") = error.position().column;
-      own.attr("what") = error.problem();
-      own.attr("mend") = error.mend();
+      own.attr("what") = in_python(error.problem());
+      own.attr("mend") = in_python(error.mend());
       PyErr_SetObject(input_error.ptr(), own.ptr());
     } catch (const LimitReached& limit) {
-      PyErr_SetString(limit_reached.ptr(), limit.what());
+      PyErr_SetString(limit_reached.ptr(), in_python(limit.what()).c_str());
     }
   });
 }
 
 }  // namespace
+
+std::string in_python(const std::string& text) {
+  static const std::map<std::string, std::string> others = {{"set", "with_parameters"}, {"json", "json()"}};
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins = text.compare(i, 2, "--") == 0 &&
+                        (i == 0 || std::isalnum(static_cast<unsigned char>(text[i - 1])) == 0) && i + 2 < text.size() &&
+                        std::islower(static_cast<unsigned char>(text[i + 2])) != 0;
+    if (!begins) {
+      result += text[i];
+      continue;
+    }
+    std::size_t end = i + 2;
+    while (end < text.size() && (std::islower(static_cast<unsigned char>(text[end])) != 0 || text[end] == '-')) ++end;
+    std::string name = text.substr(i + 2, end - i - 2);
+    const auto other = others.find(name);
+    std::replace(name.begin(), name.end(), '-', '_');
+    result += other == others.end() ? name : other->second;
+    i = end - 1;
+  }
+  return result;
+}
+
+std::vector<std::string> in_python(const std::vector<std::string>& texts) {
+  std::vector<std::string> result;
+  for (const std::string& text : texts) result.push_back(in_python(text));
+  return result;
+}
 
 py::array_t<double> array_of(const Polyline& points) {
   py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});

@@ -60,23 +60,28 @@ py::dict dict_of(const Pose& pose) {
     for (const ReactionComponent& part : joint.components) one[py::str(to_string(part.quantity))] = part.value;
     reactions[py::str(joint.joint)] = one;
   }
+  const bool reached = pose.unreachable.empty() && pose.beyond_limit.empty();
+  const auto known = [&](const auto& value) { return reached ? py::cast(value) : py::object(py::none()); };
   worst["displacement"] = pose.worst.displacement;
   worst["rotation"] = pose.worst.rotation;
   worst["distance"] = pose.worst.distance;
   worst["angle"] = pose.worst.angle;
   all["at"] = pose.at;
   all["working_mode"] = mode;
-  all["unreachable"] = pose.unreachable.empty() ? py::object(py::none()) : py::cast(pose.unreachable);
+  all["unreachable"] = reached                     ? py::object(py::none())
+                       : !pose.unreachable.empty() ? py::cast("point " + pose.unreachable + " cannot be placed")
+                                                   : py::cast("beyond the limit of the " + pose.beyond_limit);
   all["points"] = points;
   all["reactions"] = reactions;
-  all["determinant"] = pose.determinant;
-  all["condition"] = pose.condition;
-  all["singular"] = pose.singular;
+  all["determinant"] = known(pose.determinant);
+  all["condition"] = known(pose.condition);
+  all["singular"] = known(pose.singular);
   all["take_up"] = dict_of(pose.take_up);
   all["error"] = pose.error ? py::object(dict_of(*pose.error)) : py::none();
-  all["worst"] = worst;
+  all["worst"] = known(worst);
   all["undefined"] = pose.undefined;
   all["vanishing"] = names_of(pose.vanishing);
+  all["notes"] = in_python(pose.notes);
   all["actual"] = pose.actual && pose.actual->converged ? py::object(dict_of(pose.actual->error)) : py::none();
   return all;
 }

@@ -42,7 +42,7 @@ py::dict dict_of(const PoseVerification& answer) {
   }
   if (answer.open)
     open = py::dict(py::arg("cells") = answer.open->cells, py::arg("lower") = answer.open->lower,
-                    py::arg("upper") = answer.open->upper);
+                    py::arg("upper") = answer.open->upper, py::arg("reason") = word_of(answer.open->reason));
   py::dict all;
   all["verdict"] = to_string(answer.verdict);
   all["coordinates"] = answer.coordinates;
@@ -56,7 +56,7 @@ py::dict dict_of(const PoseVerification& answer) {
   all["open"] = open;
   all["least"] = least;
   all["cells"] = answer.cells;
-  all["notes"] = answer.notes;
+  all["notes"] = in_python(answer.notes);
   return all;
 }
 
@@ -113,7 +113,7 @@ py::dict dict_of(const PoseZones& map) {
   all["labels"] = labels;
   all["cells"] = map.cells;
   all["complete"] = map.complete;
-  all["notes"] = map.notes;
+  all["notes"] = in_python(map.notes);
   return all;
 }
 
@@ -128,7 +128,8 @@ std::optional<PoseFit> goal_of(const std::string& fit) {
 }  // namespace
 
 void bind_poses(py::module_& module) {
-  bind_answer<PoseVerification>(module, "PoseVerification", [](const PoseVerification& own) { return dict_of(own); });
+  bind_answer<PoseVerification>(
+      module, "PoseVerification", [](const PoseVerification& own) { return dict_of(own); }, &export_verification);
   bind_answer<PoseZones>(
       module, "PoseZones", [](const PoseZones& own) { return dict_of(own); }, &export_zones);
   module.def("verify_poses", [](const Model& model, const std::string& text, const std::string& file,

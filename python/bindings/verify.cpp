@@ -48,7 +48,18 @@ py::object nearest_of(const Verification& answer) {
   return one;
 }
 
+py::object open_of(const Verification& answer) {
+  if (!answer.open) return py::none();
+  const OpenTask& open = *answer.open;
+  return py::dict(py::arg("cells") = open.cells, py::arg("lower") = pair_of(open.lower),
+                  py::arg("upper") = pair_of(open.upper), py::arg("reason") = word_of(open.reason));
+}
+
 }  // namespace
+
+std::string word_of(OpenTask::Reason reason) {
+  return reason == OpenTask::Reason::time ? "time" : reason == OpenTask::Reason::cells ? "cells" : "doubles";
+}
 
 void bind_verify(py::module_& module) {
   py::class_<Task>(module, "Task", "What a design is verified for.").def("__repr__", [](const Task& task) {
@@ -69,7 +80,10 @@ void bind_verify(py::module_& module) {
              one["moved_by"] = answer.by
                                    ? py::object(py::make_tuple(to_double((*answer.by)[0]), to_double((*answer.by)[1])))
                                    : py::none();
-             one["notes"] = answer.notes;
+             one["open"] = open_of(answer);
+             const TowerNames& tower = answer.map.loci.tower;
+             one["working_mode"] = tower.roots.size() == answer.mode.size() ? mode_of(tower, answer.mode) : py::dict();
+             one["notes"] = in_python(answer.notes);
              return one;
            })
       .def("json", [](const Verification& answer) { return to_json(answer); })

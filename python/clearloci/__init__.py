@@ -8,7 +8,10 @@
     zones = m.zones()
     answer = m.verify({"box": {"x": [0.1, 0.4], "y": [-0.8, -0.6]}, "margin": 0.01})
 
-Units are SI throughout: m, rad, N, N m. Names and defaults are those of the command line.
+    m.pose((0.25, -0.7)).error             # how far the clearances displace the end effector
+
+Units are SI throughout: m, rad, N, N m. `help(cl.Model)` explains every question and what its arguments mean; answers keep
+their values as attributes, print `table()`, give `json()` and write files by `export(folder, formats)`.
 """
 
 from . import _needs  # first: says in a line what is missing

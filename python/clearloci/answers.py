@@ -5,11 +5,14 @@ from __future__ import annotations
 
 import html
 import os
+import tempfile
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator
 
 import numpy as np
 
+from . import _arguments as arguments
 from . import _clearloci
 
 if TYPE_CHECKING:
@@ -126,13 +129,44 @@ class Written:
         """The table that the program prints."""
         return self._held.table()
 
+    #: What the files of an answer are called that has no pictures.
+    _stem = "answer"
+
+    def export(self, folder: str | os.PathLike[str], formats: Iterable[str] = ("txt",)) -> list[str]:
+        """Writes the JSON of the answer into a folder, with "txt" its table, too; returns the files."""
+        wanted = arguments.formats(formats) - {"json"}
+        if wanted - {"txt"}:
+            raise ValueError(f"{self._stem} has no format {sorted(wanted - {'txt'})[0]!r}; choose from json, txt")
+        texts = {"json": self.json()} | ({"txt": self.table()} if wanted else {})
+        return write_files(folder, {f"{self._stem}.{ending}": text for ending, text in texts.items()})
+
+
+def write_files(folder: str | os.PathLike[str], texts: dict[str, str]) -> list[str]:
+    """Into a folder that is made where it is missing; each file whole or not at all."""
+    target = Path(arguments.path("folder", folder))
+    target.mkdir(parents=True, exist_ok=True)
+    files = []
+    for name, text in texts.items():
+        with tempfile.NamedTemporaryFile("w", dir=target, prefix=f".{name}.", delete=False, encoding="utf-8") as file:
+            try:
+                file.write(text)
+                file.close()
+                os.chmod(file.name, 0o644)
+                os.replace(file.name, target / name)
+            except BaseException:
+                os.unlink(file.name)
+                raise
+        files.append(str(target / name))
+    return files
+
 
 class Exported(Written):
-    """Files, too."""
+    """Files with pictures, too."""
 
     def export(self, folder: str | os.PathLike[str], formats: Iterable[str] = ("svg", "png")) -> list[str]:
-        """Writes the formats named, and json, as the program does; returns the files."""
-        return self._held.export(self.model._handle, os.fspath(folder), set(formats))
+        """Writes the formats named, and json, as the program does; returns the files. A format that the answer does not
+        have raises InputError, which names those that it has."""
+        return self._held.export(self.model._handle, arguments.path("folder", folder), arguments.formats(formats))
 
 
 class _Answer(Exported):
@@ -175,24 +209,53 @@ def ask(make: Callable[[Any], Any], name: str, model: Model, *arguments: Any, **
 
 @dataclass(frozen=True)
 class Validation(Asked):
-    """Loci held against reactions that are solved numerically: true where nothing is disputed."""
+    """Loci compared with reactions that are solved numerically: true where nothing contradicts them.
+
+    What is counted are edges between neighbouring nodes of a grid, over all reactions: the sign of a reaction changes along
+    an edge as often as the loci say that it does (confirmed), or not (contradicted); or the edge meets a boundary, or the
+    sign cannot be told from rounding errors (unresolved).
+    """
 
     mechanism: str
     grid: list[int]  #: nodes along each coordinate
     validated: bool
-    held: int  #: edges between nodes, over all reactions
-    disputed: int
-    undecided: int
-    outside: int
+    confirmed: int
+    contradicted: int
+    unresolved: int
+    outside: int  #: edges of which neither node is reached
     reactions: list[dict[str, Any]] = field(repr=False)  #: the same, a reaction in a working mode
-    disputed_edges: list[dict[str, Any]] = field(repr=False)
-    arcs_held: int
-    arcs_undecided: int
-    disputed_arcs: list[dict[str, Any]] = field(repr=False)
-    format: int = 1
+    contradicted_edges: list[dict[str, Any]] = field(repr=False)
+    arcs_confirmed: int
+    arcs_unresolved: int
+    contradicted_arcs: list[dict[str, Any]] = field(repr=False)
+
+    _stem = "validation"
 
     def __bool__(self) -> bool:
         return self.validated
+
+
+#: What the keys of validation.json are called here.
+_VALIDATION = {
+    "held": "confirmed",
+    "disputed": "contradicted",
+    "undecided": "unresolved",
+    "disputed_edges": "contradicted_edges",
+    "disputed_arcs": "contradicted_arcs",
+    "arcs_held": "arcs_confirmed",
+    "arcs_undecided": "arcs_unresolved",
+}
+
+
+def validation_of(own: dict[str, Any]) -> Validation:
+    """Of the values of validation.json."""
+
+    def renamed(values: dict[str, Any]) -> dict[str, Any]:
+        return {_VALIDATION.get(key, key): value for key, value in values.items() if key != "format"}
+
+    values = renamed(own)
+    values["reactions"] = [renamed(reaction) for reaction in values["reactions"]]
+    return Validation(**values)
 
 
 class Loci(_Answer):
@@ -294,12 +357,16 @@ class Verification(_Answer):
     def __init__(self, model: Model, task: Task, fit: str | None, options: dict[str, Any]) -> None:
         self.model, self.task, self.fit, self.options = model, task, fit, dict(options)
         data = self._held.data()
+        self.working_mode: dict[str, str] = data["working_mode"]
         self.verdict: str = data["verdict"]  #: "verified", "refuted", "undecided"
         self.margin: float | None = data["margin"]  #: m, proven to be free; None where not verified
         self.pose_error: float | None = data["pose_error"]  #: m, a proven upper bound, where the task asks for one
         self.zone: str | None = data["zone"]
         self.witness: dict[str, Any] | None = data["witness"]  #: where refuted: a pose at which the task fails
         self.nearest: dict[str, Any] | None = data["nearest"]  #: the nearest locus
+        #: where undecided: "cells" that stayed open, the box around them from "lower" to "upper", and why ("reason":
+        #: "time", "cells" or "doubles" ran out)
+        self.open: dict[str, Any] | None = data["open"]
         self.moved_by: tuple[float, float] | None = data["moved_by"]  #: m, where a place was looked for
         self.notes: list[str] = data["notes"]
 

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any, Iterable, Mapping
 
 import numpy as np
 
+from . import _arguments as arguments
 from . import _clearloci
+from .answers import write_files
 from .model import Model, parse
 
 
@@ -39,6 +43,17 @@ class Designs:
     def feasible(self) -> np.ndarray:
         """bool (n,): verified for every task, and what is required holds."""
         return np.asarray([status == "feasible" for status in self.columns["status"]], dtype=bool)
+
+    def export(self, folder: str | os.PathLike[str], formats: Iterable[str] = ("csv",)) -> list[str]:
+        """Writes designs.csv, a row a design, and best.yaml where there is a best; returns the files."""
+        if arguments.formats(formats) - {"csv"}:
+            raise ValueError("designs are written as csv; the command `clearloci design` writes pictures and a page, too")
+        table = io.StringIO()
+        writer = csv.writer(table, lineterminator="\n")
+        writer.writerow(self.columns)
+        writer.writerows(zip(*self.columns.values()))
+        best = {} if self.best_model is None else {"best.yaml": self.best_model}
+        return write_files(folder, {"designs.csv": table.getvalue(), **best})
 
     @property
     def best_design(self) -> Model | None:
@@ -70,11 +85,13 @@ def design(
         text = json.dumps(content, default=lambda value: np.asarray(value).tolist())
         file = os.path.join(os.getcwd(), "study")
     else:
-        file = os.fspath(study)
+        file = arguments.path("study", study)
         text = Path(file).read_text(encoding="utf-8")
-    handle = model._handle
+    handle = arguments.handle_of(model)
+    threads, chunk = arguments.count("threads", threads, least=0), arguments.count("chunk", chunk)
     if executor is None:
-        return Designs(**_clearloci.run_study(handle, text, file, threads, os.fspath(table or ""), resume))
+        kept = "" if table is None else arguments.path("table", table)
+        return Designs(**_clearloci.run_study(handle, text, file, threads, kept, bool(resume)))
     count = _clearloci.design_count(handle, text, file)
     futures = [
         executor.submit(_judged, handle, text, file, first, min(chunk, count - first))

@@ -4,31 +4,56 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
+from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence, Union, overload
 
 import numpy as np
 
+from . import _arguments as arguments
 from . import _clearloci
-from .answers import Loci, Validation, Verification, Zones, ask
+from ._arguments import Names, Number, Value, WorkingMode
+from .answers import Loci, Validation, Verification, Zones, ask, validation_of
 from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
 from .poses import PoseVerification, PoseZone, PoseZones
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-Number = Union[int, float, str]
+#: A task file, its content as a dictionary, or an array of points, which is a path.
 Task = Union[str, "os.PathLike[str]", Mapping[str, Any], np.ndarray]
+Engine = Literal["adaptive-then-exact", "exact", "adaptive"]
 
 
 class Model:
-    """What a mechanism file says, with values of parameters put in. Immutable; may be used from several threads.
+    """What a mechanism file says, with values of parameters put in.
 
-    Questions take the options of the command line as keywords: `working_mode` ("all", "right,left" or a list of
-    sides), `quantity` ("f,M" or a list), `joint`, `min_force` (N), `min_couple` (N m), `tolerance` (m), `mesh_size`,
-    `engine` and `time_limit` (s). Wrong input raises InputError.
+        m = clearloci.read("five_bar.yaml")
+        m.coordinates                         # {'x': (-0.5, 1.0), 'y': (-1.0, 1.0)}, m
+        m.pose((0.25, -0.7)).reactions["A1"]  # {'fx': ..., 'fy': ..., 'M': ...}, N and N m
+        m.loci().plot()                       # where joints lose contact
+        m.zones()[0].inscribed_circle         # where none does
+        m.verify({"box": {"x": [0.1, 0.4], "y": [-0.8, -0.6]}, "margin": 0.01})
+
+    A model never changes, and may be used from several threads. Everything is in SI units: m, rad, N, N m, s, whatever
+    units the file has; task files follow the units of the mechanism file, dictionaries and arrays do too.
+
+    Arguments that many questions share:
+
+    working_mode: how the legs are assembled. None: as in the file; "right,left", ["right", "left"] or
+        {"B1": "right", "B2": "left"}: one side a dyad, as `m.working_mode` names them; "all": every combination.
+    joint: the joints whose reactions count, "A1" or ["A1", "P"]. None: all that have a clearance, or all.
+    quantity: what vanishes: "f" forces, "M" couples, "F" axial forces, "N", "T" of a guide, components "fx" to "mz".
+    min_force, min_couple: N and N m: also the curves on which a force or a couple has this value.
+    tolerance: the largest distance of a chord from its curve, m; None: 1e-5.
+    engine: "adaptive" (subdivision), "exact" (arrangement of curves), or "adaptive-then-exact".
+    time_limit: s, after which the answer says what is known by then, with `complete` False.
+
+    A wrong argument raises TypeError or ValueError; what is wrong with a file or a mechanism raises InputError, which is a
+    ValueError with file, line, column, what is wrong and how to mend it.
     """
 
     def __init__(self, handle: _clearloci.Model) -> None:
+        if not isinstance(handle, _clearloci.Model):
+            raise TypeError("clearloci.read(path) and clearloci.parse(text) make models")
         self._handle = handle
 
     @property
@@ -68,100 +93,272 @@ class Model:
         """The file's: point -> side."""
         return self._handle.working_mode
 
-    def with_parameters(self, **values: Number) -> Model:
+    def with_parameters(self, **values: Value) -> Model:
         """The same mechanism with new values: m.with_parameters(L="0.45", F=80).
 
-        Numbers are taken as they print; what does not depend on them is derived once.
+        Numbers are taken as they print, in the units of the file; what does not depend on them is derived once.
         """
-        return Model(self._handle.with_parameters(**values))
+        return Model(self._handle.with_parameters(**{name: _plain(name, value) for name, value in values.items()}))
 
-    def loci(self, **options: Any) -> Loci:
-        """The discontinuity loci: points over one free coordinate, curves over two, surfaces over three."""
-        return Loci(self, options)
+    def loci(
+        self,
+        *,
+        working_mode: WorkingMode | None = None,
+        joint: Names | None = None,
+        quantity: Names | None = None,
+        min_force: Number | None = None,
+        min_couple: Number | None = None,
+        tolerance: float | None = None,
+        mesh_size: float | None = None,
+        engine: Engine | None = None,
+        time_limit: float | None = None,
+    ) -> Loci:
+        """The discontinuity loci, where joints lose contact: points over one free coordinate, curves over two, surfaces
+        over three.
 
-    def zones(self, **options: Any) -> Zones:
-        """The discontinuity-free zones, over two lengths."""
-        return Zones(self, options)
-
-    def verify(self, task: Task, fit: str | None = None, **options: Any) -> Verification:
-        """Whether the task keeps clear of every locus: a task file, its content as a dictionary, or an array (n, 2) of
-        points, m, which is a path. `fit`: "nearest" or "best", to move it where it fails.
+        `quantity` is "f,M" unless said. `mesh_size`: edges of a surface's triangles, as a part of the box. The other
+        arguments are those of the class.
         """
-        return Verification(self, task, fit, options)
+        return Loci(
+            self,
+            arguments.options(
+                self,
+                working_mode=working_mode,
+                joint=joint,
+                quantity=quantity,
+                min_force=min_force,
+                min_couple=min_couple,
+                tolerance=tolerance,
+                mesh_size=mesh_size,
+                engine=engine,
+                time_limit=time_limit,
+            ),
+        )
 
-    def verify_poses(self, task: Task, fit: str | None = None, **options: Any) -> PoseVerification:
-        """Whether a task over one to six coordinates, other than two lengths, keeps clear of every locus: a task file,
-        its content as a dictionary, or an array (n, coordinates) of poses, which is a path. `fit`: "nearest" or "best",
-        to move it where it fails, or "largest", to scale it.
+    def zones(
+        self,
+        *,
+        working_mode: WorkingMode | None = None,
+        joint: Names | None = None,
+        quantity: Names | None = None,
+        min_force: Number | None = None,
+        min_couple: Number | None = None,
+        tolerance: float | None = None,
+        engine: Engine | None = None,
+        time_limit: float | None = None,
+    ) -> Zones:
+        """The discontinuity-free zones, over two lengths: the pieces into which the loci cut the workspace. Over other
+        coordinates: `pose_zones`."""
+        return Zones(
+            self,
+            arguments.options(
+                self,
+                working_mode=working_mode,
+                joint=joint,
+                quantity=quantity,
+                min_force=min_force,
+                min_couple=min_couple,
+                tolerance=tolerance,
+                engine=engine,
+                time_limit=time_limit,
+            ),
+        )
+
+    def verify(
+        self,
+        task: Task,
+        fit: Literal["nearest", "best"] | None = None,
+        *,
+        working_mode: WorkingMode | None = None,
+        joint: Names | None = None,
+        tolerance: float | None = None,
+        engine: Engine | None = None,
+        time_limit: float | None = None,
+    ) -> Verification:
+        """Whether a task over two lengths keeps clear of every locus: true where that is proven. Over other coordinates:
+        `verify_poses`.
+
+        `task`: a task file, its content as a dictionary ({"box": {"x": [0.1, 0.4], "y": [-0.8, -0.6]}, "margin": 0.01,
+        "min_force": 5}), or an array (n, 2) of points, which is a path; in the units of the mechanism file. `fit`:
+        "nearest" moves a task that fails to the nearest place that verifies, "best" to the one of the largest margin.
         """
+        if fit is not None:
+            arguments.choice("fit", fit, ("nearest", "best"))
+        return Verification(
+            self,
+            task,
+            fit,
+            arguments.options(
+                self,
+                working_mode=working_mode,
+                joint=joint,
+                tolerance=tolerance,
+                engine=engine,
+                time_limit=time_limit,
+            ),
+        )
+
+    def verify_poses(
+        self,
+        task: Task,
+        fit: Literal["nearest", "best", "largest"] | None = None,
+        *,
+        working_mode: WorkingMode | None = None,
+        joint: Names | None = None,
+        time_limit: float | None = None,
+    ) -> PoseVerification:
+        """Whether a task over one to six coordinates, other than two lengths, keeps clear of every locus: true where that
+        is proven.
+
+        `task`: a task file, its content as a dictionary, or an array (n, coordinates) of poses, which is a path. `fit`:
+        "nearest" or "best", to move it where it fails, or "largest", to scale it.
+        """
+        if fit is not None:
+            arguments.choice("fit", fit, ("nearest", "best", "largest"))
         if isinstance(task, (str, os.PathLike)):
             text, file = "", os.fspath(task)
         else:
             text, file = text_of(task), "task"
-        return ask(lambda own: PoseVerification(**own), "verify_poses", self, text, file, fit or "", **options)
+        given = arguments.options(self, working_mode=working_mode, joint=joint, time_limit=time_limit)
+        return ask(lambda own: PoseVerification(**own), "verify_poses", self, text, file, fit or "", **given)
 
-    def pose_zones(self, cells: int = 300_000, **options: Any) -> PoseZones:
+    def pose_zones(
+        self,
+        cells: int = 300_000,
+        *,
+        working_mode: WorkingMode | None = None,
+        joint: Names | None = None,
+        quantity: Names | None = None,
+        min_force: Number | None = None,
+        min_couple: Number | None = None,
+        time_limit: float | None = None,
+    ) -> PoseZones:
         """The discontinuity-free zones over one to three coordinates, angles among them, by so many cells."""
 
         def zones_of(answer: dict[str, Any]) -> PoseZones:
             return PoseZones(**{**answer, "zones": [PoseZone(**own) for own in answer["zones"]]})
 
-        return ask(zones_of, "find_pose_zones", self, cells, **options)
+        given = arguments.options(
+            self,
+            working_mode=working_mode,
+            joint=joint,
+            quantity=quantity,
+            min_force=min_force,
+            min_couple=min_couple,
+            time_limit=time_limit,
+        )
+        return ask(zones_of, "find_pose_zones", self, arguments.count("cells", cells), **given)
 
-    def validate(self, grid: Sequence[int] = (), **options: Any) -> Validation:
-        """The loci held against reactions that are solved numerically at the nodes of a grid: so many along each
-        coordinate, 400 each over two, 4000 over one, 40 each over three where none are given.
+    def validate(
+        self,
+        grid: Sequence[int] = (),
+        *,
+        working_mode: WorkingMode | None = None,
+        joint: Names | None = None,
+        tolerance: float | None = None,
+        engine: Engine | None = None,
+        time_limit: float | None = None,
+    ) -> Validation:
+        """The loci compared with reactions that are solved numerically at the nodes of a grid: true where nothing
+        contradicts them.
+
+        `grid`: so many nodes along each coordinate; 400 each over two, 4000 over one, 40 each over three where none are
+        given.
         """
-        return ask(lambda own: Validation(**own), "validate_loci", self, [int(n) for n in grid], **options)
+        given = arguments.options(
+            self, working_mode=working_mode, joint=joint, tolerance=tolerance, engine=engine, time_limit=time_limit
+        )
+        return ask(validation_of, "validate_loci", self, arguments.counts("grid", grid), **given)
 
-    def pose(self, at: Sequence[float], iterate: bool = False, **options: Any) -> Pose | list[Pose]:
-        """Posture, reactions, take-up and pose error at one pose: a value a free coordinate, m or, of an angle, rad.
-        A float stands for the shortest decimal that reads back as it. With working_mode="all" a list: of the modes that
-        have the pose.
+    @overload
+    def pose(
+        self, at: Sequence[float] | Mapping[str, float], iterate: bool = ..., *, working_mode: Literal["all"]
+    ) -> list[Pose]: ...
+    @overload
+    def pose(
+        self, at: Sequence[float] | Mapping[str, float], iterate: bool = ..., *, working_mode: WorkingMode | None = ...
+    ) -> Pose: ...
+    def pose(
+        self,
+        at: Sequence[float] | Mapping[str, float],
+        iterate: bool = False,
+        *,
+        working_mode: WorkingMode | None = None,
+    ) -> Pose | list[Pose]:
+        """Posture, reactions, take-up and pose error at one pose.
+
+        `at`: a value a free coordinate, (0.25, -0.7) or {"x": 0.25, "y": -0.7}, m or, of an angle, rad; a float stands
+        for the shortest decimal that reads back as it. `iterate`: also the error of the mechanism closed with its
+        clearances taken up, `actual`. Out of reach, `unreachable` names the point that cannot be placed, and the rest is
+        None or empty. With working_mode="all" a list: of the modes that have the pose.
         """
-        values = [float(value) for value in at]
-        if options.get("working_mode") == "all":
-            return ask(lambda own: [Pose(**one) for one in own], "solve_pose_in_modes", self, values, iterate)
-        return ask(lambda own: Pose(**own), "solve_pose", self, values, iterate, **options)
+        values = arguments.pose(self, at)
+        if working_mode == "all":
+            return ask(lambda own: [Pose(**one) for one in own], "solve_pose_in_modes", self, values, bool(iterate))
+        given = arguments.options(self, working_mode=working_mode)
+        return ask(lambda own: Pose(**own), "solve_pose", self, values, bool(iterate), **given)
 
-    def reactions(self, poses: ArrayLike, **options: Any) -> dict[str, np.ndarray]:
+    def reactions(self, poses: ArrayLike, *, working_mode: WorkingMode | None = None) -> dict[str, np.ndarray]:
         """Scalar reactions, N and N m, at poses (n, coordinates): name -> (n,), NaN where a pose is out of reach."""
-        return _clearloci.reactions(self._handle, np.asarray(poses, dtype=float), **options)
+        given = arguments.options(self, working_mode=_single(working_mode))
+        return _clearloci.reactions(self._handle, arguments.poses(self, poses), **given)
 
     def error_map(
-        self, grid: tuple[int, int] = (400, 400), worst_case: bool = True, **options: Any
+        self,
+        grid: tuple[int, int] = (400, 400),
+        worst_case: bool = True,
+        *,
+        working_mode: WorkingMode | None = None,
+        time_limit: float | None = None,
     ) -> ErrorMap | list[ErrorMap]:
-        """The pose error over two coordinates, on a grid of (nx, ny) cells; one map a working mode, of a single one
-        that map.
+        """The pose error over two coordinates, on a grid of (nx, ny) cells; with working_mode="all" a list, one map a
+        mode. `worst_case`: also the bounds over all take-ups.
         """
 
         def maps_of(answer: dict[str, Any]) -> list[ErrorMap]:
             return [ErrorMap(coordinates=answer["coordinates"], **own) for own in answer["modes"]]
 
-        maps = ask(maps_of, "error_map", self, *grid, worst_case, False, **options)
-        return maps[0] if options.get("working_mode") != "all" else maps
+        cells = arguments.counts("grid", grid, 2)
+        given = arguments.options(self, working_mode=working_mode, time_limit=time_limit)
+        maps = ask(maps_of, "error_map", self, *cells, bool(worst_case), False, **given)
+        return maps[0] if working_mode != "all" else maps
 
     def error_volume(
-        self, grid: tuple[int, int, int] = (40, 40, 40), worst_case: bool = True, **options: Any
+        self,
+        grid: tuple[int, int, int] = (40, 40, 40),
+        worst_case: bool = True,
+        *,
+        working_mode: WorkingMode | None = None,
+        time_limit: float | None = None,
     ) -> ErrorVolume | list[ErrorVolume]:
-        """The pose error over three coordinates, on so many cells along each; one a working mode."""
+        """The pose error over three coordinates, on so many cells along each; with working_mode="all" a list, one a
+        mode."""
 
         def volumes_of(answer: dict[str, Any]) -> list[ErrorVolume]:
             return [ErrorVolume(**own) for own in answer["modes"]]
 
-        volumes = ask(volumes_of, "error_volume", self, [int(n) for n in grid], worst_case, **options)
-        return volumes[0] if options.get("working_mode") != "all" else volumes
+        cells = arguments.counts("grid", grid, 3)
+        given = arguments.options(self, working_mode=working_mode, time_limit=time_limit)
+        volumes = ask(volumes_of, "error_volume", self, cells, bool(worst_case), **given)
+        return volumes[0] if working_mode != "all" else volumes
 
     def coordinate_errors(
-        self, steps: int = 720, worst_case: bool = True, **options: Any
+        self,
+        steps: int = 720,
+        worst_case: bool = True,
+        *,
+        working_mode: WorkingMode | None = None,
+        time_limit: float | None = None,
     ) -> CoordinateErrors | list[CoordinateErrors]:
-        """The pose error over a single coordinate, with its jumps at the loci; one a working mode."""
+        """The pose error over a single coordinate, with its jumps at the loci; with working_mode="all" a list, one a
+        mode."""
 
         def errors_of(answer: dict[str, Any]) -> list[CoordinateErrors]:
             return [CoordinateErrors(coordinate=answer["coordinate"], **own) for own in answer["modes"]]
 
-        all_modes = ask(errors_of, "coordinate_errors", self, steps, worst_case, **options)
-        return all_modes[0] if options.get("working_mode") != "all" else all_modes
+        given = arguments.options(self, working_mode=working_mode, time_limit=time_limit)
+        all_modes = ask(errors_of, "coordinate_errors", self, arguments.count("steps", steps), bool(worst_case), **given)
+        return all_modes[0] if working_mode != "all" else all_modes
 
     def trajectory(
         self,
@@ -170,13 +367,26 @@ class Model:
         samples: int = 2000,
         min_force: float | None = None,
         periods: Sequence[float] = (),
-        **options: Any,
+        *,
+        working_mode: WorkingMode | None = None,
     ) -> Trajectory:
-        """What happens along a motion file: reactions with inertia, take-up, contact losses, critical periods; over
-        `periods` (s) the error of each.
+        """What happens along a motion file: reactions with inertia, take-up, contact losses, critical periods.
+
+        `period` (s) takes the place of the file's; `samples`: instants a cycle; `min_force` (N): below it contact counts
+        as lost, 1 % of the largest force at rest unless said; `periods` (s, ascending): the error of each, `sweep`.
         """
-        arguments = (os.fspath(path), period, samples, min_force, [float(p) for p in periods])
-        return ask(lambda own: Trajectory(**own), "follow_trajectory", self, *arguments, **options)
+        given = arguments.options(self, working_mode=_single(working_mode))
+        return ask(
+            lambda own: Trajectory(**own),
+            "follow_trajectory",
+            self,
+            arguments.path("path", path),
+            None if period is None else arguments.positive("period", period, "s"),
+            arguments.count("samples", samples, least=10),
+            None if min_force is None else arguments.positive("min_force", min_force, "N"),
+            [arguments.positive(f"periods[{i}]", value, "s") for i, value in enumerate(periods)],
+            **given,
+        )
 
     def __repr__(self) -> str:
         return f"<clearloci.Model {self.name!r}>"
@@ -188,6 +398,23 @@ class Model:
         self._handle = handle
 
 
+def _plain(name: str, value: Value) -> str:
+    """A value of a parameter as the file would have it."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (bool, bytes)) or not hasattr(value, "__float__"):
+        raise TypeError(f"{name} is {value!r}; give a number, or a text such as '1/3', '2*L' or '12 mm'")
+    if isinstance(value, (float, np.floating)):
+        value = float(value)  # of NumPy, which prints in other ways
+    return str(value)
+
+
+def _single(working_mode: WorkingMode | None) -> WorkingMode | None:
+    if working_mode == "all":
+        raise ValueError("working_mode is 'all'; this answer is of one mode: give one side a dyad")
+    return working_mode
+
+
 def task_of(model: Model, task: Task) -> _clearloci.Task:
     """A task file, a dictionary or an array, read."""
     if isinstance(task, (str, os.PathLike)):
@@ -197,16 +424,22 @@ def task_of(model: Model, task: Task) -> _clearloci.Task:
 
 def text_of(task: Mapping[str, Any] | np.ndarray) -> str:
     """A dictionary or an array as the text of a task file."""
-    content = dict(task) if isinstance(task, Mapping) else {"path": np.asarray(task, dtype=float)}
-    content.setdefault("format", 1)
-    return json.dumps(content, default=lambda value: np.asarray(value).tolist())
+    if not isinstance(task, (Mapping, np.ndarray, list, tuple)):
+        raise TypeError(f"the task is {type(task).__name__}; give a task file, its content as a dictionary, or an array")
+    try:
+        content = dict(task) if isinstance(task, Mapping) else {"path": np.asarray(task, dtype=float)}
+        content.setdefault("format", 1)
+        return json.dumps(content, default=lambda value: np.asarray(value).tolist(), allow_nan=False)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"the task is no content of a task file: {error}") from None
 
 
 def read(path: str | os.PathLike[str]) -> Model:
-    """The mechanism of a file. Raises InputError with file, line, column, what is wrong and how to mend it."""
-    return Model(_clearloci.Model.read(os.fspath(path)))
+    """The mechanism of a file (docs/mechanism-file.md). Raises InputError with file, line, column, what is wrong and how to
+    mend it."""
+    return Model(_clearloci.Model.read(arguments.path("path", path)))
 
 
 def parse(text: str, file: str = "model") -> Model:
     """The same for a text; `file` is the name that errors show."""
-    return Model(_clearloci.Model.parse(text, file))
+    return Model(_clearloci.Model.parse(arguments.text("text", text), arguments.text("file", file)))

@@ -15,27 +15,46 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Pose(Asked):
-    """One pose: places in m, reactions in N and N m, errors in m and rad."""
+    """One pose: places in m, reactions in N and N m, errors in m and rad. True where it is reached; of a pose out of reach
+    the numbers are None, and lists and dictionaries are empty."""
 
     at: list[float]
     working_mode: dict[str, str]
-    unreachable: str | None  #: the first point that cannot be placed; then nothing below is known
+    unreachable: str | None  #: why it is not reached: the first point that cannot be placed, or the limit that it is beyond
     points: dict[str, list[float]]
     reactions: dict[str, dict[str, float]]  #: joint -> {"fx": N, "fy": N, "M": N m}
-    determinant: float
-    condition: float
-    singular: bool
+    determinant: float | None  #: |A|
+    condition: float | None
+    singular: bool | None
     take_up: dict[str, dict[str, Any]]
     error: dict[str, list[float]] | None  #: to the first order: "displacement" (m), "rotation" (rad); None if undefined
-    worst: dict[str, Any]  #: bounds over all take-ups
+    worst: dict[str, Any] | None  #: bounds over all take-ups
     undefined: list[str]  #: joints whose take-up is
     vanishing: list[str]
     actual: dict[str, list[float]] | None  #: beyond the linear step, where it was asked for
+    notes: list[str]
+
+    _stem = "pose"
+
+    def __bool__(self) -> bool:
+        return self.unreachable is None
 
     @property
     def pose_error(self) -> dict[str, list[float]] | None:
         """`error` by its name on the command line."""
         return self.error
+
+    def json(self) -> str:
+        self._require_reach()
+        return super().json()
+
+    def table(self) -> str:
+        self._require_reach()
+        return super().table()
+
+    def _require_reach(self) -> None:
+        if self.unreachable is not None:
+            raise ValueError(f"the pose {self.at} is out of reach: {self.unreachable}")
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from .answers import Asked, Exported
 
 
 @dataclass(frozen=True)
-class PoseVerification(Asked):
+class PoseVerification(Asked, Exported):
     """Whether a task of poses keeps clear of every locus: true where that is proven. m, rad, N, N m."""
 
     verdict: str  #: "verified", "refuted", "undecided"

@@ -15,9 +15,10 @@ def four_bar():
 
 def test_loci_are_validated(four_bar):
     answer = four_bar.validate([300])
-    assert answer and answer.validated and answer.disputed == 0 and answer.held > 300
-    assert answer.grid == [300] and not answer.disputed_edges
-    assert json.loads(answer.json())["held"] == answer.held
+    assert answer and answer.validated and answer.contradicted == 0 and answer.confirmed > 300
+    assert answer.grid == [300] and not answer.contradicted_edges
+    assert json.loads(answer.json())["held"] == answer.confirmed
+    assert all(own["contradicted"] == 0 for own in answer.reactions)
     assert "300 nodes" in answer.table()
     with pytest.raises(cl.InputError):
         four_bar.validate([300, 300])

@@ -469,7 +469,7 @@ class Validate(InOwnFolder):
 
     def test_table(self):
         text = self.run_program("validate", FIVE_BAR, "--grid", "30x40").stdout
-        self.assertIn("0 disputed", text)
+        self.assertIn("0 contradicted", text)
         self.assertIn("M_A1", text)
 
 

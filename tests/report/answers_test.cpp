@@ -200,7 +200,7 @@ TEST(ValidationText, SaysWhatIsDisputedAndWhere) {
   validation.report.disputed_edges.push_back({{0, 1}, {2, 1}, {}, {"A", core::Quantity::M}, 1, false});
   const std::string text = validation_text(validation);
   EXPECT_NE(text.find("Crank: loci against reactions at 3 x 4 nodes"), std::string::npos);
-  EXPECT_NE(text.find("disputed: M_A keeps its sign from (0, 1) to (2, 1), crossed by 1 arcs"), std::string::npos);
+  EXPECT_NE(text.find("contradicted: M_A keeps its sign from (0, 1) to (2, 1), crossed by 1 arcs"), std::string::npos);
 }
 
 TEST(PoseInModesObject, HoldsTheModesThatHaveThePose) {
