@@ -1,4 +1,5 @@
 // Each point uses only points above it: cycles and uses of later points, before any point is read.
+// Private to mechanism/.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// What texts of each kind are made of: docs/mechanism-file.md, the README on tasks and trajectories, and numbers at
-// which arithmetic changes its mind.
+// What texts of each kind are made of: docs/mechanism-file.md, docs/task-files.md, and numbers at which
+// arithmetic changes its mind.
 #include <stdexcept>
 
 #include "tests/fuzz/mutate_text.hpp"
