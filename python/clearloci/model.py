@@ -24,7 +24,7 @@ Engine = Literal["adaptive-then-exact", "exact", "adaptive"]
 
 
 class Model:
-    """What a mechanism file says, with values of parameters put in.
+    """What a mechanism file says, with values of parameters put in::
 
         m = clearloci.read("five_bar.yaml")
         m.coordinates                         # {'x': (-0.5, 1.0), 'y': (-1.0, 1.0)}, m
@@ -38,14 +38,14 @@ class Model:
 
     Arguments that many questions share:
 
-    working_mode: how the legs are assembled. None: as in the file; "right,left", ["right", "left"] or
-        {"B1": "right", "B2": "left"}: one side a dyad, as `m.working_mode` names them; "all": every combination.
-    joint: the joints whose reactions count, "A1" or ["A1", "P"]. None: all that have a clearance, or all.
-    quantity: what vanishes: "f" forces, "M" couples, "F" axial forces, "N", "T" of a guide, components "fx" to "mz".
-    min_force, min_couple: N and N m: also the curves on which a force or a couple has this value.
-    tolerance: the largest distance of a chord from its curve, m; None: 1e-5.
-    engine: "adaptive" (subdivision), "exact" (arrangement of curves), or "adaptive-then-exact".
-    time_limit: s, after which the answer says what is known by then, with `complete` False.
+    - `working_mode`: how the legs are assembled. None: as in the file; "right,left", ["right", "left"] or
+      {"B1": "right", "B2": "left"}: one side a dyad, as `m.working_mode` names them; "all": every combination.
+    - `joint`: the joints whose reactions count, "A1" or ["A1", "P"]. None: all that have a clearance, or all.
+    - `quantity`: what vanishes: "f" forces, "M" couples, "F" axial forces, "N", "T" of a guide, components "fx" to "mz".
+    - `min_force`, `min_couple`: N and N m: also the curves on which a force or a couple has this value.
+    - `tolerance`: the largest distance of a chord from its curve, m; None: 1e-5.
+    - `engine`: "adaptive" (subdivision), "exact" (arrangement of curves), or "adaptive-then-exact".
+    - `time_limit`: s, after which the answer says what is known by then, with `complete` False.
 
     A wrong argument raises TypeError or ValueError; what is wrong with a file or a mechanism raises InputError, which is a
     ValueError with file, line, column, what is wrong and how to mend it.
