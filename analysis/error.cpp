@@ -18,7 +18,7 @@ namespace {
 
 /// A map that a time limit ended before there was a tower of roots has no working modes to name; the errors have.
 core::LocusMap with_modes(const mechanism::Mechanism& mechanism, core::LocusMap loci) {
-  if (!loci.complete && loci.tower.roots.empty()) loci.tower.roots = empty_map(mechanism).tower.roots;
+  if (loci.out_of_time && loci.tower.roots.empty()) loci.tower.roots = empty_map(mechanism).tower.roots;
   return loci;
 }
 

@@ -182,6 +182,11 @@ core::LocusMap from_frame(core::LocusMap map, const mechanism::Mechanism& mechan
   for (core::SpaceCurve& curve : map.space_curves) outward.move(curve);
   for (core::IsolatedPoint& point : map.isolated_points)
     for (std::size_t i = 0; i < point.at.size(); ++i) point.at[i] = outward.value(point.at[i], i);
+  for (core::OpenRegion& region : map.open)
+    for (std::size_t i = 0; i < region.lower.size(); ++i) {
+      region.lower[i] = outward.value(region.lower[i], i);
+      region.upper[i] = outward.value(region.upper[i], i);
+    }
   for (core::WorkspaceRegion& region : map.workspace)
     for (core::Polyline& ring : region.rings) outward.move(ring);
   for (core::ReachableInterval& interval : map.reachable) {

@@ -221,7 +221,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
 /// Whether the working modes traced place the mechanism at no pose of the workspace, as where a length is too short. Of
 /// surfaces that is not known.
 bool closes_nowhere(const core::LocusMap& map) {
-  if (!map.complete || map.lower.size() > 2) return false;
+  if (map.out_of_time || !map.open.empty() || map.lower.size() > 2) return false;
   if (!map.curves.empty() || !map.isolated_points.empty()) return false;
   return map.reachable.empty() && std::all_of(map.workspace.begin(), map.workspace.end(),
                                               [](const auto& region) { return region.rings.empty(); });
@@ -299,6 +299,7 @@ core::LocusMap unfinished_map(const mechanism::Mechanism& mechanism, const std::
   core::LocusMap map = empty_map(mechanism);
   map.tower.roots.clear();
   map.complete = false;
+  map.out_of_time = true;
   map.notes = {reason};
   return map;
 }
@@ -389,7 +390,7 @@ core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociReques
     if (std::find(quantities.begin(), quantities.end(), reaction.quantity) == quantities.end())
       quantities.push_back(reaction.quantity);
   core::LocusMap map = trace_loci(mechanism, request);
-  if (!map.complete)
+  if (map.out_of_time)
     throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
   numeric::ValidationReport report = numeric::validate(mechanism, map, grid, reactions);
   std::vector<int> nodes = {grid.nx, grid.ny, grid.nz};

@@ -133,7 +133,7 @@ class Verifier {
     std::vector<TracedProblem> all;
     for (const LoadCase& one : cases_) {
       all.push_back(on_sheet_of(task_, trace_problem(one.mechanism, request_, {}, effort)));
-      if (all.back().map.complete) continue;
+      if (!all.back().map.out_of_time) continue;
       notes_.emplace_back("the loci could not be traced within the time limit");
       return;
     }
@@ -377,7 +377,7 @@ void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verifi
     traced = on_sheet_of(result.task, trace_problem(mechanism, verifier.request(), {}, verifier.effort()));
   else if (verifier.traced())
     traced = verifier.traced()->front();
-  if (traced && traced->map.complete) {
+  if (traced && !traced->map.out_of_time) {
     const bool sketch = verifier.effort() == TraceEffort::sketch;
     result.map = loci::zones(traced->problem, std::move(traced->map), sketch).map;
     result.notes = result.map.loci.notes;

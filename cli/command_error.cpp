@@ -71,7 +71,7 @@ int run_over_coordinate(const ErrorCommand& arguments, const std::set<std::strin
   const auto files = report::write_answer(errors, output_folder(arguments.common), formats);
   progress.clear();
   print(arguments, errors, report::coordinate_errors_object, report::coordinate_errors_text, files);
-  if (errors.loci.complete) return exit_done;
+  if (!errors.loci.out_of_time) return exit_done;
   throw core::LimitReached("the time limit was reached; loci are missing from the pictures, the errors are whole");
 }
 
@@ -143,7 +143,7 @@ int run(const ErrorCommand& arguments, TimeLimit& limit) {
   limit.writing();
   const auto files = report::write_answer(errors, output_folder(arguments.common), formats);
   print(arguments, errors, report::error_object, report::error_text, files);
-  if (errors.loci.complete) return exit_done;
+  if (!errors.loci.out_of_time) return exit_done;
   throw core::LimitReached("the time limit was reached; the loci in the pictures are incomplete, the errors are not");
 }
 

@@ -67,7 +67,7 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
     fmt::print("{}\n", report::loci_table(map, arguments.exact));
     fmt::print("{}", written_words(folder, files));
   }
-  if (map.complete) return exit_done;
+  if (!map.out_of_time) return map.complete ? exit_done : exit_limit_reached;
   throw core::LimitReached(fmt::format("the time limit was reached; what is known is in {}, marked incomplete",
                                        core::printable(folder.string())));
 }

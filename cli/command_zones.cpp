@@ -80,7 +80,7 @@ int run(const ZonesCommand& arguments, TimeLimit& limit) {
     fmt::print("{}\n", report::zones_table(map));
     fmt::print("{}", written_words(folder, files));
   }
-  return exit_done;
+  return map.loci.complete ? exit_done : exit_limit_reached;
 }
 
 }  // namespace

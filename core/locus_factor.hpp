@@ -19,6 +19,20 @@ namespace clearloci::inline core {
 /// not.
 enum class FactorRole { reaction, margin, direct_singularity, workspace_boundary, construction };
 
+/// Of a function that is a quadratic form in others, its parts: where all of these vanish it has a node. That is three
+/// equations or more, of which two imply the others:
+///     probes[i] parts[k] = probes[k] parts[i] + (a multiple of parts.back())   for i, k < parts.size() - 1
+/// so that where parts[i] and parts.back() vanish and probes[i] does not, all parts do. The same holds between the parts
+/// and probes of all forms of a problem that have one last part.
+struct NodeForm {
+  struct Part {
+    Polynomial sheet;
+    StraightLine line;  ///< occurs in the function's line
+  };
+  std::vector<Part> parts;
+  std::vector<StraightLine> probes;  ///< one a part but for the last
+};
+
 /// One factor of a numerator, of |A|, or of a Qj.
 struct LocusFactor {
   FactorRole role = FactorRole::reaction;
@@ -42,6 +56,8 @@ struct LocusFactor {
   /// Of a margin: what its equation was multiplied by to be a polynomial, and how often. Where that vanishes too,
   /// orders of vanishing decide.
   std::vector<std::pair<Polynomial, int>> cleared;
+  /// Where it is known how its nodes arise.
+  std::optional<NodeForm> nodes = {};
 };
 
 /// Everything needed to trace: no mechanism any more, only curves. Where a coordinate is an angle, the variable of the

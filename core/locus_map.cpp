@@ -40,6 +40,10 @@ std::string to_string(ArcEnd end) {
   return {};
 }
 
+bool is_open_place_of(const OpenRegion& region, const LocusCurve& curve) {
+  return region.mode == curve.mode && region.kind == curve.kind && region.factor == curve.factor;
+}
+
 std::string to_string(Engine engine) {
   switch (engine) {
     case Engine::adaptive_then_exact:

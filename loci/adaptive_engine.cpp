@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "loci/arc_check.hpp"
+#include "loci/edge_labels.hpp"
 #include "loci/exact_engine.hpp"
 #include "loci/sheet_loci.hpp"
 #include "loci/sheet_maps.hpp"
@@ -218,8 +219,9 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
     const std::optional<LocusProblem> own = problem_of(problem, open);
     if (!own) return;
     LocusMap exact = trace_exactly(*own, options, replacing(problem, open));
-    if (!exact.complete) throw core::LimitReached("the time limit was reached");
+    if (exact.out_of_time) throw core::LimitReached("the time limit was reached");
     for (LocusCurve& curve : exact.curves) map.curves.push_back(std::move(curve));
+    for (core::OpenRegion& region : exact.open) map.open.push_back(std::move(region));
     take_points_and_notes(exact, map);
     for (SheetShare* share : open) share->settled = true;
   }
@@ -274,7 +276,7 @@ LocusMap gathered(const LocusProblem& problem, const TraceOptions& options, cons
   try {
     if (options.engine != Engine::adaptive && !options.sketch) settle_exactly(problem, options, shares, map);
   } catch (const core::LimitReached&) {
-    map.complete = false;  // what is open stays so
+    map.out_of_time = true;  // what is open stays so
   }
   add_sheet_loci(problem, shares, algebras, map);
   return map;

@@ -5,6 +5,8 @@
 #include <deque>
 #include <limits>
 
+#include "loci/open_regions.hpp"
+
 namespace clearloci::loci {
 namespace {
 
@@ -141,23 +143,39 @@ std::deque<ArcCheck> checks_of(const core::LocusProblem& problem, const core::Lo
   return checks;
 }
 
-/// What is left of an arc without the vertices that fail, but for pieces that chords of a curve elsewhere may be.
-std::vector<core::Arc> sound_pieces(const core::Arc& arc, std::deque<ArcCheck>& checks, double tolerance) {
-  constexpr std::size_t fewest = 4;  // vertices that no place with a few wrong ones has by chance
+struct Sound {
   std::vector<core::Arc> pieces;
+  std::vector<PlaneBox> gaps;  ///< what is between them
+};
+
+/// What is left of an arc without the vertices that fail, but for pieces that chords of a curve elsewhere may be.
+Sound sound_pieces(const core::Arc& arc, std::deque<ArcCheck>& checks, double tolerance) {
+  constexpr std::size_t fewest = 4;  // vertices that no place with a few wrong ones has by chance
+  Sound sound;
   core::Arc piece;
+  std::size_t told = 0;  // the last vertex of the piece before
   const auto held = [&](const core::Point2& at, core::ArcEnd end) {
     return std::any_of(checks.begin(), checks.end(), [&](ArcCheck& check) { return check.holds(at, end); });
   };
-  const auto finish = [&] {
-    if (piece.points.size() >= fewest && piece.length > 2 * tolerance * static_cast<double>(piece.points.size()))
-      pieces.push_back(piece);
+  const auto leave_out = [&](std::size_t from, std::size_t to) {
+    if (to > from)
+      sound.gaps.push_back(extent_of({arc.points.begin() + static_cast<std::ptrdiff_t>(from),
+                                      arc.points.begin() + static_cast<std::ptrdiff_t>(to) + 1}));
+  };
+  // A piece that ends before vertex `next`.
+  const auto finish = [&](std::size_t next) {
+    const std::size_t count = piece.points.size();
+    if (count >= fewest && piece.length > 2 * tolerance * static_cast<double>(count)) {
+      leave_out(told, next - count);
+      told = next - 1;
+      sound.pieces.push_back(piece);
+    }
     piece = {};
   };
   for (std::size_t i = 0; i < arc.points.size(); ++i) {
     const core::Point2& at = arc.points[i];
     if (!held(at, core::ArcEnd::none)) {
-      finish();
+      finish(i);
       continue;
     }
     if (!piece.points.empty())
@@ -166,8 +184,9 @@ std::vector<core::Arc> sound_pieces(const core::Arc& arc, std::deque<ArcCheck>& 
     if (i == 0 && held(at, arc.ends[0])) piece.ends[0] = arc.ends[0];
     if (i + 1 == arc.points.size() && held(at, arc.ends[1])) piece.ends[1] = arc.ends[1];
   }
-  finish();
-  return pieces;
+  finish(arc.points.size());
+  leave_out(told, arc.points.size() - 1);
+  return sound;
 }
 
 }  // namespace
@@ -205,9 +224,13 @@ bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map)
     std::deque<ArcCheck> checks = checks_of(problem, curve);
     for (std::size_t last = next; last-- > first;) {
       const auto place = curve.arcs.begin() + static_cast<std::ptrdiff_t>(wrong[last].arc);
-      std::vector<core::Arc> pieces;
-      if (wrong[last].fault.in_vertices) pieces = sound_pieces(*place, checks, problem.tolerance);
-      curve.arcs.insert(curve.arcs.erase(place), pieces.begin(), pieces.end());
+      Sound sound;
+      if (wrong[last].fault.in_vertices)
+        sound = sound_pieces(*place, checks, problem.tolerance);
+      else
+        sound.gaps = {extent_of(place->points.empty() ? core::Polyline{wrong[last].fault.at} : place->points)};
+      for (const PlaneBox& gap : sound.gaps) leave_open(label_of(curve), curve.mode, gap, map);
+      curve.arcs.insert(curve.arcs.erase(place), sound.pieces.begin(), sound.pieces.end());
     }
   }
   std::erase_if(map.curves, [](const core::LocusCurve& curve) { return curve.arcs.empty(); });

@@ -226,6 +226,7 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   LocusMap joined = maps.front();
   joined.curves.clear();
   joined.isolated_points.clear();
+  joined.open.clear();
   joined.workspace.clear();
   joined.tolerance = tolerance;
   joined.angles = {charts.front()->charts[0].has_value(), charts.front()->charts[1].has_value()};
@@ -234,6 +235,14 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   for (std::size_t m = 0; m < maps.size(); ++m) {
     Unrolled own(*charts[m], maps[m], tolerance);
     joined.complete = joined.complete && maps[m].complete;
+    joined.out_of_time = joined.out_of_time || maps[m].out_of_time;
+    for (core::OpenRegion region : maps[m].open) {
+      const Point2 from = own.place({region.lower[0], region.lower[1]});
+      const Point2 to = own.place({region.upper[0], region.upper[1]});
+      region.lower = {from[0], from[1]};
+      region.upper = {to[0], to[1]};
+      joined.open.push_back(std::move(region));
+    }
     for (const std::string& note : maps[m].notes)
       if (std::find(joined.notes.begin(), joined.notes.end(), note) == joined.notes.end()) joined.notes.push_back(note);
     for (std::size_t c = 0; c < maps[m].curves.size(); ++c) {

@@ -80,7 +80,10 @@ LocusMap join_point_charts(const std::vector<const LocusProblem*>& charts, const
     for (ReachableInterval& interval : reachable_of(charts, maps, mode))
       joined.reachable.push_back(std::move(interval));
   }
-  for (const LocusMap& map : maps) joined.complete = joined.complete && map.complete;
+  for (const LocusMap& map : maps) {
+    joined.complete = joined.complete && map.complete;
+    joined.out_of_time = joined.out_of_time || map.out_of_time;
+  }
   return joined;
 }
 

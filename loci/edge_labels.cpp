@@ -124,6 +124,41 @@ EdgeLabel reaction_label(const LocusProblem& problem, const ReactionOrders& orde
   return label;
 }
 
+bool shares_curve(const core::LocusFactor& a, const core::LocusFactor& b) {
+  return std::any_of(a.implicit.begin(), a.implicit.end(), [&](const core::Polynomial& p) {
+    return std::find(b.implicit.begin(), b.implicit.end(), p) != b.implicit.end();
+  });
+}
+
+EdgeLabel label_of(const LocusProblem& problem, const std::vector<int>& factors) {
+  const core::LocusFactor& first = problem.factors[static_cast<std::size_t>(factors.front())];
+  switch (first.role) {
+    case FactorRole::margin:
+      return {LocusKind::margin, first.vanishing, first.expression, first.cause};
+    case FactorRole::direct_singularity:
+      return {LocusKind::direct_singularity, {}, first.expression, first.cause};
+    case FactorRole::workspace_boundary:
+      return {LocusKind::workspace_boundary, {}, first.expression, first.cause};
+    default:
+      break;
+  }
+  std::vector<const core::LocusFactor*> all;
+  for (const int f : factors) all.push_back(&problem.factors[static_cast<std::size_t>(f)]);
+  return reaction_label(problem, all);
+}
+
+EdgeLabel widest_label(const LocusProblem& problem, std::size_t f) {
+  const core::LocusFactor& factor = problem.factors[f];
+  std::vector<int> together = {static_cast<int>(f)};
+  for (std::size_t k = 0; factor.role == FactorRole::reaction && k < problem.factors.size(); ++k) {
+    const core::LocusFactor& other = problem.factors[k];
+    if (k != f && other.role == FactorRole::reaction && shares_curve(factor, other))
+      together.push_back(static_cast<int>(k));
+  }
+  EdgeLabel own = label_of(problem, {static_cast<int>(f)});
+  return own.vanishing.empty() && together.size() > 1 ? label_of(problem, together) : own;
+}
+
 namespace {
 
 /// An edge's points are in general position for all but a few polynomials: another one is tried where one of these

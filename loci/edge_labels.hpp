@@ -46,6 +46,15 @@ EdgeLabel reaction_label(const core::LocusProblem& problem, const std::vector<co
 /// The same along an arc on which orders of vanishing were compared, from the reaction factors that vanish there.
 EdgeLabel reaction_label(const core::LocusProblem& problem, const ReactionOrders& orders);
 
+/// Whether an implicit polynomial is of both.
+bool shares_curve(const core::LocusFactor& a, const core::LocusFactor& b);
+
+/// What vanishes where all the given factors of the problem do; several are reactions.
+EdgeLabel label_of(const core::LocusProblem& problem, const std::vector<int>& factors);
+
+/// What a factor's curves may be called: alone, or where others that share them vanish too.
+EdgeLabel widest_label(const core::LocusProblem& problem, std::size_t factor);
+
 /// For every edge, in one mode. `curve_of`: arrangement curve of each factor's implicit polynomials.
 std::vector<EdgeInMode> label_edges(const core::LocusProblem& problem, const core::WorkingMode& mode,
                                     const CurveArrangement& arrangement,

@@ -10,6 +10,7 @@
 #include "loci/arcs.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/isolated_points.hpp"
+#include "loci/open_regions.hpp"
 #include "loci/plane_curve.hpp"
 #include "loci/sheet/star.hpp"
 #include "loci/vertex_placement.hpp"
@@ -68,7 +69,7 @@ class ExactTrace {
     report(0.5, "working modes");
     for (std::size_t m = 0; m < problem_.modes.size(); ++m) {
       if (options_.deadline && std::chrono::steady_clock::now() > *options_.deadline) {
-        map_.complete = false;
+        map_.out_of_time = true;
         break;
       }
       trace_mode(problem_.modes[m]);
@@ -222,13 +223,11 @@ class ExactTrace {
       if (const Point2 at = {point.at[0], point.at[1]}; point.kind == LocusKind::direct_singularity && is_cone(at))
         mark_at(at, marks.direct_singularity);
     }
-    const auto open =
-        std::find_if(edges.begin(), edges.end(), [](const EdgeInMode& edge) { return !edge.decided; }) - edges.begin();
-    const bool decided = open == static_cast<std::ptrdiff_t>(edges.size());
-    if (!decided) {
-      const Point2 at = position(arrangement_.edges()[static_cast<std::size_t>(open)].from);
-      map_.notes.push_back("a sign on an arc from (" + std::to_string(at[0]) + ", " + std::to_string(at[1]) +
-                           ") could not be decided");
+    bool decided = true;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (edges[e].decided) continue;
+      decided = false;
+      leave_edge_open(static_cast<int>(e), mode);
     }
 
     struct Group {
@@ -268,6 +267,21 @@ class ExactTrace {
       if (!curve.arcs.empty()) map_.curves.push_back(std::move(curve));
     }
     if (!is_wanted_) add_workspace(mode, edges);
+  }
+
+  /// Of every factor whose curve it lies on: which of them vanish on it in the mode is not known.
+  void leave_edge_open(int edge, const WorkingMode& mode) {
+    const int index = arrangement_.edges()[static_cast<std::size_t>(edge)].curve;
+    for (std::size_t f = 0; f < problem_.factors.size(); ++f) {
+      const auto& own = list_.of_factor[f];
+      if (std::find(own.begin(), own.end(), index) == own.end()) continue;
+      const EdgeLabel label = widest_label(problem_, f);
+      LocusCurve curve;
+      curve.kind = label.kind;
+      curve.mode = mode;
+      curve.implicit = arrangement_.curves()[static_cast<std::size_t>(index)];
+      if (!is_wanted_ || is_wanted_(curve)) leave_open(label, mode, extent_of(line_of(edge)), map_);
+    }
   }
 
   /// The edges between workspace and outside, joined to rings.

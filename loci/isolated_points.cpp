@@ -283,7 +283,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
           add_without_limit({zero.x, zero.y});
       }
       if (stop && stop()) {
-        map.complete = false;
+        map.out_of_time = true;
         return;
       }
       // What no proof was had for is a point where Newton finds one, and else only worth a note.

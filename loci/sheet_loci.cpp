@@ -12,6 +12,8 @@
 #include "loci/arcs.hpp"
 #include "loci/edge_labels.hpp"
 #include "loci/isolated_points.hpp"
+#include "loci/margin_nodes.hpp"
+#include "loci/open_regions.hpp"
 #include "loci/plane_curve.hpp"
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/patch.hpp"
@@ -37,37 +39,12 @@ constexpr double on_curve = 1e-9;
 // Of a patch: several times what a curve without doubtful places takes.
 constexpr int patch_cells_of_a_sketch = 8000;
 
-/// What vanishes where all the given factors do.
-EdgeLabel label_of(const LocusProblem& problem, const std::vector<int>& factors) {
-  const LocusFactor& first = problem.factors[static_cast<std::size_t>(factors.front())];
-  switch (first.role) {
-    case FactorRole::margin:
-      return {LocusKind::margin, first.vanishing, first.expression, first.cause};
-    case FactorRole::direct_singularity:
-      return {LocusKind::direct_singularity, {}, first.expression, first.cause};
-    case FactorRole::workspace_boundary:
-      return {LocusKind::workspace_boundary, {}, first.expression, first.cause};
-    default:
-      break;
-  }
-  std::vector<const LocusFactor*> all;
-  for (const int f : factors) all.push_back(&problem.factors[static_cast<std::size_t>(f)]);
-  return reaction_label(problem, all);
-}
-
 /// Curves of the factor are asked for: alone, or where others vanish too.
 bool is_wanted(const LocusProblem& problem, std::size_t f) {
   const LocusFactor& factor = problem.factors[f];
   if (factor.implicit.empty() && !factor.implicit_too_heavy) return false;
   if (factor.role == FactorRole::construction) return false;
-  if (factor.role != FactorRole::reaction) return true;
-  std::vector<int> together = {static_cast<int>(f)};
-  for (std::size_t k = 0; k < problem.factors.size(); ++k) {
-    const LocusFactor& other = problem.factors[k];
-    if (k != f && other.role == FactorRole::reaction && shares_curve(factor, other))
-      together.push_back(static_cast<int>(k));
-  }
-  return !label_of(problem, together).vanishing.empty();
+  return factor.role != FactorRole::reaction || !widest_label(problem, f).vanishing.empty();
 }
 
 /// The curve of a list that a point lies on.
@@ -178,7 +155,7 @@ core::Polyline close_vertices(const core::Polyline& points, const core::ClosedFo
 
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
                               const CurveAlgebras& algebras, const std::vector<sheet::NestedMeeting>& nested,
-                              sheet::SheetTraceOptions options) {
+                              const MarginNodes& nodes, sheet::SheetTraceOptions options) {
   std::vector<PlaneCurve> curves;
   std::vector<core::ClosedForm> forms;
   std::vector<std::shared_ptr<CurveAlgebra>> algebra;
@@ -194,6 +171,7 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
     corner.singular = is_singular(problem, mode, corner);
     options.special.push_back(std::move(corner));
   }
+  for (sheet::Star& node : nodes.of(factor)) options.special.push_back(std::move(node));
   std::vector<sheet::Cutter> cutters;
   std::vector<const LocusFactor*> shared;
   const bool cut = factor.role == FactorRole::reaction || factor.role == FactorRole::margin;
@@ -302,15 +280,10 @@ class Gathering {
 
   void note(const SheetShare& share) {
     const LocusFactor& own = factor(share);
-    if (share.traced.stopped) map_.complete = false;
-    if (!share.traced.certified && !share.traced.stopped) {
-      const sheet::Region& first = share.traced.undecided.front();
-      const std::size_t count = share.traced.undecided.size();
-      map_.notes.push_back((count == 1 ? "an undecided cell on " : std::to_string(count) + " undecided cells on ") +
-                           (own.cause.empty() ? own.expression.substr(0, 60) : own.cause) +
-                           (count == 1 ? ", near (" : ", the first near (") +
-                           std::to_string(0.5 * (first.x0 + first.x1)) + ", " +
-                           std::to_string(0.5 * (first.y0 + first.y1)) + ")");
+    if (share.traced.stopped) map_.out_of_time = true;
+    if (!share.traced.certified) {
+      const EdgeLabel label = widest_label(problem_, static_cast<std::size_t>(share.factor));
+      for (const sheet::Region& region : share.traced.undecided) leave_open(label, mode(share), {region.x0, region.x1, region.y0, region.y1}, map_);
     }
     const EdgeLabel label = label_of(problem_, {share.factor});
     if (own.role == FactorRole::reaction && label.vanishing.empty()) return;
@@ -408,7 +381,14 @@ class Gathering {
     const core::Polynomial implicit =
         own.implicit.empty() ? core::Polynomial{2, {}} : own.implicit[static_cast<std::size_t>(traced.colour)];
     std::optional<EdgeLabel> label = label_along(share, traced, implicit);
-    if (!label || (own.role == FactorRole::reaction && label->vanishing.empty())) return;
+    if (!label) return;
+    if (own.role == FactorRole::reaction && label->vanishing.empty()) {
+      // Another reaction may vanish there too, and be one that is asked for.
+      if (!label->proven)
+        leave_open(widest_label(problem_, static_cast<std::size_t>(share.factor)), mode(share),
+                   extent_of(traced.arc.points), map_);
+      return;
+    }
     const bool certified = share.traced.certified && label->proven;
     label->proven = true;
     auto curve = std::find_if(curves_.begin(), curves_.end(), [&](const LocusCurve& c) {
@@ -439,12 +419,6 @@ class Gathering {
 
 }  // namespace
 
-bool shares_curve(const LocusFactor& a, const LocusFactor& b) {
-  return std::any_of(a.implicit.begin(), a.implicit.end(), [&](const core::Polynomial& p) {
-    return std::find(b.implicit.begin(), b.implicit.end(), p) != b.implicit.end();
-  });
-}
-
 std::shared_ptr<const CurveAlgebras> curve_algebras(const LocusProblem& problem, const TraceOptions& options) {
   const auto make = [&] { return std::make_shared<const CurveAlgebras>(problem.tower); };
   if (options.known == nullptr) return make();
@@ -474,6 +448,10 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   }
 
   const std::vector<sheet::NestedMeeting> nested = sheet::nested_meetings(problem.tower);
+  std::vector<MarginNodes> nodes;
+  for (std::size_t m = 0; m < problem.modes.size(); ++m)
+    nodes.emplace_back(problem, problem.modes[m],
+                       sheet::ZeroOptions{.special = special[m], .stop = sheet_options.stop, .known = options.known});
 
   std::vector<SheetShare> shares;
   for (std::size_t m = 0; m < problem.modes.size(); ++m)
@@ -502,7 +480,8 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
       own.whole_or_nothing = true;
       own.most_cells = settled_after[factor];
     }
-    share.traced = trace_share(problem, problem.factors[factor], problem.modes[mode], algebras, nested, std::move(own));
+    share.traced = trace_share(problem, problem.factors[factor], problem.modes[mode], algebras, nested, nodes[mode],
+                               std::move(own));
     const std::lock_guard lock(mutex);
     if (options.progress)
       options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");

@@ -19,9 +19,6 @@ struct SheetShare {
   bool settled = false;  ///< its curves are known from elsewhere
 };
 
-/// Whether an implicit polynomial is of both.
-bool shares_curve(const core::LocusFactor& a, const core::LocusFactor& b);
-
 /// The algebra of a problem's curves, as far as it is known already where the problem is traced again.
 std::shared_ptr<const CurveAlgebras> curve_algebras(const core::LocusProblem& problem, const TraceOptions& options);
 

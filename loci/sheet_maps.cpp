@@ -87,12 +87,15 @@ void drop_own_roots(LocusMap& map) {
   for (core::LocusSurface& surface : map.surfaces) surface.mode.resize(kept, 1);
   for (core::SpaceCurve& curve : map.space_curves) curve.mode.resize(kept, 1);
   for (core::IsolatedPoint& point : map.isolated_points) point.mode.resize(kept, 1);
+  for (core::OpenRegion& region : map.open) region.mode.resize(kept, 1);
   for (core::WorkspaceRegion& region : map.workspace) region.mode.resize(kept, 1);
   for (core::ReachableInterval& interval : map.reachable) interval.mode.resize(kept, 1);
 }
 
 void append_sheets(LocusMap& joined, LocusMap map) {
   joined.complete = joined.complete && map.complete;
+  joined.out_of_time = joined.out_of_time || map.out_of_time;
+  joined.open.insert(joined.open.end(), map.open.begin(), map.open.end());
   for (const std::string& note : map.notes)
     if (std::find(joined.notes.begin(), joined.notes.end(), note) == joined.notes.end()) joined.notes.push_back(note);
   for (LocusCurve& curve : map.curves) joined.curves.push_back(std::move(curve));

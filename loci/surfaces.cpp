@@ -338,15 +338,17 @@ LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const Su
   std::vector<std::unique_ptr<ModeSurfaces>> modes;
   for (const core::WorkingMode& mode : problem.modes)
     modes.push_back(std::make_unique<ModeSurfaces>(charts, mode, level, stop));
-  map.complete = mesh_all(modes, options.trace, stop);
+  map.out_of_time = !mesh_all(modes, options.trace, stop);
   for (const auto& mode : modes)
     for (std::size_t f = 0; f < mode->size(); ++f) mode->add(f, map);
   try {
     for (const core::WorkingMode& mode : problem.modes)
-      if (map.complete) add_space_curves(charts, mode, stop, map);
+      if (!map.out_of_time) add_space_curves(charts, mode, stop, map);
   } catch (const core::LimitReached&) {
-    map.complete = false;
+    map.out_of_time = true;
   }
+  map.complete = !map.out_of_time && std::all_of(map.surfaces.begin(), map.surfaces.end(),
+                                                 [](const auto& surface) { return surface.within_resolution; });
   map.tower = names_of(problem.tower);
   map.lower = problem.lower;
   map.upper = problem.upper;

@@ -7,6 +7,7 @@
 #include "loci/adaptive_engine.hpp"
 #include "loci/exact_engine.hpp"
 #include "loci/isolated_points.hpp"
+#include "loci/open_regions.hpp"
 #include "loci/points.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
 #include "loci/sheet_maps.hpp"
@@ -66,13 +67,17 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
       add_points(problem, options, found.withheld, map);
     }
   } catch (const core::LimitReached&) {
-    map.complete = false;
+    map.out_of_time = true;
   }
   map.tower = names_of(problem.tower);
   map.lower = problem.lower;
   map.upper = problem.upper;
   map.tolerance = problem.tolerance;
-  if (options.sketch) map.notes.clear();  // what a sketch leaves open says nothing about the mechanism
+  if (options.sketch) {  // what a sketch leaves open says nothing about the mechanism
+    map.notes.clear();
+    map.open.clear();
+  }
+  finish_open_regions(map);
   sort_and_name(map, problem.modes);
   return map;
 }

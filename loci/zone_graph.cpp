@@ -11,6 +11,7 @@
 #include "loci/circle_crossings.hpp"
 #include "loci/curve_arrangement.hpp"
 #include "loci/curve_projection.hpp"
+#include "loci/margin_nodes.hpp"
 #include "loci/near_passes.hpp"
 #include "loci/segment_crossings.hpp"
 #include "loci/sheet/apex.hpp"
@@ -148,12 +149,16 @@ class Builder {
   void collect_strands() {
     for (std::size_t c = 0; c < map_.curves.size(); ++c) {
       const core::LocusCurve& curve = map_.curves[c];
-      if (curve.mode != mode_ || !cuts_workspace(curve)) continue;
+      if (curve.mode != mode_ || !cuts_workspace(curve.kind)) continue;
       if (!curve.certified) doubt_for_good("curve " + curve.id + " is not certified");
       for (const core::Arc& arc : curve.arcs) {
         if (arc.points.size() > 1) strands_.push_back({static_cast<int>(c), arc.closed, arc.points, {}});
       }
     }
+    for (const core::OpenRegion& region : map_.open)
+      if (region.mode == mode_ && cuts_workspace(region.kind))
+        doubt_for_good("what is open of " + (region.cause.empty() ? region.factor.substr(0, 60) : region.cause) +
+                       " may run through them");
     const Polyline corners = {low_, {high_[0], low_[1]}, high_, {low_[0], high_[1]}, low_};
     for (std::size_t i = 0; i < 4; ++i) strands_.push_back({box_owner, false, {corners[i], corners[i + 1]}, {}});
   }
@@ -278,6 +283,8 @@ class Builder {
     }
     sheet::ZeroOptions effort = effort_;
     effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
+    if (!margin_nodes_) margin_nodes_ = std::make_unique<MarginNodes>(problem_, mode_, effort_);
+    for (sheet::Star& node : margin_nodes_->of(*first, *second)) effort.special.push_back(std::move(node));
     if (first != second)
       return add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line},
                                              {second->sheet, second->line}, lower, upper, effort));
@@ -656,13 +663,14 @@ class Builder {
   std::map<const Strand*, BoxedPolyline> boxed_;
   std::map<int, BoxedPolyline> boxed_edges_;
   CurveProjections& projections_;
+  std::unique_ptr<MarginNodes> margin_nodes_;     // made where two curves may meet
   std::unique_ptr<sheet::SheetProgram> factors_;  // made where a curve touches a side
   ZoneGraph result_;
 };
 
 }  // namespace
 
-bool cuts_workspace(const core::LocusCurve& curve) { return curve.kind != LocusKind::component; }
+bool cuts_workspace(LocusKind kind) { return kind != LocusKind::component; }
 
 ZoneGraph zone_graph(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
                      CurveProjections& projections, bool sketch) {

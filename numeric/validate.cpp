@@ -78,6 +78,12 @@ class ModeValidation {
     for (const auto& reaction : traced)
       if (CheckedReaction own = checked_reaction(model, reaction); own.columns.pin < 0)
         reactions_.push_back(std::move(own));
+    for (const core::OpenRegion& region : map.open)
+      if (region.mode == mode) open_.push_back({&region, {}});
+    for (Open& own : open_)
+      for (const CheckedReaction& r : reactions_)
+        own.concerns.push_back(own.region->kind == LocusKind::workspace_boundary ||
+                               times_vanishing(own.region->kind, own.region->vanishing, r) != 0);
     for (const auto& curve : map.curves) {
       const bool here = curve.mode == mode;
       boundary_.push_back(here && curve.kind == LocusKind::workspace_boundary ? 1 : 0);
@@ -164,7 +170,9 @@ class ModeValidation {
         const EdgeNodes nodes =
             row ? edge_nodes(field_of(line), at(edge), field_of(line), at(edge + 1), checked.columns)
                 : edge_nodes(field_of(edge), at(line), field_of(edge + 1), at(line), checked.columns);
-        const Finding finding = judge.judge(edge, {checked.columns, checked.weights}, nodes);
+        Finding finding = judge.judge(edge, {checked.columns, checked.weights}, nodes);
+        if (finding.outcome == Outcome::disputed && is_open(r, place.point(along.at(edge)), place.point(along.at(edge + 1))))
+          finding.outcome = Outcome::undecided;
         ++tally.counts[r][static_cast<std::size_t>(finding.outcome)];
         if (finding.outcome != Outcome::disputed) continue;
         tally.disputed.push_back({place.point(along.at(edge)), place.point(along.at(edge + 1)), mode_, checked.reaction,
@@ -172,6 +180,18 @@ class ModeValidation {
       }
     }
     return tally;
+  }
+
+  /// Where a locus of the reaction is open nothing is claimed.
+  bool is_open(std::size_t reaction, const std::vector<double>& from, const std::vector<double>& to) const {
+    return std::any_of(open_.begin(), open_.end(), [&](const Open& own) {
+      if (!own.concerns[reaction]) return false;
+      for (std::size_t c = 0; c < 2; ++c)
+        if (std::max(from[c], to[c]) < own.region->lower[c] - reach_ ||
+            std::min(from[c], to[c]) > own.region->upper[c] + reach_)
+          return false;
+      return true;
+    });
   }
 
   void merge(const std::vector<LineTally>& lines, ValidationReport& report, std::size_t listed) const {
@@ -270,6 +290,11 @@ class ModeValidation {
   double smallest_ = 0;
   std::vector<std::string> turning_;  ///< joints of joints_of_turns
   std::vector<CheckedReaction> reactions_;
+  struct Open {
+    const core::OpenRegion* region;
+    std::vector<bool> concerns;  ///< by reaction
+  };
+  std::vector<Open> open_;
   std::vector<int> boundary_;
   GridPassages passages_;
   std::vector<ReactionField> fields_;  ///< a row of nodes each

@@ -177,6 +177,28 @@ void draw_isolated_points(const Context& context, const Subject& subject, const 
   }
 }
 
+void draw_open_box(const Context& context, const Box& box) {
+  context->rectangle(box.x, box.y, box.width, box.height);
+  set_colour(context, {1, 1, 1}, 0.6);
+  context->fill_preserve();
+  set_colour(context, ink);
+  context->set_line_width(1);
+  context->set_dash(std::vector<double>{2.5, 1.5}, 0);
+  context->stroke();
+  context->unset_dash();
+}
+
+/// What is open, large enough to be seen.
+void draw_open_places(const Context& context, const Subject& subject, const Layout& layout) {
+  constexpr double least = 7;
+  for (const core::OpenRegion& region : subject.map->open) {
+    if (region.mode != subject.mode || region.lower.size() != 2) continue;
+    const Point2 a = layout.page({region.lower[0], region.upper[1]}), b = layout.page({region.upper[0], region.lower[1]});
+    const double width = std::max(b[0] - a[0], least), height = std::max(b[1] - a[1], least);
+    draw_open_box(context, {(a[0] + b[0] - width) / 2, (a[1] + b[1] - height) / 2, width, height});
+  }
+}
+
 void draw_axes(const Context& context, const Layout& layout) {
   constexpr double tick_length = 4;
   const Box& plot = layout.plot;
@@ -235,6 +257,9 @@ void draw_sample(const Context& context, const LegendEntry& entry, const Subject
       break;
     case SampleKind::searched_box:
       draw_search_box(context, {x, y - 4.5, legend_sample_width, 9});
+      break;
+    case SampleKind::open_place:
+      draw_open_box(context, {(x + end) / 2 - 4, y - 4, 8, 8});
       break;
     case SampleKind::mechanism:
       draw_mechanism_sample(context, x, y, legend_sample_width);
@@ -304,6 +329,7 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   if (subject.sketch != nullptr) draw_links(context, layout, *subject.sketch);
   draw_loci(context, subject, layout);
   draw_isolated_points(context, subject, layout);
+  draw_open_places(context, subject, layout);
   if (subject.sketch != nullptr) draw_joints_and_loads(context, layout, *subject.sketch, legend_reasons(layout));
   if (subject.zones != nullptr && subject.task == nullptr) draw_zone_numbers(context, subject, layout);
   if (subject.task != nullptr) draw_task(context, *subject.task, layout);

@@ -124,6 +124,10 @@ core::LocusMap in_file_units(core::LocusMap map) {
       for (core::Point3& at : arc.points) scaling.place(at);
     }
   for (core::IsolatedPoint& point : map.isolated_points) scaling.place(point.at);
+  for (core::OpenRegion& region : map.open) {
+    scaling.place(region.lower);
+    scaling.place(region.upper);
+  }
   for (core::WorkspaceRegion& region : map.workspace)
     for (core::Polyline& ring : region.rings) scaling.line(ring);
   for (core::ReachableInterval& interval : map.reachable) {

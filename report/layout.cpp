@@ -149,7 +149,9 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
     if (!subject.sketch->loads.empty()) add(SampleKind::load, "load");
   }
   if (subject.inset != nullptr) add(SampleKind::inset, sample_posture_words);
-  if (!map.complete) add(SampleKind::remark, "incomplete: stopped at the time limit");
+  if (std::any_of(map.open.begin(), map.open.end(), [&](const auto& region) { return region.mode == subject.mode; }))
+    add(SampleKind::open_place, "open: what is here is not settled");
+  if (map.out_of_time) add(SampleKind::remark, "incomplete: stopped at the time limit");
   return entries;
 }
 

@@ -23,6 +23,7 @@ enum class SampleKind {
   point,
   workspace,
   searched_box,
+  open_place,
   mechanism,
   load,
   remark,

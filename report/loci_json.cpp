@@ -201,6 +201,19 @@ Json vanishing_array(const std::vector<core::Vanishing>& vanishing) {
   return reactions;
 }
 
+Json open_array(const core::LocusMap& map) {
+  Json list = Json::array();
+  for (const core::OpenRegion& region : map.open)
+    list.push_back({{"kind", core::to_string(region.kind)},
+                    {"vanishing", vanishing_array(region.vanishing)},
+                    {"factor", printable(region.factor)},
+                    {"cause", printable(region.cause)},
+                    {"working_mode", mode_object(map.tower, region.mode)},
+                    {"from", region.lower},
+                    {"to", region.upper}});
+  return list;
+}
+
 Json loci_object(const core::LocusMap& map) {
   Json root;
   root["format"] = 1;
@@ -225,6 +238,7 @@ Json loci_object(const core::LocusMap& map) {
   }
   root["isolated_points"] = Json::array();
   for (const auto& point : map.isolated_points) root["isolated_points"].push_back(isolated_point_object(map, point));
+  if (map.tower.coordinates.size() == 2) root["open"] = open_array(map);
   root["workspace"] = Json::array();
   for (const auto& region : map.workspace) {
     root["workspace"].push_back({{"working_mode", mode_object(map.tower, region.mode)}, {"rings", region.rings}});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 
 #include "report/file_units.hpp"
 #include "report/text_table.hpp"
@@ -45,6 +46,22 @@ std::string where(const core::LocusCurve& curve) {
   return start + reason_words(curve.kind, curve.vanishing, curve.factor, curve.cause, readable_factor);
 }
 
+/// "open: 3 places, 0.2 % of the box"; empty where there are none.
+std::string open_words(const core::LocusMap& map, const std::vector<const core::OpenRegion*>& regions) {
+  if (regions.empty()) return {};
+  double part = 0;
+  for (const core::OpenRegion* region : regions) {
+    double own = 1;
+    for (std::size_t c = 0; c < region->lower.size(); ++c)
+      own *= (region->upper[c] - region->lower[c]) / core::to_double(map.upper[c] - map.lower[c]);
+    part += own;
+  }
+  const double percent = 100 * std::min(part, 1.0);
+  constexpr double least = 1e-3;
+  return fmt::format("open: {} place{}, {} % of the box", regions.size(), regions.size() == 1 ? "" : "s",
+                     percent < least ? "below 0.001" : fmt::format("{:.2g}", percent));
+}
+
 double total_length(const core::LocusCurve& curve) {
   double length = 0;
   for (const auto& arc : curve.arcs) length += arc.length;
@@ -65,14 +82,38 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
                                  {has_angles(map) ? "length" : "length/" + map.units.length.name, 0, Alignment::point}};
   std::vector<Row> rows;
   int closed_form = 0, identifier = columns(heading[0].heading);
+  std::vector<const core::OpenRegion*> left;
+  for (const core::OpenRegion& region : map.open)
+    if (region.mode == mode) left.push_back(&region);
+  const auto take_those = [&left](const auto& are_wanted) {
+    std::vector<const core::OpenRegion*> own;
+    for (const core::OpenRegion*& region : left)
+      if (region != nullptr && are_wanted(*region)) own.push_back(std::exchange(region, nullptr));
+    return own;
+  };
   for (const auto& curve : map.curves) {
     if (curve.mode != mode) continue;
-    rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind), where(curve),
+    const std::string open =
+        open_words(map, take_those([&](const core::OpenRegion& own) { return is_open_place_of(own, curve); }));
+    rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind),
+                    where(curve) + (open.empty() ? "" : "\n" + open),
                     curve.implicit.is_zero() ? "-" : std::to_string(core::total_degree(curve.implicit)),
                     closed_form_words(curve.closed_form, map.tower.coordinates, exact),
                     std::to_string(curve.arcs.size()), engineering(total_length(curve), size_digits)});
     closed_form = std::max(closed_form, columns(rows.back()[4]));
     identifier = std::max(identifier, std::min(columns(rows.back()[0]), heading[0].widest));
+  }
+  // What is open of loci of which nothing is drawn.
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (left[i] == nullptr) continue;
+    core::LocusCurve nothing;
+    nothing.kind = left[i]->kind;
+    nothing.vanishing = left[i]->vanishing;
+    nothing.factor = left[i]->factor;
+    nothing.cause = left[i]->cause;
+    nothing.mode = mode;
+    const auto own = take_those([&](const core::OpenRegion& region) { return is_open_place_of(region, nothing); });
+    rows.push_back({"-", kind_words(nothing.kind), where(nothing) + "\n" + open_words(map, own), "-", "", "0", ""});
   }
   // The two wide columns share what the others leave of the width.
   constexpr int least = 30;
@@ -198,7 +239,10 @@ std::string notes(const core::LocusMap& map) {
     sentences.emplace_back(
         "*: meshed, and nothing of the surface is missing; at some places its topology is not certified (loci.json, "
         "open).");
-  if (!map.complete) sentences.emplace_back("Incomplete: the work was stopped at its time limit.");
+  if (map.out_of_time)
+    sentences.emplace_back("Incomplete: the work was stopped at its time limit.");
+  else if (!map.open.empty())
+    sentences.emplace_back("Incomplete: what is said of an open place's locus holds outside of it (loci.json, open).");
   std::string out;
   for (const auto& sentence : sentences) {
     const auto lines = wrap(printable(sentence), table_width - 2, measure);

@@ -365,7 +365,7 @@ std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<Surfac
     entries.push_back(
         {nullptr, {"thin lines: equal " + printable(map.tower.coordinates[2]) + ", at the ticks of its axis"}, {}});
   if (groups.empty() && lines.empty()) entries.push_back({nullptr, {"no surfaces in the box"}, {}});
-  if (!map.complete) entries.push_back({nullptr, {"incomplete: stopped at the time limit"}, {}});
+  if (map.out_of_time) entries.push_back({nullptr, {"incomplete: stopped at the time limit"}, {}});
   return entries;
 }
 

@@ -112,6 +112,8 @@ Json zones_object(const core::ZoneMap& map) {
   Json root;
   for (const char* key : {"format", "mechanism", "parameters", "coordinates", "box", "tolerance"})
     root[key] = loci[key];
+  root["complete"] = loci["complete"];
+  root["open"] = loci["open"];
   if (map.loci.units.declared) root["units"] = "SI";
   root["zones"] = Json::array();
   for (const core::Zone& zone : map.zones) root["zones"].push_back(zone_object(map, zone));

@@ -1,5 +1,7 @@
 #include "symbolic/determinants.hpp"
 
+#include <array>
+
 #include "core/errors.hpp"
 #include "mechanism/redundancy.hpp"
 
@@ -9,9 +11,7 @@ namespace {
 
 /// `most_terms`: none where any number will do.
 std::optional<FactoredDeterminants> derived(std::optional<std::size_t> most_terms, const Geometry& geometry,
-                                            const Geometry* loaded) {
-  NewtonEulerEquations equations = newton_euler_equations(geometry);
-  if (loaded != nullptr) equations.loads = newton_euler_equations(*loaded).loads;
+                                            NewtonEulerEquations equations) {
   std::vector<std::vector<Poly>> matrix;
   std::vector<Poly> loads;
   for (unsigned i = 0; i < equations.matrix.rows(); ++i) {
@@ -42,11 +42,21 @@ std::optional<FactoredDeterminants> derived(std::optional<std::size_t> most_term
 }  // namespace
 
 FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded) {
-  return *derived(std::nullopt, geometry, loaded);
+  NewtonEulerEquations equations = newton_euler_equations(geometry);
+  if (loaded != nullptr) equations.loads = newton_euler_equations(*loaded).loads;
+  return *derived(std::nullopt, geometry, std::move(equations));
+}
+
+FactoredDeterminants probed_determinants(const Geometry& geometry) {
+  constexpr std::array probes = {3, -2, 5, 1, -4, 2, -1, 7, -3, 4, 6, -5};
+  NewtonEulerEquations equations = newton_euler_equations(geometry);
+  for (unsigned i = 0; i < equations.loads.rows(); ++i)
+    equations.loads(i, 0) = probes[(i + i / probes.size()) % probes.size()];
+  return *derived(std::nullopt, geometry, std::move(equations));
 }
 
 std::optional<FactoredDeterminants> factored_determinants_within(std::size_t most_terms, const Geometry& geometry) {
-  return derived(most_terms, geometry, nullptr);
+  return derived(most_terms, geometry, newton_euler_equations(geometry));
 }
 
 }  // namespace clearloci::symbolic

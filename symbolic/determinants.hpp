@@ -21,6 +21,9 @@ struct FactoredDeterminants {
 /// takes the place of its own; what comes back is in the ring of `geometry`.
 FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded = nullptr);
 
+/// As of `geometry` under loads that no mechanism has: numbers in general position, one a row of the equations.
+FactoredDeterminants probed_determinants(const Geometry& geometry);
+
 /// The same as long as no polynomial on the way may have more than `most_terms` terms; nothing else.
 std::optional<FactoredDeterminants> factored_determinants_within(std::size_t most_terms, const Geometry& geometry);
 

@@ -18,6 +18,7 @@
 #include "symbolic/family.hpp"
 #include "symbolic/guide_ends.hpp"
 #include "symbolic/limits.hpp"
+#include "symbolic/margin_nodes.hpp"
 #include "symbolic/margins.hpp"
 #include "symbolic/newton_euler.hpp"
 #include "symbolic/reactions.hpp"
@@ -872,8 +873,22 @@ class Derivation {
     for (LocusFactor& factor : problem.factors) {
       widen(factor.sheet);
       for (auto& [sheet, times] : factor.cleared) widen(sheet);
+      if (factor.nodes)
+        for (core::NodeForm::Part& part : factor.nodes->parts) widen(part.sheet);
     }
     for (core::WorkingMode& mode : problem.modes) mode.resize(tower.roots.size(), 1);
+  }
+
+  /// With what is known of its nodes, where it is one curve.
+  void add_squared_margin(const Margin& margin, const Poly& sheet, const LocusFactor& factor) {
+    std::vector<LocusFactor>& factors = result_.problem.factors;
+    const std::size_t before = factors.size();
+    add(FactorRole::margin, &margin.natural, sheet, true, factor);
+    if (factors.size() != before + 1 || factors.back().line.empty() || geometry_.coordinates() != 2) return;
+    if (std::optional<MarginNodes::Form> form = margin_nodes_.of(margin)) {
+      factors.back().line = std::move(form->line);
+      factors.back().nodes = std::move(form->nodes);
+    }
   }
 
   void add_margins() {
@@ -896,7 +911,7 @@ class Derivation {
       if (sheet.is_zero())
         result_.notes.push_back(factor.cause + " in every pose");
       else if (!margin.senses || !add_senses(*margin.senses, sheet, factor))
-        add(FactorRole::margin, &margin.natural, sheet, true, factor);
+        add_squared_margin(margin, sheet, factor);
     }
     if (selection_.min_force) add_guide_margins();
   }
@@ -912,6 +927,7 @@ class Derivation {
   std::vector<Reaction> reactions_;
   std::vector<Guide> guides_;
   StraightLines lines_;
+  MarginNodes margin_nodes_{geometry_, elimination_, lines_};
   std::vector<SharedFactor> factors_;
   std::vector<std::pair<Poly, Vanishing>> cancelled_;  ///< natural factors of |A| and a numerator, and how often
   std::vector<DeterminantPart> determinant_parts_;

@@ -40,8 +40,10 @@ class Margins {
       add(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound, {cleared(shared), 1});
       add(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound, {cleared(shared), 1});
     } else {
-      add(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound, {cleared(shared), 2},
-          size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
+      Margin& added =
+          add(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound, {cleared(shared), 2},
+              size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
+      if (size.is_constant() && !pressing.squared && !added.force) added.force = squared_force(force, shared, bound);
     }
   }
 
@@ -65,6 +67,20 @@ class Margins {
  private:
   const Ring& ring() const { return geometry_.ring(); }
 
+  /// Without what all of it shares.
+  SquaredForce squared_force(const std::vector<FactoredPoly>& components, const FactoredPoly& shared,
+                             const Rational& bound) const {
+    SquaredForce force{{}, determinant_};
+    multiply(force.bound, shared, -1);
+    force.bound.constant *= bound;
+    for (FactoredPoly part : components) {
+      if (part.is_zero()) continue;
+      multiply(part, shared, -1);
+      force.components.push_back(std::move(part));
+    }
+    return force;
+  }
+
   /// |A| without what a numerator shares with it.
   FactoredPoly cleared(const FactoredPoly& shared) const {
     FactoredPoly rest = determinant_;
@@ -72,14 +88,15 @@ class Margins {
     return rest;
   }
 
-  void add(const std::string& joint, Quantity quantity, const Poly& polynomial, const Rational& bound,
-           const std::pair<FactoredPoly, int>& below, std::optional<TwoSenses> senses = std::nullopt) {
+  Margin& add(const std::string& joint, Quantity quantity, const Poly& polynomial, const Rational& bound,
+              const std::pair<FactoredPoly, int>& below, std::optional<TwoSenses> senses = std::nullopt) {
     const Poly natural = polynomial.primitive();
     auto known = std::find_if(margins_.begin(), margins_.end(),
                               [&](const Margin& m) { return m.quantity == quantity && m.natural == natural; });
     if (known == margins_.end())
       known = margins_.insert(known, {natural, quantity, bound, {}, below.first, below.second, std::move(senses)});
     if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
+    return *known;
   }
 
   std::optional<Rational> constant_length(const Poly& square) const {

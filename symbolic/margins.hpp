@@ -17,6 +17,12 @@ struct TwoSenses {
   Poly size, square, bound;  ///< |w|^2; f_min |A|
 };
 
+/// A force whose components have nothing in common: |w|^2 = (f_min |A|)^2 is a quadratic form in them and in |A|.
+struct SquaredForce {
+  std::vector<FactoredPoly> components;  ///< of w
+  FactoredPoly bound;                    ///< f_min |A|
+};
+
 /// A natural polynomial that vanishes where the joints bear `bound`.
 struct Margin {
   Poly natural;
@@ -26,6 +32,7 @@ struct Margin {
   FactoredPoly below;               ///< the divisor of |A| that was cleared, to `power`
   int power = 1;
   std::optional<TwoSenses> senses = {};
+  std::optional<SquaredForce> force = {};
 };
 
 /// Of the named joints, in the mechanism's order. Of a pin or a sleeve in space it is the part of the force across its

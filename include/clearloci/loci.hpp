@@ -173,6 +173,20 @@ struct IsolatedPoint {
   bool excited = true;  ///< as of a curve, where a single coordinate is free
 };
 
+/// A place at which a locus is not settled: what was found holds outside of it. The locus is named as its curve is,
+/// whether or not there is one in the map.
+struct OpenRegion {
+  LocusKind kind = LocusKind::contact_loss;
+  std::vector<Vanishing> vanishing;
+  std::string factor = {};
+  std::string cause = {};
+  WorkingMode mode;
+  std::vector<double> lower, upper;  ///< a box: one value a coordinate, which may be the same
+};
+
+/// Whether a region is one of the curve's.
+bool is_open_place_of(const OpenRegion& region, const LocusCurve& curve);
+
 /// One free coordinate: a piece of its range in which the mode's posture exists.
 struct ReachableInterval {
   WorkingMode mode;
@@ -191,7 +205,10 @@ struct LocusMap {
   TowerNames tower;                                             ///< names of coordinates and of the modes' points
   std::vector<Rational> lower, upper;                           ///< box
   double tolerance = 0;
+  /// Nothing is known to be missing: no place is open, no work was stopped.
   bool complete = true;
+  /// The time limit was reached: what is missing then need not be in `open`.
+  bool out_of_time = false;
   std::vector<std::string> notes;  ///< degenerate mathematics worth a sentence, e.g. a reaction that is zero everywhere
   std::vector<LocusCurve> curves;
   std::vector<LocusSurface> surfaces;  ///< with three free coordinates, and besides them:
@@ -202,6 +219,7 @@ struct LocusMap {
   std::vector<bool> angles;                            ///< which coordinates are angles, in rad; empty: none
   std::vector<std::pair<std::string, double>> timing;  ///< stage, s
   Units units = {};                                    ///< of the mechanism file: what tables and pictures speak in
+  std::vector<OpenRegion> open = {};                   ///< over two coordinates
 };
 
 /// `exact`: the CGAL arrangement of the implicit curves proves the topology. `adaptive`: certified subdivision on the

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "core/errors.hpp"
@@ -56,7 +57,7 @@ class AroundApex {
  public:
   AroundApex(const Star& star, const core::RootTower& tower) : star_(star), tower_(tower) {
     u_ = builder_.variable(0);
-    for (std::size_t i = 0; i < 2; ++i) way_[i] = numbering_.of(star.apex->way[i]).back();
+    for (const StraightLine& line : star.apex->vanishing) vanishing_.insert(numbering_.of(line).back());
   }
 
   std::optional<Expansion> of(const StraightLine& line) {
@@ -65,7 +66,7 @@ class AroundApex {
     for (std::size_t i = 0; i < line.steps.size(); ++i) {
       std::optional<Expansion> own = step(line.steps[i], steps);
       if (!own) return std::nullopt;
-      if (numbers[i] == way_[0] || numbers[i] == way_[1]) {
+      if (vanishing_.contains(numbers[i])) {
         if (!own->slope) return std::nullopt;
         own = Expansion{1, *own->slope, false, std::nullopt, std::nullopt};
       }
@@ -209,7 +210,7 @@ class AroundApex {
   StraightLineBuilder builder_;
   Numbering numbering_;
   int u_ = 0;
-  int way_[2] = {-1, -1};
+  std::set<int> vanishing_;  ///< numbers of what does so at the apex
   std::map<int, Expansion> roots_;
 };
 
@@ -224,9 +225,9 @@ void find_roots(Star& star, const core::RootTower& tower) {
   }
 }
 
-/// The apex where both functions of a base vanish, as an enclosure.
-std::optional<Star> star_at(const SheetZero& zero, const core::DyadBase& base, const core::RootTower& tower,
-                            const Subtower& part, const SheetProgram& program) {
+/// A star at the zero of functions 0 and 1 of the program, as an enclosure; what vanishes there is left open.
+std::optional<Star> enclosed_star(const SheetZero& zero, const core::RootTower& tower, const Subtower& part,
+                                  const SheetProgram& program) {
   constexpr double slack = 4;
   const double radius = slack * std::max(zero.radius, 0x1p-50 * std::max(std::abs(zero.x), std::abs(zero.y)));
   const std::optional<FineZero> fine =
@@ -242,40 +243,139 @@ std::optional<Star> star_at(const SheetZero& zero, const core::DyadBase& base, c
     const Rational lower = fine->roots[j].lower_end(), upper = fine->roots[j].upper_end();
     apex.roots[static_cast<std::size_t>(part.kept[j])] = {(lower + upper) / 2, (upper - lower) / 2, true};
   }
-  apex.way[0] = base.x_line;
-  apex.way[1] = base.y_line;
   star.apex = std::move(apex);
-  find_roots(star, tower);
-  if (star.roots.empty()) return std::nullopt;
   return star;
 }
+
+/// The box and a little around it: a star next to the box reaches into it.
+struct Surroundings {
+  std::vector<Rational> lower, upper;
+
+  Surroundings(const std::vector<Rational>& from, const std::vector<Rational>& to) : lower(from), upper(to) {
+    const Rational around(1, 50);
+    for (std::size_t c = 0; c < 2; ++c) {
+      const Rational margin = around * (to[c] - from[c]);
+      lower[c] -= margin;
+      upper[c] += margin;
+    }
+  }
+};
+
+/// The nodes that forms have in common, where part `first` of one of them and the last part vanish.
+class Nodes {
+ public:
+  Nodes(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<const core::NodeForm*>& forms,
+        const core::NodeForm& form, std::size_t first)
+      : tower_(tower), forms_(forms), part_(part_of(tower, mode, forms)) {
+    const auto add = [&](const core::NodeForm::Part& own) {
+      functions_.push_back({narrowed(own.sheet, part_), narrowed(own.line, part_)});
+    };
+    add(form.parts[first]);
+    add(form.parts.back());
+    for (const core::NodeForm* other : forms) std::for_each(other->parts.begin(), other->parts.end(), add);
+    functions_.push_back({core::Polynomial{part_.tower.variables(), {}}, narrowed(form.probes[first], part_)});
+  }
+
+  void add_to(std::vector<Star>& stars, const Surroundings& box, ZeroOptions options) const {
+    if (std::any_of(functions_.begin(), functions_.end(), [](const SheetFunction& f) { return f.line.empty(); })) return;
+    options.special = narrowed(options.special, part_);
+    const ZeroSet found =
+        isolated_zeros(part_.tower, part_.mode, functions_[0], functions_[1], box.lower, box.upper, options);
+    if (found.zeros.empty()) return;
+    const SheetProgram program(part_.tower, functions_);
+    for (const SheetZero& zero : found.zeros) {
+      if (!zero.inside_workspace || is_known(stars, zero)) continue;
+      std::optional<Star> star = enclosed_star(zero, tower_, part_, program);
+      if (!star || !all_vanish(program, *star)) continue;
+      star->singular = true;
+      for (const core::NodeForm* form : forms_)
+        for (const core::NodeForm::Part& own : form->parts) star->apex->vanishing.push_back(own.line);
+      stars.push_back(std::move(*star));
+    }
+  }
+
+ private:
+  static Subtower part_of(const core::RootTower& tower, const core::WorkingMode& mode,
+                          const std::vector<const core::NodeForm*>& forms) {
+    std::vector<core::Polynomial> all;
+    for (const core::NodeForm* form : forms)
+      for (const core::NodeForm::Part& own : form->parts) all.push_back(own.sheet);
+    return subtower(tower, mode, all);
+  }
+
+  static bool is_known(const std::vector<Star>& stars, const SheetZero& zero) {
+    return std::any_of(stars.begin(), stars.end(), [&](const Star& other) {
+      return std::max(std::abs(core::to_double(other.x) - zero.x), std::abs(core::to_double(other.y) - zero.y)) <=
+             2 * zero.radius;
+    });
+  }
+
+  /// By the probe, which does not vanish there.
+  bool all_vanish(const SheetProgram& program, const Star& star) const {
+    auto registers = program.registers<MultiInterval>();
+    const auto enclosure = [](const Rational& value, const Rational& radius) {
+      return MultiInterval(value - radius, value + radius);
+    };
+    registers.set(0, enclosure(star.x, star.apex->radius));
+    registers.set(1, enclosure(star.y, star.apex->radius));
+    for (int j = 0; j < program.roots(); ++j) {
+      registers.run_square(j);
+      const Apex::Value& root = star.apex->roots[static_cast<std::size_t>(part_.kept[static_cast<std::size_t>(j)])];
+      registers.set(2 + j, enclosure(root.middle, root.radius));
+    }
+    registers.run_values();
+    const int probe = program.functions() - 1;
+    for (int f = 0; f < probe; ++f)
+      if (registers.value(f).sign() != 0) return false;
+    return registers.value(probe).sign() != 0;
+  }
+
+  const core::RootTower& tower_;
+  const std::vector<const core::NodeForm*>& forms_;
+  Subtower part_;
+  std::vector<SheetFunction> functions_;  ///< the two that are looked for, all parts, the probe
+};
 
 }  // namespace
 
 std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::WorkingMode& mode,
                                  const std::vector<Rational>& lower, const std::vector<Rational>& upper) {
-  const Rational around(1, 50);  // a star next to the box reaches into it
-  std::vector<Rational> from = lower, to = upper;
-  for (std::size_t c = 0; c < 2; ++c) {
-    const Rational margin = around * (upper[c] - lower[c]);
-    from[c] -= margin;
-    to[c] += margin;
-  }
+  const Surroundings box(lower, upper);
   std::vector<Star> stars;
   for (const core::DyadBase& base : tower.bases) {
     const Subtower part = subtower(tower, mode, {base.x, base.y});
     if (part.kept.empty()) continue;  // at a rational point, or nowhere
     const SheetFunction x = {narrowed(base.x, part), narrowed(base.x_line, part)};
     const SheetFunction y = {narrowed(base.y, part), narrowed(base.y_line, part)};
-    const ZeroSet found = isolated_zeros(part.tower, part.mode, x, y, from, to);
+    const ZeroSet found = isolated_zeros(part.tower, part.mode, x, y, box.lower, box.upper);
     if (found.zeros.empty()) continue;
     const SheetProgram program(part.tower, {x, y});
     for (const SheetZero& zero : found.zeros) {
       if (!zero.inside_workspace) continue;
-      if (std::optional<Star> star = star_at(zero, base, tower, part, program)) stars.push_back(std::move(*star));
+      std::optional<Star> star = enclosed_star(zero, tower, part, program);
+      if (!star) continue;
+      star->apex->vanishing = {base.x_line, base.y_line};
+      find_roots(*star, tower);
+      if (!star->roots.empty()) stars.push_back(std::move(*star));
     }
   }
   return stars;
+}
+
+std::vector<Star> enclosed_nodes(const core::RootTower& tower, const core::WorkingMode& mode,
+                                 const std::vector<const core::NodeForm*>& forms, const std::vector<Rational>& lower,
+                                 const std::vector<Rational>& upper, const ZeroOptions& options) {
+  const Surroundings box(lower, upper);
+  std::vector<Star> stars;
+  for (const core::NodeForm* form : forms)
+    for (std::size_t first = 0; first < form->probes.size(); ++first)
+      Nodes(tower, mode, forms, *form, first).add_to(stars, box, options);
+  return stars;
+}
+
+int power_at(const Star& star, const core::RootTower& tower, const StraightLine& function) {
+  const std::optional<Expansion> expansion = AroundApex(star, tower).of(function);
+  return expansion ? expansion->power : 0;
 }
 
 StraightLine polar_line(const Star& star, const core::RootTower& tower, const SheetFunction& function,

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/errors.hpp"
+#include "loci/sheet/open_places.hpp"
 #include "loci/sheet/subtower.hpp"
 
 namespace clearloci::loci::sheet {
@@ -74,7 +75,7 @@ class GraphBuilder {
     for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) pair_in_leaves(static_cast<int>(p));
     for (std::size_t p = 0; p < graph_.patches.size() && lucky(); ++p) join_clusters(static_cast<int>(p));
     if (!lucky()) return std::nullopt;
-    graph_.undecided = clusters(std::move(graph_.undecided));
+    settle_places();
     graph_.open_at_corner = open_at_corner_ && !open_for_good_;
     return std::move(graph_);
   }
@@ -87,8 +88,13 @@ class GraphBuilder {
   CurveGraph leave_open(const Patch& patch) {
     for (const Leaf& own : patch.tree->leaves())
       if (own.kind == LeafKind::undecided) graph_.undecided.push_back(patch.chart.to_plane(own.cell));
-    graph_.undecided = clusters(std::move(graph_.undecided));
+    settle_places();
     return std::move(graph_);
+  }
+
+  void settle_places() {
+    const auto& d = parts_.domain;
+    graph_.undecided = open_places(graph_.undecided, std::max(d[1] - d[0], d[3] - d[2]));
   }
 
   bool lucky() const { return !unlucky_ || last_attempt_; }
@@ -492,7 +498,7 @@ class GraphBuilder {
         branches.insert(branches.end(), at_leaf_[patch][l].begin(), at_leaf_[patch][l].end());
         place = {hull(place.x, leaves[l].cell.x), hull(place.y, leaves[l].cell.y)};
       }
-      graph_.undecided.push_back(chart.to_plane(place));
+      for (const int l : cells) graph_.undecided.push_back(chart.to_plane(leaves[l].cell));
       graph_.clusters.push_back({patch, place, -1, branches.empty()});
       const Cell& domain = graph_.patches[patch].domain;
       if (std::max(place.x.width(), place.y.width()) > widest_place * std::max(domain.x.width(), domain.y.width()))

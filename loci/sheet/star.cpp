@@ -225,13 +225,12 @@ std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& fun
 
 namespace {
 
-/// Cones whose way can no longer be told are none of the part's.
-std::vector<Star> with_their_ways(std::vector<Star> stars) {
-  stars.erase(std::remove_if(stars.begin(), stars.end(),
-                             [](const Star& star) {
-                               return star.apex && (star.apex->way[0].empty() || star.apex->way[1].empty());
-                             }),
-              stars.end());
+/// Those of which it can no longer be told what vanishes there are none of the part's.
+std::vector<Star> with_what_vanishes(std::vector<Star> stars) {
+  std::erase_if(stars, [](const Star& star) {
+    return star.apex && std::any_of(star.apex->vanishing.begin(), star.apex->vanishing.end(),
+                                    [](const core::StraightLine& line) { return line.empty(); });
+  });
   return stars;
 }
 
@@ -240,7 +239,8 @@ std::vector<Star> with_their_ways(std::vector<Star> stars) {
 std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
   for (Star& star : stars) {
     if (star.apex) {
-      Apex own{star.apex->radius, {}, {narrowed(star.apex->way[0], part), narrowed(star.apex->way[1], part)}};
+      Apex own{star.apex->radius, {}};
+      for (const core::StraightLine& line : star.apex->vanishing) own.vanishing.push_back(narrowed(line, part));
       for (const int root : part.kept) own.roots.push_back(star.apex->roots[static_cast<std::size_t>(root)]);
       star.apex = std::move(own);
     }
@@ -251,13 +251,13 @@ std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
     }
     star.roots = std::move(roots);
   }
-  return with_their_ways(std::move(stars));
+  return with_what_vanishes(std::move(stars));
 }
 
 std::vector<Star> on_rim(std::vector<Star> stars, int root) {
   for (Star& star : stars) {
     if (star.apex) {
-      for (core::StraightLine& line : star.apex->way)
+      for (core::StraightLine& line : star.apex->vanishing)
         line = core::depends_on(line, 2 + root) ? core::StraightLine{} : without_variable(line, 2 + root);
       star.apex->roots.erase(star.apex->roots.begin() + root);
     }
@@ -265,7 +265,7 @@ std::vector<Star> on_rim(std::vector<Star> stars, int root) {
     for (int& other : star.roots)
       if (other > root) --other;
   }
-  return with_their_ways(std::move(stars));
+  return with_what_vanishes(std::move(stars));
 }
 
 Polynomial around(const Star& star, const Polynomial& p) {

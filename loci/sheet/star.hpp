@@ -4,7 +4,8 @@
 //     X = u^v X',  Y = u^w Y',  s_j = u^k sigma_j
 // sigma_j^2 = Q_j / u^2k is smooth, and so is the function divided by its power of u; its zeros at u = 0 are the
 // directions in which branches reach the star.
-//     cone    (1, 1)  a dyad's ends meet and its lengths are equal: Q = 4 a^2 D - k^2 has a factor D = |P - A|^2
+//     cone    (1, 1)  a dyad's ends meet and its lengths are equal: Q = 4 a^2 D - k^2 has a factor D = |P - A|^2;
+//                     or the function has a node there, and no root vanishes
 //     touch   (1, 2)  two workspace boundaries touch: X along the common tangent, Y off it, both roots vanish as u does
 //     corner  (2, 2)  two workspace boundaries cross where the curve passes: both roots vanish as u does
 //     bend    (2, 4)  the same where the curve touches the second boundary, whose root vanishes as u^2 does: X along
@@ -22,15 +23,17 @@
 
 namespace clearloci::loci::sheet {
 
-/// What is known of a cone whose apex has irrational coordinates: an enclosure.
+/// What is known of a star with irrational coordinates: an enclosure.
 struct Apex {
   core::Rational radius;  ///< of x and y around those of the star
   struct Value {
     core::Rational middle, radius;
     bool known = false;
   };
-  std::vector<Value> roots;        ///< of the tower's roots there; 0 where they vanish
-  core::StraightLine way[2] = {};  ///< x and y of the way that vanishes there (core::DyadBase)
+  std::vector<Value> roots;  ///< of the tower's roots there; 0 where they vanish
+  /// Functions that are known to vanish there: of a cone x and y of the way from end to end (core::DyadBase), of a node
+  /// the parts of the function (core::NodeForm).
+  std::vector<core::StraightLine> vanishing = {};
 };
 
 struct Star {

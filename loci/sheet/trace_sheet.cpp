@@ -11,6 +11,7 @@
 #include "loci/sheet/critical_point.hpp"
 #include "loci/sheet/curve_graph.hpp"
 #include "loci/sheet/exact_zero.hpp"
+#include "loci/sheet/open_places.hpp"
 #include "loci/sheet/subtower.hpp"
 #include "loci/sheet/vertices.hpp"
 
@@ -159,7 +160,7 @@ class Tracer {
     trace.isolated_points = isolated_points_;
     std::vector<Cell> undecided = graph_.undecided;
     for (const Chain& chain : pieces_) trace.arcs.push_back(place(chain, tolerance, undecided));
-    for (const Cell& cell : clusters(std::move(undecided)))
+    for (const Cell& cell : open_places(undecided, size_))
       if (meets_box(cell)) trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
     trace.certified = trace.undecided.empty();
     // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
@@ -480,7 +481,11 @@ class Tracer {
       if (!place) continue;
       const core::Point2 at = patch.chart.to_plane((*place)[0], (*place)[1]);
       if (cluster.node >= 0) graph_.crossings[cluster.node].at = at;
-      if (cluster.lonely && meets_box({at[0], at[1]})) isolated_points_.push_back(at);
+      const bool is_known =
+          std::any_of(isolated_points_.begin(), isolated_points_.end(), [&](const core::Point2& other) {
+            return std::hypot(other[0] - at[0], other[1] - at[1]) <= same_place * size_;
+          });
+      if (cluster.lonely && !is_known && meets_box({at[0], at[1]})) isolated_points_.push_back(at);
     }
   }
 

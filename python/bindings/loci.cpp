@@ -114,6 +114,18 @@ py::dict dict_of(const LocusMap& map) {
     one["cause"] = point.cause;
     points.append(one);
   }
+  py::list open;
+  for (const OpenRegion& region : map.open) {
+    py::dict one;
+    one["kind"] = to_string(region.kind);
+    one["vanishing"] = names_of(region.vanishing);
+    one["factor"] = region.factor;
+    one["cause"] = region.cause;
+    one["working_mode"] = mode_of(map.tower, region.mode);
+    one["lower"] = region.lower;
+    one["upper"] = region.upper;
+    open.append(one);
+  }
   for (const WorkspaceRegion& region : map.workspace) {
     py::list rings;
     for (const Polyline& ring : region.rings) rings.append(array_of(ring));
@@ -136,6 +148,7 @@ py::dict dict_of(const LocusMap& map) {
   all["coordinates"] = map.tower.coordinates;
   all["box"] = box;
   all["complete"] = map.complete;
+  all["open"] = open;
   all["notes"] = in_python(map.notes);
   all["curves"] = curves;
   all["surfaces"] = surfaces;

@@ -80,6 +80,19 @@ class IsolatedPoint:
 
 
 @dataclass(frozen=True)
+class OpenRegion:
+    """A place at which a locus is not settled: what was found holds outside of it."""
+
+    kind: str
+    vanishing: list[str]
+    factor: str
+    cause: str
+    working_mode: dict[str, str]
+    lower: list[float]  #: one value a coordinate: rad of an angle, else m
+    upper: list[float]
+
+
+@dataclass(frozen=True)
 class Region:
     """The workspace of one mode: rings to be filled by the even-odd rule."""
 
@@ -271,7 +284,8 @@ class Loci(_Answer):
     def _fill(self, data: dict[str, Any]) -> None:
         self.coordinates: list[str] = data["coordinates"]
         self.box: list[tuple[float, float]] = data["box"]
-        self.complete: bool = data["complete"]  #: False where a time limit came first
+        self.complete: bool = data["complete"]  #: False where something is open, or a time limit came first
+        self.open = [OpenRegion(**own) for own in data["open"]]
         self.notes: list[str] = data["notes"]
         self.curves = [Curve(**own) for own in data["curves"]]
         self.surfaces = [Surface(**own) for own in data["surfaces"]]

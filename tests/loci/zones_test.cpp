@@ -11,6 +11,7 @@
 
 #include "loci/edge_area.hpp"
 #include "loci/inscribed_circle.hpp"
+#include "loci/open_regions.hpp"
 #include "loci/plane_graph.hpp"
 #include "loci/trace.hpp"
 
@@ -193,6 +194,72 @@ TEST(VoronoiCircles, HoldNoPoint) {
   for (const core::Circle& own : circles)
     for (const core::Point2& p : corners)
       EXPECT_GE(std::hypot(p[0] - own.centre[0], p[1] - own.centre[1]), own.radius - 1e-12);
+}
+
+/// y^2 = x^2 - x^16 / 1000: it crosses itself in the origin, and is beyond the exact engine.
+Polynomial heavy_figure_eight() {
+  Polynomial power = number(1);
+  for (int i = 0; i < 16; ++i) power = power * x;
+  return y * y - x * x + number(Rational(1, 1000)) * power;
+}
+
+TEST(OpenPlaces, StandInTheMapAndTheCurveIsDrawnOutside) {
+  const core::LocusMap map = trace(problem_of({heavy_figure_eight()}));
+  EXPECT_FALSE(map.complete);
+  EXPECT_FALSE(map.out_of_time);
+  ASSERT_EQ(map.curves.size(), 1u);
+  EXPECT_FALSE(map.curves[0].certified);
+  // Two lobes of 1.638 or so.
+  double length = 0;
+  for (const core::Arc& arc : map.curves[0].arcs) length += arc.length;
+  EXPECT_GT(length, 8);
+  ASSERT_FALSE(map.open.empty());
+  for (const core::OpenRegion& region : map.open) {
+    EXPECT_TRUE(is_open_place_of(region, map.curves[0]));
+    for (const std::size_t c : {0u, 1u}) {
+      EXPECT_GE(region.lower[c], -1e-6);
+      EXPECT_LE(region.upper[c], 1e-6);
+    }
+  }
+}
+
+TEST(OpenPlaces, LeaveZonesInDoubtWhetherOrNotTheCurveIsDrawn) {
+  const LocusProblem problem = problem_of({heavy_figure_eight()});
+  core::LocusMap map = trace(problem);
+  for (const bool drawn : {true, false}) {
+    if (!drawn) map.curves.clear();
+    const core::ZoneMap found = zones(problem, map).map;
+    ASSERT_FALSE(found.zones.empty());
+    for (const core::Zone& zone : found.zones) EXPECT_FALSE(zone.certified);
+    EXPECT_NEAR(found.areas.at(0).in_doubt, 16, 1e-9);
+  }
+  // What cuts no zone leaves none in doubt.
+  for (core::OpenRegion& region : map.open) region.kind = core::LocusKind::component;
+  const core::ZoneMap whole = zones(problem, map).map;
+  ASSERT_EQ(whole.zones.size(), 1u);
+  EXPECT_TRUE(whole.zones[0].certified);
+}
+
+TEST(OpenPlaces, AreToldTogetherWhereThereAreThousands) {
+  core::LocusMap map;
+  EdgeLabel label;
+  label.kind = core::LocusKind::margin;
+  label.factor = "f";
+  for (int i = 0; i < 100; ++i)
+    for (int k = 0; k < 100; ++k) {
+      const double u = i * 0.01, v = k * 0.01;
+      leave_open(label, {}, {u, u + 0.001, v, v + 0.001}, map);
+    }
+  finish_open_regions(map);
+  EXPECT_FALSE(map.complete);
+  EXPECT_LE(map.open.size(), 400u);
+  const auto holds = [&](double u, double v) {
+    return std::any_of(map.open.begin(), map.open.end(), [&](const core::OpenRegion& region) {
+      return region.lower[0] <= u && u <= region.upper[0] && region.lower[1] <= v && v <= region.upper[1];
+    });
+  };
+  for (int i = 0; i < 100; ++i)
+    for (int k = 0; k < 100; ++k) EXPECT_TRUE(holds(i * 0.01 + 0.0005, k * 0.01 + 0.0005));
 }
 
 }  // namespace

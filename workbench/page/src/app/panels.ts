@@ -64,7 +64,7 @@ export function legendPanel(bench: Workbench): Panel {
     replace(
       notes,
       ...notesInShort(picture.loci.notes).map((note) => h("p", {}, note)),
-      picture.loci.complete ? undefined : h("p", { class: "fault" }, "incomplete: stopped at the time limit"),
+      picture.loci.complete ? undefined : h("p", { class: "fault" }, incompleteWords(picture.loci)),
       bench.zonesFault ? h("p", { class: "fault" }, `zones: ${bench.zonesFault}`) : undefined,
     );
   };

@@ -363,6 +363,6 @@ export class Workbench {
 
 /** Such as after a length that cannot close; a note says so. */
 function closesNowhere({ loci }: Picture): boolean {
-  if (!loci.complete || loci.coordinates.length > 2) return false;
+  if ((!loci.complete && (loci.open ?? []).length === 0) || loci.coordinates.length > 2) return false;
   return (loci.reachable ?? []).length === 0 && loci.workspace.every((region) => region.rings.length === 0);
 }
