@@ -154,7 +154,8 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
   loci::sheet::KnownSearches known;
   for (int attempt = 1;; ++attempt) {
     TracedProblem traced = trace_problem(mechanism, finer, {certificate, &known, family});
-    if (traced.map.out_of_time) throw core::LimitReached("the loci could not be traced completely within the time limit");
+    if (traced.map.out_of_time)
+      throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
     const std::vector<core::Vanishing> always_zero = traced.problem.always_zero;
     loci::CutZones cut = zones_of(std::move(traced), attempt < attempts);

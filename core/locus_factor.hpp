@@ -22,8 +22,8 @@ enum class FactorRole { reaction, margin, direct_singularity, workspace_boundary
 /// Of a function that is a quadratic form in others, its parts: where all of these vanish it has a node. That is three
 /// equations or more, of which two imply the others:
 ///     probes[i] parts[k] = probes[k] parts[i] + (a multiple of parts.back())   for i, k < parts.size() - 1
-/// so that where parts[i] and parts.back() vanish and probes[i] does not, all parts do. The same holds between the parts
-/// and probes of all forms of a problem that have one last part.
+/// so that where parts[i] and parts.back() vanish and probes[i] does not, all parts do. The same holds between the
+/// parts and probes of all forms of a problem that have one last part.
 struct NodeForm {
   struct Part {
     Polynomial sheet;

@@ -283,7 +283,8 @@ class Gathering {
     if (share.traced.stopped) map_.out_of_time = true;
     if (!share.traced.certified) {
       const EdgeLabel label = widest_label(problem_, static_cast<std::size_t>(share.factor));
-      for (const sheet::Region& region : share.traced.undecided) leave_open(label, mode(share), {region.x0, region.x1, region.y0, region.y1}, map_);
+      for (const sheet::Region& region : share.traced.undecided)
+        leave_open(label, mode(share), {region.x0, region.x1, region.y0, region.y1}, map_);
     }
     const EdgeLabel label = label_of(problem_, {share.factor});
     if (own.role == FactorRole::reaction && label.vanishing.empty()) return;

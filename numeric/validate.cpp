@@ -171,7 +171,8 @@ class ModeValidation {
             row ? edge_nodes(field_of(line), at(edge), field_of(line), at(edge + 1), checked.columns)
                 : edge_nodes(field_of(edge), at(line), field_of(edge + 1), at(line), checked.columns);
         Finding finding = judge.judge(edge, {checked.columns, checked.weights}, nodes);
-        if (finding.outcome == Outcome::disputed && is_open(r, place.point(along.at(edge)), place.point(along.at(edge + 1))))
+        if (finding.outcome == Outcome::disputed &&
+            is_open(r, place.point(along.at(edge)), place.point(along.at(edge + 1))))
           finding.outcome = Outcome::undecided;
         ++tally.counts[r][static_cast<std::size_t>(finding.outcome)];
         if (finding.outcome != Outcome::disputed) continue;

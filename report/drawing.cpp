@@ -193,7 +193,8 @@ void draw_open_places(const Context& context, const Subject& subject, const Layo
   constexpr double least = 7;
   for (const core::OpenRegion& region : subject.map->open) {
     if (region.mode != subject.mode || region.lower.size() != 2) continue;
-    const Point2 a = layout.page({region.lower[0], region.upper[1]}), b = layout.page({region.upper[0], region.lower[1]});
+    const Point2 a = layout.page({region.lower[0], region.upper[1]}),
+                 b = layout.page({region.upper[0], region.lower[1]});
     const double width = std::max(b[0] - a[0], least), height = std::max(b[1] - a[1], least);
     draw_open_box(context, {(a[0] + b[0] - width) / 2, (a[1] + b[1] - height) / 2, width, height});
   }

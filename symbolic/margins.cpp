@@ -40,9 +40,9 @@ class Margins {
       add(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound, {cleared(shared), 1});
       add(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound, {cleared(shared), 1});
     } else {
-      Margin& added =
-          add(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound, {cleared(shared), 2},
-              size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
+      Margin& added = add(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound,
+                          {cleared(shared), 2},
+                          size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
       if (size.is_constant() && !pressing.squared && !added.force) added.force = squared_force(force, shared, bound);
     }
   }

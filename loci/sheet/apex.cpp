@@ -277,7 +277,8 @@ class Nodes {
   }
 
   void add_to(std::vector<Star>& stars, const Surroundings& box, ZeroOptions options) const {
-    if (std::any_of(functions_.begin(), functions_.end(), [](const SheetFunction& f) { return f.line.empty(); })) return;
+    if (std::any_of(functions_.begin(), functions_.end(), [](const SheetFunction& f) { return f.line.empty(); }))
+      return;
     options.special = narrowed(options.special, part_);
     const ZeroSet found =
         isolated_zeros(part_.tower, part_.mode, functions_[0], functions_[1], box.lower, box.upper, options);

@@ -1,7 +1,7 @@
 // Stars at points with irrational coordinates: cones, where the ends of a dyad meet that stands on another dyad, and
 // nodes of functions that are quadratic forms. The apex is proven to exist and enclosed; what vanishes there does so
-// because the way from end to end does, or the parts of the form do, which are recognised in the straight lines, so that
-// powers of the distance are taken out exactly though no number there is.
+// because the way from end to end does, or the parts of the form do, which are recognised in the straight lines, so
+// that powers of the distance are taken out exactly though no number there is.
 #pragma once
 
 #include <optional>

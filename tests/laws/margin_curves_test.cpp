@@ -62,7 +62,8 @@ class Margins {
     for (std::size_t k = 0; k < model_.unknowns.size(); ++k) {
       const mechanism::Unknown& unknown = model_.unknowns[k];
       const bool force = unknown.quantity == core::Quantity::fx || unknown.quantity == core::Quantity::fy;
-      if (force && model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)].name == joint) columns_.push_back(k);
+      if (force && model_.mechanism.joints[static_cast<std::size_t>(unknown.joint)].name == joint)
+        columns_.push_back(k);
     }
     Count result;
     if (columns_.size() != 2) return result;

@@ -19,7 +19,9 @@ class Numbers {
     return lattice_ ? fmt::format("{}/40", 5 * ((2 * from + 24) / 25 + whole(0, std::max(0, (to - from) / 13))))
                     : fmt::format("{}/100", whole(from, to));
   }
-  std::string place(int from, int to) { return lattice_ ? fmt::format("{}/8", whole(from, to) / 12) : fmt::format("{}/100", whole(from, to)); }
+  std::string place(int from, int to) {
+    return lattice_ ? fmt::format("{}/8", whole(from, to) / 12) : fmt::format("{}/100", whole(from, to));
+  }
   std::string mass() { return lattice_ ? fmt::format("{}/8", whole(1, 12)) : fmt::format("{}/10", whole(1, 15)); }
   std::string force() { return fmt::format("{}", whole(-90, 90)); }
   std::string couple() { return fmt::format("{}/8", whole(-80, 80)); }
@@ -29,7 +31,8 @@ class Numbers {
   bool lattice_;
 };
 
-std::string leg(const std::string& crank, const std::string& rod, const std::string& base, const std::string& elbow, Numbers& n) {
+std::string leg(const std::string& crank, const std::string& rod, const std::string& base, const std::string& elbow,
+                Numbers& n) {
   return fmt::format("  {}: {{points: [{}, {}], mass: {}}}\n  {}: {{points: [{}, P], mass: {}}}\n", crank, base, elbow,
                      n.mass(), rod, elbow, n.mass());
 }
@@ -51,11 +54,13 @@ std::string load(const std::string& link, const std::string& at, Numbers& n) {
 constexpr const char* gravity = "gravity: [0, -9.81]\n";
 
 std::string five_bar(Numbers& n, bool sprung) {
-  std::string text = head("5r") + fmt::format(
-      "points:\n  A1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n  B1: {{dyad: [A1, P], lengths: [{}, {}], side: {}}}\n"
-      "  B2: {{dyad: [A2, P], lengths: [{}, {}], side: {}}}\nlinks:\n",
-      n.place(30, 60), n.place(-24, 24), n.length(35, 60), n.length(35, 60), n.side(), n.length(35, 60),
-      n.length(35, 60), n.side());
+  std::string text =
+      head("5r") +
+      fmt::format(
+          "points:\n  A1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n  B1: {{dyad: [A1, P], lengths: [{}, {}], side: {}}}\n"
+          "  B2: {{dyad: [A2, P], lengths: [{}, {}], side: {}}}\nlinks:\n",
+          n.place(30, 60), n.place(-24, 24), n.length(35, 60), n.length(35, 60), n.side(), n.length(35, 60),
+          n.length(35, 60), n.side());
   text += leg("crank1", "rod1", "A1", "B1", n) + leg("crank2", "rod2", "A2", "B2", n) + "joints:\n" +
           pin("A1", "ground", "crank1", true) + pin("B1", "crank1", "rod1", false) + pin("P", "rod1", "rod2", false) +
           pin("B2", "crank2", "rod2", false) + pin("A2", "ground", "crank2", true) +
@@ -68,16 +73,20 @@ std::string five_bar(Numbers& n, bool sprung) {
 }
 
 std::string on_a_rail(Numbers& n) {
-  std::string text = head("prrr-r") + fmt::format(
-      "points:\n  R1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n"
-      "  S1: {{slider: [R1, [1/2, {}]], from: P, length: {}, side: ahead}}\n"
-      "  B2: {{dyad: [A2, P], lengths: [{}, {}], side: {}}}\nlinks:\n  block: {{points: [S1], mass: {}}}\n"
-      "  rod1: {{points: [S1, P], mass: {}}}\n",
-      n.place(40, 70), n.place(-30, 30), n.place(0, 24), n.length(40, 60), n.length(40, 60), n.length(35, 60), n.side(),
-      n.mass(), n.mass());
-  text += fmt::format("  rod2: {{points: [P, B2], mass: {}}}\n  crank2: {{points: [A2, B2], mass: {}}}\njoints:\n", n.mass(),
-                      n.mass());
-  text += "  G1: {prismatic: [ground, block], at: S1, axis: [R1, S1], actuated: true, clearance: {gap: 1e-5, half_length: 3/100, axial: 5e-6}}\n";
+  std::string text =
+      head("prrr-r") +
+      fmt::format(
+          "points:\n  R1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n"
+          "  S1: {{slider: [R1, [1/2, {}]], from: P, length: {}, side: ahead}}\n"
+          "  B2: {{dyad: [A2, P], lengths: [{}, {}], side: {}}}\nlinks:\n  block: {{points: [S1], mass: {}}}\n"
+          "  rod1: {{points: [S1, P], mass: {}}}\n",
+          n.place(40, 70), n.place(-30, 30), n.place(0, 24), n.length(40, 60), n.length(40, 60), n.length(35, 60),
+          n.side(), n.mass(), n.mass());
+  text += fmt::format("  rod2: {{points: [P, B2], mass: {}}}\n  crank2: {{points: [A2, B2], mass: {}}}\njoints:\n",
+                      n.mass(), n.mass());
+  text +=
+      "  G1: {prismatic: [ground, block], at: S1, axis: [R1, S1], actuated: true, clearance: {gap: 1e-5, half_length: "
+      "3/100, axial: 5e-6}}\n";
   text += pin("S1", "block", "rod1", false) + pin("P", "rod1", "rod2", false) + pin("B2", "crank2", "rod2", false) +
           pin("A2", "ground", "crank2", true) + "end_effector: {link: rod2, at: P}\n";
   return text + load("rod2", "P", n) + gravity;
@@ -85,12 +94,16 @@ std::string on_a_rail(Numbers& n) {
 
 /// The second leg is a cylinder between its base and the end effector.
 std::string telescopic(Numbers& n) {
-  std::string text = head("rrrpr") + fmt::format(
-      "points:\n  A1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n  B1: {{dyad: [A1, P], lengths: [{}, {}], side: {}}}\n"
-      "  C1: {{on: [B1, P], offset: [{}, {}]}}\nlinks:\n",
-      n.place(60, 80), n.place(-40, 24), n.length(40, 60), n.length(40, 60), n.side(), n.length(10, 30), n.place(-24, 24));
+  std::string text =
+      head("rrrpr") +
+      fmt::format(
+          "points:\n  A1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n  B1: {{dyad: [A1, P], lengths: [{}, {}], side: {}}}\n"
+          "  C1: {{on: [B1, P], offset: [{}, {}]}}\nlinks:\n",
+          n.place(60, 80), n.place(-40, 24), n.length(40, 60), n.length(40, 60), n.side(), n.length(10, 30),
+          n.place(-24, 24));
   text += fmt::format(
-      "  crank: {{points: [A1, B1], mass: {}}}\n  rod: {{points: [B1, P, C1], mass: {}}}\n  barrel: {{points: [A2], mass: {}}}\n"
+      "  crank: {{points: [A1, B1], mass: {}}}\n  rod: {{points: [B1, P, C1], mass: {}}}\n  barrel: {{points: [A2], "
+      "mass: {}}}\n"
       "  piston: {{points: [P], mass: {}}}\njoints:\n",
       n.mass(), n.mass(), n.mass(), n.mass());
   text += pin("A1", "ground", "crank", true) + pin("B1", "crank", "rod", false) + pin("P", "rod", "piston", false) +
