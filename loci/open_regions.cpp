@@ -32,7 +32,13 @@ void hull_with(OpenRegion& region, const OpenRegion& other) {
 
 /// Of one locus.
 std::vector<OpenRegion> told_together(std::vector<OpenRegion> regions) {
-  if (regions.size() <= most_places) return regions;
+  if (regions.size() <= most_places) {
+    std::vector<OpenRegion> places;
+    for (OpenRegion& region : regions)
+      if (std::none_of(places.begin(), places.end(), [&](const auto& other) { return is_within(region, other); }))
+        places.push_back(std::move(region));
+    return places;
+  }
   OpenRegion all = regions.front();
   for (const OpenRegion& region : regions) hull_with(all, region);
   std::map<std::vector<int>, OpenRegion> cells;
@@ -82,10 +88,8 @@ void finish_open_regions(LocusMap& map) {
   for (OpenRegion& region : map.open) {
     auto own = std::find_if(by_locus.begin(), by_locus.end(),
                             [&](const auto& list) { return is_of_same(list.front(), region); });
-    if (own == by_locus.end()) own = by_locus.insert(own, std::vector<OpenRegion>{});
-    const bool known =
-        std::any_of(own->begin(), own->end(), [&](const OpenRegion& other) { return is_within(region, other); });
-    if (!known) own->push_back(std::move(region));
+    if (own == by_locus.end()) own = by_locus.emplace(own);
+    own->push_back(std::move(region));
   }
   map.open.clear();
   for (std::vector<OpenRegion>& list : by_locus)

@@ -152,6 +152,19 @@ Json isolated_point_object(const core::LocusMap& map, const core::IsolatedPoint&
   return body;
 }
 
+Json open_array(const core::LocusMap& map) {
+  Json list = Json::array();
+  for (const core::OpenRegion& region : map.open)
+    list.push_back({{"kind", core::to_string(region.kind)},
+                    {"vanishing", vanishing_array(region.vanishing)},
+                    {"factor", printable(region.factor)},
+                    {"cause", printable(region.cause)},
+                    {"working_mode", mode_object(map.tower, region.mode)},
+                    {"from", region.lower},
+                    {"to", region.upper}});
+  return list;
+}
+
 Json box_array(const core::LocusMap& map) {
   Json box = Json::array();
   for (std::size_t i = 0; i < map.lower.size(); ++i) {
@@ -199,19 +212,6 @@ Json vanishing_array(const std::vector<core::Vanishing>& vanishing) {
     reactions.push_back(std::move(body));
   }
   return reactions;
-}
-
-Json open_array(const core::LocusMap& map) {
-  Json list = Json::array();
-  for (const core::OpenRegion& region : map.open)
-    list.push_back({{"kind", core::to_string(region.kind)},
-                    {"vanishing", vanishing_array(region.vanishing)},
-                    {"factor", printable(region.factor)},
-                    {"cause", printable(region.cause)},
-                    {"working_mode", mode_object(map.tower, region.mode)},
-                    {"from", region.lower},
-                    {"to", region.upper}});
-  return list;
 }
 
 Json loci_object(const core::LocusMap& map) {

@@ -165,7 +165,7 @@ void hold(const mechanism::Mechanism& mechanism, const std::string& bound, int l
                                          << " crossings are on no arc, the first at (" << count.missing.front()[0]
                                          << ", " << count.missing.front()[1] << ")";
     }
-  RecordProperty("crossings", all);
+  testing::Test::RecordProperty("crossings", all);
 }
 
 class MarginCurves : public testing::TestWithParam<unsigned> {};

@@ -50,12 +50,36 @@ TEST(LociTable, NotesUncertaintyAndIncompletenessAreSaid) {
   EXPECT_FALSE(has(loci_table(map), "certified"));
   map.curves[1].certified = false;
   map.complete = false;
+  map.out_of_time = true;
   map.notes = {"M_A2 vanishes in every pose"};
   const std::string table = loci_table(map);
   EXPECT_TRUE(has(table, "c2*"));
   EXPECT_TRUE(has(table, "not certified"));
   EXPECT_TRUE(has(table, "Incomplete"));
   EXPECT_TRUE(has(table, "M_A2 vanishes in every pose"));
+}
+
+TEST(LociTable, OpenPlacesAreCountedBesideTheirCurve) {
+  core::LocusMap map = fixture::five_bar_map();
+  map.complete = false;
+  const core::LocusCurve& curve = map.curves[0];
+  const double x = core::to_double(map.lower[0]), y = core::to_double(map.lower[1]);
+  const double wide = core::to_double(map.upper[0]) - x, high = core::to_double(map.upper[1]) - y;
+  core::OpenRegion region{curve.kind, curve.vanishing, curve.factor, curve.cause, curve.mode, {x, y}, {}};
+  region.upper = {x + wide / 10, y + high / 10};
+  map.open = {region, region};
+  std::string table = loci_table(map);
+  EXPECT_TRUE(has(table, "open: 2 places, 2 % of the box"));
+  EXPECT_TRUE(has(table, "Incomplete"));
+  EXPECT_FALSE(has(table, "time limit"));
+  // Of a locus of which nothing is drawn.
+  map.open[1].factor = "another";
+  map.open[1].cause = "something else";
+  map.open[1].upper = map.open[1].lower;
+  table = loci_table(map);
+  EXPECT_TRUE(has(table, "open: 1 place, 1 % of the box"));
+  EXPECT_TRUE(has(table, "open: 1 place, below 0.001 % of the box"));
+  EXPECT_TRUE(has(table, "something else"));
 }
 
 TEST(LociTable, AnEmptyMapIsAnAnswer) {

@@ -71,6 +71,13 @@ export function legendPanel(bench: Workbench): Panel {
   return { element: section("Curves", true, body, notes), update: (news) => ["loci", "zones", "state.hidden", "state.file", "theme"].some((one) => news.has(one)) && show() };
 }
 
+/** Why not all loci are known. */
+export function incompleteWords(loci: { open?: readonly unknown[] }): string {
+  const places = (loci.open ?? []).length;
+  if (places === 0) return "incomplete: stopped at the time limit";
+  return `incomplete: ${places} ${places === 1 ? "place" : "places"} at which a locus is not settled`;
+}
+
 /** Reactions that no load reaches are told in one note, not in one each. */
 export function notesInShort(notes: readonly string[]): string[] {
   const idle = / is zero in every pose: no load reaches it$/;
