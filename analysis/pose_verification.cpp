@@ -161,6 +161,11 @@ class Verifier {
       result.witness = confirmed(suspect);
       return result.witness.has_value();
     };
+    // On one side of a fold links are rigid or bend all over it, and no proof leads across: one pose tells which.
+    if (refuted({Doubt::workspace, -1, region_.samples().front()})) {
+      result.verdict = core::Verdict::refuted;
+      return result;
+    }
     for (const NearPose& own : near)
       if (own.distance <= margin_ && refuted({own.kind, own.demand, own.at})) {
         result.verdict = core::Verdict::refuted;

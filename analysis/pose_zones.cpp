@@ -151,6 +151,34 @@ class Ends {
   bool jumps_ = false;
 };
 
+/// Zones on a side of a fold on which a link bends are out of reach: on one side links are rigid or bend all over it,
+/// so that one pose tells.
+void leave_rigid(loci::pose::CellZones& found, const numeric::NumericModel& model, const DyadSides& sides) {
+  std::vector<std::size_t> place(found.zones.size(), found.zones.size());  // among those that stay
+  std::vector<loci::pose::CellZone> kept;
+  for (std::size_t z = 0; z < found.zones.size(); ++z) {
+    const numeric::Posture posture = numeric::posture(model, found.zones[z].sample, sides);
+    if (posture.broken && !posture.unreachable) {
+      found.outside += found.zones[z].at_least;
+      continue;
+    }
+    place[z] = kept.size();
+    kept.push_back(std::move(found.zones[z]));
+  }
+  for (loci::pose::CellZone& zone : kept) {
+    std::set<std::size_t> perhaps;
+    for (const std::size_t other : zone.perhaps)
+      if (place[other] < place.size()) perhaps.insert(place[other]);
+    zone.perhaps = std::move(perhaps);
+  }
+  for (int& label : found.raster) {
+    if (label <= 0) continue;
+    const std::size_t own = place[static_cast<std::size_t>(label) - 1];
+    label = own < place.size() ? static_cast<int>(own) + 1 : -1;
+  }
+  found.zones = std::move(kept);
+}
+
 /// A crank that turns on: where the range is a full turn, its first and last zone are one.
 void note_meeting_ends(PoseZones& map) {
   constexpr double of_turn = 1e-12;  // roundings of the range's ends
@@ -198,6 +226,7 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
   if (result.lower.size() == 1) effort.enough_doubt = 0;
   effort.raster.assign(result.lower.size(), raster_of(result.lower.size()));
   loci::pose::CellZones found = loci::pose::cell_zones(statics, result.lower, result.upper, effort);
+  leave_rigid(found, models.front(), sides);
   result.outside = found.outside;
   result.in_doubt = found.in_doubt;
   result.cells = found.cells;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mechanism/actions.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/singular_modes.hpp"
@@ -23,10 +24,19 @@ std::optional<std::string> complaint(const mechanism::Mechanism& loaded, const D
   constexpr std::size_t poses = 256;
   const mechanism::Mechanism mechanism = bare(loaded);
   const numeric::NumericModel model = numeric::compile(mechanism);
+  std::optional<std::string> bent;
+  bool reached = false;
   for (const std::vector<double>& pose : mechanism::spread_poses(mechanism, poses)) {
     const numeric::BoundedNumerators at = numeric::bounded_numerators(model, pose, sides);
     if (at.reachable && std::abs(at.determinant.value) > at.determinant.error) return std::nullopt;
+    reached = reached || at.reachable;
+    // Without limits what is broken is a link.
+    if (const numeric::Posture posture = numeric::posture(model, pose, sides); posture.broken && !reached && !bent)
+      bent = mechanism::words_of_end(mechanism, posture.broken->limit, posture.broken->upper);
   }
+  if (bent && !reached)
+    return "the working mode " + symbolic::mode_words(mechanism, sides) + " bends a link: the " + *bent +
+           " is not held in any pose looked at";
   const std::optional<std::string> why = symbolic::why_singular(mechanism, sides);
   if (!why) return std::nullopt;
   const std::string words = symbolic::mode_words(mechanism, sides);

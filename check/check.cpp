@@ -19,6 +19,7 @@
 #include "check/zones.hpp"
 #include "core/errors.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/idle_limits.hpp"
 #include "mechanism/read.hpp"
 
 namespace clearloci::check {
@@ -69,7 +70,7 @@ class Check {
     const auto dyads = static_cast<std::ptrdiff_t>(mechanism::dyad_points(m_).size());
     if (std::count(c_.root_roles.begin(), c_.root_roles.end(), core::RootRole::working_mode) != dyads)
       throw FalseClaim("roots: there is not one for every dyad and slider");
-    // One that no pose of the box is beyond bounds nothing, and has no root: such models are not checked.
+    // Limits that keep a number, and so bound nothing, were left out.
     if (c_.limit_roots.size() != limit_ends(m_))
       throw core::InputError({m_.file}, "the model has a limit that the certificate knows no root of",
                              "leave a limit out that no pose is beyond");
@@ -273,7 +274,8 @@ Examination check_certificate_text(const std::string& model_text, const std::str
     certificate.deadline = deadline;
     if (!same_text(model_text, certificate.model))
       throw FalseClaim("model: it is not the file that the certificate was made for");
-    const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model_text, model_file, certificate.overrides);
+    const mechanism::Mechanism mechanism =
+        mechanism::without_idle_limits(mechanism::parse_mechanism(model_text, model_file, certificate.overrides));
     return Check(mechanism, certificate).run();
   } catch (const FalseClaim& claim) {
     Examination examination;

@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/rigidity.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -84,8 +85,11 @@ std::string words_of_end(const Mechanism& mechanism, std::size_t limit, bool upp
   std::size_t left = limit - mechanism.limits.size();
   for (const Spring& spring : mechanism.springs)
     if (spring.kind == Spring::Kind::torsion && left-- == 0) return words_of_reach(spring);
-  core::ensure(false, "a limit or a torsion spring");
-  return {};
+  const HeldByLinks held = held_by_links(mechanism);
+  if (left < held.distances.size()) return words_of(mechanism, held.distances[left]);
+  left -= held.distances.size();
+  core::ensure(left < held.turns.size(), "a limit, a torsion spring or what a rigid link holds");
+  return words_of(mechanism, held.turns[left]);
 }
 
 VectorExpression direction_of(const Mechanism& mechanism, LinkIndex link) {

@@ -43,7 +43,7 @@ core::Rational least_torsion_cosine();
 /// "torsion spring T half a turn off its rest".
 std::string words_of_reach(const Spring& spring);
 
-/// What a pose may be beyond: the file's limits, then its torsion springs.
+/// What a pose may be beyond: the file's limits, its torsion springs, then what rigid links hold (rigidity.hpp).
 std::string words_of_end(const Mechanism& mechanism, std::size_t limit, bool upper);
 
 /// Of a link's first two points, the way from one to the other; the x axis of the ground: what torsion springs measure.

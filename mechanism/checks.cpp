@@ -55,25 +55,6 @@ const VectorExpression* axis_of(const Point& point) {
 
 bool is_explicit(const Point& point) { return std::holds_alternative<ExplicitPoint>(point.form); }
 
-/// Least and greatest distance of two points over sampled postures.
-struct DistanceRange {
-  PointIndex first, second;
-  double least = INFINITY, greatest = 0;
-};
-
-std::vector<DistanceRange> distances_to_keep(const Link& link) {
-  std::vector<DistanceRange> pairs;
-  for (std::size_t i = 0; i < link.points.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) pairs.push_back({link.points[j], link.points[i]});
-  if (!link.mass.is_zero_literal())
-    for (const PointIndex point : link.points)
-      if (point != link.centre_of_mass) pairs.push_back({point, link.centre_of_mass});
-  for (const PointMass& mass : link.masses)
-    for (const PointIndex point : link.points)
-      if (point != mass.at) pairs.push_back({point, mass.at});
-  return pairs;
-}
-
 }  // namespace
 
 std::set<std::string> coordinates_of(const Mechanism& mechanism, PointIndex point) {
@@ -310,42 +291,6 @@ void check_springs(const Mechanism& mechanism) {
         throw InputError(limit.where,
                          "two points of the limit of the " + name_of(mechanism, limit) + " coincide in every pose",
                          "name points in different places");
-}
-
-void check_rigidity(const Mechanism& mechanism) {
-  // Of the link's size, not of the distance itself: two points of a link may be one place (a point in the middle of a
-  // link is its centre of mass), and what rounding leaves of no distance at all is no part of it. A real motion is far
-  // more.
-  constexpr double tolerance = 1e-7;
-  // Of the coordinates: what rounding moves a point by that is far from the origin, with room for a construction.
-  constexpr double rounding = 1e-13;
-  constexpr std::size_t enough_postures = 12;
-  const std::vector<PosturePoints> postures = sample_postures(mechanism, enough_postures);
-  if (postures.empty()) return;
-  for (const Link& link : mechanism.links) {
-    std::vector<DistanceRange> pairs = distances_to_keep(link);
-    double size = 0, farthest = 0;
-    for (DistanceRange& pair : pairs) {
-      for (const PosturePoints& posture : postures) {
-        const auto& p = posture[static_cast<std::size_t>(pair.first)];
-        const auto& q = posture[static_cast<std::size_t>(pair.second)];
-        const double apart = distance(p, q);
-        pair.least = std::min(pair.least, apart);
-        pair.greatest = std::max(pair.greatest, apart);
-        farthest = std::max({farthest, distance(p, {}), distance(q, {})});
-      }
-      size = std::max(size, pair.greatest);
-    }
-    for (const DistanceRange& pair : pairs) {
-      if (pair.greatest - pair.least <= tolerance * size + rounding * farthest) continue;
-      const Point& second = point_at(mechanism, pair.second);
-      throw InputError(link.where,
-                       "link " + link.name + " is not rigid: the distance between " +
-                           point_at(mechanism, pair.first).name + " and " +
-                           (second.auxiliary ? "its centre of mass" : second.name) + " changes over the workspace",
-                       "list only points that move together, each tied to the others by a dyad, slider, on or mean");
-    }
-  }
 }
 
 }  // namespace clearloci::mechanism

@@ -79,8 +79,8 @@ Values values_of(const Mechanism& mechanism, const std::vector<double>& pose) {
   return values;
 }
 
-MaybePoints points_at(const Mechanism& mechanism, const Values& values) {
-  const Placement<Doubles> placed(mechanism, working_mode(mechanism), {values});
+MaybePoints points_at(const Mechanism& mechanism, const Values& values, const std::vector<int>& sides) {
+  const Placement<Doubles> placed(mechanism, sides, {values});
   MaybePoints points;
   for (const Vector& point : placed.points()) points.push_back(if_finite(point));
   return points;
@@ -95,24 +95,31 @@ std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, c
 }
 
 MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
-  return points_at(mechanism, values_of(mechanism, pose));
+  return points_at(mechanism, values_of(mechanism, pose), working_mode(mechanism));
 }
 
-std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count) {
+std::vector<SampledPosture> sample_poses(const Mechanism& mechanism, const std::vector<int>& sides, std::size_t count) {
   constexpr std::size_t tries = 4096, at_once = 64;
-  std::vector<PosturePoints> postures;
+  std::vector<SampledPosture> postures;
   Values values = values_of(mechanism, {});
   for (std::size_t first = 0; first < tries; first += at_once) {
-    for (const std::vector<double>& pose : spread_poses(mechanism, at_once, first)) {
+    for (std::vector<double>& pose : spread_poses(mechanism, at_once, first)) {
       if (postures.size() == count) return postures;
       put_pose(values, mechanism, pose);
       PosturePoints posture;
-      for (const std::optional<Vector>& point : points_at(mechanism, values))
+      for (const std::optional<Vector>& point : points_at(mechanism, values, sides))
         if (point) posture.push_back(*point);
-      if (posture.size() == mechanism.points.size()) postures.push_back(std::move(posture));
+      if (posture.size() == mechanism.points.size()) postures.push_back({std::move(pose), std::move(posture)});
     }
   }
   return postures;
+}
+
+std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count) {
+  std::vector<PosturePoints> all;
+  for (SampledPosture& own : sample_poses(mechanism, working_mode(mechanism), count))
+    all.push_back(std::move(own.points));
+  return all;
 }
 
 }  // namespace clearloci::mechanism

@@ -26,4 +26,12 @@ std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, c
 /// Up to `count` complete postures; fewer where the mechanism closes in few of 4096 poses.
 std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count);
 
+struct SampledPosture {
+  std::vector<double> pose;
+  PosturePoints points;
+};
+
+/// The same in any working mode, with their poses.
+std::vector<SampledPosture> sample_poses(const Mechanism& mechanism, const std::vector<int>& sides, std::size_t count);
+
 }  // namespace clearloci::mechanism

@@ -116,7 +116,9 @@ void check_distinct_bases(const Mechanism& mechanism);
 void check_axes(const Mechanism& mechanism);
 /// No spring is without length in every pose, and no limit without a direction.
 void check_springs(const Mechanism& mechanism);
-/// The points of a link keep their distances.
+
+// --- rigidity.cpp
+/// The points of a link keep their distances in sampled postures, or may on one side of a fold.
 void check_rigidity(const Mechanism& mechanism);
 
 // --- reachability.cpp

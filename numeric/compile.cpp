@@ -3,6 +3,8 @@
 
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/idle_limits.hpp"
+#include "mechanism/rigidity.hpp"
 #include "numeric/equations.hpp"
 #include "numeric/evaluator.hpp"
 
@@ -28,9 +30,15 @@ class ModelBuilder {
     for (const Triple& p : model.points) add_placed(p, model);
     for (const auto& u : model.axes)
       if (u) add_placed(*u, model);
-    for (const mechanism::Limit& limit : m_.limits) add_limit(limit, model);
+    const std::vector<bool> idle = mechanism::idle_limits(m_);
+    for (std::size_t i = 0; i < idle.size(); ++i)
+      if (idle[i])
+        keep({}, model);
+      else
+        add_limit(m_.limits[i], model);
     for (const Action& action : mechanism::actions(m_))
       if (action.law == Action::Law::torsion) add_reach(action, model);
+    hold_links(model);
     if (!m_.gravity.empty()) model.gravity = geometry_.components(m_.gravity);
     model.loads = loads(model);
     model.posture_size = tape_.size();
@@ -167,6 +175,27 @@ class ModelBuilder {
   void add_reach(const Action& action, NumericModel& model) {
     const Register least = tape_.constant(core::to_double(mechanism::least_torsion_cosine()));
     keep({tape_.subtract(tape_.cos(off_rest(action, axis_of(action))), least), std::nullopt}, model);
+  }
+
+  /// What is left of the rounding by which a distance or a turn of a rigid link may be off.
+  void hold_links(NumericModel& model) {
+    auto& t = tape_;
+    Geometry& g = geometry_;
+    const auto within = [&](Register ratio) {
+      const Register off = t.divide(t.subtract(ratio, g.one()), t.constant(mechanism::bending));
+      keep({t.subtract(g.one(), t.square(off)), std::nullopt}, model);
+    };
+    const mechanism::HeldByLinks held = mechanism::held_by_links(m_);
+    for (const mechanism::HeldDistance& own : held.distances) {
+      const Triple way = g.minus(g.point(own.second), g.point(own.first));
+      within(t.divide(g.dot(way, way), t.constant(own.length * own.length)));
+    }
+    for (const mechanism::HeldTurn& own : held.turns) {
+      const auto way = [&](std::size_t i) { return g.minus(g.point(own.points[i]), g.point(own.points[0])); };
+      const Triple across = g.cross(way(1), way(2));
+      const Register turn = own.points.size() == 3 ? across[2] : g.dot(across, way(3));
+      keep({t.divide(turn, t.constant(own.size)), std::nullopt}, model);
+    }
   }
 
   void keep(const std::array<std::optional<Register>, 2>& slack, NumericModel& model) {

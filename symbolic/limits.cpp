@@ -1,6 +1,11 @@
 #include "symbolic/limits.hpp"
 
+#include <algorithm>
+
+#include "core/errors.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/idle_limits.hpp"
+#include "symbolic/sheets.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -38,15 +43,16 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry) {
         return number(Expression::apply(Expression::Kind::cos, {angle}));
       };
       if (limit.keeps_lower())
-        all.push_back({cos(limit.lower) - cosine, mechanism::words_of(m, limit, false), limit.where});
+        all.push_back({cos(limit.lower) - cosine, mechanism::words_of(m, limit, false), limit.where, {}, i});
       if (limit.keeps_upper())
-        all.push_back({cosine - cos(limit.upper), mechanism::words_of(m, limit, true), limit.where});
+        all.push_back({cosine - cos(limit.upper), mechanism::words_of(m, limit, true), limit.where, {}, i});
       continue;
     }
     const std::vector<Poly> way = components(geometry, p[0], p[1]);
     const Poly square = dot(way, way), lower = number(limit.lower), upper = number(limit.upper);
-    if (limit.keeps_lower()) all.push_back({square - lower * lower, mechanism::words_of(m, limit, false), limit.where});
-    all.push_back({upper * upper - square, mechanism::words_of(m, limit, true), limit.where});
+    if (limit.keeps_lower())
+      all.push_back({square - lower * lower, mechanism::words_of(m, limit, false), limit.where, {}, i});
+    all.push_back({upper * upper - square, mechanism::words_of(m, limit, true), limit.where, {}, i});
   }
   for (const TorsionAngle& angle : geometry.torsion_angles()) {
     if (angle.tangent) continue;  // it is cut nowhere
@@ -55,9 +61,41 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry) {
     for (const bool second : {false, true})
       cosine *= geometry.poly(geometry.inverse_length(Geometry::arm_name(spring, second)).natural);
     const Poly least(geometry.ring(), mechanism::least_torsion_cosine());
-    all.push_back({cosine - least, mechanism::words_of_reach(spring), spring.where, spring.name});
+    all.push_back({cosine - least, mechanism::words_of_reach(spring), spring.where, spring.name, m.limits.size()});
   }
   return all;
+}
+
+namespace {
+
+/// Whether what is left to a limit is 0 or more, and the same number, on every sheet of the file's working mode.
+bool is_idle_on_sheets(const mechanism::Mechanism& mechanism, const Charts& charts, std::size_t condition) {
+  const std::vector<SheetGeometry> sheets = sheet_geometries(mechanism, charts, {mechanism::working_mode(mechanism)});
+  return std::all_of(sheets.begin(), sheets.end(), [&](const SheetGeometry& sheet) {
+    const auto left =
+        Elimination(sheet.geometry).constant_over_tower(limit_conditions(sheet.geometry).at(condition).natural);
+    return left && *left >= 0;
+  });
+}
+
+}  // namespace
+
+std::vector<LimitCondition> bounding_limits(const Geometry& geometry, const Elimination& elimination) {
+  const mechanism::Mechanism& m = geometry.mechanism();
+  std::vector<LimitCondition> all = limit_conditions(geometry), bounding;
+  if (all.empty()) return all;
+  const std::vector<bool> idle = mechanism::idle_limits(m);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (const auto left = elimination.constant_over_tower(all[i].natural)) {
+      if (*left >= 0) continue;
+      throw core::InputError(all[i].where, "every pose is beyond the limit of the " + all[i].words, "widen the limit");
+    }
+    if (all[i].limit < idle.size() && idle[all[i].limit] && !geometry.has_dependent_roots() &&
+        is_idle_on_sheets(m, geometry.charts(), i))
+      continue;
+    bounding.push_back(std::move(all[i]));
+  }
+  return bounding;
 }
 
 }  // namespace clearloci::symbolic

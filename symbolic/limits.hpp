@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/elimination.hpp"
 #include "symbolic/geometry.hpp"
 
 namespace clearloci::symbolic {
@@ -17,9 +18,15 @@ struct LimitCondition {
   std::string words;  ///< "distance A1-P at 0.52 m"
   core::SourcePosition where;
   std::string bounds = {};  ///< core::Root::bounds
+  std::size_t limit = 0;    ///< of the mechanism; of a torsion spring as many as there are
 };
 
 /// One for each end of a limit that some pose may be beyond.
 std::vector<LimitCondition> limit_conditions(const Geometry& geometry);
+
+/// Those that bound something: none of which what is left to the limit is the same number in every pose, 0 or more.
+/// That is decided exactly over the tower; where roots depend on one another, over the sheets of the file's working
+/// mode. Throws core::InputError where every pose is beyond one.
+std::vector<LimitCondition> bounding_limits(const Geometry& geometry, const Elimination& elimination);
 
 }  // namespace clearloci::symbolic

@@ -632,12 +632,8 @@ class Derivation {
 
   /// A sheet ends where a limit does, as at a fold: one more root, of what is left to the limit.
   void add_limits() {
-    for (const LimitCondition& limit : limit_conditions(geometry_)) {
+    for (const LimitCondition& limit : bounding_limits(geometry_, elimination_)) {
       const Poly sheet = elimination_.over_tower(limit.natural);
-      if (const auto left = elimination_.constant_over_tower(limit.natural)) {
-        if (*left >= 0) continue;
-        throw core::InputError(limit.where, "every pose is beyond the limit of the " + limit.words, "widen the limit");
-      }
       LocusFactor factor;
       factor.expression = text(limit.natural);
       factor.cause = std::string(mechanism::limit_cause) + limit.words;
@@ -943,13 +939,20 @@ struct Piece {
   std::vector<DerivedProblem> problems;
   DerivedProblem without_modes;      ///< in their place where none is left
   std::vector<std::string> refused;  ///< sheets on which |A| vanishes everywhere, and why
+  std::vector<BentMode> bent;        ///< modes none of whose sheets is left
 };
 
 Piece problems_of(const Mechanism& mechanism, const Selection& selection, const std::vector<ChartRange>& charts,
                   const Family* family, const std::vector<Sides>& modes) {
   auto start = Clock::now();
   Piece piece;
-  for (SheetGeometry& sheet : sheet_geometries(mechanism, charts_of(mechanism, charts), modes)) {
+  const Charts own = charts_of(mechanism, charts);
+  std::vector<SheetGeometry> sheets = sheet_geometries(mechanism, own, modes, &piece.bent);
+  if (sheets.empty())
+    piece.without_modes =
+        Derivation(mechanism, selection, charts, family, {Geometry(mechanism, false, own, {modes.front()}), {}})
+            .without_modes();
+  for (SheetGeometry& sheet : sheets) {
     Derivation derivation(mechanism, selection, charts, family, std::move(sheet));
     if (const std::optional<std::string> why = derivation.singular()) {
       if (!derivation.has_dependent_roots())
@@ -969,15 +972,34 @@ Piece problems_of(const Mechanism& mechanism, const Selection& selection, const 
   return piece;
 }
 
+/// Of the modes that are bent whatever the charts.
+std::vector<std::string> words_of_bent(const Mechanism& mechanism, const std::vector<Piece>& pieces) {
+  std::vector<std::string> list;
+  for (const BentMode& own : pieces.front().bent) {
+    const auto is_bent = [&](const Piece& piece) {
+      return std::any_of(piece.bent.begin(), piece.bent.end(),
+                         [&](const BentMode& other) { return other.sides == own.sides; });
+    };
+    if (std::all_of(pieces.begin(), pieces.end(), is_bent))
+      list.push_back("the working mode " + mode_words(mechanism, own.sides) + " bends a link: " + own.what);
+  }
+  return list;
+}
+
 std::vector<DerivedProblem> problems_of(const Mechanism& mechanism, const Selection& selection, const Family* family) {
   std::vector<Sides> modes = selection.working_modes;
   if (modes.empty()) modes.push_back(mechanism::working_mode(mechanism));
   std::vector<Piece> pieces;
   for (const std::vector<ChartRange>& charts : all_pieces(mechanism))
     pieces.push_back(problems_of(mechanism, selection, charts, family, modes));
-  if (std::all_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.problems.empty(); }))
-    throw core::InputError({mechanism.file}, pieces.front().refused.front(),
+  const std::vector<std::string> bent = words_of_bent(mechanism, pieces);
+  if (std::all_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.problems.empty(); })) {
+    const auto refused =
+        std::find_if(pieces.begin(), pieces.end(), [](const Piece& piece) { return !piece.refused.empty(); });
+    throw core::InputError({mechanism.file}, refused != pieces.end() ? refused->refused.front() : bent.front(),
                            "choose another working mode, or change the lengths, the joints or which are actuated");
+  }
+  for (const std::string& words : bent) pieces.front().refused.push_back(words);
   std::vector<DerivedProblem> problems;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     std::vector<DerivedProblem>& own = pieces[i].problems;

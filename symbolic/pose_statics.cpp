@@ -7,6 +7,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/idle.hpp"
+#include "mechanism/idle_limits.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/linear_elimination.hpp"
 #include "symbolic/pose_program.hpp"
@@ -55,7 +56,9 @@ class StaticsBuilder {
         own.components.push_back(placed(elimination.substituted(row), places));
       result.demands.push_back(std::move(own));
     }
-    for (const mechanism::Limit& limit : m_.limits) add_limit(limit, result.positive);
+    const std::vector<bool> idle = mechanism::idle_limits(m_);
+    for (std::size_t i = 0; i < idle.size(); ++i)
+      if (!idle[i]) add_limit(m_.limits[i], result.positive);
     for (const mechanism::Spring& spring : m_.springs)
       if (spring.kind == mechanism::Spring::Kind::torsion) add_reach(spring, result.positive);
     std::vector<int*> steps;

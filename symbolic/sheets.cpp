@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "symbolic/angle_range.hpp"
+#include "symbolic/rigid_sheets.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -30,8 +31,39 @@ std::vector<SheetGeometry> sides_of_folds(const mechanism::Mechanism& mechanism,
 
 }  // namespace
 
+namespace {
+
+/// Leaves the sheets and modes on which all links are rigid; of every other mode the last thing that bends.
+std::vector<BentMode> leave_rigid(const mechanism::Mechanism& mechanism, std::vector<SheetGeometry>& sheets,
+                                  const std::vector<Sides>& modes) {
+  std::vector<BentMode> bent;
+  const mechanism::HeldByLinks held = mechanism::held_by_links(mechanism);
+  if (held.empty()) return bent;
+  for (SheetGeometry& sheet : sheets) {
+    const Elimination elimination(sheet.geometry);
+    std::erase_if(sheet.modes, [&](const Sides& sides) {
+      std::optional<std::string> what = what_bends(sheet.geometry, elimination, held, sides);
+      if (what) bent.push_back({sides, std::move(*what)});
+      return what.has_value();
+    });
+  }
+  std::erase_if(sheets, [](const SheetGeometry& sheet) { return sheet.modes.empty(); });
+  std::vector<BentMode> lost;
+  for (const Sides& sides : modes) {
+    const auto is_held = [&](const SheetGeometry& sheet) {
+      return std::find(sheet.modes.begin(), sheet.modes.end(), sides) != sheet.modes.end();
+    };
+    if (std::any_of(sheets.begin(), sheets.end(), is_held)) continue;
+    const auto why = std::find_if(bent.begin(), bent.end(), [&](const BentMode& own) { return own.sides == sides; });
+    if (why != bent.end()) lost.push_back(*why);
+  }
+  return lost;
+}
+
+}  // namespace
+
 std::vector<SheetGeometry> sheet_geometries(const mechanism::Mechanism& mechanism, const Charts& charts,
-                                            const std::vector<Sides>& modes) {
+                                            const std::vector<Sides>& modes, std::vector<BentMode>* bent) {
   std::vector<std::vector<SheetGeometry>> found;
   for (const Sides& mode : modes) {
     const auto alike = std::find_if(found.begin(), found.end(), [&](const std::vector<SheetGeometry>& sheets) {
@@ -46,6 +78,8 @@ std::vector<SheetGeometry> sheet_geometries(const mechanism::Mechanism& mechanis
   std::vector<SheetGeometry> all;
   for (std::vector<SheetGeometry>& sheets : found)
     for (SheetGeometry& sheet : sheets) all.push_back(std::move(sheet));
+  std::vector<BentMode> lost = leave_rigid(mechanism, all, modes);
+  if (bent != nullptr) *bent = std::move(lost);
   return all;
 }
 

@@ -21,10 +21,17 @@ struct SheetGeometry {
   std::vector<Sides> modes;  ///< those whose postures it holds
 };
 
+/// A mode in which some link is rigid on no sheet.
+struct BentMode {
+  Sides sides;
+  std::string what;  ///< rigid_sheets.hpp
+};
+
 /// Every mode is in the modes of one of them, or of one for each side of its folds. A single one, of all modes, where
-/// every root is independent of the others.
+/// every root is independent of the others. Without the sides on which a link bends, which are no workspace; `bent`
+/// takes the modes that nothing is left of.
 std::vector<SheetGeometry> sheet_geometries(const mechanism::Mechanism& mechanism, const Charts& charts,
-                                            const std::vector<Sides>& modes);
+                                            const std::vector<Sides>& modes, std::vector<BentMode>* bent = nullptr);
 
 /// Every combination of sides.
 std::vector<Sides> all_modes(const mechanism::Mechanism& mechanism);

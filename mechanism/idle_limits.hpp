@@ -1,0 +1,18 @@
+// Limits that bound nothing: what they keep is the same number in every pose, such as the length of a link, and within
+// both of their ends, or at one of them. Told from sampled postures in every working mode; symbolic/limits.hpp decides
+// it exactly where polynomials are at hand.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::mechanism {
+
+/// One a limit of the mechanism: whether it bounds nothing.
+std::vector<bool> idle_limits(const Mechanism& mechanism);
+
+/// Without them.
+Mechanism without_idle_limits(Mechanism mechanism);
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,293 @@
+#include "mechanism/rigidity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+
+#include "mechanism/posture_sample.hpp"
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using Vector = std::array<double, 3>;
+using Pair = std::array<PointIndex, 2>;
+
+constexpr std::size_t enough_postures = 24;
+/// What rounding moves a point by, of its coordinates, with room for a construction.
+constexpr double rounding = 1e-13;
+
+Pair pair_of(PointIndex a, PointIndex b) { return {std::min(a, b), std::max(a, b)}; }
+
+const PointForm& form_of(const Mechanism& mechanism, PointIndex point) {
+  return mechanism.points[static_cast<std::size_t>(point)].form;
+}
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+double distance(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+/// The points that have to stay where they are in a link: its own, its centre of mass and its masses.
+std::vector<PointIndex> points_held(const Link& link) {
+  std::vector<PointIndex> list = link.points;
+  const auto add = [&](PointIndex point) {
+    if (std::find(list.begin(), list.end(), point) == list.end()) list.push_back(point);
+  };
+  if (!link.mass.is_zero_literal()) add(link.centre_of_mass);
+  for (const PointMass& mass : link.masses) add(mass.at);
+  return list;
+}
+
+/// Distances that the construction of the points holds, as far as simple rules tell.
+class Construction {
+ public:
+  explicit Construction(const Mechanism& mechanism) : m_(mechanism) {
+    for (std::size_t i = 0; i < m_.points.size(); ++i) {
+      const auto own = static_cast<PointIndex>(i);
+      if (const auto* dyad = std::get_if<DyadPoint>(&m_.points[i].form)) {
+        held_.insert(pair_of(own, dyad->from));
+        held_.insert(pair_of(own, dyad->to));
+      } else if (const auto* slider = std::get_if<SliderPoint>(&m_.points[i].form)) {
+        held_.insert(pair_of(own, slider->from));
+      }
+    }
+  }
+
+  /// A distance between a point on the way between two points and another one follows from those of the two.
+  bool holds(PointIndex a, PointIndex b) const { return holds(a, b, 0); }
+
+  bool is_built_by_roots(PointIndex point) const {
+    const PointForm& form = form_of(m_, point);
+    if (std::holds_alternative<ExplicitPoint>(form)) return false;
+    if (const auto* mean = std::get_if<MeanPoint>(&form))
+      return is_built_by_roots(mean->first) || is_built_by_roots(mean->second);
+    return true;
+  }
+
+ private:
+  bool holds(PointIndex a, PointIndex b, int depth) const {
+    constexpr int deepest = 6;
+    if (a == b || held_.contains(pair_of(a, b))) return true;
+    if (depth == deepest) return false;
+    for (const auto& [own, other] : {std::pair(a, b), std::pair(b, a)}) {
+      const PointForm& form = form_of(m_, own);
+      std::optional<Pair> ends;
+      bool beside = false;
+      if (const auto* mean = std::get_if<MeanPoint>(&form)) ends = {mean->first, mean->second};
+      if (const auto* offset = std::get_if<OffsetPoint>(&form)) {
+        ends = {offset->first, offset->second};
+        beside = !offset->left.is_zero_literal();
+      }
+      if (!ends) continue;
+      const auto& [first, second] = *ends;
+      if (beside && other != first && other != second && !beside_same(other, *ends)) continue;
+      if (holds(first, second, depth + 1) && holds(first, other, depth + 1) && holds(second, other, depth + 1))
+        return true;
+    }
+    return false;
+  }
+
+  /// A point that is placed in the frame of the same two points.
+  bool beside_same(PointIndex point, const Pair& ends) const {
+    const auto* offset = std::get_if<OffsetPoint>(&form_of(m_, point));
+    const auto* mean = std::get_if<MeanPoint>(&form_of(m_, point));
+    return (offset != nullptr && pair_of(offset->first, offset->second) == pair_of(ends[0], ends[1])) ||
+           (mean != nullptr && pair_of(mean->first, mean->second) == pair_of(ends[0], ends[1]));
+  }
+
+  const Mechanism& m_;
+  std::set<Pair> held_;
+};
+
+/// The value that most of the sampled ones are, to `tolerance`; nothing where no two agree.
+std::optional<double> usual_value(std::vector<double> values, double tolerance) {
+  if (values.size() == 1) return values.front();
+  std::sort(values.begin(), values.end());
+  std::size_t best = 0, most = 1;
+  for (std::size_t i = 0, last = 0; i < values.size(); ++i) {
+    while (last + 1 < values.size() && values[last + 1] - values[i] <= tolerance) ++last;
+    if (last - i + 1 > most) most = last - i + 1, best = i + (last - i) / 2;
+  }
+  return most > 1 ? std::optional(values[best]) : std::nullopt;
+}
+
+/// One distance that has to be held, over sampled postures.
+struct Sampled {
+  HeldDistance held;
+  std::vector<double> lengths;
+  double tolerance = 0;
+  std::optional<double> usual;
+};
+
+double size_of(const std::vector<PointIndex>& points, const std::vector<SampledPosture>& postures) {
+  double size = 0;
+  for (const SampledPosture& posture : postures)
+    for (const PointIndex a : points)
+      for (const PointIndex b : points)
+        size = std::max(
+            size, distance(posture.points[static_cast<std::size_t>(a)], posture.points[static_cast<std::size_t>(b)]));
+  return size;
+}
+
+std::vector<Sampled> sampled_distances(const Mechanism& mechanism, const std::vector<SampledPosture>& postures,
+                                       bool by_sides_alone) {
+  const Construction construction(mechanism);
+  std::vector<Sampled> all;
+  for (std::size_t l = 0; l < mechanism.links.size(); ++l) {
+    const std::vector<PointIndex> points = points_held(mechanism.links[l]);
+    const double size = size_of(points, postures);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const PointIndex a = points[j], b = points[i];
+        const bool by_sides = construction.is_built_by_roots(a) || construction.is_built_by_roots(b);
+        if (construction.holds(a, b) || (by_sides_alone && !by_sides)) continue;
+        Sampled& own = all.emplace_back(Sampled{{static_cast<LinkIndex>(l), a, b, 0, by_sides}, {}, 0, {}});
+        double farthest = 0;
+        for (const SampledPosture& posture : postures) {
+          const Vector &p = posture.points[static_cast<std::size_t>(a)],
+                       &q = posture.points[static_cast<std::size_t>(b)];
+          own.lengths.push_back(distance(p, q));
+          farthest = std::max({farthest, distance(p, {}), distance(q, {})});
+        }
+        own.tolerance = bending * size + rounding * farthest;
+        own.usual = usual_value(own.lengths, own.tolerance);
+        own.held.length = own.usual.value_or(0);
+      }
+  }
+  return all;
+}
+
+std::string in_file_units(const Mechanism& mechanism, double value, bool angle) {
+  char text[40];
+  if (angle)
+    std::snprintf(text, sizeof text, "%.6g deg", value * 180 / std::numbers::pi);
+  else
+    std::snprintf(text, sizeof text, "%.10g %s", value / mechanism.units.length.size,
+                  mechanism.units.length.name.c_str());
+  return text;
+}
+
+std::string words_of_pose(const Mechanism& mechanism, const std::vector<double>& pose) {
+  std::string text;
+  for (std::size_t i = 0; i < pose.size() && i < mechanism.coordinates.size(); ++i)
+    text += (i == 0 ? "" : ", ") + mechanism.coordinates[i].name + " = " +
+            in_file_units(mechanism, pose[i], mechanism.coordinates[i].angle);
+  return text;
+}
+
+const std::string& point_name(const Mechanism& mechanism, PointIndex point) {
+  return mechanism.points[static_cast<std::size_t>(point)].name;
+}
+
+[[noreturn]] void refuse(const Mechanism& mechanism, const Sampled& bent, const std::vector<SampledPosture>& postures) {
+  const auto [least, greatest] = std::minmax_element(bent.lengths.begin(), bent.lengths.end());
+  const Link& link = mechanism.links[static_cast<std::size_t>(bent.held.link)];
+  const bool unnamed = mechanism.points[static_cast<std::size_t>(bent.held.second)].auxiliary;
+  const auto where = [&](auto found) {
+    return in_file_units(mechanism, *found, false) + " at " +
+           words_of_pose(mechanism, postures[static_cast<std::size_t>(found - bent.lengths.begin())].pose);
+  };
+  throw core::InputError(link.where,
+                         "link " + link.name + " is not rigid: the distance between " +
+                             point_name(mechanism, bent.held.first) + " and " +
+                             (unnamed ? "its centre of mass" : point_name(mechanism, bent.held.second)) +
+                             " changes over the workspace, from " + where(least) + " to " + where(greatest),
+                         "list only points that move together, each tied to the others by a dyad, slider, on or mean");
+}
+
+double turn_of(const std::vector<PointIndex>& points, const PosturePoints& posture) {
+  const auto at = [&](std::size_t i) { return posture[static_cast<std::size_t>(points[i])]; };
+  const Vector a = minus(at(1), at(0)), b = minus(at(2), at(0));
+  return points.size() == 3 ? cross(a, b)[2] : dot(cross(a, b), minus(at(3), at(0)));
+}
+
+/// Whether a sampled posture keeps the distances.
+bool keeps(const std::vector<Sampled>& distances, std::size_t posture) {
+  return std::all_of(distances.begin(), distances.end(), [&](const Sampled& own) {
+    return !own.usual || std::abs(own.lengths[posture] - *own.usual) <= own.tolerance;
+  });
+}
+
+/// Points of a link of which one may come to stand on the other side of the others: none that stands in the frame of
+/// two of them.
+void add_turns(const Mechanism& mechanism, LinkIndex index, const std::vector<SampledPosture>& postures,
+               const std::vector<bool>& kept, HeldByLinks& result) {
+  constexpr double flat = 1e-6;  // of the link's size: of a triangle flatter than that no side is told
+  const Construction construction(mechanism);
+  const std::vector<PointIndex>& points = mechanism.links[static_cast<std::size_t>(index)].points;
+  const std::size_t corners = mechanism.space == Space::spatial ? 4 : 3;
+  if (points.size() < corners || postures.empty()) return;
+  const double size = size_of(points, postures);
+  const double least = std::pow(flat, corners - 2.0) * std::pow(size, static_cast<double>(corners) - 1);
+  for (std::size_t i = corners - 1; i < points.size(); ++i) {
+    std::vector<PointIndex> own(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(corners) - 1);
+    own.push_back(points[i]);
+    if (std::none_of(own.begin(), own.end(), [&](PointIndex p) { return construction.is_built_by_roots(p); })) continue;
+    std::vector<double> sizes;
+    for (std::size_t p = 0; p < postures.size(); ++p)
+      if (kept[p]) sizes.push_back(turn_of(own, postures[p].points));
+    if (sizes.empty()) continue;
+    const auto usual = usual_value(sizes, bending * std::pow(size, static_cast<double>(corners) - 1));
+    if (usual && std::abs(*usual) > least) result.turns.push_back({index, own, *usual});
+  }
+}
+
+}  // namespace
+
+HeldByLinks held_by_links(const Mechanism& mechanism) {
+  HeldByLinks result;
+  const Construction construction(mechanism);
+  const auto may_bend = [&](const Link& link) {
+    return link.points.size() > 1 && std::any_of(link.points.begin(), link.points.end(),
+                                                 [&](PointIndex p) { return construction.is_built_by_roots(p); });
+  };
+  const bool any = std::any_of(mechanism.links.begin(), mechanism.links.end(), [&](const Link& link) {
+    const std::vector<PointIndex> points = points_held(link);
+    if (points.size() > 2) return may_bend(link);
+    return points.size() == 2 && may_bend(link) && !construction.holds(points[0], points[1]);
+  });
+  if (!any) return result;
+  const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), enough_postures);
+  if (postures.size() < 2) return result;
+  const std::vector<Sampled> distances = sampled_distances(mechanism, postures, true);
+  for (const Sampled& own : distances)
+    if (own.usual) result.distances.push_back(own.held);
+  std::vector<bool> kept;
+  for (std::size_t p = 0; p < postures.size(); ++p) kept.push_back(keeps(distances, p));
+  for (std::size_t l = 0; l < mechanism.links.size(); ++l)
+    add_turns(mechanism, static_cast<LinkIndex>(l), postures, kept, result);
+  return result;
+}
+
+void check_rigidity(const Mechanism& mechanism) {
+  const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), enough_postures);
+  if (postures.size() < 2) return;
+  for (const Sampled& own : sampled_distances(mechanism, postures, false)) {
+    const auto [least, greatest] = std::minmax_element(own.lengths.begin(), own.lengths.end());
+    if (!own.usual || (!own.held.by_sides && *greatest - *least > own.tolerance)) refuse(mechanism, own, postures);
+  }
+}
+
+std::string words_of(const Mechanism& mechanism, const HeldDistance& held) {
+  const Point& second = mechanism.points[static_cast<std::size_t>(held.second)];
+  return "distance " + point_name(mechanism, held.first) + "-" + (second.auxiliary ? "centre of mass" : second.name) +
+         " of the rigid link " + mechanism.links[static_cast<std::size_t>(held.link)].name;
+}
+
+std::string words_of(const Mechanism& mechanism, const HeldTurn& held) {
+  std::string names;
+  for (std::size_t i = 0; i < held.points.size(); ++i)
+    names += (i == 0 ? "" : i + 1 == held.points.size() ? " and " : ", ") + point_name(mechanism, held.points[i]);
+  return "side of " + names + " in the rigid link " + mechanism.links[static_cast<std::size_t>(held.link)].name;
+}
+
+}  // namespace clearloci::mechanism

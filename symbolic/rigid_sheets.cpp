@@ -1,0 +1,153 @@
+#include "symbolic/rigid_sheets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/posture_sample.hpp"
+#include "symbolic/dependent_roots.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Rational;
+using mechanism::HeldDistance;
+using mechanism::HeldTurn;
+
+std::array<Poly, 3> way(const Geometry& geometry, mechanism::PointIndex from, mechanism::PointIndex to) {
+  const auto &a = geometry.natural(from), &b = geometry.natural(to);
+  return {geometry.poly((b[0] - a[0]).expand()), geometry.poly((b[1] - a[1]).expand()),
+          geometry.poly((b[2] - a[2]).expand())};
+}
+
+Poly squared_distance(const Geometry& geometry, const HeldDistance& held) {
+  Poly sum(geometry.ring());
+  for (const Poly& part : way(geometry, held.first, held.second)) sum += part * part;
+  return sum;
+}
+
+Poly turn(const Geometry& geometry, const HeldTurn& held) {
+  const auto a = way(geometry, held.points[0], held.points[1]), b = way(geometry, held.points[0], held.points[2]);
+  const Poly z = a[0] * b[1] - a[1] * b[0];
+  if (held.points.size() == 3) return z;
+  const auto c = way(geometry, held.points[0], held.points[3]);
+  return (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] + z * c[2];
+}
+
+/// Some poses of a sheet in a mode: the values of all ring variables that its elements are written in.
+std::vector<std::vector<double>> poses_of(const Geometry& geometry, const std::vector<int>& sides) {
+  constexpr std::size_t tries = 4096, enough = 6;
+  const mechanism::Mechanism& m = geometry.mechanism();
+  std::vector<core::Polynomial> squares, folds;
+  for (const TowerRoot& root : geometry.roots()) squares.push_back(root.square.plain());
+  for (const Fold& fold : geometry.folds()) folds.push_back(fold.where.plain());
+  std::vector<std::vector<double>> found;
+  for (std::vector<double>& pose : mechanism::spread_poses(m, tries)) {
+    std::vector<double> at(static_cast<std::size_t>(geometry.ring().size()), 0.0);
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+      const double lower = core::to_double(m.coordinates[i].lower), upper = core::to_double(m.coordinates[i].upper);
+      // Of an angle the half tangent of its chart, from end to end.
+      at[i] = geometry.charts()[i] ? 2 * (pose[i] - lower) / (upper - lower) - 1 : pose[i];
+    }
+    std::size_t dyad = 0;
+    bool placed = true;
+    for (std::size_t j = 0; j < squares.size() && placed; ++j) {
+      const TowerRoot& root = geometry.roots()[j];
+      const double square = core::evaluate(squares[j], std::span<const double>(at));
+      const int side = root.role == core::RootRole::working_mode ? sides[dyad++] : 1;
+      placed = square > 0;
+      at[static_cast<std::size_t>(root.variable)] = (root.value ? 1 : side) * std::sqrt(square);
+    }
+    for (std::size_t k = 0; k < folds.size() && placed; ++k)
+      placed = core::evaluate(folds[k], std::span<const double>(at)) > 0;
+    if (placed) found.push_back(std::move(at));
+    if (found.size() == enough) break;
+  }
+  return found;
+}
+
+/// A natural polynomial as a quotient of two elements over the tower.
+struct Quotient {
+  Poly above, below;
+};
+
+std::optional<Quotient> over_tower(const Geometry& geometry, const Elimination& elimination, const Poly& natural) {
+  const int t = geometry.auxiliary();
+  std::vector<Poly> parts = elimination.over_tower(natural + Poly::variable(geometry.ring(), t)).coefficients(t);
+  if (parts.size() != 2) return std::nullopt;
+  return Quotient{std::move(parts[0]), std::move(parts[1])};
+}
+
+double value_at(const Quotient& quotient, const std::vector<double>& at) {
+  const std::span<const double> values(at);
+  return core::evaluate(quotient.above.plain(), values) / core::evaluate(quotient.below.plain(), values);
+}
+
+/// Whether a quotient of elements is one number, rational or made of roots of numbers, all over the tower.
+bool is_constant(const Geometry& geometry, const Elimination& elimination, const Poly& natural,
+                 const Quotient& quotient) {
+  if (elimination.constant_over_tower(natural)) return true;
+  std::vector<TowerRoot> roots;
+  for (const TowerRoot& root : geometry.roots())
+    if (!root.is_angle() && (!root.value || root.square.constant() != 1)) roots.push_back(root);
+  const std::optional<Poly> whole = quotient_over_tower(quotient.above, quotient.below, roots);
+  if (!whole) return false;
+  const std::vector<int> variables = geometry.tower_variables();
+  return std::none_of(variables.begin(), variables.end(), [&](int variable) {
+    const bool of_number = std::any_of(roots.begin(), roots.end(), [&](const TowerRoot& root) {
+      return root.variable == variable && root.square.is_constant();
+    });
+    return !of_number && whole->depends_on(variable);
+  });
+}
+
+/// Whether some number of the construction is a rational that stands for an irrational one, within 1e-30: what is
+/// constant in the mechanism that is written need not be so over the tower then.
+bool stands_for_irrational(const mechanism::Mechanism& m) {
+  const auto is_parameter = [&](const std::string& name) {
+    return std::any_of(m.parameters.begin(), m.parameters.end(), [&](const auto& p) { return p.name == name; });
+  };
+  const auto rounded = [&](const core::Expression& e) {
+    const auto names = core::symbols(e);  // variables of an open design are none
+    return std::all_of(names.begin(), names.end(), is_parameter) && !mechanism::evaluate(e, m.parameters).exact;
+  };
+  if (std::any_of(m.parameters.begin(), m.parameters.end(), [](const auto& p) { return !p.exact; })) return true;
+  return std::any_of(m.points.begin(), m.points.end(), [&](const mechanism::Point& point) {
+    if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&point.form))
+      return rounded(dyad->from_length) || rounded(dyad->to_length);
+    if (const auto* offset = std::get_if<mechanism::OffsetPoint>(&point.form))
+      return rounded(offset->along) || rounded(offset->left);
+    const auto* slider = std::get_if<mechanism::SliderPoint>(&point.form);
+    return slider != nullptr && rounded(slider->length);
+  });
+}
+
+}  // namespace
+
+std::optional<std::string> what_bends(const Geometry& geometry, const Elimination& elimination,
+                                      const mechanism::HeldByLinks& held, const std::vector<int>& sides) {
+  constexpr double motion = 1e-9;  // of a squared length: more than rounding makes
+  const mechanism::Mechanism& m = geometry.mechanism();
+  const std::vector<std::vector<double>> poses = poses_of(geometry, sides);
+  if (poses.empty()) return std::nullopt;  // nothing of the sheet is in the box
+  for (const HeldDistance& own : held.distances) {
+    const Poly natural = squared_distance(geometry, own);
+    const std::optional<Quotient> quotient = over_tower(geometry, elimination, natural);
+    const double squared = own.length * own.length;
+    const bool moves = !quotient || std::any_of(poses.begin(), poses.end(), [&](const std::vector<double>& at) {
+      return !(std::abs(value_at(*quotient, at) - squared) <= motion * squared);
+    });
+    if (moves || (!is_constant(geometry, elimination, natural, *quotient) && !stands_for_irrational(m)))
+      return "the " + mechanism::words_of(m, own) + " changes";
+  }
+  for (const HeldTurn& own : held.turns) {
+    const std::optional<Quotient> quotient = over_tower(geometry, elimination, turn(geometry, own));
+    // A constant on the sheet, since the distances are: its sign is that at one pose.
+    if (!quotient || !(value_at(*quotient, poses.front()) / own.size > 0))
+      return "the " + mechanism::words_of(m, own) + " is the other one";
+  }
+  return std::nullopt;
+}
+
+}  // namespace clearloci::symbolic

@@ -1,0 +1,145 @@
+// Rigid means rigid: in any mechanism, in any working mode and at any pose that is reached links have the lengths that
+// they have at all others, and zones hold no pose at which one of them bends. The designs have parallelograms that can
+// flip, whose links are rigid on one side of the flip alone.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <random>
+
+#include "analysis/loci.hpp"
+#include "analysis/verification.hpp"
+#include "core/errors.hpp"
+#include "mechanism/read.hpp"
+#include "mechanism/read_task.hpp"
+#include "mechanism/rigidity.hpp"
+#include "numeric/reactions.hpp"
+#include "symbolic/locus_problem.hpp"
+
+namespace clearloci {
+namespace {
+
+int designs() {
+  const char* const text = std::getenv("CLEARLOCI_DESIGNS");
+  return text == nullptr ? 4 : std::atoi(text);
+}
+
+struct Numbers {
+  double base = 100, arm = 300, fore = 700, tip = 50, h = 60;
+};
+
+/// A planar delta whose platform is kept level by two parallelograms on its left leg, the upper one of which can flip.
+std::string delta(const Numbers& n, const std::string& upper_side = "left") {
+  std::string text = "format: 1\nname: delta\nspace: planar\nunits: {length: mm, angle: deg}\n";
+  text += fmt::format("parameters: {{base: {}, arm: {}, fore: {}, tip: {}, h: {}, tool: 2}}\n", n.base, n.arm, n.fore,
+                      n.tip, n.h);
+  text += "workspace: {x: [-700, 700], y: [-1000, -300]}\npoints:\n";
+  text += "  O1: [-base, 0]\n  O2: [base, 0]\n  P: [x, y]\n  P1: [x - tip, y]\n  P2: [x + tip, y]\n";
+  text += "  A1: {dyad: [O1, P1], lengths: [arm, fore], side: right}\n";
+  text += "  A2: {dyad: [O2, P2], lengths: [arm, fore], side: left}\n";
+  text += "  G1: [-base, h]\n  B1: {dyad: [A1, G1], lengths: [h, arm], side: " + upper_side + "}\n";
+  text += "  C1: {on: [A1, B1], offset: [0, h]}\n  Q1: [x - tip - h, y]\n";
+  text += "links:\n  upper1: {points: [O1, A1], mass: 1}\n  lower1: {points: [A1, P1], mass: 0.5}\n";
+  text += "  bracket: {points: [A1, B1, C1]}\n  rod1: {points: [G1, B1]}\n  rod2: {points: [C1, Q1]}\n";
+  text += "  tool: {points: [P1, P2, Q1, P]}\n  upper2: {points: [O2, A2], mass: 1}\n";
+  text += "  lower2: {points: [A2, P2], mass: 0.5}\njoints:\n";
+  text += "  O1: {revolute: [ground, upper1], at: O1, actuated: true, clearance: {radial: 10e-3, angular: 0.02}}\n";
+  text += "  A1: {revolute: [upper1, bracket], at: A1}\n  A1b: {revolute: [bracket, lower1], at: A1}\n";
+  text += "  G1: {revolute: [ground, rod1], at: G1}\n  B1: {revolute: [rod1, bracket], at: B1}\n";
+  text += "  C1: {revolute: [bracket, rod2], at: C1}\n  Q1: {revolute: [rod2, tool], at: Q1}\n";
+  text += "  P1: {revolute: [lower1, tool], at: P1, clearance: {radial: 10e-3}}\n";
+  text += "  O2: {revolute: [ground, upper2], at: O2, actuated: true}\n";
+  text += "  A2: {revolute: [upper2, lower2], at: A2}\n  P2: {revolute: [lower2, tool], at: P2}\n";
+  return text + "end_effector: {link: tool, at: P}\ngravity: [0, -9.81]\n";
+}
+
+/// The largest part by which a link's length differs from what it is at other poses.
+double bent(const mechanism::Mechanism& m, std::mt19937& random, const std::vector<int>& mode, int& reached) {
+  const numeric::NumericModel model = numeric::compile(m);
+  std::vector<std::vector<double>> lengths;  // a pose each
+  for (int tries = 0; tries < 4000 && lengths.size() < 120; ++tries) {
+    std::vector<double> pose;
+    for (const auto& range : model.box)
+      pose.push_back(std::uniform_real_distribution<double>(range[0], range[1])(random));
+    const numeric::Posture posture = numeric::posture(model, pose, mode);
+    if (!posture.reachable()) continue;
+    std::vector<double>& own = lengths.emplace_back();
+    for (const mechanism::Link& link : m.links)
+      for (std::size_t i = 0; i < link.points.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          own.push_back((posture.points[static_cast<std::size_t>(link.points[i])] -
+                         posture.points[static_cast<std::size_t>(link.points[j])])
+                            .norm());
+  }
+  reached = static_cast<int>(lengths.size());
+  double most = 0;
+  for (const std::vector<double>& own : lengths)
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      std::vector<double> all;
+      for (const std::vector<double>& other : lengths) all.push_back(other[k]);
+      std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+      most = std::max(most, std::abs(own[k] - all[all.size() / 2]) / (all[all.size() / 2] + 1e-3));
+    }
+  return most;
+}
+
+TEST(RigidLinks, KeepTheirLengthsAtEveryPoseThatIsReached) {
+  std::mt19937 random(20260702);
+  const auto draw = [&](double low, double high) {
+    return 10 * std::round(std::uniform_real_distribution<double>(low, high)(random) / 10);
+  };
+  int looked_at = 0;
+  for (int n = 0; n < designs(); ++n) {
+    const Numbers own{draw(40, 160), draw(200, 400), draw(500, 800), draw(20, 80), draw(30, 120)};
+    SCOPED_TRACE(delta(own));
+    const mechanism::Mechanism m = mechanism::parse_mechanism(delta(own), "delta.yaml");
+    for (int signs = 0; signs < 8; ++signs) {
+      int reached = 0;
+      const std::vector<int> mode = {signs & 1 ? 1 : -1, signs & 2 ? 1 : -1, signs & 4 ? 1 : -1};
+      EXPECT_LE(bent(m, random, mode, reached), 1e-12) << signs;
+      looked_at += reached;
+    }
+  }
+  EXPECT_GT(looked_at, 100 * designs());
+}
+
+TEST(RigidLinks, TheSideOnWhichOneBendsIsNoWorkspace) {
+  const mechanism::Mechanism m =
+      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/modes/flipped_parallelogram.yaml");
+  const numeric::NumericModel model = numeric::compile(m);
+  const std::vector<int> mode = mechanism::working_mode(m);
+  const numeric::Posture flipped = numeric::posture(model, std::vector<double>{0.65, -0.5}, mode);
+  ASSERT_TRUE(flipped.broken);
+  // One side of the fold is left, and its border bounds the workspace.
+  const std::vector<symbolic::DerivedProblem> problems = symbolic::locus_problems(m, {});
+  ASSERT_EQ(problems.size(), 1U);
+  bool folded = false;
+  for (const core::Root& root : problems.front().problem.tower.roots) folded = folded || root.name == core::fold_name;
+  EXPECT_TRUE(folded);
+  const mechanism::HeldByLinks held = mechanism::held_by_links(m);
+  ASSERT_FALSE(held.distances.empty());
+  // A task there is refuted, and names the link.
+  const Verification there =
+      decide_task(m, mechanism::parse_task("format: 1\nbox: {x: [649, 651], y: [-501, -499]}\n", "task.yaml", m));
+  ASSERT_EQ(there.verdict, core::Verdict::refuted);
+  EXPECT_EQ(there.witness->kind, core::TaskWitness::Kind::unreachable);
+  EXPECT_NE(there.witness->limit.find("rod2"), std::string::npos) << there.witness->limit;
+}
+
+TEST(RigidLinks, OneThatIsRigidNowhereIsRefusedWithItsLengths) {
+  std::string text = delta({});
+  const std::string right = "  Q1: [x - tip - h, y]\n";
+  text.replace(text.find(right), right.size(), "  Q1: [x - tip - h - 1, y]\n");
+  try {
+    const mechanism::Mechanism m = mechanism::parse_mechanism(text, "delta.yaml");
+    ADD_FAILURE() << "rod2 is not rigid";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("rod2 is not rigid"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(" mm at x = "), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace clearloci
