@@ -78,7 +78,6 @@ class Tolerant {
     effort.deadline = request_.deadline;
     if (request_.progress) request_.progress(0, "proof");
     const loci::DesignProof proof = judge_->judge(*designs, task_.margin(), loci::Refuting::one, effort);
-    result.mode = task_.mode();
     result.verdict = proof.verdict;
     result.open.reset();
     result.witness.reset();

@@ -85,7 +85,13 @@ Centred DesignCell::squared_displacement(const Loads& loads) {
     const TaskCondition& take_up = conditions_.take_ups[k];
     const Centred below = centred(take_up.denominator);
     if (below.over.sign() == 0) return Centred::rough({0, 1e50}, n);
-    const Centred per_d = centred::scaled(below.over.sign(), centred::reciprocal(below));
+    Centred per_d = centred::scaled(below.over.sign(), centred::reciprocal(below));
+    // Both factors of f^u . f / |f| are |axis| times what the joint bears, and |f| is.
+    if (take_up.squared_axis >= 0) {
+      const Centred square = centred(take_up.squared_axis);
+      if (!(square.over.lower() > 0)) return Centred::rough({0, 1e50}, n);
+      per_d = centred::product(per_d, centred::reciprocal(centred::root(square)));
+    }
     const std::vector<Centred> taken = directions_taken(take_up, loads);
     std::array<Interval, 2>& own = shares.emplace_back();
     for (std::size_t u = 0; u < 2; ++u) {

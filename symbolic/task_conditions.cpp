@@ -38,12 +38,8 @@ class Conditions {
     result_.loads = loads.size();
     result_.directions = directions.size();
     result_.tower = lines_.tower();
-    for (const LimitCondition& limit : limit_conditions(geometry_)) {
+    for (const LimitCondition& limit : bounding_limits(geometry_, elimination_)) {
       const Poly sheet = elimination_.over_tower(limit.natural);
-      if (const auto left = elimination_.constant_over_tower(limit.natural)) {
-        if (*left >= 0) continue;
-        throw core::InputError(limit.where, "every pose is beyond the limit of the " + limit.words, "widen the limit");
-      }
       core::Root root;
       root.name = core::limit_name;
       root.role = core::RootRole::length;
@@ -140,8 +136,9 @@ class Conditions {
       for (FactoredPoly& part : own)
         if (vanishes(part)) part = {};
     }
-    if (demand.quantity == Quantity::M && mechanism_.space == mechanism::Space::spatial)
-      result.squared_axis = squared_axis(geometry_, joint);
+    const bool planar = mechanism_.space == mechanism::Space::planar;
+    if (demand.least > 0 && (demand.quantity == Quantity::F || (demand.quantity == Quantity::M && !planar)))
+      add_axis(squared_axis(geometry_, joint), planar, found, result);
     // Components that are zero whatever the pose and the load say nothing.
     result.parts.resize(many);
     for (std::size_t c = 0; c < found.front().size(); ++c) {
@@ -149,6 +146,20 @@ class Conditions {
       for (std::size_t i = 0; i < many; ++i) result.parts[i].push_back(std::move(found[i][c]));
     }
     return result;
+  }
+
+  /// What an actuator exerts along an axis u that is no unit vector: in space u . w is known, in the plane (`per_axis`)
+  /// the unknown is w over |u|. Both become w |u|, or w itself where |u| is a rational number.
+  void add_axis(Poly square, bool per_axis, std::vector<std::vector<FactoredPoly>>& found, Demanded& result) const {
+    const std::optional<Rational> constant = elimination_.constant_over_tower(square);
+    if (constant) square = Poly(geometry_.ring(), *constant);
+    const std::optional<Rational> length = constant ? rational_root(*constant) : std::nullopt;
+    const FactoredPoly by = length ? FactoredPoly{per_axis ? *length : 1 / *length, {}}
+                                   : (per_axis ? factored(square, determinant_.factors) : FactoredPoly{1, {}});
+    for (std::vector<FactoredPoly>& own : found)
+      for (FactoredPoly& part : own)
+        if (!part.is_zero()) multiply(part, by);
+    if (!length) result.squared_axis = std::move(square);
   }
 
   /// What several joints bear alike is one condition.

@@ -120,6 +120,32 @@ TEST(Verify, DrawsWhatLociTracesWhereNothingIsDoubtful) {
   }
 }
 
+TEST(Verify, AnAxialClearanceIsTakenUpByItsOwnSize) {
+  const Verification result = decided(kept("tests/corpus/verify/pose_error_axial.yaml"), "pose_error_axial_task.yaml");
+  ASSERT_EQ(result.verdict, core::Verdict::refuted);
+  EXPECT_EQ(result.witness->kind, core::TaskWitness::Kind::displaced);
+}
+
+TEST(Verify, TellsOfToleratedLegsWhoseLengthsAreRoots) {
+  const mechanism::Mechanism legs = kept("tests/corpus/verify/telescopes_with_couples.yaml");
+  const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/verify/";
+  const Verification result =
+      verify_task(legs, mechanism::read_task(folder + "telescopes_with_couples_task.yaml", legs), {});
+  EXPECT_NE(result.verdict, core::Verdict::undecided);
+  EXPECT_EQ(result.mode.size(), result.map.loci.tower.roots.size());
+  for (const char* wish : {"pose_error: 1e-3", "loads_within: [{load: 1, radius: 2}]", "tolerances: {b: 1e-4}"}) {
+    const Verification own = verified(legs, std::string("box: {x: [0.3, 0.31], y: [0.4, 0.41]}\n") + wish);
+    EXPECT_EQ(describe_mode(own.map.loci.tower, own.mode).size(), 0U) << wish;
+  }
+}
+
+TEST(Verify, ALimitThatIsMetWithEqualityEverywhereBoundsNothing) {
+  const mechanism::Mechanism limited = kept("tests/corpus/verify/limit_equal_to_length.yaml");
+  EXPECT_TRUE(decided(limited, "limit_equal_to_length_task.yaml").verified());
+  const numeric::NumericModel model = numeric::compile(limited);
+  EXPECT_TRUE(numeric::reachable(model, std::vector<double>{0.2, -0.7}, mechanism::working_mode(limited)));
+}
+
 TEST(Verify, FindsASingularityOnALineThroughZero) {
   const Verification result = decided(kept("tests/corpus/verify/singular_at_zero.yaml"), "singular_at_zero_task.yaml");
   EXPECT_EQ(result.verdict, core::Verdict::refuted);
