@@ -225,7 +225,9 @@ TEST_P(ProvenBounds, AreMetByNoSample) {
         }
     }
     EXPECT_LE(most.error, *answer.pose_error * (1 + 1e-9));
-    if (varied.empty()) EXPECT_GE(most.error, *answer.pose_error * (1 - 4e-3)) << "the bound is not near";
+    if (varied.empty()) {
+      EXPECT_GE(most.error, *answer.pose_error * (1 - 4e-3)) << "the bound is not near";
+    }
     // A tenth more than what some sample bears is not kept by all.
     const Verification too_much = decide_task(
         m, mechanism::parse_task(shape + varied + fmt::format("min_force: {}\n", 1.1 * most.least_force), "t.yaml", m));

@@ -12,6 +12,7 @@
 #include "analysis/loci.hpp"
 #include "analysis/verification.hpp"
 #include "core/errors.hpp"
+#include "core/fold.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
 #include "mechanism/rigidity.hpp"
