@@ -73,20 +73,19 @@ std::string five_bar(Numbers& n, bool sprung) {
 }
 
 std::string on_a_rail(Numbers& n) {
+  const std::string rail = fmt::format("[1/2, {}]", n.place(0, 24));
   std::string text =
-      head("prrr-r") +
-      fmt::format(
-          "points:\n  R1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n"
-          "  S1: {{slider: [R1, [1/2, {}]], from: P, length: {}, side: ahead}}\n"
-          "  B2: {{dyad: [A2, P], lengths: [{}, {}], side: {}}}\nlinks:\n  block: {{points: [S1], mass: {}}}\n"
-          "  rod1: {{points: [S1, P], mass: {}}}\n",
-          n.place(40, 70), n.place(-30, 30), n.place(0, 24), n.length(40, 60), n.length(40, 60), n.length(35, 60),
-          n.side(), n.mass(), n.mass());
-  text += fmt::format("  rod2: {{points: [P, B2], mass: {}}}\n  crank2: {{points: [A2, B2], mass: {}}}\njoints:\n",
-                      n.mass(), n.mass());
+      head("prrr-r") + fmt::format(
+                           "points:\n  R1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n"
+                           "  S1: {{slider: [R1, {}], from: P, length: {}, side: ahead}}\n"
+                           "  B2: {{dyad: [A2, P], lengths: [{}, {}], side: {}}}\nlinks:\n  block: {{points: [S1]}}\n",
+                           n.place(40, 70), n.place(-30, 30), rail, n.length(40, 60), n.length(40, 60),
+                           n.length(35, 60), n.side());
   text +=
-      "  G1: {prismatic: [ground, block], at: S1, axis: [R1, S1], actuated: true, clearance: {gap: 1e-5, half_length: "
-      "3/100, axial: 5e-6}}\n";
+      fmt::format("  rod1: {{points: [S1, P], mass: {}}}\n  rod2: {{points: [P, B2], mass: {}}}\n", n.mass(), n.mass());
+  text += fmt::format("  crank2: {{points: [A2, B2], mass: {}}}\njoints:\n", n.mass());
+  text += "  G1: {prismatic: [ground, block], at: S1, axis: " + rail +
+          ", actuated: true, clearance: {gap: 1e-5, half_length: 3/100, axial: 5e-6}}\n";
   text += pin("S1", "block", "rod1", false) + pin("P", "rod1", "rod2", false) + pin("B2", "crank2", "rod2", false) +
           pin("A2", "ground", "crank2", true) + "end_effector: {link: rod2, at: P}\n";
   return text + load("rod2", "P", n) + gravity;
@@ -97,15 +96,13 @@ std::string telescopic(Numbers& n) {
   std::string text =
       head("rrrpr") +
       fmt::format(
-          "points:\n  A1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n  B1: {{dyad: [A1, P], lengths: [{}, {}], side: {}}}\n"
-          "  C1: {{on: [B1, P], offset: [{}, {}]}}\nlinks:\n",
+          "points:\n  A1: [0, 0]\n  A2: [{}, {}]\n  P: [x, y]\n"
+          "  B1: {{dyad: [A1, P], lengths: [{}, {}], side: {}}}\n  C1: {{on: [B1, P], offset: [{}, {}]}}\nlinks:\n",
           n.place(60, 80), n.place(-40, 24), n.length(40, 60), n.length(40, 60), n.side(), n.length(10, 30),
           n.place(-24, 24));
-  text += fmt::format(
-      "  crank: {{points: [A1, B1], mass: {}}}\n  rod: {{points: [B1, P, C1], mass: {}}}\n  barrel: {{points: [A2], "
-      "mass: {}}}\n"
-      "  piston: {{points: [P], mass: {}}}\njoints:\n",
-      n.mass(), n.mass(), n.mass(), n.mass());
+  text += fmt::format("  crank: {{points: [A1, B1], mass: {}}}\n  rod: {{points: [B1, P, C1], mass: {}}}\n", n.mass(),
+                      n.mass());
+  text += "  barrel: {points: [A2]}\n  piston: {points: [P]}\njoints:\n";
   text += pin("A1", "ground", "crank", true) + pin("B1", "crank", "rod", false) + pin("P", "rod", "piston", false) +
           "  S2: {prismatic: [barrel, piston], at: P, axis: [A2, P], actuated: true}\n" +
           pin("A2", "ground", "barrel", false) + "end_effector: {link: rod, at: P}\n";
