@@ -79,6 +79,9 @@ INSTANTIATE_TEST_SUITE_P(Targets, Fuzz,
                                          Target{"trajectory", trajectory_target, {"examples/pick_and_place"}},
                                          Target{"expression", expression_target, {}},
                                          Target{"certificate", certificate_target, {}},
+#ifdef CLEARLOCI_HAS_WORKBENCH
+                                         Target{"server", server_target, {}},
+#endif
                                          Target{"arguments", arguments_target, {}}),
                          [](const auto& target) { return std::string(target.param.name); });
 

@@ -24,4 +24,8 @@ void certificate_target(std::string_view bytes);
 /// A call of a command that traces loci: one word a line, the first one the number of a mechanism.
 void arguments_target(std::string_view bytes);
 
+/// What a browser, or anything else, sends over a connection to the workbench's server. @TOKEN@ and @PORT@ stand for
+/// its own.
+void server_target(std::string_view bytes);
+
 }  // namespace clearloci::fuzz

@@ -228,6 +228,28 @@ Vocabulary arguments_vocabulary() {
   return all;
 }
 
+Vocabulary server_vocabulary() {
+  Vocabulary all;
+  all.numbers = {"0", "1", "-1", "2", "5242881", "4294967296", "18446744073709551616", "1e300"};
+  all.words = {"GET",   "POST",     "HEAD", "api",   "loci",      "model",
+               "start", "progress", "text", "files", "min_force", "quiet"};
+  all.groups = {"{}", "[]", "\"\"", "[[[[]]]]"};
+  all.lines = {"Host: 127.0.0.1:@PORT@\r",
+               "Origin: http://127.0.0.1:@PORT@\r",
+               "Content-Type: application/json\r",
+               "Content-Length: 5\r",
+               "Transfer-Encoding: chunked\r",
+               "Content-Encoding: gzip\r",
+               "Range: bytes=0-20000\r",
+               "Expect: 100-continue\r",
+               "Connection: close\r",
+               " folded\r",
+               "\r",
+               "GET /@TOKEN@/ HTTP/1.1\r",
+               "POST /@TOKEN@/api/model HTTP/1.1\r"};
+  return all;
+}
+
 Vocabulary certificate_vocabulary() {
   Vocabulary all;
   all.numbers = {"0",
@@ -296,13 +318,15 @@ Vocabulary certificate_vocabulary() {
 const Vocabulary& vocabulary_of(const std::string& target) {
   static const Vocabulary mechanism = mechanism_vocabulary(), task = task_vocabulary(),
                           trajectory = trajectory_vocabulary(), expression = expression_vocabulary(),
-                          arguments = arguments_vocabulary(), certificate = certificate_vocabulary();
+                          arguments = arguments_vocabulary(), certificate = certificate_vocabulary(),
+                          server = server_vocabulary();
   if (target == "mechanism") return mechanism;
   if (target == "task") return task;
   if (target == "trajectory") return trajectory;
   if (target == "expression") return expression;
   if (target == "arguments") return arguments;
   if (target == "certificate") return certificate;
+  if (target == "server") return server;
   throw std::logic_error("no vocabulary for " + target);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <string_view>
 
 #include "workbench/server/refusal.hpp"
 
@@ -17,10 +18,21 @@ constexpr std::size_t longest_list = 200'000;
   throw Refusal(400, fmt::format("'{}' is to be {}", name, wanted));
 }
 
-std::optional<Quantity> quantity_named(const std::string& name) {
-  for (const Quantity quantity : all_quantities)
-    if (to_string(quantity) == name) return quantity;
-  return std::nullopt;
+std::optional<std::string> bytes_of_base64(const std::string& text) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr unsigned bits_of_digit = 6, bits_of_byte = 8;
+  std::string bytes;
+  unsigned bits = 0, count = 0;
+  for (const char c : std::string_view(text).substr(0, text.find('='))) {
+    const std::size_t digit = digits.find(c);
+    if (digit == std::string_view::npos) return std::nullopt;
+    bits = (bits << bits_of_digit | static_cast<unsigned>(digit)) & 0xffffU;
+    count += bits_of_digit;
+    if (count < bits_of_byte) continue;
+    count -= bits_of_byte;
+    bytes += static_cast<char>(bits >> count & 0xffU);
+  }
+  return bytes;
 }
 
 /// "7/20", "0.35", "1e-3" as the exact number it is.
@@ -154,49 +166,24 @@ std::vector<double> Fields::numbers(const char* name) const {
   return list;
 }
 
+std::map<std::string, std::string> Fields::files(const char* name) const {
+  const Json& value = find(name);
+  if (value.is_null()) return {};
+  if (!value.is_object()) refuse(name, "an object of files in base64, by name");
+  std::map<std::string, std::string> files;
+  for (const auto& [file, text] : value.items()) {
+    const std::optional<std::string> bytes = text.is_string() ? bytes_of_base64(text.get<std::string>()) : std::nullopt;
+    if (!bytes) refuse(name, "an object of files in base64, by name");
+    files[file] = *bytes;
+  }
+  return files;
+}
+
 std::optional<Rational> Fields::positive(const char* name) const {
   if (!has(name)) return std::nullopt;
   std::optional<Rational> value = exact_number(text(name));
   if (!value || *value <= 0) refuse(name, "a number above zero, such as 5, 0.25 or 7/20");
   return value;
-}
-
-Model model_of(const Fields& fields) { return Model::parse(fields.text("text"), fields.text("file", "model.yaml")); }
-
-DyadSides sides_of(const Fields& fields) {
-  DyadSides sides;
-  for (const double side : fields.numbers("mode")) {
-    if (side != 1 && side != -1) refuse("mode", "a list of 1 and -1");
-    sides.push_back(static_cast<int>(side));
-  }
-  return sides;
-}
-
-LociRequest loci_request(const Fields& fields, const Model& model) {
-  LociRequest request;
-  request.joints = fields.words("joints");
-  if (fields.has("quantities")) {
-    request.quantities.clear();
-    for (const std::string& word : fields.words("quantities")) {
-      const std::optional<Quantity> quantity = quantity_named(word);
-      if (!quantity) refuse("quantities", "a list of quantities such as f, M, F, N, T");
-      request.quantities.push_back(*quantity);
-    }
-    if (request.quantities.empty()) refuse("quantities", "a list of at least one quantity");
-  }
-  request.min_force = fields.positive("min_force");
-  request.min_couple = fields.positive("min_couple");
-  if (const DyadSides sides = sides_of(fields); !sides.empty()) request.working_modes = {sides};
-  request.all_working_modes = fields.flag("all_modes");
-  // Of the box's longest side: what is too small to see in a picture is fine enough.
-  constexpr double finest = 1e-7, coarsest = 1e-1, usual = 5e-5;
-  const double part = fields.number("tolerance", usual, finest, coarsest);
-  double extent = 0;
-  for (const Model::Coordinate& coordinate : model.coordinates())
-    if (!coordinate.angle) extent = std::max(extent, coordinate.upper - coordinate.lower);
-  request.tolerance = part * (extent > 0 ? extent : 1);
-  request.mesh_size = fields.number("mesh_size", request.mesh_size, 1.0 / 128, 1.0 / 4);
-  return request;
 }
 
 }  // namespace clearloci::workbench

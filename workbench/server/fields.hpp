@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "clearloci/loci.hpp"
-#include "clearloci/mechanism.hpp"
+#include "clearloci/exact.hpp"
 
 namespace clearloci::workbench {
 
@@ -29,22 +29,13 @@ class Fields {
   int count(const char* name, int absent, int least, int most) const;
   std::vector<std::string> words(const char* name) const;  ///< empty where absent
   std::vector<double> numbers(const char* name) const;
-  std::optional<Rational> positive(const char* name) const;  ///< an exact number above zero, written as a text
+  std::map<std::string, std::string> files(const char* name) const;  ///< {"part.stl": bytes in base64}
+  std::optional<Rational> positive(const char* name) const;          ///< an exact number above zero, written as a text
 
  private:
   const Json& find(const char* name) const;
 
   const Json& body_;
 };
-
-/// `text`, `file`: the mechanism of the request.
-Model model_of(const Fields& fields);
-
-/// `mode`: +1 or -1 for each dyad and slider; empty: the file's.
-DyadSides sides_of(const Fields& fields);
-
-/// `joints`, `quantities`, `mode`, `all_modes`, `min_force`, `min_couple`, `tolerance` (a part of the box),
-/// `mesh_size`.
-LociRequest loci_request(const Fields& fields, const Model& model);
 
 }  // namespace clearloci::workbench

@@ -1,10 +1,9 @@
 // How far long work is, told to the page that asked for it.
 #pragma once
 
-#include <condition_variable>
 #include <map>
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,20 +11,19 @@ namespace clearloci::workbench {
 
 class ProgressBoard {
  public:
+  /// Of a client to which nobody listens nothing is kept.
   void tell(const std::string& client, const std::string& lane, double fraction, std::string_view stage);
 
-  /// The next event for the client as a server-sent event, the newest of each lane; a comment that keeps the line open
-  /// after some seconds without any. Nothing once the server stops.
-  std::optional<std::string> next(const std::string& client);
+  /// The client is listened to until what this returns is dropped. The board has to outlive it.
+  std::shared_ptr<void> listen(const std::string& client);
 
-  void stop();
+  /// The news since the last call, the newest of each lane, as server-sent events; empty where there is none.
+  std::string take(const std::string& client);
 
  private:
   std::mutex mutex_;
-  std::condition_variable changed_;
   std::map<std::string, std::map<std::string, std::string>> news_;  ///< by client, then lane
   std::map<std::string, int> listeners_;
-  bool stopped_ = false;
 };
 
 }  // namespace clearloci::workbench

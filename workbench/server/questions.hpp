@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "workbench/server/fields.hpp"
+#include "workbench/server/requests.hpp"
 
 namespace clearloci::workbench {
 

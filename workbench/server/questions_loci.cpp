@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clearloci/export.hpp"
+#include "clearloci/handed_files.hpp"
 #include "clearloci/pose_tasks.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
@@ -35,7 +36,7 @@ bool over_two_lengths(const Model& model) {
 
 Json pose_verification(const Fields& fields, const Model& model, const Watch& watch) {
   if (fields.has("fit")) throw Refusal(422, "a task is moved in the plane of two lengths");
-  const PoseTask task = parse_pose_task(fields.text("task"), model);
+  const PoseTask task = parse_pose_task(fields.text("task"), model, fields.files("files"));
   return report::pose_verification_object(verify_poses(model, task, watched(loci_request(fields, model), watch)));
 }
 

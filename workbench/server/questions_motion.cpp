@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clearloci/error.hpp"
+#include "clearloci/handed_files.hpp"
 #include "clearloci/pose.hpp"
 #include "clearloci/sketch.hpp"
 #include "clearloci/trajectory.hpp"
@@ -125,7 +126,8 @@ Json answer_trajectory(const Json& body, const Watch&) {
   request.working_mode = sides_of(fields);
   request.samples = fields.count("samples", 600, 10, most_poses);
   if (fields.has("period")) request.period = fields.number("period", 1, 1e-3, 1e6);
-  const TrajectoryResult result = follow_trajectory_text(model, fields.text("trajectory"), request);
+  const TrajectoryResult result =
+      follow_trajectory_text(model, fields.text("trajectory"), request, fields.files("files"));
   return report::trajectory_object(result);
 }
 

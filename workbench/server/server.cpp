@@ -1,26 +1,28 @@
 #include "workbench/server/server.hpp"
 
 #include <fmt/format.h>
-#include <httplib.h>
+#include <malloc.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <system_error>
 
 #include "clearloci/errors.hpp"
-#include "report/viewer.hpp"
 #include "workbench/server/assets.hpp"
+#include "workbench/server/http.hpp"
 #include "workbench/server/lanes.hpp"
 #include "workbench/server/progress.hpp"
 #include "workbench/server/questions.hpp"
 #include "workbench/server/refusal.hpp"
+#include "workbench/server/start.hpp"
 
 namespace clearloci::workbench {
 namespace {
 
-using httplib::Request;
-using httplib::Response;
+constexpr std::string_view questions = "api/";
 
 /// 128 bits nobody can guess, as hexadecimal digits.
 std::string fresh_token() {
@@ -37,28 +39,27 @@ std::string_view type_of(std::string_view path) {
   return "image/svg+xml";
 }
 
-/// Uncompressed: what is handed over whole, cpp-httplib compresses by brotli at its slowest, which took longer than all
-/// else, and nothing leaves this machine.
-void put_content(Response& response, std::string_view bytes, std::string_view type, std::shared_ptr<void> owner) {
-  response.set_content_provider(
-      bytes.size(), std::string(type),
-      [bytes, owner = std::move(owner)](std::size_t from, std::size_t count, httplib::DataSink& sink) {
-        return sink.write(bytes.data() + from, count);
-      });
+HttpAnswer json_answer(int status, const Json& body) {
+  return {.status = status,
+          .type = "application/json",
+          .body = body.dump(-1, ' ', false, Json::error_handler_t::replace),
+          .events = {}};
 }
 
-void put_json(Response& response, int status, const Json& body) {
-  response.status = status;
-  auto text = std::make_shared<std::string>(body.dump(-1, ' ', false, Json::error_handler_t::replace));
-  constexpr std::string_view type = "application/json";
-  if (status == 200)
-    put_content(response, *text, type, text);
-  else  // without a body at hand cpp-httplib would put its own words there
-    response.set_content(*text, std::string(type));
-}
+HttpAnswer refusal(int status, const std::string& sentence) { return json_answer(status, {{"error", sentence}}); }
 
-void put_refusal(Response& response, int status, const std::string& sentence) {
-  put_json(response, status, {{"error", sentence}});
+/// What is no request of any page.
+HttpAnswer refused_request(int status) {
+  switch (status) {
+    case 411:
+      return refusal(status, "a question comes as it is, neither encoded nor in chunks, with its length");
+    case 413:
+      return refusal(status, "the request is longer than any question");
+    case 431:
+      return refusal(status, "the head of the request is longer than any browser's");
+    default:
+      return refusal(status, "this is no request that HTTP knows");
+  }
 }
 
 /// The words of the command line, and their parts for the page, which shows them beside the field.
@@ -69,6 +70,22 @@ Json input_error_json(const InputError& error) {
           {"line", error.position().line},
           {"column", error.position().column}};
 }
+
+constexpr std::chrono::milliseconds quick{200};
+
+/// What one question took is of no use to the next: the C library would keep it, in each thread that ever answered.
+class MemoryGivenBack {
+ public:
+  MemoryGivenBack() = default;
+  ~MemoryGivenBack() {
+    if (std::chrono::steady_clock::now() - begun_ > quick) ::malloc_trim(0);
+  }
+  MemoryGivenBack(const MemoryGivenBack&) = delete;
+  MemoryGivenBack& operator=(const MemoryGivenBack&) = delete;
+
+ private:
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
 
 /// "127.0.0.1:8080" or "localhost:8080".
 bool is_own_host(const std::string& host, int port) {
@@ -89,92 +106,88 @@ std::string client_of(const std::string& name) {
 struct Server::Parts {
   ServerOptions options;
   std::string token = fresh_token();
-  int port = 0;
-  httplib::Server http;
+  std::atomic<bool> stopping = false;
   Lanes lanes;
   ProgressBoard progress;
+  std::unique_ptr<HttpServer> http;  // its threads end before what they use
 
-  void check_caller(const Request& request) const;
-  std::string path_below_token(const Request& request) const;
-  void answer(const Request& request, Response& response);
-  void answer_get(const std::string& path, const Request& request, Response& response);
-  void answer_question(const std::string& name, const Request& request, Response& response);
-  void follow_progress(const Request& request, Response& response);
-  Json start() const;
+  int port() const { return http->port(); }
+  void check_caller(const HttpHead& head) const;
+  std::string path_below_token(const HttpHead& head) const;
+  std::optional<HttpAnswer> greet(const HttpHead& head);
+  HttpAnswer page(const std::string& path, const std::string& query);
+  HttpAnswer follow_progress(const std::string& client);
+  HttpAnswer ask(const HttpHead& head, const std::string& body);
+  HttpAnswer answer_question(const std::string& name, const Json& body);
 };
 
 /// Another origin's page can make the browser send requests here, and a name of its own can lead to 127.0.0.1.
-void Server::Parts::check_caller(const Request& request) const {
-  if (!is_own_host(request.get_header_value("Host"), port))
-    throw Refusal(403, "this address is not the one that the program printed");
-  if (!request.has_header("Origin")) return;
-  const std::string origin = request.get_header_value("Origin");
+void Server::Parts::check_caller(const HttpHead& head) const {
+  if (!is_own_host(head.host, port())) throw Refusal(403, "this address is not the one that the program printed");
+  if (!head.origin) return;
   constexpr std::string_view scheme = "http://";
-  if (!origin.starts_with(scheme) || !is_own_host(origin.substr(scheme.size()), port))
+  if (!head.origin->starts_with(scheme) || !is_own_host(head.origin->substr(scheme.size()), port()))
     throw Refusal(403, "a page of another origin is not answered");
 }
 
-std::string Server::Parts::path_below_token(const Request& request) const {
+std::string Server::Parts::path_below_token(const HttpHead& head) const {
   const std::string prefix = "/" + token + "/";
-  if (!request.path.starts_with(prefix)) throw Refusal(403, "the address lacks the token that the program printed");
-  return request.path.substr(prefix.size());
+  if (!head.target.starts_with(prefix)) throw Refusal(403, "the address lacks the token that the program printed");
+  return head.target.substr(prefix.size());
 }
 
-Json Server::Parts::start() const {
-  Json examples = Json::array(), companions = Json::array();
-  for (const Asset& asset : example_assets()) {
-    Json one = {{"name", asset.path}, {"text", asset.bytes}};
-    (asset.path.find("tasks/") == 0 || asset.path.ends_with("/path.yaml") ? companions : examples)
-        .push_back(std::move(one));
-  }
-  Json values = Json::object();
-  for (const auto& [name, value] : options.values) values[name] = value;
-  return {{"file", options.file},
-          {"text", options.text},
-          {"values", std::move(values)},
-          {"examples", std::move(examples)},
-          {"companions", std::move(companions)},
-          {"rules", report::drawing_rules()},
-          {"time_limit", options.time_limit}};
-}
-
-void Server::Parts::answer_get(const std::string& path, const Request& request, Response& response) {
-  if (path == "api/start") return put_json(response, 200, start());
-  if (path == "api/progress") return follow_progress(request, response);
+HttpAnswer Server::Parts::page(const std::string& path, const std::string& query) {
+  if (path == "api/start") return json_answer(200, start_of(options));
+  constexpr std::string_view client = "client=";
+  if (path == "api/progress")
+    return follow_progress(client_of(query.starts_with(client) ? query.substr(client.size()) : ""));
   const std::string wanted = path.empty() ? "index.html" : path;
   for (const Asset& asset : page_assets())
-    if (asset.path == wanted) return put_content(response, asset.bytes, type_of(wanted), nullptr);
+    if (asset.path == wanted)
+      return {.status = 200, .type = std::string(type_of(wanted)), .body = std::string(asset.bytes), .events = {}};
   throw Refusal(404, "there is nothing at this address");
 }
 
-void Server::Parts::follow_progress(const Request& request, Response& response) {
-  const std::string client = client_of(request.get_param_value("client"));
-  response.set_chunked_content_provider("text/event-stream", [this, client](std::size_t, httplib::DataSink& sink) {
-    const std::optional<std::string> events = progress.next(client);
-    if (!events) {
-      sink.done();
-      return true;
-    }
-    return sink.write(events->data(), events->size());
-  });
+HttpAnswer Server::Parts::follow_progress(const std::string& client) {
+  return {.status = 200,
+          .type = "text/event-stream",
+          .body = {},
+          .events = [this, client, listening = progress.listen(client)]() -> std::optional<std::string> {
+            return progress.take(client);
+          }};
 }
 
-void Server::Parts::answer_question(const std::string& name, const Request& request, Response& response) {
+/// What a head alone decides: who may ask, and the page. Of a question only whether its body is to be read.
+std::optional<HttpAnswer> Server::Parts::greet(const HttpHead& head) {
+  try {
+    check_caller(head);
+    const std::string below = path_below_token(head);
+    const std::size_t mark = std::min(below.find('?'), below.size());
+    const std::string path = below.substr(0, mark);
+    if (head.method == "GET" || head.method == "HEAD")
+      return page(path, mark < below.size() ? below.substr(mark + 1) : "");
+    if (head.method != "POST" || !path.starts_with(questions))
+      throw Refusal(405, "this address is not asked in this way");
+    if (question_named(path.substr(questions.size())) == nullptr) throw Refusal(404, "there is no such question");
+    if (!head.content_type.starts_with("application/json"))
+      throw Refusal(415, "a question is asked in application/json");
+    return std::nullopt;
+  } catch (const Refusal& refused) {
+    return refusal(refused.status(), refused.what());
+  }
+}
+
+HttpAnswer Server::Parts::answer_question(const std::string& name, const Json& body) {
   const Question question = question_named(name);
-  if (question == nullptr) throw Refusal(404, "there is no such question");
-  if (!request.get_header_value("Content-Type").starts_with("application/json"))
-    throw Refusal(415, "a question is asked in application/json");
   const auto begun = std::chrono::steady_clock::now();
-  const Json body = parse_body(request.body);
   const Fields fields(body);
   const std::string client = client_of(fields.text("client", ""));
   const std::string lane = fields.text("lane", name);
   const std::unique_ptr<Lanes::Turn> turn = lanes.enter(client + "/" + name + "/" + client_of(lane));
   // Quick answers come without: a page that is told of everything has nothing else to do.
-  constexpr std::chrono::milliseconds quick{200};
   const Watch watch{.deadline = begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                             std::chrono::duration<double>(options.time_limit)),
-                    .abandoned = [&turn] { return turn->abandoned(); },
+                    .abandoned = [this, &turn] { return turn->abandoned() || stopping; },
                     .progress =
                         [&, begun](double fraction, std::string_view stage) {
                           if (std::chrono::steady_clock::now() - begun > quick)
@@ -184,83 +197,60 @@ void Server::Parts::answer_question(const std::string& name, const Request& requ
     Json answer = question(body, watch);
     if (turn->abandoned()) throw Refusal(409, "a newer request has taken the place of this one");
     answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    put_json(response, 200, answer);
+    return json_answer(200, answer);
   } catch (const LimitReached& limit) {
     throw Refusal(turn->abandoned() ? 409 : 422, limit.what());
   }
 }
 
-void Server::Parts::answer(const Request& request, Response& response) {
+HttpAnswer Server::Parts::ask(const HttpHead& head, const std::string& body) {
+  const MemoryGivenBack afterwards;
+  bool quiet = false;
+  const auto refused = [&quiet](int status, Json why) {
+    if (!quiet) return json_answer(status, why);
+    why["refused"] = status;
+    return json_answer(200, why);
+  };
   try {
-    check_caller(request);
-    const std::string path = path_below_token(request);
-    constexpr std::string_view questions = "api/";
-    if (request.method == "GET" || request.method == "HEAD")
-      answer_get(path, request, response);
-    else if (request.method == "POST" && path.starts_with(questions))
-      answer_question(path.substr(questions.size()), request, response);
-    else
-      throw Refusal(405, "this address is not asked in this way");
+    const std::string path = path_below_token(head);
+    const std::size_t mark = std::min(path.find('?'), path.size());
+    const Json question = parse_body(body);
+    quiet = Fields(question).flag("quiet");
+    return answer_question(path.substr(questions.size(), mark - questions.size()), question);
   } catch (const Refusal& refusal) {
-    put_refusal(response, refusal.status(), refusal.what());
+    return refused(refusal.status(), {{"error", refusal.what()}});
   } catch (const InputError& error) {
-    put_json(response, 422, input_error_json(error));
+    return refused(422, input_error_json(error));
   } catch (const std::bad_alloc&) {
-    put_refusal(response, 422, "this is more than there is memory for; ask for less");
+    return refused(422, {{"error", "this is more than there is memory for; ask for less"}});
   } catch (const std::exception& error) {
-    put_refusal(response, 500,
-                fmt::format("internal error: {}; please report it with the mechanism file", error.what()));
+    return refusal(500, fmt::format("internal error: {}; please report it with the mechanism file", error.what()));
   }
 }
 
 Server::Server(ServerOptions options) : parts_(std::make_unique<Parts>()) {
   parts_->options = std::move(options);
-  httplib::Server& http = parts_->http;
-  // A page holds up to six connections and one for its progress; each has a thread while it is open.
-  constexpr std::size_t threads = 48, longest_body = std::size_t{5} << 20;
-  http.new_task_queue = [] { return new httplib::ThreadPool(threads); };
-  http.set_payload_max_length(longest_body);
-  http.set_tcp_nodelay(true);
-  http.set_keep_alive_max_count(1'000'000);
-  http.set_socket_options([](socket_t) {});  // httplib's would let another process listen on the same port
-  http.set_default_headers({{"Cache-Control", "no-store"},
-                            {"X-Content-Type-Options", "nosniff"},
-                            {"Referrer-Policy", "no-referrer"},
-                            {"Cross-Origin-Resource-Policy", "same-origin"},
-                            {"Content-Security-Policy",
-                             "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' "
-                             "data: blob:; connect-src 'self'; frame-ancestors 'none'; base-uri 'none'"}});
-  const auto answer = [this](const Request& request, Response& response) { parts_->answer(request, response); };
-  http.Get(".*", answer);
-  http.Post(".*", answer);
-  http.Put(".*", answer);
-  http.Patch(".*", answer);
-  http.Delete(".*", answer);
-  http.Options(".*", answer);
-  http.set_error_handler([](const Request&, Response& response) {
-    if (!response.body.empty() || response.status < 400) return;
-    put_refusal(
-        response, response.status < 500 ? response.status : 400,
-        response.status == 413 ? "the request is longer than any question" : "this is no request that HTTP knows");
-  });
-  parts_->port = parts_->options.port;
-  if (parts_->port == 0)
-    parts_->port = http.bind_to_any_port("127.0.0.1");
-  else if (!http.bind_to_port("127.0.0.1", parts_->port))
-    parts_->port = -1;
-  if (parts_->port <= 0)
+  Parts& parts = *parts_;
+  try {
+    parts.http = std::make_unique<HttpServer>(
+        parts.options.port,
+        HttpService{.greet = [&parts](const HttpHead& head) { return parts.greet(head); },
+                    .ask = [&parts](const HttpHead& head, const std::string& body) { return parts.ask(head, body); },
+                    .refuse = refused_request});
+  } catch (const std::system_error&) {
     throw InputError({.file = "--port"}, "the port cannot be listened on", "leave --port out, and a free one is taken");
+  }
 }
 
 Server::~Server() { stop(); }
 
-int Server::port() const { return parts_->port; }
+int Server::port() const { return parts_->port(); }
 const std::string& Server::token() const { return parts_->token; }
-std::string Server::address() const { return fmt::format("http://127.0.0.1:{}/{}/", parts_->port, parts_->token); }
-void Server::run() { parts_->http.listen_after_bind(); }
+std::string Server::address() const { return fmt::format("http://127.0.0.1:{}/{}/", port(), parts_->token); }
+void Server::run() { parts_->http->run(); }
 void Server::stop() {
-  parts_->progress.stop();
-  parts_->http.stop();
+  parts_->stopping = true;
+  parts_->http->stop();
 }
 
 }  // namespace clearloci::workbench
