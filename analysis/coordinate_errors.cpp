@@ -8,6 +8,7 @@
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/reaction_rows.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
@@ -205,7 +206,9 @@ CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const 
 }
 
 CoordinateErrors coordinate_errors(const Model& model, const ErrorRequest& request) {
-  return coordinate_errors(model.content().mechanism, request);
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  check_request(mechanism, request);
+  return coordinate_errors(mechanism, request);
 }
 
 }  // namespace clearloci

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/model.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/singular_modes.hpp"
 #include "analysis/zone_errors.hpp"
 #include "analysis/zones.hpp"
@@ -99,7 +100,9 @@ ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& re
 }
 
 ErrorMap error_map(const Model& model, const ErrorRequest& request) {
-  return error_map(model.content().mechanism, request);
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  check_request(mechanism, request);
+  return error_map(mechanism, request);
 }
 
 }  // namespace clearloci

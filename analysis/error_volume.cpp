@@ -2,6 +2,7 @@
 
 #include "analysis/error.hpp"
 #include "analysis/model.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
 #include "analysis/singular_modes.hpp"
 #include "mechanism/fits.hpp"
@@ -34,7 +35,9 @@ VolumeErrors error_volume(const mechanism::Mechanism& mechanism, const ErrorRequ
 }
 
 VolumeErrors error_volume(const Model& model, const ErrorRequest& request) {
-  return error_volume(model.content().mechanism, request);
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  check_request(mechanism, request);
+  return error_volume(mechanism, request);
 }
 
 }  // namespace clearloci

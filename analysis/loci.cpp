@@ -8,6 +8,7 @@
 
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
+#include "analysis/request_limits.hpp"
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
@@ -346,6 +347,7 @@ core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::Lo
 
 core::LocusMap trace_loci(const Model& model, const LociRequest& request) {
   const Model::Content& own = model.content();
+  check_request(own.mechanism, request);
   return own.member ? trace_loci(own.mechanism, own.shared->family(), request) : trace_loci(own.mechanism, request);
 }
 
@@ -400,6 +402,8 @@ core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociReques
 
 core::Validation validate_loci(const Model& model, const ValidationRequest& request) {
   const mechanism::Mechanism& mechanism = model.content().mechanism;
+  check_request(mechanism, request.loci);
+  check_nodes(request.nodes, 2);
   const std::size_t coordinates = mechanism.coordinates.size();
   numeric::GridSpec grid;
   if (coordinates == 1) grid.nx = 4000;

@@ -9,12 +9,15 @@
 #include "analysis/model.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/pose_fit.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
+#include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
 #include "loci/pose/pose_nearest.hpp"
 #include "loci/pose/pose_proof.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/handed_files.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/read_pose_task.hpp"
 #include "numeric/pose_witness.hpp"
@@ -408,6 +411,17 @@ PoseVerification fit_poses(const Mechanism& mechanism, const PoseTask& task, Pos
   return result;
 }
 
+namespace {
+
+const mechanism::Mechanism& checked(const Model& model, const PoseTask& task, const LociRequest& request) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  check_request(mechanism, request);
+  check_task(mechanism, task);
+  return mechanism;
+}
+
+}  // namespace
+
 PoseTask read_pose_task(const std::string& path, const Model& model) {
   return mechanism::read_pose_task(path, model.content().mechanism);
 }
@@ -416,16 +430,21 @@ PoseTask parse_pose_task(const std::string& text, const Model& model, const std:
   return mechanism::parse_pose_task(text, file, model.content().mechanism);
 }
 
+PoseTask parse_pose_task(const std::string& text, const Model& model, const HandedFiles& handed,
+                         const std::string& file) {
+  return mechanism::parse_pose_task(text, file, model.content().mechanism, handed);
+}
+
 PoseVerification verify_poses(const Model& model, const PoseTask& task, const LociRequest& request) {
-  return verify_poses(model.content().mechanism, task, request);
+  return verify_poses(checked(model, task, request), task, request);
 }
 
 PoseVerification fit_poses(const Model& model, const PoseTask& task, PoseFit goal, const LociRequest& request) {
-  return fit_poses(model.content().mechanism, task, goal, request);
+  return fit_poses(checked(model, task, request), task, goal, request);
 }
 
 PoseVerification decide_poses(const Model& model, const PoseTask& task, const LociRequest& request) {
-  return decide_poses(model.content().mechanism, task, request);
+  return decide_poses(checked(model, task, request), task, request);
 }
 
 }  // namespace clearloci

@@ -8,6 +8,7 @@
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/pose_demands.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
@@ -259,7 +260,9 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
 }
 
 PoseZones find_pose_zones(const Model& model, const LociRequest& request, long cells) {
-  return find_pose_zones(model.content().mechanism, request, cells);
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  check_request(mechanism, request);
+  return find_pose_zones(mechanism, request, cells);
 }
 
 }  // namespace clearloci

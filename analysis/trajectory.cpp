@@ -9,8 +9,10 @@
 #include "analysis/pose.hpp"
 #include "analysis/reaction_rows.hpp"
 #include "analysis/singular_modes.hpp"
+#include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
+#include "mechanism/handed_files.hpp"
 #include "numeric/period_sweep.hpp"
 
 namespace clearloci {
@@ -197,8 +199,9 @@ void check(const TrajectoryRequest& request) {
   for (const double period : request.periods) require_positive(period, "period of a sweep", "s");
   if (!std::is_sorted(request.periods.begin(), request.periods.end()))
     throw core::InputError({}, "the periods of a sweep are not in order", "give them ascending");
-  if (request.samples < 10)
-    throw core::InputError({}, std::to_string(request.samples) + " instants a cycle", "give 10 at least");
+  constexpr int most_samples = 10'000'000;
+  if (request.samples < 10 || request.samples > most_samples)
+    throw core::InputError({}, std::to_string(request.samples) + " instants a cycle", "give 10 to 10000000");
 }
 
 }  // namespace
@@ -243,6 +246,12 @@ TrajectoryResult follow_trajectory_text(const Model& model, const std::string& t
                                         const std::string& file) {
   const mechanism::Mechanism& mechanism = model.content().mechanism;
   return follow_trajectory(mechanism, mechanism::parse_trajectory(text, file, mechanism), request);
+}
+
+TrajectoryResult follow_trajectory_text(const Model& model, const std::string& text, const TrajectoryRequest& request,
+                                        const HandedFiles& handed, const std::string& file) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  return follow_trajectory(mechanism, mechanism::parse_trajectory(text, file, mechanism, handed), request);
 }
 
 }  // namespace clearloci

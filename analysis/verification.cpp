@@ -6,6 +6,7 @@
 
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/singular_modes.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/tolerant_verification.hpp"
@@ -422,8 +423,22 @@ Verification decide_task(const mechanism::Mechanism& mechanism, const Task& task
     return from_frame(decide_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame)), task,
                       mechanism, own->frame);
   require_regular(mechanism, requested_modes(mechanism, request).front());
-  return Verifier(mechanism, task, request).decide(task);
+  Verification result = Verifier(mechanism, task, request).decide(task);
+  result.map.loci = empty_map(mechanism);  // the box and its units, for a picture without loci
+  return result;
 }
+
+namespace {
+
+/// The longest side of the box, m.
+double extent(const mechanism::Mechanism& mechanism) {
+  double longest = 0;
+  for (const mechanism::Coordinate& own : mechanism.coordinates)
+    longest = std::max(longest, core::to_double(own.upper - own.lower));
+  return longest;
+}
+
+}  // namespace
 
 Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request,
                       FitGoal goal) {
@@ -434,24 +449,43 @@ Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, c
     return from_frame(fit_task(own->mechanism, in_frame(task, own->frame), in_frame(request, own->frame), goal), task,
                       mechanism, own->frame);
   require_regular(mechanism, requested_modes(mechanism, request).front());
-  Verifier verifier(mechanism, task, request);
+  constexpr double half = 0.5, of_box = 1e-4;  // chords coarser than that would leave no place for a task beside them
+  LociRequest fine = request;
+  fine.tolerance = std::min(request.tolerance, of_box * extent(mechanism));
+  Verifier verifier(mechanism, task, fine);
   const auto moved = [&](const Point2& by) {
     Task other = task;
     other.shape = core::translated(task.shape, {core::Rational(by[0]), core::Rational(by[1])});
     return other;
   };
   const auto accept = [&](const loci::Fit& fit) { return verifier.proven(moved(fit.by)); };
+  const auto pulse = [&] {
+    if (request.deadline && std::chrono::steady_clock::now() > *request.deadline)
+      throw core::LimitReached("the time limit was reached before a place for the task was found");
+    if (request.progress) request.progress(half, "places");
+  };
   verifier.trace(TraceEffort::full);
   if (!verifier.traced()) throw core::LimitReached("the loci could not be traced completely within the time limit");
   std::vector<const core::LocusMap*> maps;
   for (const TracedProblem& one : *verifier.traced()) maps.push_back(&one.map);
   const auto fit = loci::fit_task(maps, mode_of(verifier.sides(), maps.front()->tower), task.shape,
-                                  core::to_double(task.margin), goal, verifier.signature(), accept);
+                                  core::to_double(task.margin), goal, verifier.signature(), accept, pulse);
   Verification result = verifier.verify(fit ? moved(fit->by) : task);
   if (fit) result.by = core::RationalPoint{core::Rational(fit->by[0]), core::Rational(fit->by[1])};
   add_zones(mechanism, verifier, result);
   return result;
 }
+
+namespace {
+
+const mechanism::Mechanism& checked(const Model& model, const Task& task, const LociRequest& request) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  check_request(mechanism, request);
+  check_task(mechanism, task);
+  return mechanism;
+}
+
+}  // namespace
 
 Task read_task(const std::string& path, const Model& model) {
   return mechanism::read_task(path, model.content().mechanism);
@@ -462,15 +496,15 @@ Task parse_task(const std::string& text, const Model& model, const std::string& 
 }
 
 Verification verify_task(const Model& model, const Task& task, const LociRequest& request) {
-  return verify_task(model.content().mechanism, task, request);
+  return verify_task(checked(model, task, request), task, request);
 }
 
 Verification decide_task(const Model& model, const Task& task, const LociRequest& request) {
-  return decide_task(model.content().mechanism, task, request);
+  return decide_task(checked(model, task, request), task, request);
 }
 
 Verification fit_task(const Model& model, const Task& task, const LociRequest& request, FitGoal goal) {
-  return fit_task(model.content().mechanism, task, request, goal);
+  return fit_task(checked(model, task, request), task, request, goal);
 }
 
 }  // namespace clearloci

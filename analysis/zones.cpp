@@ -6,6 +6,7 @@
 
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
+#include "analysis/request_limits.hpp"
 #include "core/errors.hpp"
 #include "loci/sheet/known_searches.hpp"
 #include "loci/sheet_maps.hpp"
@@ -174,6 +175,7 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
 
 ZoneMap find_zones(const Model& model, const LociRequest& request) {
   const Model::Content& own = model.content();
+  check_request(own.mechanism, request);
   return find_zones(own.mechanism, request, nullptr, own.member ? &own.shared->family() : nullptr);
 }
 

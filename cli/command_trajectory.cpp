@@ -56,7 +56,7 @@ TrajectoryRequest request_of(const TrajectoryCommand& arguments, const mechanism
   if (!arguments.working_mode.empty()) request.working_mode = parse_working_mode(arguments.working_mode, mechanism);
   if (!arguments.period.empty())
     request.period = core::to_double(parse_positive(arguments.period, "--period", mechanism, "period"));
-  if (arguments.samples < 10 || arguments.samples > 10000000)
+  if (arguments.samples < 10 || arguments.samples > 10'000'000)
     throw core::InputError({.file = "--samples"}, fmt::format("{} instants a cycle", arguments.samples),
                            "give a number from 10 to 10000000");
   request.samples = arguments.samples;

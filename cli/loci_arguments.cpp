@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "analysis/request_limits.hpp"
 #include "core/errors.hpp"
 #include "mechanism/frame.hpp"
 
@@ -17,18 +15,6 @@ Engine parse_engine(const std::string& word) {
   if (const std::optional<Engine> engine = core::engine_named(word)) return *engine;
   throw core::InputError({.file = "--engine"}, fmt::format("unknown engine '{}'", word),
                          "choose from adaptive-then-exact, exact, adaptive");
-}
-
-/// What doubles can express in the box at least: vertices are placed within some spacings of doubles at its
-/// coordinates, and a tolerance below that could never be kept.
-double finest_tolerance(const mechanism::Mechanism& mechanism) {
-  constexpr double spacings = 64 * std::numeric_limits<double>::epsilon();
-  double largest = 0;
-  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
-    if (!coordinate.angle)
-      largest =
-          std::max({largest, std::abs(core::to_double(coordinate.lower)), std::abs(core::to_double(coordinate.upper))});
-  return spacings * (largest > 0 ? largest : 1);
 }
 
 double parse_tolerance(const std::string& text, const mechanism::Mechanism& mechanism) {

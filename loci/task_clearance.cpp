@@ -199,7 +199,7 @@ Fit shortened(Fit fit, const Clearance& clearance_at, double clearance, const st
 
 std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core::WorkingMode& mode,
                             const core::TaskShape& shape, double clearance, FitGoal goal, const SignatureAt& signature,
-                            const std::function<bool(const Fit&)>& accept) {
+                            const std::function<bool(const Fit&)>& accept, const std::function<void()>& pulse) {
   constexpr double resolution = 2e-4;  // of the box
   const auto [low, high] = core::bounds(shape);
   Cell all;
@@ -236,6 +236,7 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
   // What the search has seen to be good enough, best first; asked when no open cell can hold better.
   std::priority_queue<Cell> found;
   while (!open.empty() || !found.empty()) {
+    pulse();
     if (!found.empty() && (open.empty() || found.top().key <= open.top().key)) {
       const Cell best = found.top();
       found.pop();

@@ -43,9 +43,9 @@ using SignatureAt = std::function<std::optional<std::vector<int>>(const core::Po
 /// Cells are told apart down to 2e-4 of the box.
 ///
 /// `maps`: the loci of every load; read before the first call of `accept`. `accept`: the proof; the search goes on
-/// until it says yes.
+/// until it says yes. `pulse`: called again and again meanwhile; what it throws ends the search.
 std::optional<Fit> fit_task(const std::vector<const core::LocusMap*>& maps, const core::WorkingMode& mode,
                             const core::TaskShape& shape, double clearance, FitGoal goal, const SignatureAt& signature,
-                            const std::function<bool(const Fit&)>& accept);
+                            const std::function<bool(const Fit&)>& accept, const std::function<void()>& pulse);
 
 }  // namespace clearloci::loci

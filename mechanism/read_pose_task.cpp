@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "mechanism/handed_files.hpp"
 #include "mechanism/read_loads_from.hpp"
 #include "mechanism/read_stl.hpp"
 #include "mechanism/reader.hpp"
@@ -111,7 +112,7 @@ core::PosePathShape read_path(const Mechanism& mechanism, const Value& value) {
 }
 
 /// {file: part.stl, unit: mm, at: [0, 0, 0.5]}, beside the task file. `at`: where the file's origin lies.
-core::PoseMeshShape read_mesh(const Mechanism& mechanism, const Value& value) {
+core::PoseMeshShape read_mesh(const Mechanism& mechanism, const Value& value, const HandedFiles* handed) {
   if (mechanism.coordinates.size() != 3 || has_angle(mechanism))
     throw InputError(value.where,
                      value.what + " is one of three lengths, and " + mechanism.file + " has " +
@@ -128,7 +129,8 @@ core::PoseMeshShape read_mesh(const Mechanism& mechanism, const Value& value) {
   }
   const double size = core::to_double(value_in_si("1 " + unit, "margin", mechanism, value.where));
   const std::filesystem::path path = std::filesystem::path(value.where.file).parent_path() / text_of(file);
-  core::PoseMeshShape mesh = read_stl(path.string(), size);
+  core::PoseMeshShape mesh =
+      handed != nullptr ? parse_stl(handed_file(*handed, file), text_of(file), size) : read_stl(path.string(), size);
   if (const auto at = keys.find("at")) {
     const RationalPose by = read_pose(mechanism, *at);
     for (std::array<double, 3>& corner : mesh.corners)
@@ -138,7 +140,7 @@ core::PoseMeshShape read_mesh(const Mechanism& mechanism, const Value& value) {
 }
 
 std::pair<core::PoseShape, Value> read_shape(const Mechanism& mechanism, const Value& document, const Mapping& root,
-                                             bool weighted) {
+                                             bool weighted, const HandedFiles* handed) {
   for (const char* key : {"tolerances", "loads_within", "pose_error"})
     if (const auto value = root.find(key))
       throw InputError(
@@ -175,7 +177,7 @@ std::pair<core::PoseShape, Value> read_shape(const Mechanism& mechanism, const V
   value.what = "the " + found->first;
   if (found->first == "box") return {read_box(mechanism, value), value};
   if (found->first == "ball") return {read_ball(mechanism, value, weighted), value};
-  if (found->first == "mesh") return {read_mesh(mechanism, value), value};
+  if (found->first == "mesh") return {read_mesh(mechanism, value, handed), value};
   return {read_path(mechanism, value), value};
 }
 
@@ -225,7 +227,7 @@ void check_inside_box(const Mechanism& mechanism, const core::PoseTask& task, co
   }
 }
 
-core::PoseTask pose_task_of(const Value& document, const Mechanism& mechanism) {
+core::PoseTask pose_task_of(const Value& document, const Mechanism& mechanism, const HandedFiles* handed) {
   if (is_plane(mechanism) && mechanism.space != Space::spatial)
     throw InputError({mechanism.file, 0, 0}, "the mechanism has two lengths free, whose tasks lie in their plane",
                      "ask for a task of the plane");
@@ -240,7 +242,7 @@ core::PoseTask pose_task_of(const Value& document, const Mechanism& mechanism) {
     task.angle_length = read_number(mechanism, *length, Sign::positive).value;
   }
   const bool weighted = task.angle_length.has_value();
-  auto [shape, place] = read_shape(mechanism, document, root, weighted);
+  auto [shape, place] = read_shape(mechanism, document, root, weighted, handed);
   task.shape = std::move(shape);
   check_inside_box(mechanism, task, place);
   if (const auto margin = root.find("margin"))
@@ -250,6 +252,16 @@ core::PoseTask pose_task_of(const Value& document, const Mechanism& mechanism) {
     task.min_couple = read_number(mechanism, *couple, Sign::positive).value;
   if (const auto loads = root.find("loads_from")) task.loads = read_loads_from(mechanism, *loads);
   return task;
+}
+
+core::PoseTask parsed(const std::string& text, const std::string& file, const Mechanism& mechanism,
+                      const HandedFiles* handed) {
+  const Value document = parse_document(text, file);
+  if (!document.is_map())
+    throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
+  const Mapping root(document, task_keys);
+  check_format(root.at("format"));
+  return pose_task_of(document, mechanism, handed);
 }
 
 }  // namespace
@@ -266,12 +278,12 @@ bool is_pose_task(const std::string& path, const Mechanism& mechanism) {
 }
 
 core::PoseTask parse_pose_task(const std::string& text, const std::string& file, const Mechanism& mechanism) {
-  const Value document = parse_document(text, file);
-  if (!document.is_map())
-    throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
-  const Mapping root(document, task_keys);
-  check_format(root.at("format"));
-  return pose_task_of(document, mechanism);
+  return parsed(text, file, mechanism, nullptr);
+}
+
+core::PoseTask parse_pose_task(const std::string& text, const std::string& file, const Mechanism& mechanism,
+                               const HandedFiles& handed) {
+  return parsed(text, file, mechanism, &handed);
 }
 
 core::PoseTask read_pose_task(const std::string& path, const Mechanism& mechanism) {

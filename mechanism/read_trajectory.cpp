@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/handed_files.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/trajectory.hpp"
 
@@ -210,10 +211,12 @@ void read_expressions(const Mechanism& mechanism, const Mapping& mapping, const 
 }
 
 /// Rows "time, coordinate, ..." after a heading that may be there.
-void read_table(const Mechanism& mechanism, const Value& file, const std::string& beside, TimedMotion& timed) {
+void read_table(const Mechanism& mechanism, const Value& file, const std::string& beside, TimedMotion& timed,
+                const HandedFiles* handed) {
   constexpr std::size_t most_rows = 5000;
   const std::filesystem::path path = std::filesystem::path(beside).parent_path() / text_of(file);
-  std::istringstream lines(read_text(path.string(), "a table of times and coordinates"));
+  std::istringstream lines(handed != nullptr ? handed_file(*handed, file)
+                                             : read_text(path.string(), "a table of times and coordinates"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     const core::SourcePosition where{path.string(), number, 1};
@@ -252,7 +255,7 @@ void read_table(const Mechanism& mechanism, const Value& file, const std::string
 }
 
 /// A motion that is given in time has no path; its two ends stand for waypoints.
-void read_timed(const Mechanism& mechanism, const Mapping& root, Trajectory& trajectory) {
+void read_timed(const Mechanism& mechanism, const Mapping& root, const HandedFiles* handed, Trajectory& trajectory) {
   const Value motion = root.at("motion");
   if (const auto path = root.find("path"))
     throw InputError(path->where, "the motion gives the coordinates in time, and needs no path",
@@ -267,7 +270,7 @@ void read_timed(const Mechanism& mechanism, const Mapping& root, Trajectory& tra
     read_expressions(mechanism, mapping, motion, timed);
     trajectory.period = number(mechanism, root.at("period"), Sign::positive);
   } else {
-    read_table(mechanism, mapping.at("file"), trajectory.file, timed);
+    read_table(mechanism, mapping.at("file"), trajectory.file, timed, handed);
     if (const auto period = root.find("period"))
       throw InputError(period->where, "the table says how long the motion takes", "remove period");
     trajectory.period = timed.times.back() - timed.times.front();
@@ -337,15 +340,8 @@ void check_parts(const Trajectory& trajectory) {
                      "let them add up to 1, or leave a duration out");
 }
 
-}  // namespace
-
-std::string to_string(LawKind kind) {
-  for (const auto& [one, name] : laws)
-    if (one == kind) return name;
-  return {};
-}
-
-Trajectory parse_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism) {
+Trajectory parsed(const std::string& text, const std::string& file, const Mechanism& mechanism,
+                  const HandedFiles* handed) {
   const Value document = parse_document(text, file);
   if (!document.is_map())
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
@@ -357,7 +353,7 @@ Trajectory parse_trajectory(const std::string& text, const std::string& file, co
   trajectory.name = name_of(name, file);
   trajectory.law = read_law(mechanism, root.at("motion"));
   if (trajectory.law.kind == LawKind::expression || trajectory.law.kind == LawKind::table) {
-    read_timed(mechanism, root, trajectory);
+    read_timed(mechanism, root, handed, trajectory);
     return trajectory;
   }
   read_path(mechanism, root.at("path"), trajectory);
@@ -375,6 +371,23 @@ Trajectory parse_trajectory(const std::string& text, const std::string& file, co
   check_constant(trajectory, motion);
   check_parts(trajectory);
   return trajectory;
+}
+
+}  // namespace
+
+std::string to_string(LawKind kind) {
+  for (const auto& [one, name] : laws)
+    if (one == kind) return name;
+  return {};
+}
+
+Trajectory parse_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism) {
+  return parsed(text, file, mechanism, nullptr);
+}
+
+Trajectory parse_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism,
+                            const HandedFiles& handed) {
+  return parsed(text, file, mechanism, &handed);
 }
 
 Trajectory read_trajectory(const std::string& path, const Mechanism& mechanism) {

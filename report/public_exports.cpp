@@ -34,6 +34,44 @@ void check(const std::set<std::string>& wanted, const std::vector<std::string>& 
                              fmt::format("choose from {}", fmt::join(known, ", ")));
 }
 
+/// An answer that no question gave, such as a LocusMap that a caller has just made, says nothing that could be written.
+void require(bool said, const std::string& what) {
+  if (!said) throw core::InputError({}, what + " is empty: no question gave it", "hand over what a function answered");
+}
+const LocusMap& told(const LocusMap& loci) {
+  const std::size_t count = loci.tower.coordinates.size();
+  require(count > 0 && loci.lower.size() == count && loci.upper.size() == count, "the map of loci");
+  return loci;
+}
+const ZoneMap& told(const ZoneMap& zones) {
+  told(zones.loci);
+  return zones;
+}
+const Verification& told(const Verification& answer) {
+  told(answer.map.loci);
+  return answer;
+}
+const PoseZones& told(const PoseZones& zones) {
+  require(!zones.coordinates.empty(), "the map of zones");
+  return zones;
+}
+const PoseVerification& told(const PoseVerification& answer) {
+  require(!answer.coordinates.empty(), "the verification");
+  return answer;
+}
+template <class Errors>
+const Errors& told_errors(const Errors& errors) {
+  require(!errors.modes.empty(), "the map of errors");
+  return errors;
+}
+const ErrorMap& told(const ErrorMap& errors) { return told_errors(errors); }
+const CoordinateErrors& told(const CoordinateErrors& errors) { return told_errors(errors); }
+const VolumeErrors& told(const VolumeErrors& errors) { return told_errors(errors); }
+const TrajectoryResult& told(const TrajectoryResult& result) {
+  require(!result.samples.columns.empty() && !result.samples.columns.front().empty(), "the trajectory");
+  return result;
+}
+
 using Paths = std::vector<std::filesystem::path>;
 
 template <class Answer>
@@ -72,92 +110,99 @@ std::vector<std::string> trajectory_formats() { return report::format_names<Traj
 
 Paths export_loci(const Model& model, const LocusMap& loci, const std::filesystem::path& folder,
                   const std::set<std::string>& formats) {
+  told(loci);
   check(formats, loci_formats(loci.tower.coordinates.size()));
   return report::write_loci({loci, sample_sketches(model.content().mechanism, loci)}, folder, formats);
 }
 Paths export_zones(const ZoneMap& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
-  return write_checked(zones, folder, formats);
+  return write_checked(told(zones), folder, formats);
 }
 Paths export_zones(const PoseZones& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
-  return write_checked(zones, folder, formats, pose_zone_formats(zones.coordinates.size()));
+  return write_checked(told(zones), folder, formats, pose_zone_formats(zones.coordinates.size()));
 }
 Paths export_verification(const Verification& answer, const std::filesystem::path& folder,
                           const std::set<std::string>& formats) {
-  return write_checked(answer, folder, formats);
+  return write_checked(told(answer), folder, formats);
 }
 Paths export_verification(const PoseVerification& answer, const std::filesystem::path& folder,
                           const std::set<std::string>& formats) {
   return write_checked(answer, folder, formats);
 }
 Paths export_errors(const ErrorMap& errors, const std::filesystem::path& folder, const std::set<std::string>& formats) {
-  return write_checked(errors, folder, formats);
+  return write_checked(told(errors), folder, formats);
 }
 Paths export_errors(const CoordinateErrors& errors, const std::filesystem::path& folder,
                     const std::set<std::string>& formats) {
-  return write_checked(errors, folder, formats);
+  return write_checked(told(errors), folder, formats);
 }
 Paths export_errors(const VolumeErrors& errors, const std::filesystem::path& folder,
                     const std::set<std::string>& formats, const std::vector<VolumeSlice>& slices) {
-  return write_checked(report::VolumeSheet{errors, slices}, folder, formats);
+  return write_checked(report::VolumeSheet{told(errors), slices}, folder, formats);
 }
 Paths export_trajectory(const TrajectoryResult& result, const std::filesystem::path& folder,
                         const std::set<std::string>& formats) {
-  return write_checked(result, folder, formats);
+  return write_checked(told(result), folder, formats);
 }
 
 std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats) {
-  const std::vector<core::ModeSketch> sketches = sample_sketches(model.content().mechanism, loci);
+  const std::vector<core::ModeSketch> sketches = sample_sketches(model.content().mechanism, told(loci));
   return files_checked(report::LociSheet{loci, sketches}, formats, loci_formats(loci.tower.coordinates.size()));
 }
 std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats) {
-  return files_checked(zones, formats);
+  return files_checked(told(zones), formats);
 }
 std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std::string>& formats) {
-  return files_checked(zones, formats, pose_zone_formats(zones.coordinates.size()));
+  return files_checked(told(zones), formats, pose_zone_formats(zones.coordinates.size()));
 }
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats) {
-  return files_checked(answer, formats);
+  return files_checked(told(answer), formats);
 }
 std::vector<ExportedFile> verification_files(const PoseVerification& answer, const std::set<std::string>& formats) {
   return files_checked(answer, formats);
 }
 std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats) {
-  return files_checked(errors, formats);
+  return files_checked(told(errors), formats);
 }
 std::vector<ExportedFile> error_files(const CoordinateErrors& errors, const std::set<std::string>& formats) {
-  return files_checked(errors, formats);
+  return files_checked(told(errors), formats);
 }
 std::vector<ExportedFile> error_files(const VolumeErrors& errors, const std::set<std::string>& formats,
                                       const std::vector<VolumeSlice>& slices) {
-  return files_checked(report::VolumeSheet{errors, slices}, formats);
+  return files_checked(report::VolumeSheet{told(errors), slices}, formats);
 }
 std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const std::set<std::string>& formats) {
-  return files_checked(result, formats);
+  return files_checked(told(result), formats);
 }
 
 using report::json_text;
-std::string to_json(const LocusMap& loci) { return json_text(report::loci_object(loci)); }
-std::string to_json(const ZoneMap& zones) { return json_text(report::zones_object(zones)); }
-std::string to_json(const PoseZones& zones) { return json_text(report::pose_zones_object(zones)); }
-std::string to_json(const Verification& answer) { return json_text(report::verification_object(answer)); }
-std::string to_json(const PoseVerification& answer) { return json_text(report::pose_verification_object(answer)); }
-std::string to_json(const ErrorMap& errors) { return json_text(report::error_object(errors)); }
-std::string to_json(const CoordinateErrors& errors) { return json_text(report::coordinate_errors_object(errors)); }
-std::string to_json(const VolumeErrors& errors) { return json_text(report::error_volume_object(errors)); }
-std::string to_json(const TrajectoryResult& result) { return json_text(report::trajectory_object(result)); }
+std::string to_json(const LocusMap& loci) { return json_text(report::loci_object(told(loci))); }
+std::string to_json(const ZoneMap& zones) { return json_text(report::zones_object(told(zones))); }
+std::string to_json(const PoseZones& zones) { return json_text(report::pose_zones_object(told(zones))); }
+std::string to_json(const Verification& answer) { return json_text(report::verification_object(told(answer))); }
+std::string to_json(const PoseVerification& answer) {
+  return json_text(report::pose_verification_object(told(answer)));
+}
+std::string to_json(const ErrorMap& errors) { return json_text(report::error_object(told(errors))); }
+std::string to_json(const CoordinateErrors& errors) {
+  return json_text(report::coordinate_errors_object(told(errors)));
+}
+std::string to_json(const VolumeErrors& errors) { return json_text(report::error_volume_object(told(errors))); }
+std::string to_json(const TrajectoryResult& result) { return json_text(report::trajectory_object(told(result))); }
 std::string to_json(const Pose& pose) { return json_text(report::pose_object(pose)); }
 std::string to_json(const PoseInModes& poses) { return json_text(report::pose_in_modes_object(poses)); }
 std::string to_json(const Validation& validation) { return json_text(report::validation_object(validation)); }
 
-std::string to_table(const LocusMap& loci) { return report::loci_table(loci); }
-std::string to_table(const ZoneMap& zones) { return report::zones_table(zones); }
-std::string to_table(const PoseZones& zones) { return report::pose_zones_table(zones); }
-std::string to_text(const Verification& answer) { return report::verification_text(answer, answer.by.has_value()); }
-std::string to_text(const PoseVerification& answer) { return report::pose_verification_text(answer); }
-std::string to_text(const ErrorMap& errors) { return report::error_text(errors); }
-std::string to_text(const CoordinateErrors& errors) { return report::coordinate_errors_text(errors); }
-std::string to_text(const VolumeErrors& errors) { return report::error_volume_text(errors); }
-std::string to_text(const TrajectoryResult& result) { return report::trajectory_text(result); }
+std::string to_table(const LocusMap& loci) { return report::loci_table(told(loci)); }
+std::string to_table(const ZoneMap& zones) { return report::zones_table(told(zones)); }
+std::string to_table(const PoseZones& zones) { return report::pose_zones_table(told(zones)); }
+std::string to_text(const Verification& answer) {
+  return report::verification_text(told(answer), answer.by.has_value());
+}
+std::string to_text(const PoseVerification& answer) { return report::pose_verification_text(told(answer)); }
+std::string to_text(const ErrorMap& errors) { return report::error_text(told(errors)); }
+std::string to_text(const CoordinateErrors& errors) { return report::coordinate_errors_text(told(errors)); }
+std::string to_text(const VolumeErrors& errors) { return report::error_volume_text(told(errors)); }
+std::string to_text(const TrajectoryResult& result) { return report::trajectory_text(told(result)); }
 std::string to_text(const Pose& pose) { return report::pose_text(pose); }
 std::string to_text(const PoseInModes& poses) { return report::pose_in_modes_text(poses); }
 std::string to_text(const Validation& validation) { return report::validation_text(validation); }
@@ -165,13 +210,13 @@ std::string to_text(const Validation& validation) { return report::validation_te
 std::vector<WorkingMode> modes_of(const LocusMap& loci) { return report::modes_of(loci); }
 
 std::string to_svg(const LocusMap& loci, const WorkingMode& mode) {
-  return report::picture(loci, mode, nullptr, report::PictureFormat::svg);
+  return report::picture(told(loci), mode, nullptr, report::PictureFormat::svg);
 }
 std::string to_svg(const ZoneMap& zones, const WorkingMode& mode) {
-  return report::zone_picture(zones, mode, report::PictureFormat::svg);
+  return report::zone_picture(told(zones), mode, report::PictureFormat::svg);
 }
 std::string to_svg(const Verification& answer) {
-  return report::verification_picture(answer, report::PictureFormat::svg);
+  return report::verification_picture(told(answer), report::PictureFormat::svg);
 }
 
 }  // namespace clearloci

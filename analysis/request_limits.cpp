@@ -1,0 +1,161 @@
+#include "analysis/request_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "core/errors.hpp"
+#include "core/rational.hpp"
+#include "core/task.hpp"
+#include "mechanism/evaluate.hpp"
+
+namespace clearloci {
+namespace {
+
+using core::InputError;
+
+void check_positive(const std::optional<Rational>& value, const std::string& what, const std::string& unit) {
+  if (!value) return;
+  if (*value <= 0) throw InputError({}, what + " is not above zero", "give " + unit + ", more than 0");
+  if (const auto reason = mechanism::unusable(*value))
+    throw InputError({}, what + " " + *reason, "give " + unit + " as they occur");
+}
+
+void check_margin(const Rational& margin) {
+  if (margin < 0) throw InputError({}, "the task's margin is negative", "give 0 or more");
+  if (const auto reason = mechanism::unusable(margin))
+    throw InputError({}, "the task's margin " + *reason, "give one as it occurs");
+}
+
+[[noreturn]] void refuse_foreign(const mechanism::Mechanism& mechanism, const std::string& why) {
+  throw InputError({mechanism.file}, "the task is one of another mechanism: " + why, "read the task with this one");
+}
+
+void check_inside(const mechanism::Mechanism& mechanism, std::size_t c, const Rational& lower, const Rational& upper) {
+  const mechanism::Coordinate& coordinate = mechanism.coordinates[c];
+  if (lower > upper || lower < coordinate.lower || upper > coordinate.upper)
+    refuse_foreign(mechanism, "it is not within the range of " + coordinate.name);
+}
+
+void check_size(const mechanism::Mechanism& mechanism, std::size_t values) {
+  if (values != mechanism.coordinates.size())
+    refuse_foreign(mechanism, "its poses have " + std::to_string(values) + " values, and " +
+                                  std::to_string(mechanism.coordinates.size()) + " coordinates are free");
+}
+
+void check_poses(const mechanism::Mechanism& mechanism, const std::vector<core::RationalPose>& poses) {
+  if (poses.empty()) throw InputError({}, "the task has no pose", "give one at least");
+  for (const core::RationalPose& pose : poses) {
+    check_size(mechanism, pose.size());
+    for (std::size_t c = 0; c < pose.size(); ++c) check_inside(mechanism, c, pose[c], pose[c]);
+  }
+}
+
+void check_one_force(const mechanism::Mechanism& mechanism) {
+  if (mechanism.loads.size() != 1 || mechanism.loads.front().force.empty())
+    refuse_foreign(mechanism, "a range of loads takes the place of a single force");
+}
+
+bool over_two_lengths(const mechanism::Mechanism& mechanism) {
+  return mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
+}
+
+}  // namespace
+
+double finest_tolerance(const mechanism::Mechanism& mechanism) {
+  constexpr double spacings = 64 * std::numeric_limits<double>::epsilon();
+  double largest = 0;
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    if (!coordinate.angle)
+      largest =
+          std::max({largest, std::abs(core::to_double(coordinate.lower)), std::abs(core::to_double(coordinate.upper))});
+  return spacings * (largest > 0 ? largest : 1);
+}
+
+void check_request(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  const double finest = finest_tolerance(mechanism);
+  if (!(request.tolerance >= finest && std::isfinite(request.tolerance))) {
+    std::ostringstream least;
+    least << "give " << finest << " m or more";
+    throw InputError({}, "the tolerance is no number that doubles can keep in this box", least.str());
+  }
+  if (!(request.mesh_size > 0 && std::isfinite(request.mesh_size)))
+    throw InputError({}, "the mesh size is no positive number", "give a part of the box, such as 0.03");
+  check_positive(request.min_force, "min_force", "N");
+  check_positive(request.min_couple, "min_couple", "N m");
+}
+
+void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
+  check_request(mechanism, request.loci);
+  const std::size_t count = mechanism.coordinates.size();
+  if (count == 1) check_nodes({request.steps}, 1);
+  if (count == 2) check_nodes({request.nx, request.ny}, 1);
+  if (count == 3) check_nodes({request.cells.begin(), request.cells.end()}, 1);
+}
+
+void check_nodes(const std::vector<int>& nodes, int least) {
+  constexpr double most = 1e8;  // some hundred bytes a node are as much as a machine of today holds
+  double all = 1;
+  for (const int count : nodes) {
+    if (count < least)
+      throw InputError({}, "a grid has " + std::to_string(count) + " nodes along a coordinate",
+                       "give " + std::to_string(least) + " at least");
+    all *= count;
+  }
+  if (all > most) throw InputError({}, "the grid has more nodes than there is memory for", "give fewer");
+}
+
+void check_task(const mechanism::Mechanism& mechanism, const core::Task& task) {
+  if (!over_two_lengths(mechanism)) refuse_foreign(mechanism, "it lies in the plane of two lengths");
+  const auto [lower, upper] = core::bounds(task.shape);
+  for (std::size_t c = 0; c < 2; ++c) check_inside(mechanism, c, lower[c], upper[c]);
+  check_margin(task.margin);
+  check_positive(task.min_force, "min_force", "N");
+  check_positive(task.min_couple, "min_couple", "N m");
+  check_positive(task.pose_error, "pose_error", "m");
+  for (const core::Tolerance& tolerance : task.tolerances) {
+    const auto& known = mechanism.parameters;
+    if (std::none_of(known.begin(), known.end(), [&](const auto& own) { return own.name == tolerance.parameter; }))
+      refuse_foreign(mechanism, "there is no parameter '" + tolerance.parameter + "'");
+    if (tolerance.below > 0 || tolerance.above < 0)
+      throw InputError({}, "the tolerance of " + tolerance.parameter + " leaves out its own value",
+                       "give one below and one above 0");
+  }
+  if (task.loads) check_one_force(mechanism);
+  for (const core::LoadWithin& within : task.loads_within) {
+    if (within.load >= mechanism.loads.size())
+      refuse_foreign(mechanism, "there is no load " + std::to_string(within.load + 1));
+    if (within.force < 0 || within.couple < 0)
+      throw InputError({}, "what a load may differ by is negative", "give 0 or more");
+  }
+}
+
+void check_task(const mechanism::Mechanism& mechanism, const core::PoseTask& task) {
+  const std::size_t count = mechanism.coordinates.size();
+  if (const auto* box = std::get_if<core::PoseBoxShape>(&task.shape)) {
+    check_size(mechanism, box->lower.size());
+    check_size(mechanism, box->upper.size());
+    for (std::size_t c = 0; c < count; ++c) check_inside(mechanism, c, box->lower[c], box->upper[c]);
+  } else if (const auto* ball = std::get_if<core::PoseBallShape>(&task.shape)) {
+    check_poses(mechanism, {ball->centre});
+    check_positive(ball->radius, "the radius", "m");
+  } else if (const auto* path = std::get_if<core::PosePathShape>(&task.shape)) {
+    check_poses(mechanism, path->points);
+  } else if (count != 3) {
+    refuse_foreign(mechanism, "a mesh is one of three lengths");
+  }
+  check_margin(task.margin);
+  check_positive(task.angle_length, "angle_length", "m");
+  check_positive(task.min_force, "min_force", "N");
+  check_positive(task.min_couple, "min_couple", "N m");
+  if (!task.loads) return;
+  check_one_force(mechanism);
+  const auto dimension = static_cast<std::size_t>(mechanism::dimension(mechanism));
+  if (task.loads->first.size() != dimension || task.loads->second.size() != dimension)
+    refuse_foreign(mechanism, "its loads have other components");
+}
+
+}  // namespace clearloci

@@ -1,0 +1,26 @@
+// Whether the numbers of a request can be kept, and a task is one of this mechanism: asked once for every front end, at
+// the public functions. The readers of files and of command lines say it before, in their words.
+#pragma once
+
+#include "clearloci/error.hpp"
+#include "clearloci/loci.hpp"
+#include "clearloci/pose_tasks.hpp"
+#include "clearloci/verify.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci {
+
+/// What doubles can express in the box at least, m: vertices are placed within some spacings of doubles at its
+/// coordinates, and a tolerance below that could never be kept.
+double finest_tolerance(const mechanism::Mechanism& mechanism);
+
+/// All throw core::InputError.
+void check_request(const mechanism::Mechanism& mechanism, const LociRequest& request);
+void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& request);
+void check_task(const mechanism::Mechanism& mechanism, const core::Task& task);
+void check_task(const mechanism::Mechanism& mechanism, const core::PoseTask& task);
+
+/// Nodes of a grid along each coordinate: two at least, and together no more than memory holds.
+void check_nodes(const std::vector<int>& nodes, int least);
+
+}  // namespace clearloci

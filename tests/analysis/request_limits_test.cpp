@@ -1,0 +1,82 @@
+// What no analysis can answer is an InputError at the public functions, whatever the numbers are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "clearloci/error.hpp"
+#include "clearloci/errors.hpp"
+#include "clearloci/export.hpp"
+#include "clearloci/mechanism.hpp"
+#include "clearloci/validate.hpp"
+#include "clearloci/verify.hpp"
+
+namespace clearloci {
+namespace {
+
+Model example(const std::string& name) { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/" + name); }
+
+TEST(RequestLimits, ATolerancesIsOneThatDoublesCanKeep) {
+  const Model model = example("five_bar.yaml");
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double tolerance : {std::nan(""), -1e-5, 0.0, 1e-300, infinity, -infinity}) {
+    EXPECT_THROW(trace_loci(model, {.tolerance = tolerance}), InputError) << tolerance;
+    EXPECT_THROW(find_zones(model, {.tolerance = tolerance}), InputError) << tolerance;
+    EXPECT_THROW(coordinate_errors(example("four_bar.yaml"), {.loci = {.tolerance = tolerance}}), InputError);
+  }
+}
+
+TEST(RequestLimits, LeastEffortsArePositiveAndOccur) {
+  const Model model = example("five_bar.yaml");
+  const Rational huge("1" + std::string(300, '0'));
+  for (const Rational& force : {Rational(0), Rational(-1), huge, Rational(1 / huge)}) {
+    EXPECT_THROW(trace_loci(model, {.min_force = force}), InputError) << force;
+    EXPECT_THROW(trace_loci(model, {.min_couple = force}), InputError) << force;
+  }
+}
+
+TEST(RequestLimits, ATaskIsOneOfTheMechanism) {
+  const Model model = example("five_bar.yaml"), other = example("hexapod.yaml"), linkage = example("four_bar.yaml");
+  const Task task = read_task(CLEARLOCI_SOURCE_DIR "/examples/tasks/pick_and_place.yaml", model);
+  EXPECT_THROW(verify_task(other, task), InputError);
+  EXPECT_THROW(decide_task(linkage, task), InputError);
+  Task outside = task;
+  outside.shape = TaskBox{{Rational(100), Rational(100)}, {Rational(101), Rational(101)}};
+  EXPECT_THROW(decide_task(model, outside), InputError);
+  Task stray = task;
+  stray.tolerances = {{"nobody", -1, 1}};
+  EXPECT_THROW(decide_task(model, stray), InputError);
+  Task load = task;
+  load.loads_within = {{.load = 7, .force = 1}};
+  EXPECT_THROW(decide_task(model, load), InputError);
+}
+
+TEST(RequestLimits, AGridIsOneThatMemoryHolds) {
+  const Model model = example("five_bar.yaml");
+  for (const int count : {0, -5, std::numeric_limits<int>::max()})
+    EXPECT_THROW(error_map(model, {.nx = count, .ny = count}), InputError) << count;
+  EXPECT_THROW(validate_loci(model, {.nodes = {std::numeric_limits<int>::max(), 1000}}), InputError);
+}
+
+TEST(AnEmptyAnswer, IsNotWritten) {
+  const Model model = example("five_bar.yaml");
+  EXPECT_THROW(loci_files(model, LocusMap{}, {"svg"}), InputError);
+  EXPECT_THROW(zone_files(ZoneMap{}, {"svg"}), InputError);
+  EXPECT_THROW(verification_files(Verification{}, {"pdf"}), InputError);
+  EXPECT_THROW(error_files(ErrorMap{}, {"png"}), InputError);
+  EXPECT_THROW(error_files(VolumeErrors{}, {"png"}), InputError);
+  EXPECT_THROW(trajectory_files(TrajectoryResult{}, {"png"}), InputError);
+  EXPECT_THROW(to_svg(LocusMap{}, {}), InputError);
+}
+
+/// A verdict without loci has the box, so that there is a picture of the task.
+TEST(ADecision, IsDrawn) {
+  const Model model = example("five_bar.yaml");
+  const Task task = read_task(CLEARLOCI_SOURCE_DIR "/examples/tasks/pick_and_place.yaml", model);
+  const auto files = verification_files(decide_task(model, task), {"svg"});
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_NE(files[0].bytes.find("<svg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clearloci
