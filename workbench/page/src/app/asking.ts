@@ -22,15 +22,17 @@ export async function ask<T>(question: string, body: object): Promise<T> {
     response = await fetch(`api/${question}`, {
       method: "POST",
       headers: { "Content-Type": "application/json" },
-      body: JSON.stringify({ ...body, client }),
+      body: JSON.stringify({ ...body, client, quiet: true }),
     });
   } catch {
     throw new AskingError({ status: 0, message: "the program has ended: start clearloci view again", line: 0, column: 0 });
   }
   const answer = (await response.json()) as Record<string, unknown>;
-  if (response.ok) return answer as T;
+  // What a hand may write wrongly is no failure of the page: browsers would put each 4xx on the console.
+  const refused = typeof answer["refused"] === "number" ? answer["refused"] : undefined;
+  if (response.ok && refused === undefined) return answer as T;
   throw new AskingError({
-    status: response.status,
+    status: refused ?? response.status,
     message: typeof answer["error"] === "string" ? answer["error"] : "the question was not answered",
     line: Number(answer["line"] ?? 0),
     column: Number(answer["column"] ?? 0),

@@ -52,8 +52,10 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
     space.update(news);
     panels.forEach((panel) => panel.update(news));
     const unplaced = bench.fault && !bench.fault.field ? bench.fault.message : "";
-    const words = bench.fault ? `${unplaced || "The value in red is refused"}${bench.picture ? " — shown is the last design that works" : ""}` : "";
-    const busy = bench.progress ? `${bench.progress.stage}: ${Math.round(100 * bench.progress.fraction)} %` : "";
+    const why = unplaced || (bench.fault ? `${nameOfField(bench)} is refused: ${bench.fault.message}` : "");
+    const words = why ? `${why}${bench.picture ? " — grey is the last design that works" : ""}` : bench.poseFault ?? "";
+    const busy = bench.progress ? computing(bench.progress) : "";
+    document.documentElement.dataset["stale"] = String(bench.fault !== undefined);
     const beyond = bench.traceable ? "" : "Loci are drawn over one to three free coordinates: here are the pose, what the joints bear, and tasks.";
     notice.textContent = words || busy || beyond;
     notice.className = words ? "notice fault" : "notice";
@@ -75,4 +77,23 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
     bench.progress = news;
     bench.tell("progress");
   };
+}
+
+/** The field in red, as it is called beside its slider. */
+function nameOfField(bench: Workbench): string {
+  return (bench.fault?.field ? bench.adjustable(bench.fault.field)?.label : undefined) ?? "the value in red";
+}
+
+/** What the server's stages do, in a visitor's words. */
+const stages: Record<string, string> = {
+  equations: "deriving the equations",
+  roots: "solving for the places",
+  cells: "searching the box",
+  arcs: "tracing the curves",
+  surfaces: "meshing the surfaces",
+};
+
+function computing({ stage, fraction }: { stage: string; fraction: number }): string {
+  const percent = Math.round(100 * fraction);
+  return `Computing the loci: ${stages[stage] ?? stage}${percent > 0 ? `, ${percent} %` : " …"}`;
 }

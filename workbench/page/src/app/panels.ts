@@ -19,18 +19,21 @@ export interface Panel {
 /** What is under the pointer: what vanishes, why, its degree and formula. */
 export function readingPanel(bench: Workbench, stage: Stage): Panel {
   const body = h("div", { class: "reading", "aria-live": "polite" });
-  const hint = "Point at a curve: what lets go there, why, and its formula stand here. Drag the end effector, the joints on the ground, or the empty plane.";
+  const hint = (): string =>
+    bench.coordinates.length === 1
+      ? "The marks along the strip below are the loci: what lets go there stands in the legend. Drag the end effector, or along the strip."
+      : `Point at a ${bench.coordinates.length === 3 ? "surface" : "curve"}: what lets go there, why, and its formula stand here. Drag the end effector, the joints on the ground, or the empty plane.`;
   const zoneWords = (zone: Zone): string =>
     `${zone.id}: ${shortNumber(zone.area)} m², largest circle ${lengthWords(zone.inscribed_circle.radius)}${zone.certified ? ", proven" : ", not proven"}`;
   const show = (): void => {
     const { hovered } = stage;
     if (hovered?.curve) return replace(body, readingOf(bench.rules, hovered.curve));
     const zone = bench.zones?.zones.find((one) => one.id === hovered?.zone);
-    replace(body, h("p", { class: "quiet" }, zone ? `zone ${zoneWords(zone)}` : hint));
+    replace(body, h("p", { class: "quiet" }, zone ? `zone ${zoneWords(zone)}` : hint()));
   };
   stage.onHover = show;
   show();
-  return { element: section("Under the pointer", true, body), update: (news) => news.has("loci") && show() };
+  return { element: section("Under the pointer", true, body), update: (news) => (news.has("loci") || news.has("model")) && show() };
 }
 
 /** The legend of the curves, each of which can be switched off. */
@@ -68,7 +71,13 @@ export function legendPanel(bench: Workbench): Panel {
       bench.zonesFault ? h("p", { class: "fault" }, `zones: ${bench.zonesFault}`) : undefined,
     );
   };
-  return { element: section("Curves", true, body, notes), update: (news) => ["loci", "zones", "state.hidden", "state.file", "theme"].some((one) => news.has(one)) && show() };
+  const element = section("Loci", true, body, notes);
+  const title = element.querySelector("summary");
+  const name = (): void => {
+    const [only, ...more] = bench.coordinates;
+    if (title) title.textContent = only && more.length === 0 ? `Loci: values of ${only.name}` : more.length === 2 ? "Loci: surfaces" : "Loci: curves";
+  };
+  return { element, update: (news) => (news.has("model") && name(), ["loci", "zones", "state.hidden", "state.file", "theme"].some((one) => news.has(one)) && show()) };
 }
 
 /** Why not all loci are known. */
@@ -148,6 +157,7 @@ export function valuesPanel(bench: Workbench): Panel {
       const wrong = bench.fault?.field === one.id;
       if (document.activeElement !== entry.text || !wrong) entry.text.value = one.text;
       entry.slider.disabled = one.value === undefined;
+      entry.slider.style.visibility = one.value === undefined ? "hidden" : "visible"; // an expression has no place on it
       if (document.activeElement !== entry.slider && one.value !== undefined && (one.value > Number(entry.slider.max) || one.value < Number(entry.slider.min))) range(entry.slider, one);
       if (one.value !== undefined) entry.slider.value = String(one.value);
       entry.fault.textContent = wrong ? bench.fault?.message ?? "" : "";
@@ -157,15 +167,22 @@ export function valuesPanel(bench: Workbench): Panel {
   return { element: body, update: (news) => (news.has("state") || news.has("fault") || news.has("loci") || news.has("model")) && update() };
 }
 
-/** From nothing to twice the value; a value of nothing has room to both sides. */
+/** From nothing to the next round number well above the value, or as far to both sides: 0.35 of 0 to 1, -30 of -50 to 50. */
 function range(slider: HTMLInputElement, one: Adjustable | undefined): void {
   const value = one?.value;
   if (value === undefined) return;
-  const size = Math.abs(value) || (one?.unit === "N" ? 100 : 1);
+  const largest = roundAbove(1.4 * (Math.abs(value) || (one?.unit === "N" ? 100 : 1)));
   const free = one?.group === "points" || one?.group === "loads" || one?.group === "gravity" || value < 0;
-  slider.min = String(free ? value - size : 0);
-  slider.max = String(free ? value + size : 2 * size);
+  slider.min = String(free ? -largest : 0);
+  slider.max = String(largest);
   slider.value = String(value);
+}
+
+/** The least of 1, 2, 5, 10, ... times a power of ten that is as large. */
+export function roundAbove(value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value));
+  const digit = [1, 2, 5, 10].find((one) => one * power >= value * (1 - 1e-12)) ?? 10;
+  return Number((digit * power).toPrecision(12));
 }
 
 /** Working modes as small pictures. */

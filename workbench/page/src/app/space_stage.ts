@@ -1,5 +1,7 @@
 // The stage of three coordinates.
 import { roundText } from "../data/exact";
+import { ticks, tickText } from "../draw/view";
+import type { Axis } from "../space/axes";
 import { h, replace } from "./dom";
 import type { Panel } from "./panels";
 import { readingOf } from "./reading";
@@ -76,11 +78,20 @@ export class SpaceStage implements Panel {
     this.slider.max = String(range?.upper ?? 1);
     this.slider.value = String(slice.at);
     this.words.textContent = `${range?.name ?? ""} = ${range?.angle ? `${((slice.at * 180) / Math.PI).toFixed(1)} deg` : `${slice.at.toFixed(4)} m`}`;
-    if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice);
+    if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice, this.axes());
     scene?.showPose(bench.state.at, this.bars());
     const shape = bench.state.task?.shape;
     const [low, high] = shape?.kind === "ranges" ? [shape.low, shape.high] : [];
     scene?.showTask(low, high, verdictColour(bench.verdict, bench.theme));
+  }
+
+  /** Of about four numbers each. */
+  private axes(): Axis[] {
+    return this.bench.coordinates.map(({ name, lower, upper, angle }) => ({
+      name,
+      unit: angle ? "deg" : "m",
+      ticks: ticks(lower, upper, 4 / (upper - lower), 1, angle).map((at) => ({ at, text: tickText(at, angle) })),
+    }));
   }
 
   /** The links, where the coordinates are the end effector's place in space. */

@@ -10,7 +10,8 @@ import { Layer } from "../draw/surface";
 import { fit, moved, page, plane, zoomed, type Box, type Size, type View } from "../draw/view";
 import { h } from "./dom";
 import { crossingWords, drawFlash, drawPath, drawPoseCross, drawTask, drawWitness } from "./stage_drawing";
-import { handles, movedShape, withHandle } from "./task_text";
+import { noDemands } from "./state";
+import { drawnShape, handles, movedShape, withHandle, type DrawnKind } from "./task_text";
 import type { Workbench } from "./workbench";
 
 type Grip =
@@ -18,6 +19,7 @@ type Grip =
   | { kind: "base"; name: string }
   | { kind: "handle"; index: number }
   | { kind: "task"; from: Point }
+  | { kind: "drawing"; from: Point }
   | { kind: "view"; from: Point };
 
 export class Stage {
@@ -37,6 +39,9 @@ export class Stage {
   private grip: Grip | undefined;
   private shown: Shown = { curves: [], points: [], rings: [] };
   private fitted = "";
+  /** The kind of task that the next drag on the empty plane draws. */
+  private armed: DrawnKind | undefined;
+  onArmed: (kind: DrawnKind | undefined) => void = () => undefined;
   private flash: { curves: Curve[]; until: number } | undefined;
 
   constructor(private readonly bench: Workbench) {
@@ -253,7 +258,7 @@ export class Stage {
     this.element.focus({ preventScroll: true });
     this.element.setPointerCapture(event.pointerId);
     const at = this.place(event);
-    this.grip = this.gripAt(at) ?? { kind: "view", from: at };
+    this.grip = this.gripAt(at) ?? (this.armed && this.view ? { kind: "drawing", from: plane(this.view, at) } : { kind: "view", from: at });
     this.element.dataset["grip"] = this.grip.kind;
   }
 
@@ -272,6 +277,8 @@ export class Stage {
         return this.cycle ? this.dragAlongCycle(to) : this.movePose([this.onGrid(to[0]), this.onGrid(to[1])], "drag-pose");
       case "base":
         return this.dragBase(this.grip.name, to);
+      case "drawing":
+        return this.drawTask(this.grip.from, to);
       case "handle":
         return this.changeTask((shape) => withHandle(shape, (this.grip as { index: number }).index, [this.onGrid(to[0]), this.onGrid(to[1])]));
       case "task": {
@@ -286,6 +293,22 @@ export class Stage {
   /** Round decimals no coarser than a pixel. */
   private onGrid(value: number): number {
     return Number(roundText(value, 1 / (this.view?.scale[0] ?? 1)));
+  }
+
+  /** The next drag on the empty plane draws a task of this kind; none: it moves the plane again. */
+  arm(kind: DrawnKind | undefined): void {
+    this.armed = kind;
+    if (kind) this.element.dataset["tool"] = kind;
+    else delete this.element.dataset["tool"];
+    this.onArmed(kind);
+  }
+
+  private drawTask(from: Point, to: Point): void {
+    const { armed, bench } = this;
+    if (!armed) return;
+    const corner = (at: Point): Point => [this.onGrid(at[0]), this.onGrid(at[1])];
+    const shape = drawnShape(armed, corner(from), corner(to));
+    if (shape) bench.change({ task: { ...noDemands, ...bench.state.task, shape } }, "draw-task");
   }
 
   private changeTask(change: (shape: import("./state").TaskShape) => import("./state").TaskShape): void {
@@ -345,6 +368,7 @@ export class Stage {
   }
 
   private release(): void {
+    if (this.grip?.kind === "drawing") this.arm(undefined);
     this.grip = undefined;
     delete this.element.dataset["grip"];
     this.bench.history.endGesture();
@@ -391,7 +415,8 @@ export class Stage {
     if (along) {
       event.preventDefault();
       this.step(along, event.shiftKey ? 0.001 : 0.01);
-    } else if (event.key === "+" || event.key === "=") this.zoom(middle, 1.25);
+    } else if (event.key === "Escape") this.arm(undefined);
+    else if (event.key === "+" || event.key === "=") this.zoom(middle, 1.25);
     else if (event.key === "-") this.zoom(middle, 0.8);
     else if (event.key === "0") this.showAll();
   }
@@ -405,6 +430,22 @@ export class Stage {
       return along === 0 ? at[k] ?? 0 : Number(((at[k] ?? 0) + by).toPrecision(12));
     });
     this.movePose(to, "key-pose");
+    if (!this.cycle) this.keepInView([to[0] ?? 0, to[1] ?? 0]);
+  }
+
+  /** Moves the plane as little as needed, so that a point that no hand holds is seen. */
+  private keepInView(at: Point): void {
+    if (!this.view) return;
+    const margin = 40; // pixels
+    const place = page(this.view, at);
+    const by = ([this.size.width, this.size.height] as const).map((size, k) => {
+      const own = place[k as 0 | 1];
+      return Math.max(margin - own, 0) + Math.min(size - margin - own, 0);
+    });
+    if (by[0] === 0 && by[1] === 0) return;
+    this.view = moved(this.view, [by[0] ?? 0, by[1] ?? 0]);
+    this.drawGround();
+    this.drawTop();
   }
 }
 

@@ -1,11 +1,12 @@
 // A task: drawn, dragged, verified while it moves, moved to where it fits.
 import type { Verdict } from "../data/answers";
-import { lengthWords, parseExact, shortNumber, toNumber } from "../data/exact";
+import { lengthWords, shortNumber } from "../data/exact";
 import { ask, AskingError } from "./asking";
 import { download, h, replace, section } from "./dom";
 import type { Panel } from "./panels";
 import type { Stage } from "./stage";
 import { noDemands, type TaskShape, type TaskState } from "./state";
+import { showNumbers } from "./task_numbers";
 import { movedShape } from "./task_text";
 import type { Workbench } from "./workbench";
 
@@ -70,30 +71,6 @@ function toleranceHint(bench: Workbench): string {
   return first?.value ? `${first.label}: ${shortNumber(Math.abs(first.value) / 1000, 2)}` : "L: 0.1e-3";
 }
 
-/** Fields for the two ends of every range, where the task is not drawn in the plane. */
-function showRanges(parent: HTMLElement, bench: Workbench, shape: TaskShape, change: (shape: TaskShape) => void): void {
-  if (shape.kind !== "ranges") return replace(parent);
-  if (parent.contains(document.activeElement)) return;
-  replace(
-    parent,
-    ...bench.coordinates.map((one, k) => {
-      const factor = one.angle ? 180 / Math.PI : 1;
-      const end = (which: "low" | "high"): HTMLInputElement => {
-        const input = h("input", { type: "text", class: "exact", "aria-label": `${one.name} of the task, ${which === "low" ? "from" : "to"}`, autocomplete: "off", value: String(Number(((shape[which][k] ?? 0) * factor).toPrecision(7))) });
-        input.addEventListener("change", () => {
-          const typed = parseExact(input.value);
-          input.setAttribute("aria-invalid", String(!typed));
-          if (!typed) return;
-          const now = bench.state.task?.shape; // another field may have changed it since
-          if (now?.kind === "ranges") change({ ...now, [which]: now[which].map((value, i) => (i === k ? toNumber(typed) / factor : value)) });
-        });
-        return input;
-      };
-      return h("div", { class: "range-row" }, h("span", { class: "value-name" }, one.name), end("low"), end("high"), h("span", { class: "unit" }, one.angle ? "deg" : "m"));
-    }),
-  );
-}
-
 export function taskPanel(bench: Workbench, stage: Stage): Panel {
   const words = h("p", { class: "verdict", "aria-live": "polite" });
   const fault = h("div", { class: "fault", role: "alert" });
@@ -106,6 +83,12 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     const shape = firstShape(kind, bench);
     bench.change({ task: { ...noDemands, ...bench.state.task, shape } });
     stage.showAll();
+    stage.arm(kind === "ranges" ? undefined : kind);
+  };
+  const drawing = h("p", { class: "quiet" });
+  stage.onArmed = (kind) => {
+    for (const button of shapes.querySelectorAll("button")) button.setAttribute("aria-pressed", String(button.textContent === kind));
+    drawing.textContent = kind ? `Drag on the empty plane to draw the ${kind} (Esc: no more), or move what is there.` : "";
   };
   const set = (part: Partial<TaskState>): void => {
     if (bench.state.task) bench.change({ task: { ...bench.state.task, ...part } });
@@ -134,7 +117,10 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     h("button", { type: "button", click: () => addPoint() }, "Add a point"),
     h("button", { type: "button", title: "Move the end effector to where the task fails, in the design that fails", click: () => goToWitness() }, "Show the witness"),
     h("button", { type: "button", click: () => bench.state.task && download("task.yaml", bench.taskFile(bench.state.task), "application/yaml") }, "Download"),
-    h("button", { type: "button", click: () => bench.change({ task: undefined }) }, "Remove"),
+    h("button", { type: "button", click: () => {
+      stage.arm(undefined);
+      bench.change({ task: undefined });
+    } }, "Remove"),
   );
   const goToWitness = (): void => {
     const witness = bench.verdict?.witness;
@@ -160,7 +146,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     field("tolerances", "tolerances", "", toleranceHint(bench)),
   );
   const intro = h("p", { class: "quiet" }, "What the end effector has to reach without losing contact:");
-  const element = section("Task", false, intro, shapes, words, fault, ranges, fields, tools);
+  const element = section("Task", false, intro, shapes, drawing, words, fault, ranges, fields, tools);
   let offered = "";
   const offer = (): void => {
     const kinds = kindsOf(bench);
@@ -186,7 +172,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
       const name = input.dataset["task"] as keyof Omit<TaskState, "shape">;
       if (document.activeElement !== input) input.value = task[name];
     }
-    showRanges(ranges, bench, task.shape, (shape) => set({ shape }));
+    showNumbers(ranges, bench);
     for (const name of ["tolerances", "loadsWithin"]) {
       const row = fields.querySelector<HTMLElement>(`[data-task="${name}"]`)?.closest("label");
       if (row) row.hidden = !bench.overTwoLengths;

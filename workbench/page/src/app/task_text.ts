@@ -103,3 +103,24 @@ export function outline(shape: TaskShape): [number, number][] {
   const first = shape.points[0];
   return shape.kind === "polygon" && first ? [...shape.points, first] : shape.points;
 }
+
+export type DrawnKind = Exclude<TaskShape["kind"], "ranges">;
+
+/** What a drag from one place to another draws; nothing yet where they are one. */
+export function drawnShape(kind: DrawnKind, from: [number, number], to: [number, number]): TaskShape | undefined {
+  const low: [number, number] = [Math.min(from[0], to[0]), Math.min(from[1], to[1])];
+  const high: [number, number] = [Math.max(from[0], to[0]), Math.max(from[1], to[1])];
+  const flat = low[0] === high[0] || low[1] === high[1];
+  switch (kind) {
+    case "box":
+      return flat ? undefined : { kind, low, high };
+    case "circle": {
+      const radius = Math.hypot(to[0] - from[0], to[1] - from[1]);
+      return radius > 0 ? { kind, centre: from, radius: Number(radius.toPrecision(4)) } : undefined;
+    }
+    case "polygon":
+      return flat ? undefined : { kind, points: [low, [high[0], low[1]], high, [low[0], high[1]]] };
+    case "path":
+      return from[0] === to[0] && from[1] === to[1] ? undefined : { kind, points: [from, to] };
+  }
+}

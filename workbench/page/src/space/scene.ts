@@ -1,8 +1,8 @@
 // Surfaces of three coordinates, turned by the hand, with a plane to slice them.
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry, Group, HemisphereLight, LineBasicMaterial,
+  BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry, Group, HemisphereLight, LineBasicMaterial,
   LineSegments, type Material, Mesh as ThreeMesh, MeshBasicMaterial, MeshStandardMaterial, type Object3D, OrthographicCamera, Plane, PlaneGeometry, Raycaster, Scene,
-  SphereGeometry, Vector2, Vector3, WebGLRenderer,
+  SphereGeometry, Sprite, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
@@ -10,6 +10,7 @@ import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import type { Picture, SurfaceGroup, Theme } from "../data/answers";
 import { colourOf, groupKey } from "../draw/loci";
+import { axesOf, type Axis } from "./axes";
 import { cut, trianglesOf, type Triangles } from "./meshes";
 
 export interface Slice {
@@ -106,7 +107,7 @@ export class Space {
     return new Vector3(along(0), along(1), along(2));
   }
 
-  show(picture: Picture, theme: Theme, hidden: ReadonlySet<string>, slice: Slice | undefined): void {
+  show(picture: Picture, theme: Theme, hidden: ReadonlySet<string>, slice: Slice | undefined, axes: readonly Axis[] = []): void {
     if (picture.meshes !== this.picture?.meshes || picture.surface_groups !== this.picture.surface_groups) {
       this.picture = picture;
       this.drawn.forEach((one) => one.object.geometry.dispose());
@@ -126,6 +127,8 @@ export class Space {
     this.theme = theme;
     this.clear();
     this.model.add(this.boxEdges(theme));
+    const { middle, factor } = this.scales;
+    this.model.add(axesOf(axes, ...this.corners, (axis, at) => (at - (middle[axis] ?? 0)) * (factor[axis] ?? 1), theme));
     // What lies below the plane stays; above it is cut away, so that the section is seen.
     const planes = slice?.on ? [this.clipping(slice)] : [];
     for (const { group, object, mesh } of this.drawn) {
@@ -200,9 +203,12 @@ export class Space {
       const points = lines.flatMap((line) => line.slice(1).flatMap((end, k) => [this.place(line[k] ?? end), this.place(end)]));
       this.showWhole(points);
       if (points.length > 0) {
-        const bars = new LineSegments(new BufferGeometry().setFromPoints(points.map((point) => point.sub(this.place(at)))), new LineBasicMaterial({ color: this.theme.outline, depthTest: false }));
-        bars.renderOrder = 2;
-        this.marker.add(bars);
+        const here = this.place(at);
+        const material = new MeshStandardMaterial({ color: this.theme.link, roughness: 0.5, metalness: 0.1 });
+        for (let k = 0; k + 1 < points.length; k += 2) {
+          const bar = barBetween((points[k] ?? here).clone().sub(here), (points[k + 1] ?? here).clone().sub(here), material);
+          if (bar) this.marker.add(bar);
+        }
       }
       this.model.add(this.marker);
     }
@@ -315,8 +321,25 @@ export class Space {
   }
 }
 
+/** A link as a rod with round ends. */
+function barBetween(from: Vector3, to: Vector3, material: MeshStandardMaterial): ThreeMesh | undefined {
+  const thick = 0.014;
+  const along = to.clone().sub(from);
+  const length = along.length();
+  if (length < 1e-9) return undefined;
+  const bar = new ThreeMesh(new CapsuleGeometry(thick, length, 4, 12), material);
+  bar.position.copy(from.clone().add(to).multiplyScalar(0.5));
+  bar.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), along.multiplyScalar(1 / length));
+  return bar;
+}
+
 function release(object: Object3D): void {
   object.traverse((one) => {
+    if (one instanceof Sprite) {
+      one.material.map?.dispose();
+      one.material.dispose();
+      return;
+    }
     if (!(one instanceof ThreeMesh || one instanceof LineSegments)) return;
     (one.geometry as BufferGeometry).dispose();
     const material = one.material as Material | Material[];
