@@ -23,16 +23,16 @@ void require_certifiable(const mechanism::Mechanism& mechanism) {
                          "leave it out for this mechanism");
 }
 
-void write_certificate(const std::string& file, const std::string& command, const CommonArguments& arguments,
-                       const core::Certificate& certificate, const core::LocusMap& map,
-                       const report::CertifiedMore& more) {
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::Certificate& certificate,
+                       const core::LocusMap& map, const report::CertifiedMore& more) {
   std::ifstream stream(arguments.model, std::ios::binary);
   report::CertificateSource source{command, {std::istreambuf_iterator<char>(stream), {}}, {}};
   for (const std::string& pair : arguments.overrides) {
     const std::size_t sign = pair.find('=');
     source.overrides.emplace_back(pair.substr(0, sign), sign == std::string::npos ? "" : pair.substr(sign + 1));
   }
-  report::write_atomically(file, report::certificate_text(source, certificate, map, more));
+  staged.add(file, report::certificate_text(source, certificate, map, more));
 }
 
 }  // namespace clearloci::cli

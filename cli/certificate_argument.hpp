@@ -7,6 +7,7 @@
 #include "cli/arguments.hpp"
 #include "core/certificate.hpp"
 #include "report/certificate.hpp"
+#include "report/files.hpp"
 
 namespace clearloci::cli {
 
@@ -15,9 +16,9 @@ void add_certificate_argument(CLI::App& command, std::string& file);
 /// Throws core::InputError where the mechanism has no certificate: it is in space, or not over two lengths.
 void require_certifiable(const mechanism::Mechanism& mechanism);
 
-/// Writes `file`.
-void write_certificate(const std::string& file, const std::string& command, const CommonArguments& arguments,
-                       const core::Certificate& certificate, const core::LocusMap& map,
-                       const report::CertifiedMore& more = {});
+/// Adds `file`, which appears with the files of the answer that it certifies.
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::Certificate& certificate,
+                       const core::LocusMap& map, const report::CertifiedMore& more = {});
 
 }  // namespace clearloci::cli

@@ -86,23 +86,25 @@ int lead(const DesignCommand& arguments, const StudyRanks* ranks, TimeLimit& lim
   };
   const StudyResult result = run_study(model, study, options);
   progress.clear();
+  const StudyDesign* best = result.best ? &result.designs[*result.best] : nullptr;
+  const std::vector<Verification> proofs =
+      best != nullptr ? proofs_of(design_model(model, result, *best), study, limit) : std::vector<Verification>{};
   limit.writing();
-  std::vector<std::filesystem::path> files = report::write_study(result, folder, formats);
-  std::vector<Verification> proofs;
-  if (result.best) {
-    const StudyDesign& best = result.designs[*result.best];
+  report::StagedFiles staged;
+  std::vector<std::filesystem::path> files = report::stage_study(staged, result, folder, formats);
+  if (best != nullptr) {
     files.push_back(folder / "best.yaml");
-    report::write_atomically(files.back(), design_text(model, result, best));
+    staged.add(files.back(), design_text(model, result, *best));
     for (const std::size_t own : result.front)
-      report::write_atomically(folder / "front" / fmt::format("{}.yaml", result.designs[own].index),
-                               design_text(model, result, result.designs[own]));
+      staged.add(folder / "front" / fmt::format("{}.yaml", result.designs[own].index),
+                 design_text(model, result, result.designs[own]));
     if (!result.front.empty()) files.push_back(folder / "front");
-    proofs = proofs_of(design_model(model, result, best), study, limit);
   }
   if (formats.contains("html")) {
     files.push_back(folder / "report.html");
-    report::write_atomically(files.back(), report::study_page(result, proofs));
+    staged.add(files.back(), report::study_page(result, proofs));
   }
+  staged.commit();
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::study_object(result)));
   } else if (!arguments.common.quiet) {

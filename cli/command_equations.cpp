@@ -114,14 +114,17 @@ int run(const EquationsCommand& arguments, TimeLimit& limit) {
     fmt::print("{}", text);
     return exit_done;
   }
+  report::StagedFiles staged;
+  std::string all;
   for (const LanguageName& language : chosen) {
     const std::string text = symbolic::format(symbolic::equation_sheet(
         mechanism, {.language = language.language, .keep_parameters = arguments.keep_parameters}));
-    limit.writing();
-    if (write) report::write_atomically(folder / fmt::format("equations.{}", language.ending), text);
-    if (!arguments.common.quiet) fmt::print("{}", text);
-    limit.known(incomplete);
+    if (write) staged.add(folder / fmt::format("equations.{}", language.ending), text);
+    all += text;
   }
+  limit.writing();
+  staged.commit();
+  if (!arguments.common.quiet) fmt::print("{}", all);
   return exit_done;
 }
 

@@ -58,9 +58,11 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
-  if (certify) write_certificate(arguments.certificate, "loci", arguments.common, certificate, map);
+  report::StagedFiles staged;
+  if (certify) stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate, map);
   const std::vector<std::filesystem::path> files =
-      report::write_loci({map, sample_sketches(mechanism, map)}, folder, formats);
+      report::stage_loci(staged, {map, sample_sketches(mechanism, map)}, folder, formats);
+  staged.commit();
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::loci_object(map)));
   } else if (!arguments.common.quiet) {

@@ -67,12 +67,12 @@ std::optional<PoseFit> parse_pose_fit(const std::string& word) {
 
 /// The loci of the file's load with their cells, and the task where it was verified.
 void certify(const VerifyCommand& arguments, const mechanism::Mechanism& mechanism, const Verification& result,
-             const LociRequest& request) {
+             const LociRequest& request, report::StagedFiles& staged) {
   core::Certificate certificate;
   const core::LocusMap map = trace_loci(mechanism, request, &certificate);
   const bool nominal = result.verified() && !result.task.loads && result.task.tolerances.empty() &&
                        result.task.loads_within.empty() && !result.task.pose_error;
-  write_certificate(arguments.certificate, "verify", arguments.common, certificate, map,
+  stage_certificate(staged, arguments.certificate, "verify", arguments.common, certificate, map,
                     {.task = nominal ? &result.task : nullptr});
 }
 
@@ -120,12 +120,14 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
     throw core::InputError({.file = "--working-mode"}, "a task is verified in one working mode",
                            "give one side for each dyad");
   const Verification result = goal ? fit_task(mechanism, task, request, *goal) : verify_task(mechanism, task, request);
-  if (!arguments.certificate.empty()) certify(arguments, mechanism, result, request);
+  report::StagedFiles staged;
+  if (!arguments.certificate.empty()) certify(arguments, mechanism, result, request, staged);
   progress.clear();
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
-  const std::vector<std::filesystem::path> files = report::write_answer(result, folder, formats);
+  const std::vector<std::filesystem::path> files = report::stage_answer(staged, result, folder, formats);
+  staged.commit();
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::verification_object(result)));
   } else if (!arguments.common.quiet) {

@@ -71,9 +71,12 @@ int run(const ZonesCommand& arguments, TimeLimit& limit) {
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
+  report::StagedFiles staged;
   if (certify)
-    write_certificate(arguments.certificate, "zones", arguments.common, certificate, map.loci, {.zones = &map.zones});
-  const std::vector<std::filesystem::path> files = report::write_answer(map, folder, formats);
+    stage_certificate(staged, arguments.certificate, "zones", arguments.common, certificate, map.loci,
+                      {.zones = &map.zones});
+  const std::vector<std::filesystem::path> files = report::stage_answer(staged, map, folder, formats);
+  staged.commit();
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::zones_object(map)));
   } else if (!arguments.common.quiet) {

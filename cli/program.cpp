@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <string_view>
@@ -15,9 +16,11 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/out_of_memory.hpp"
 #include "cli/standard_streams.hpp"
 #include "core/errors.hpp"
 #include "mechanism/read.hpp"
+#include "report/files.hpp"
 
 namespace clearloci::cli {
 namespace {
@@ -48,6 +51,16 @@ std::string wrapped_keys() {
   return text + "\n";
 }
 
+/// The files among the words of the call that are read: all but those of the options that say where to write.
+std::vector<std::filesystem::path> named_inputs(const CLI::App& command) {
+  std::vector<std::filesystem::path> files;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->check_name("--output") || option->check_name("--certificate")) continue;
+    for (const std::string& word : option->results()) files.emplace_back(word);
+  }
+  return files;
+}
+
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App program("Discontinuity loci of parallel mechanisms with joint clearances.", "clearloci");
   program.set_version_flag("--version", "clearloci " CLEARLOCI_VERSION);
@@ -71,7 +84,14 @@ int parse_and_run(int argc, const char* const* argv) {
     throw core::InputError({}, error.what(), help_call(program));
   }
   for (const Command& command : commands)
-    if (command.app->parsed()) return command.run();
+    if (command.app->parsed()) {
+      if (command.app->get_name() == "view")
+        throw_where_memory_ends();
+      else
+        end_where_memory_ends();
+      report::keep_inputs(named_inputs(*command.app));
+      return command.run();
+    }
   return exit_wrong_input;
 }
 
@@ -94,10 +114,11 @@ int run_program(int argc, const char* const* argv) {
     const int status = flush_standard_output() ? exit_limit_reached : exit_wrong_input;
     std::_Exit(status);  // work left behind (loci/abandonable.hpp) must not meet the end of static objects
   } catch (const std::bad_alloc&) {
-    complain("out of memory; choose a coarser grid, mesh or tolerance, or fewer working modes");
-    return exit_limit_reached;
+    end_without_memory();
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return unwritten();  // printing throws where the stream fails
+    if (error.code() == std::errc::resource_unavailable_try_again || error.code() == std::errc::not_enough_memory)
+      end_without_memory();  // no thread is to be had
     complain(fmt::format("internal error: {}; please report it with the mechanism file", error.what()));
     return exit_internal_error;
   } catch (const std::exception& error) {

@@ -1,12 +1,14 @@
 #include "report/files.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <string>
 #include <system_error>
 
@@ -33,33 +35,71 @@ struct Place {
   std::atomic<int> state = free;
   std::array<char, 4096> name = {};
 };
-std::array<Place, 64> places;  // writes under way at the same time
+std::array<Place, 512> places;  // writes under way at the same time
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler reads the states");
 
-/// Notes a temporary name for as long as it lives. Without a free place, or with a name too long for one, the name goes
-/// unnoted: the write is as good, and only a signal would leave its file.
-class Noted {
- public:
-  explicit Noted(const std::string& name) {
-    if (name.size() >= Place{}.name.size()) return;
-    for (Place& place : places) {
-      int expected = Place::free;
-      if (!place.state.compare_exchange_strong(expected, Place::filling)) continue;
-      std::memcpy(place.name.data(), name.c_str(), name.size() + 1);
-      place.state = Place::used;
-      place_ = &place;
-      return;
-    }
+/// Notes a temporary name, and says where. Without a free place, or with a name too long for one, the name goes unnoted
+/// (-1): the write is as good, and only a signal would leave its file.
+int note(const std::string& name) {
+  if (name.size() >= Place{}.name.size()) return -1;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    int expected = Place::free;
+    if (!places[i].state.compare_exchange_strong(expected, Place::filling)) continue;
+    std::memcpy(places[i].name.data(), name.c_str(), name.size() + 1);
+    places[i].state = Place::used;
+    return static_cast<int>(i);
   }
-  ~Noted() {
-    if (place_ != nullptr) place_->state = Place::free;
-  }
-  Noted(const Noted&) = delete;
-  Noted& operator=(const Noted&) = delete;
+  return -1;
+}
 
- private:
-  Place* place_ = nullptr;
+void forget(int place) {
+  if (place >= 0) places.at(static_cast<std::size_t>(place)).state = Place::free;
+}
+
+/// What keep_inputs named: of a file whose name may lead to it in several ways, the file itself.
+struct FileIdentity {
+  dev_t device;
+  ino_t number;
 };
+
+struct Inputs {
+  std::mutex mutex;
+  std::vector<FileIdentity> files;
+};
+
+Inputs& inputs() {
+  static Inputs all;
+  return all;
+}
+
+/// Where a name leads that may be a symbolic link, to something or to nothing yet.
+std::filesystem::path followed(std::filesystem::path path) {
+  constexpr int most = 40;  // as many as the system follows
+  std::error_code failure;
+  for (int i = 0; i < most && std::filesystem::is_symlink(std::filesystem::symlink_status(path, failure)); ++i) {
+    const std::filesystem::path target = std::filesystem::read_symlink(path, failure);
+    if (failure) return path;
+    path = target.is_absolute() ? target : path.parent_path() / target;
+  }
+  return path;
+}
+
+void refuse_to_replace(const std::filesystem::path& path, const std::string& why) {
+  throw core::InputError({path.string(), 0, 0}, "the file is not written: " + why, "choose another name or folder");
+}
+
+/// Nothing but a regular file is replaced, and no input.
+void check_target(const std::filesystem::path& asked, const std::filesystem::path& path) {
+  struct stat own = {};
+  if (::stat(path.c_str(), &own) != 0) return;
+  if (!S_ISREG(own.st_mode))
+    refuse_to_replace(asked, S_ISDIR(own.st_mode) ? "a folder has its name" : "it is no regular file");
+  Inputs& all = inputs();
+  const std::lock_guard lock(all.mutex);
+  for (const FileIdentity& input : all.files)
+    if (input.device == own.st_dev && input.number == own.st_ino)
+      refuse_to_replace(asked, "it is what this call reads");
+}
 
 /// 0, or the errno of the step that failed.
 int write_all(int descriptor, std::string_view bytes) {
@@ -74,27 +114,63 @@ int write_all(int descriptor, std::string_view bytes) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
+StagedFiles::~StagedFiles() {
+  std::error_code ignored;
+  for (const Staged& own : staged_) {
+    std::filesystem::remove(own.temporary, ignored);
+    forget(own.place);
+  }
+}
+
+void StagedFiles::add(const std::filesystem::path& asked, std::string_view bytes) {
   std::error_code failure;
+  const std::filesystem::path path = followed(asked);
   if (path.has_parent_path()) {
     std::filesystem::create_directories(path.parent_path(), failure);
     if (failure) refuse(path.parent_path(), "the folder cannot be made", failure.value());
   }
+  check_target(asked, path);
+  for (const Staged& other : staged_)
+    if (std::filesystem::weakly_canonical(other.path, failure) == std::filesystem::weakly_canonical(path, failure))
+      refuse_to_replace(asked, "two files of the answer would have this name");
 
-  const std::filesystem::path temporary = temporary_name(path);
-  const Noted noted(temporary.string());
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuse(path, "the file cannot be written", errno);
-
+  Staged own{path, temporary_name(path), -1};
+  own.place = note(own.temporary.string());
+  const int descriptor = ::open(own.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    const int error = errno;
+    forget(own.place);
+    refuse(asked, "the file cannot be written", error);
+  }
   int error = write_all(descriptor, bytes);
   if (::close(descriptor) != 0 && error == 0) error = errno;
-  if (error == 0) {
-    std::filesystem::rename(temporary, path, failure);
-    error = failure.value();
+  staged_.push_back(own);
+  if (error != 0) refuse(asked, "the file cannot be written", error);
+}
+
+void StagedFiles::commit() {
+  while (!staged_.empty()) {
+    const Staged own = staged_.front();
+    std::error_code failure;
+    std::filesystem::rename(own.temporary, own.path, failure);
+    if (failure) refuse(own.path, "the file cannot be written", failure.value());
+    forget(own.place);
+    staged_.erase(staged_.begin());
   }
-  if (error != 0) {
-    std::filesystem::remove(temporary, failure);
-    refuse(path, "the file cannot be written", error);
+}
+
+void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
+  StagedFiles file;
+  file.add(path, bytes);
+  file.commit();
+}
+
+void keep_inputs(const std::vector<std::filesystem::path>& named) {
+  Inputs& all = inputs();
+  const std::lock_guard lock(all.mutex);
+  for (const std::filesystem::path& path : named) {
+    struct stat own = {};
+    if (::stat(path.c_str(), &own) == 0) all.files.push_back({own.st_dev, own.st_ino});
   }
 }
 

@@ -248,10 +248,10 @@ std::future<void> prepare_pictures(const std::set<std::string>& names) {
   return any_picture ? std::async(load_fonts) : std::future<void>();
 }
 
-void write_files(const Files& files, const std::filesystem::path& directory,
+void stage_files(StagedFiles& staged, const Files& files, const std::filesystem::path& directory,
                  std::vector<std::filesystem::path>& paths) {
   for (const File& file : files) {
-    write_atomically(directory / file.name, file.bytes);
+    staged.add(directory / file.name, file.bytes);
     paths.push_back(directory / file.name);
   }
 }
@@ -265,22 +265,34 @@ auto named(const std::set<std::string>& names) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> write_loci(const LociSheet& loci, const std::filesystem::path& directory,
+std::vector<std::filesystem::path> stage_loci(StagedFiles& staged, const LociSheet& loci,
+                                              const std::filesystem::path& directory,
                                               const std::set<std::string>& names) {
   const std::size_t coordinates = loci.map.tower.coordinates.size();
   const auto asked = named(names);
-  return write_wanted(loci, directory, [&](const Format& format) {
+  return stage_wanted(staged, loci, directory, [&](const Format& format) {
     return format.holds_coordinates(coordinates) && (asked(format) || (coordinates == 3 && format.name == "obj"));
   });
+}
+
+std::vector<std::filesystem::path> write_loci(const LociSheet& loci, const std::filesystem::path& directory,
+                                              const std::set<std::string>& names) {
+  StagedFiles staged;
+  std::vector<std::filesystem::path> paths = stage_loci(staged, loci, directory, names);
+  staged.commit();
+  return paths;
 }
 
 std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult& result,
                                                     const std::filesystem::path& directory,
                                                     const std::set<std::string>& names,
                                                     const std::function<void(double, std::string_view)>& progress) {
-  return write_wanted(result, directory, named(names), [&](double part) {
+  StagedFiles staged;
+  std::vector<std::filesystem::path> paths = stage_wanted(staged, result, directory, named(names), [&](double part) {
     if (progress) progress(0.5 + 0.5 * part, "files");
   });
+  staged.commit();
+  return paths;
 }
 
 }  // namespace clearloci::report

@@ -21,6 +21,7 @@
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 #include "report/answers.hpp"
+#include "report/files.hpp"
 
 namespace clearloci::report {
 
@@ -78,32 +79,26 @@ Files files_of(const Answer& answer, const std::set<std::string>& names) {
   return files;
 }
 
-/// Each is whole or not there; their paths join `paths`. Throws core::InputError where the directory cannot be written.
-void write_files(const Files& files, const std::filesystem::path& directory, std::vector<std::filesystem::path>& paths);
+/// Adds the files, and their paths to `paths`. Throws core::InputError where the directory cannot be written.
+void stage_files(StagedFiles& staged, const Files& files, const std::filesystem::path& directory,
+                 std::vector<std::filesystem::path>& paths);
 
-/// Writes what the formats that `wanted` picks make of an answer: the first at once, json, which is to be there
-/// whatever ends the process later; then the others, made side by side, for they know nothing of one another, and
-/// written one after the other, each as soon as it is made, or made when its turn comes where no thread is to be had.
-/// `written`: the part of them that is.
+/// Adds what the formats that `wanted` picks make of an answer, json first: they are made side by side, for they know
+/// nothing of one another, and written one after the other, each as soon as it is made, or made when its turn comes
+/// where no thread is to be had. `written`: the part of them that is.
 template <class Answer, class Wanted>
-std::vector<std::filesystem::path> write_wanted(const Answer& answer, const std::filesystem::path& directory,
-                                                Wanted wanted, const std::function<void(double part)>& written = {}) {
+std::vector<std::filesystem::path> stage_wanted(StagedFiles& staged, const Answer& answer,
+                                                const std::filesystem::path& directory, Wanted wanted,
+                                                const std::function<void(double part)>& written = {}) {
   std::vector<std::filesystem::path> paths;
   std::vector<std::future<Files>> made;
-  bool is_first = true;
-  for (const Format& format : formats()) {
-    const Maker<Answer> maker = format.maker<Answer>();
-    if (maker == nullptr || !wanted(format)) continue;
-    if (is_first)
-      write_files(maker(answer), directory, paths);
-    else
+  for (const Format& format : formats())
+    if (const Maker<Answer> maker = format.maker<Answer>(); maker != nullptr && wanted(format))
       made.push_back(std::async(maker, std::cref(answer)));
-    is_first = false;
-  }
-  double count = 1;
+  double count = 0;
   for (std::future<Files>& files : made) {
-    write_files(files.get(), directory, paths);
-    if (written) written(++count / static_cast<double>(made.size() + 1));
+    stage_files(staged, files.get(), directory, paths);
+    if (written) written(++count / static_cast<double>(made.size()));
   }
   return paths;
 }
@@ -112,21 +107,35 @@ std::vector<std::filesystem::path> write_wanted(const Answer& answer, const std:
 /// named: what reads and traces need not wait for that. The future waits for its end.
 std::future<void> prepare_pictures(const std::set<std::string>& names);
 
-/// Writes the answer in the formats named, and as json always, and returns the files in the order written:
+/// Adds the answer in the formats named, and as json always, and returns the files in the order written:
 /// `zones.json`, `error.csv`, ..., each for all modes; pictures one a mode: `zones.svg`, or `zones-left-right.svg`, ...
 /// where there are several; of error maps one a field besides, `error-dx.png`; over a single coordinate also
 /// `take-up.png`, ... Throws core::InputError where the directory cannot be
 /// written. Names that the answer has no format for are passed over.
 template <class Answer>
-std::vector<std::filesystem::path> write_answer(const Answer& answer, const std::filesystem::path& directory,
+std::vector<std::filesystem::path> stage_answer(StagedFiles& staged, const Answer& answer,
+                                                const std::filesystem::path& directory,
                                                 const std::set<std::string>& names = {}) {
-  return write_wanted(answer, directory, [&](const Format& format) {
+  return stage_wanted(staged, answer, directory, [&](const Format& format) {
     return format.name == "json" || names.contains(std::string(format.name));
   });
 }
 
+/// All of them or none.
+template <class Answer>
+std::vector<std::filesystem::path> write_answer(const Answer& answer, const std::filesystem::path& directory,
+                                                const std::set<std::string>& names = {}) {
+  StagedFiles staged;
+  std::vector<std::filesystem::path> paths = stage_answer(staged, answer, directory, names);
+  staged.commit();
+  return paths;
+}
+
 /// Likewise; of surfaces also `loci.obj`, which holds the triangles that `loci.json` speaks of. stl is a file a
 /// surface, `loci-s1-contact-loss.stl`.
+std::vector<std::filesystem::path> stage_loci(StagedFiles& staged, const LociSheet& loci,
+                                              const std::filesystem::path& directory,
+                                              const std::set<std::string>& names);
 std::vector<std::filesystem::path> write_loci(const LociSheet& loci, const std::filesystem::path& directory,
                                               const std::set<std::string>& names);
 /// Likewise; `progress`: from 0.5 on.

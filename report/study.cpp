@@ -253,12 +253,13 @@ std::string study_text(const StudyResult& result) {
 
 std::vector<std::string> study_format_names() { return {"csv", "svg", "png", "pdf", "html"}; }
 
-std::vector<std::filesystem::path> write_study(const StudyResult& result, const std::filesystem::path& directory,
+std::vector<std::filesystem::path> stage_study(StagedFiles& staged, const StudyResult& result,
+                                               const std::filesystem::path& directory,
                                                const std::set<std::string>& formats) {
   std::vector<std::filesystem::path> files;
   const auto write = [&](const std::string& name, const std::string& bytes) {
     files.push_back(directory / name);
-    write_atomically(files.back(), bytes);
+    staged.add(files.back(), bytes);
   };
   write("designs.json", json_text(study_object(result)));
   if (formats.contains("csv")) write("designs.csv", study_csv(result));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clearloci/study.hpp"
+#include "report/files.hpp"
 #include "report/picture.hpp"
 
 namespace clearloci::report {
@@ -32,8 +33,9 @@ std::string study_page(const core::StudyResult& result, const std::vector<core::
 /// The names of the formats besides designs.json.
 std::vector<std::string> study_format_names();
 
-/// designs.json, and the formats named. Returns the files in the order written.
-std::vector<std::filesystem::path> write_study(const core::StudyResult& result, const std::filesystem::path& directory,
+/// Adds designs.json, and the formats named. Returns the files in the order written.
+std::vector<std::filesystem::path> stage_study(StagedFiles& staged, const core::StudyResult& result,
+                                               const std::filesystem::path& directory,
                                                const std::set<std::string>& formats);
 
 }  // namespace clearloci::report

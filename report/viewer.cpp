@@ -196,7 +196,9 @@ Json viewer_object(const LociSheet& loci) {
     if (!one.beside)
       sketches.push_back(
           {{"working_mode", mode_object(loci.map.tower, one.mode)}, {"sketch", sketch_object(one.sketch)}});
-  return {{"loci", loci_object(loci.map)},
+  Json map = loci_object(loci.map);
+  map.erase("timing");  // a page of the same loci has the same bytes
+  return {{"loci", std::move(map)},
           {"curve_groups", curve_groups(groups)},
           {"point_groups", point_groups(groups, loci.map)},
           {"surface_groups", surface_groups(loci.map)},

@@ -1,5 +1,6 @@
 #include "studies/collection.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "studies/signature.hpp"
@@ -53,6 +54,9 @@ void Collection::add(std::vector<StudyDesign> some) {
 
 std::vector<StudyDesign> Collection::take() {
   write();
+  std::stable_sort(designs_.begin(), designs_.end(),
+                   [](const StudyDesign& one, const StudyDesign& two) { return one.index < two.index; });
+  if (table_) table_->settle(designs_);
   return std::move(designs_);
 }
 

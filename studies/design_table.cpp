@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -140,12 +141,13 @@ DesignTable::DesignTable(std::filesystem::path path, const std::string& hash, st
     throw core::InputError({path_.string()}, "another run is writing this table",
                            "wait for it, or write to another folder");
   }
-  const std::string header = "clearloci designs 1 " + hash + "\n";
+  header_ = "clearloci designs 1 " + hash + "\n";
   try {
-    if (resume) read(header, figures);
+    check_own();
+    if (resume) read(header_, figures);
     if (!resume || ::lseek(file_, 0, SEEK_END) == 0) {
       if (::ftruncate(file_, 0) != 0 || ::lseek(file_, 0, SEEK_SET) != 0) refuse("begun");
-      append(header);
+      append(header_);
     }
   } catch (...) {
     ::close(file_);
@@ -154,6 +156,17 @@ DesignTable::DesignTable(std::filesystem::path path, const std::string& hash, st
 }
 
 DesignTable::~DesignTable() { ::close(file_); }
+
+/// A table is begun in the place of another one, and of nothing else.
+void DesignTable::check_own() const {
+  struct stat own = {};
+  std::array<char, 16> first{};
+  constexpr std::string_view mark = "clearloci design";
+  const bool regular = ::fstat(file_, &own) == 0 && S_ISREG(own.st_mode);
+  const ssize_t size = regular ? ::pread(file_, first.data(), first.size(), 0) : -1;
+  if (size < 0 || !mark.starts_with(std::string_view(first.data(), static_cast<std::size_t>(size))))
+    throw core::InputError({path_.string()}, "this is no table of designs", "choose another folder with -o");
+}
 
 void DesignTable::read(const std::string& header, std::size_t figures) {
   std::ifstream stream(path_, std::ios::binary);
@@ -176,6 +189,26 @@ void DesignTable::read(const std::string& header, std::size_t figures) {
     throw core::InputError({path_.string()}, "this is no table of designs", "choose another folder with -o");
   }
   if (::ftruncate(file_, static_cast<off_t>(good)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) refuse("gone on with");
+}
+
+void DesignTable::settle(const std::vector<StudyDesign>& designs) {
+  std::string text = header_;
+  for (const StudyDesign& own : designs) text += table_line(own);
+  std::filesystem::path temporary = path_;
+  temporary += ".tmp";
+  const int file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) refuse("settled");
+  const bool written = write_all(file, text) && ::fdatasync(file) == 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0 &&
+                       ::rename(temporary.c_str(), path_.c_str()) == 0;
+  if (!written) {
+    const int error = errno;
+    ::close(file);
+    ::unlink(temporary.c_str());
+    errno = error;
+    refuse("settled");
+  }
+  ::close(file_);
+  file_ = file;
 }
 
 void DesignTable::append(const std::string& lines) {

@@ -36,11 +36,17 @@ class DesignTable {
   /// Appends lines and waits until they are on the disk.
   void append(const std::string& lines);
 
+  /// Puts the lines of these designs, in their order, in the place of all that were appended: a run that has come to
+  /// its end leaves the same bytes whatever came first.
+  void settle(const std::vector<core::StudyDesign>& designs);
+
  private:
+  void check_own() const;
   void read(const std::string& header, std::size_t figures);
   [[noreturn]] void refuse(const std::string& what) const;
 
   std::filesystem::path path_;
+  std::string header_;
   int file_ = -1;
   std::vector<core::StudyDesign> known_;
 };

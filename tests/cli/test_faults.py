@@ -93,6 +93,50 @@ class Complaints(InOwnFolder):
         self.assertIn("GB", self.complaint("trajectory", *PICK_AND_PLACE, "--periods", "1:100:0.001"))
 
 
+class Outputs(InOwnFolder):
+    """What is written replaces no input, nothing that is no file, and comes whole."""
+
+    def refused(self, *words):
+        process = self.run_program(*words, status=2)
+        self.assertRegex(process.stderr, r"\Aclearloci: [^\n]+\n\Z", words)
+
+    def test_no_input_is_replaced(self):
+        model = self.model()
+        text = model.read_bytes()
+        task = self.folder / "task.yaml"
+        task.write_bytes(TASK.read_bytes())
+        (self.folder / "link").symlink_to("model.yaml")
+        for name in ("model.yaml", "link", "./link"):
+            self.refused("loci", model, "--certificate", name, "-o", "out")
+            self.refused("zones", model, "--certificate", name, "-o", "out")
+        self.refused("verify", model, task, "--certificate", "task.yaml", "-o", "out")
+        self.refused("loci", model, "--certificate", "out/loci.json", "-o", "out")
+        self.assertEqual(model.read_bytes(), text)
+        self.assertEqual(task.read_bytes(), TASK.read_bytes())
+        named = self.model(name="loci.json")
+        self.refused("loci", named, "-o", ".")
+        self.assertEqual(named.read_bytes(), text)
+        self.assertEqual([path for path in (self.folder / "out").iterdir()], [], "all files or none")
+
+    def test_what_is_no_file_is_not_replaced(self):
+        os.mkfifo(self.folder / "pipe")
+        (self.folder / "link").symlink_to("elsewhere")
+        self.refused("loci", FIVE_BAR, "--certificate", "pipe")
+        self.refused("loci", FIVE_BAR, "--certificate", "/dev/null")
+        self.run_program("loci", FIVE_BAR, "--certificate", "link")
+        self.assertTrue((self.folder / "link").is_symlink())
+        self.assertTrue((self.folder / "elsewhere").is_file())
+
+    def test_out_of_memory_is_one_line(self):
+        for megabytes in (150, 250, 350, 500):
+            process = subprocess.run(["sh", "-c", f'ulimit -v {megabytes * 1024}; exec "$@"', "sh", PROGRAM, "loci", FIVE_BAR, "-o", "out"],
+                                     cwd=self.folder, capture_output=True, text=True)
+            if process.returncode in (0, 127):  # enough, or too little to load libraries
+                continue
+            self.assertEqual(process.returncode, 3, process.stderr)
+            self.assertRegex(process.stderr, r"\Aclearloci: [^\n]+\n\Z")
+
+
 class Names(InOwnFolder):
     def test_a_name_breaks_neither_terminal_nor_files(self):
         for name in ("01-name-newline-code-injection", "02-name-c-comment-escape", "04-name-escape-sequences"):

@@ -76,6 +76,59 @@ TEST(Files, AFolderWithoutPermissionIsRefused) {
   expect_refusal(scratch, scratch.path() / "loci.json");
 }
 
+TEST(StagedFiles, AppearTogetherOrNotAtAll) {
+  const ScratchFolder scratch;
+  write_atomically(scratch.path() / "one", "old");
+  std::filesystem::create_directories(scratch.path() / "folder" / "full");
+  const int before = scratch.file_count();
+  {
+    StagedFiles files;
+    files.add(scratch.path() / "one", "new");
+    files.add(scratch.path() / "two", "new");
+    EXPECT_THROW(files.add(scratch.path() / "folder", "new"), core::InputError);
+  }
+  EXPECT_EQ(scratch.file_count(), before) << "no temporary is left";
+  EXPECT_EQ(read_file(scratch.path() / "one"), "old");
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "two"));
+  StagedFiles files;
+  files.add(scratch.path() / "one", "new");
+  files.add(scratch.path() / "two", "new");
+  EXPECT_THROW(files.add(scratch.path() / "x" / ".." / "one", "other"), core::InputError) << "one name for two files";
+  EXPECT_EQ(read_file(scratch.path() / "one"), "old");
+  files.commit();
+  EXPECT_EQ(read_file(scratch.path() / "one") + read_file(scratch.path() / "two"), "newnew");
+}
+
+TEST(StagedFiles, WriteThroughLinksAndReplaceNothingElse) {
+  const ScratchFolder scratch;
+  write_atomically(scratch.path() / "target", "old");
+  std::filesystem::create_symlink("target", scratch.path() / "link");
+  write_atomically(scratch.path() / "link", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch.path() / "link"));
+  EXPECT_EQ(read_file(scratch.path() / "target"), "new");
+  std::filesystem::create_symlink("later", scratch.path() / "dangling");
+  write_atomically(scratch.path() / "dangling", "new");
+  EXPECT_EQ(read_file(scratch.path() / "later"), "new");
+  ASSERT_EQ(::mkfifo((scratch.path() / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(write_atomically(scratch.path() / "pipe", "x"), core::InputError);
+  EXPECT_TRUE(std::filesystem::is_fifo(scratch.path() / "pipe"));
+  EXPECT_THROW(write_atomically("/dev/null", "x"), core::InputError);
+  std::filesystem::create_symlink("pipe", scratch.path() / "to_pipe");
+  EXPECT_THROW(write_atomically(scratch.path() / "to_pipe", "x"), core::InputError);
+}
+
+TEST(StagedFiles, ReplaceNoInputByWhateverName) {
+  const ScratchFolder scratch;
+  write_atomically(scratch.path() / "model.yaml", "model");
+  std::filesystem::create_symlink("model.yaml", scratch.path() / "link");
+  std::filesystem::create_hard_link(scratch.path() / "model.yaml", scratch.path() / "hard");
+  keep_inputs({scratch.path() / "link", scratch.path() / "none"});
+  for (const char* name : {"model.yaml", "link", "hard"})
+    EXPECT_THROW(write_atomically(scratch.path() / name, "x"), core::InputError) << name;
+  EXPECT_EQ(read_file(scratch.path() / "model.yaml"), "model");
+  write_atomically(scratch.path() / "none", "x");
+}
+
 TEST(WriteLoci, OneModeNeedsNoModeInItsNames) {
   const ScratchFolder scratch;
   const auto map = fixture::five_bar_map();
