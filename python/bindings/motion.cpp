@@ -61,7 +61,7 @@ py::dict dict_of(const Pose& pose) {
     reactions[py::str(joint.joint)] = one;
   }
   const bool reached = pose.unreachable.empty() && pose.beyond_limit.empty();
-  const auto known = [&](const auto& value) { return reached ? py::cast(value) : py::object(py::none()); };
+  const auto known = [&](const py::object& value) { return reached ? value : py::object(py::none()); };
   worst["displacement"] = pose.worst.displacement;
   worst["rotation"] = pose.worst.rotation;
   worst["distance"] = pose.worst.distance;
@@ -73,9 +73,9 @@ py::dict dict_of(const Pose& pose) {
                                                    : py::cast("beyond the limit of the " + pose.beyond_limit);
   all["points"] = points;
   all["reactions"] = reactions;
-  all["determinant"] = known(pose.determinant);
-  all["condition"] = known(pose.condition);
-  all["singular"] = known(pose.singular);
+  all["determinant"] = known(py::cast(pose.determinant));
+  all["condition"] = known(py::cast(pose.condition));
+  all["singular"] = known(py::cast(pose.singular));
   all["take_up"] = dict_of(pose.take_up);
   all["error"] = pose.error ? py::object(dict_of(*pose.error)) : py::none();
   all["worst"] = known(worst);
