@@ -49,3 +49,4 @@ __all__ = [
 ]
 
 del _needs
+InputError.__module__ = LimitReached.__module__ = __name__  # where people find them

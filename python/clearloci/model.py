@@ -94,7 +94,7 @@ class Model:
         return self._handle.working_mode
 
     def with_parameters(self, **values: Value) -> Model:
-        """The same mechanism with new values: m.with_parameters(L="0.45", F=80).
+        """The same mechanism with new values: m.with_parameters(L="0.45", d=0.6).
 
         Numbers are taken as they print, in the units of the file; what does not depend on them is derived once.
         """

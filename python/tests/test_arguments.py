@@ -159,3 +159,4 @@ def test_help_teaches():
     for words in ("working_mode", "m.pose(", "InputError", "SI units"):
         assert words in cl.Model.__doc__
     assert "cl.read(" in cl.__doc__
+    assert cl.InputError.__module__ == cl.LimitReached.__module__ == "clearloci"
