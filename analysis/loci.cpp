@@ -19,6 +19,7 @@
 #include "mechanism/guide.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/written_unit.hpp"
 #include "numeric/sketch.hpp"
 
 namespace clearloci {
@@ -237,8 +238,7 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
   map.mechanism = mechanism.name;
   map.units = mechanism.units;
   for (const mechanism::Parameter& parameter : mechanism.parameters)
-    map.parameters.emplace_back(
-        parameter.name, parameter.exact ? core::to_string(parameter.value) : core::to_string(parameter.expression));
+    map.parameters.emplace_back(parameter.name, mechanism::value_words(parameter, mechanism));
   map.tolerance = request.tolerance;
   for (std::string& note : mechanism::idle_notes(mechanism)) map.notes.push_back(std::move(note));
   if (closes_nowhere(map)) map.notes.emplace_back("no pose is reached: the mechanism does not close in the workspace");

@@ -15,6 +15,7 @@
 #include "cli/standard_streams.hpp"
 #include "cli/time_limit.hpp"
 #include "core/errors.hpp"
+#include "core/shown_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/study.hpp"
@@ -59,8 +60,9 @@ std::string words_of(const std::vector<Verification>& proofs) {
     return a.verified() != b.verified() ? !a.verified() : a.margin < b.margin;
   };
   const Verification& proof = *std::min_element(proofs.begin(), proofs.end(), worse);
-  return proof.verified() ? fmt::format("verify: VERIFIED, margin at least {:.6g} m", proof.margin)
-                          : fmt::format("verify: {}", to_string(proof.verdict));
+  return proof.verified()
+             ? fmt::format("verify: VERIFIED, margin at least {}", core::told(proof.margin, "m", proof.units))
+             : fmt::format("verify: {}", to_string(proof.verdict));
 }
 
 /// Of rank 0, or of the only process there is.

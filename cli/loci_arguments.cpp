@@ -6,6 +6,7 @@
 
 #include "analysis/request_limits.hpp"
 #include "core/errors.hpp"
+#include "core/shown_units.hpp"
 #include "mechanism/frame.hpp"
 
 namespace clearloci::cli {
@@ -23,7 +24,7 @@ double parse_tolerance(const std::string& text, const mechanism::Mechanism& mech
   if (tolerance < core::Rational(finest))
     throw core::InputError({.file = "--tolerance"},
                            fmt::format("{} is finer than doubles can express in this box", text),
-                           fmt::format("give {:.2g} or more", finest));
+                           "give " + core::told(finest, "m", mechanism.units, 2) + " or more");
   return core::to_double(tolerance);
 }
 

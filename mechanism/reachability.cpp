@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include "core/enclosure.hpp"
+#include "core/shown_units.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
 
@@ -157,14 +157,8 @@ std::optional<Interval> proven_unreachable(const Mechanism& mechanism, const Sli
   return proven_outside(mechanism, {0, bound(slider.length, whole).upper()}, to_line);
 }
 
-std::string metres(double value) {
-  std::ostringstream text;
-  text.precision(4);
-  text << value;
-  return text.str();
-}
-
 [[noreturn]] void refuse(const Mechanism& mechanism, const Point& point, const Interval& distances) {
+  const auto length = [&](double value) { return core::told(value, "m", mechanism.units, 4); };
   const DyadPoint& dyad = std::get<DyadPoint>(point.form);
   const std::string& from = mechanism.points[static_cast<std::size_t>(dyad.from)].name;
   const std::string& to = mechanism.points[static_cast<std::size_t>(dyad.to)].name;
@@ -173,20 +167,21 @@ std::string metres(double value) {
   const double b = bound(dyad.to_length, whole).upper();
   throw core::InputError(point.where,
                          "point " + point.name + " is unreachable in the whole box: |" + from + " " + to +
-                             "| runs from about " + metres(distances.lower()) + " to " + metres(distances.upper()) +
-                             " m, but the lengths " + metres(a) + " and " + metres(b) + " m reach from " +
-                             metres(std::abs(a - b)) + " to " + metres(a + b) + " m",
+                             "| runs from about " + length(distances.lower()) + " to " + length(distances.upper()) +
+                             ", but the lengths " + length(a) + " and " + length(b) + " reach from " +
+                             length(std::abs(a - b)) + " to " + length(a + b),
                          "change the lengths, the points " + from + " and " + to + ", or the workspace");
 }
 
 [[noreturn]] void refuse_slider(const Mechanism& mechanism, const Point& point, const Interval& distances) {
+  const auto length = [&](double value) { return core::told(value, "m", mechanism.units, 4); };
   const SliderPoint& slider = std::get<SliderPoint>(point.form);
   const std::string& from = mechanism.points[static_cast<std::size_t>(slider.from)].name;
   throw core::InputError(point.where,
                          "point " + point.name + " is unreachable in the whole box: " + from + " is from about " +
-                             metres(distances.lower()) + " to " + metres(distances.upper()) +
-                             " m off its line, but the length is " +
-                             metres(bound(slider.length, whole_box(mechanism)).upper()) + " m",
+                             length(distances.lower()) + " to " + length(distances.upper()) +
+                             " off its line, but the length is " +
+                             length(bound(slider.length, whole_box(mechanism)).upper()),
                          "change the length, the line, the point " + from + ", or the workspace");
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/shown_units.hpp"
 #include "mechanism/handed_files.hpp"
 #include "mechanism/read_loads_from.hpp"
 #include "mechanism/read_stl.hpp"
@@ -80,9 +80,7 @@ core::PoseBoxShape read_box(const Mechanism& mechanism, const Value& value) {
       (i == 0 ? box.lower : box.upper).push_back(read_number(mechanism, end, Sign::any).value);
     }
     if (box.lower.back() > box.upper.back())
-      throw InputError(range.where,
-                       range.what + " is empty: from " + core::to_string(box.lower.back()) + " to " +
-                           core::to_string(box.upper.back()),
+      throw InputError(range.where, range.what + " is empty: from " + text_of(ends[0]) + " to " + text_of(ends[1]),
                        "write [lower, upper]");
   }
   return box;
@@ -217,12 +215,11 @@ void check_inside_box(const Mechanism& mechanism, const core::PoseTask& task, co
     const auto& [lower, upper] = ranges[c];
     if (lower >= coordinate.lower && upper <= coordinate.upper) continue;
     const auto told = [&](const Rational& own) {
-      return std::to_string(core::to_double(own) * (coordinate.angle ? 180 / std::numbers::pi : 1));
+      return core::told(core::to_double(own), coordinate.angle ? "rad" : "m", mechanism.units, 9);
     };
     throw InputError(value.where,
                      value.what + " leaves the mechanism's box: " + coordinate.name + " from " + told(lower) + " to " +
-                         told(upper) + ", not within [" + told(coordinate.lower) + ", " + told(coordinate.upper) +
-                         "] " + (coordinate.angle ? "deg" : "m"),
+                         told(upper) + ", not within " + told(coordinate.lower) + " to " + told(coordinate.upper),
                      "move the task or widen the workspace of " + mechanism.file);
   }
 }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mechanism/open_design.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
 #include "mechanism/reader.hpp"
+#include "mechanism/units.hpp"
+#include "mechanism/written_unit.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -31,15 +34,16 @@ void read_vary(Study& study, const Mechanism& mechanism, const Value& value) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
       throw InputError(entry.where, "there is no parameter '" + entry.key + "' in " + mechanism.file,
                        known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
-    check_plain(mechanism, entry.key, entry.where);
+    const Parameter& parameter = *parameter_named(mechanism, entry.key);
     Value& range = entry.value;
     range.what = "the range of " + entry.key;
     const std::vector<Value> ends = elements(range, 2);
-    const Rational lower = read_number(mechanism, ends[0], Sign::any).value;
-    const Rational upper = read_number(mechanism, ends[1], Sign::any).value;
+    const Rational lower = read_parameter_value(mechanism, parameter, ends[0]);
+    const Rational upper = read_parameter_value(mechanism, parameter, ends[1]);
     if (lower >= upper)
       throw InputError(range.where,
-                       range.what + " is empty: from " + core::to_string(lower) + " to " + core::to_string(upper),
+                       range.what + " is empty: from " + value_words(parameter, lower, mechanism.units) + " to " +
+                           value_words(parameter, upper, mechanism.units),
                        "write [lower, upper]");
     study.vary.push_back({entry.key, lower, upper});
   }
@@ -52,7 +56,7 @@ void read_vary(Study& study, const Mechanism& mechanism, const Value& value) {
 void read_keep(Study& study, const Mechanism& mechanism, const Value& value) {
   const std::vector<std::string> known = parameter_names(mechanism);
   for (const Value& own : elements(value)) {
-    const Keep keep = parse_keep(text_of(own), own.where);
+    const Keep keep = parse_keep(text_of(own), own.where, mechanism);
     for (const Expression& side : {keep.left, keep.right})
       for (const std::string& name : core::symbols(side))
         if (std::find(known.begin(), known.end(), name) == known.end())
@@ -182,13 +186,21 @@ StudyMethod read_method(const Mechanism& mechanism, const Value& value, std::siz
 
 }  // namespace
 
-Keep parse_keep(const std::string& text, const core::SourcePosition& where) {
+Keep parse_keep(const std::string& text, const core::SourcePosition& where, const Mechanism& mechanism) {
   const std::size_t at = text.find_first_of("<>");
   if (at == std::string::npos)
     throw InputError(where, "'" + text + "' compares nothing", "write such as L1 + L2 <= 0.9");
   const bool equal = at + 1 < text.size() && text[at + 1] == '=';
-  const Expression first = parse_expression(text.substr(0, at), where);
-  const Expression second = parse_expression(text.substr(at + (equal ? 2 : 1)), where);
+  const std::vector<std::string> names = parameter_names(mechanism);
+  const auto side = [&](const std::string& words) {
+    return in_si(parse_with_units(words, where, {names.begin(), names.end()}), mechanism, std::nullopt);
+  };
+  const InSi left = side(text.substr(0, at)), right = side(text.substr(at + (equal ? 2 : 1)));
+  const bool zero = left.expression.is_zero_literal() || right.expression.is_zero_literal();
+  if (!zero && (left.mixes || right.mixes || left.dimension != right.dimension) &&
+      (left.dimension != Dimension{} || right.dimension != Dimension{}))
+    throw InputError(where, "'" + text + "' compares what does not measure the same", "write the unit of each number");
+  const Expression &first = left.expression, &second = right.expression;
   return text[at] == '>' ? Keep{first, second, !equal} : Keep{second, first, !equal};
 }
 

@@ -21,7 +21,8 @@ struct Keep {
   bool strict = false;
 };
 
-/// "L1 + L2 <= 0.9". Throws core::InputError at `where`.
-Keep parse_keep(const std::string& text, const core::SourcePosition& where);
+/// "L1 + L2 <= 0.9", in the file's own numbers. Throws core::InputError at `where`; among that where a plain number is
+/// compared with a parameter that carries a unit.
+Keep parse_keep(const std::string& text, const core::SourcePosition& where, const Mechanism& mechanism);
 
 }  // namespace clearloci::mechanism

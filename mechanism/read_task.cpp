@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/shown_units.hpp"
+#include "mechanism/open_design.hpp"
 #include "mechanism/read_loads_from.hpp"
 #include "mechanism/reader.hpp"
 
@@ -32,6 +34,10 @@ RationalPoint read_place(const Mechanism& mechanism, const Value& value) {
   return place;
 }
 
+std::string told(const Rational& length, const Mechanism& mechanism) {
+  return core::told(core::to_double(length), "m", mechanism.units, 9);
+}
+
 core::TaskBox read_box(const Mechanism& mechanism, const Value& value) {
   std::vector<std::string> names;
   for (const Coordinate& coordinate : mechanism.coordinates) names.push_back(coordinate.name);
@@ -42,7 +48,7 @@ core::TaskBox read_box(const Mechanism& mechanism, const Value& value) {
     const RationalPoint ends = read_pair(mechanism, of_coordinate(range, mechanism.coordinates[c]));
     if (ends[0] >= ends[1])
       throw InputError(range.where,
-                       range.what + " is empty: from " + core::to_string(ends[0]) + " to " + core::to_string(ends[1]),
+                       range.what + " is empty: from " + told(ends[0], mechanism) + " to " + told(ends[1], mechanism),
                        "write [lower, upper]");
     box.lower[c] = ends[0];
     box.upper[c] = ends[1];
@@ -146,8 +152,8 @@ void check_inside_box(const Mechanism& mechanism, const core::TaskShape& shape, 
     if (lower[c] >= coordinate.lower && upper[c] <= coordinate.upper) continue;
     throw InputError(value.where,
                      value.what + " leaves the mechanism's box: " + coordinate.name + " from " +
-                         core::to_string(lower[c]) + " to " + core::to_string(upper[c]) + ", not within [" +
-                         core::to_string(coordinate.lower) + ", " + core::to_string(coordinate.upper) + "]",
+                         told(lower[c], mechanism) + " to " + told(upper[c], mechanism) + ", not within " +
+                         told(coordinate.lower, mechanism) + " to " + told(coordinate.upper, mechanism),
                      "move the task or widen the workspace of " + mechanism.file);
   }
 }
@@ -169,15 +175,17 @@ std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const V
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
       throw InputError(entry.where, "there is no parameter '" + entry.key + "' in " + mechanism.file,
                        known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
-    check_plain(mechanism, entry.key, entry.where);
+    const Parameter& parameter = *parameter_named(mechanism, entry.key);
     entry.value.what = "the tolerance of " + entry.key;
     core::Tolerance own{entry.key, 0, 0};
     if (entry.value.is_sequence()) {
-      const RationalPoint ends = read_pair(mechanism, entry.value);
-      own.below = ends[0];
-      own.above = ends[1];
+      const std::vector<Value> ends = elements(entry.value, 2);
+      own.below = read_parameter_value(mechanism, parameter, ends[0]);
+      own.above = read_parameter_value(mechanism, parameter, ends[1]);
     } else {
-      own.above = read_number(mechanism, entry.value, Sign::not_negative).value;
+      own.above = read_parameter_value(mechanism, parameter, entry.value);
+      if (own.above < 0)
+        throw InputError(entry.value.where, entry.value.what + " is negative", "write 0 or a value above 0");
       own.below = -own.above;
     }
     if (own.below > 0 || own.above < 0)
@@ -220,13 +228,6 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
 }
 
 }  // namespace
-
-void check_plain(const Mechanism& mechanism, const std::string& parameter, const core::SourcePosition& where) {
-  for (const Parameter& own : mechanism.parameters)
-    if (own.name == parameter && mechanism.units.declared && own.dimension != Dimension{})
-      throw InputError(where, "parameter " + parameter + " is written with a unit in a file that declares units",
-                       "write it as a plain number there");
-}
 
 core::Task task_of(const Value& document, const Mechanism& mechanism) {
   if (!document.is_map())

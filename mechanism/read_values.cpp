@@ -4,9 +4,11 @@
 #include <stdexcept>
 
 #include "core/interpret.hpp"
+#include "core/shown_units.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/units.hpp"
+#include "mechanism/written_unit.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -161,14 +163,13 @@ Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
   const std::vector<Value> ends = elements(range, 2);
   const Number lower = read_number(mechanism, ends[0], Sign::any);
   const Number upper = read_number(mechanism, ends[1], Sign::any);
+  const std::string &first = text_of(ends[0]), &second = text_of(ends[1]);
   if (lower.value == upper.value)
-    throw InputError(range.where, range.what + " is empty: both ends are " + to_string(lower.expression),
+    throw InputError(range.where, range.what + " is empty: both ends are " + first,
                      "write two different ends: [lower, upper]");
   if (lower.value > upper.value)
-    throw InputError(
-        range.where,
-        range.what + " is reversed: " + to_string(lower.expression) + " is above " + to_string(upper.expression),
-        "write [" + to_string(upper.expression) + ", " + to_string(lower.expression) + "]");
+    throw InputError(range.where, range.what + " is reversed: " + first + " is above " + second,
+                     "write [" + second + ", " + first + "]");
   coordinate.lower_expression = lower.expression;
   coordinate.upper_expression = upper.expression;
   coordinate.lower = lower.value;
@@ -176,13 +177,45 @@ Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
   return coordinate;
 }
 
-InSi read_in_si(const Mechanism& mechanism, const Value& value, Scope scope) {
+Expression parse_written(const Mechanism& mechanism, const Value& value) {
   const std::vector<std::string> all = names_in(mechanism, Scope::parameters_and_coordinates);
-  const Expression written = parse_with_units(text_of(value), value.where, {all.begin(), all.end()});
+  return parse_with_units(text_of(value), value.where, {all.begin(), all.end()});
+}
+
+InSi read_in_si(const Mechanism& mechanism, const Value& value, Scope scope) {
+  const Expression written = parse_written(mechanism, value);
   const std::vector<std::string> known = names_in(mechanism, scope);
   for (const std::string& name : symbols(with_si_units(written)))
     if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name(mechanism, value, scope, name);
   return in_si(written, mechanism, value);
+}
+
+/// A value in the place of another one: a plain number is meant in the unit in which that one is written.
+InSi read_instead(const Mechanism& mechanism, const Value& value, const Value& in_file) {
+  InSi read = read_in_si(mechanism, value, Scope::parameters);
+  if (read.has_unit || read.dimension != Dimension{}) return read;
+  const InSi replaced = read_in_si(mechanism, in_file, Scope::parameters);
+  const auto unit = written_unit(parse_written(mechanism, in_file), mechanism);
+  if (unit) {
+    read.expression = in_file_numbers(read.expression, *unit);
+    read.dimension = replaced.dimension;
+  }
+  return read;
+}
+
+/// As written, and where that is an expression what it comes to, in the file's units: "-L = -500 mm".
+std::string told(const Number& number, const Value& value, const Mechanism& mechanism) {
+  const std::string& written = text_of(value);
+  if (symbols(number.expression).empty() && number.expression.kind() == Expression::Kind::number) return written;
+  const Dimension d = dimension_of(value.field).value_or(Dimension{});
+  const char* const si = d == Dimension{.length = 1}  ? "m"
+                         : d == Dimension{.angle = 1} ? "rad"
+                         : d == Dimension{.force = 1} ? "N"
+                                                      : "";
+  const double size = core::to_double(number.value);
+  std::string words = core::told(size, si, mechanism.units);
+  if (*si == 0) words.pop_back();
+  return written + " = " + words;
 }
 
 }  // namespace
@@ -193,12 +226,27 @@ Expression read_expression(const Mechanism& mechanism, const Value& value, Scope
   return expression;
 }
 
+Rational read_parameter_value(const Mechanism& mechanism, const Parameter& parameter, const Value& value) {
+  const InSi read = read_in_si(mechanism, value, Scope::parameters);
+  const Rational number = evaluate_at(read.expression, mechanism, value).value;
+  const Dimension& wanted = parameter.dimension;
+  if (wanted == Dimension{} || read.dimension == wanted || number == 0) return number;
+  const std::string unit = words_of(*unit_of(parameter, mechanism.units));
+  if (read.dimension == Dimension{})
+    throw InputError(value.where,
+                     value.what + " is a plain number, and parameter " + parameter.name + " carries a unit",
+                     "write its unit, such as " + text_of(value) + " " + unit);
+  throw InputError(
+      value.where,
+      value.what + " is " + words_of(read.dimension) + ", but parameter " + parameter.name + " is " + words_of(wanted),
+      "write it in a unit such as " + unit);
+}
+
 Number read_number(const Mechanism& mechanism, const Value& value, Sign sign) {
   Number number;
   number.expression = read_expression(mechanism, value, Scope::parameters);
   number.value = evaluate_at(number.expression, mechanism, value).value;
-  std::string written = to_string(number.expression);
-  if (written != core::to_string(number.value)) written += " = " + core::to_string(number.value);
+  const std::string written = told(number, value, mechanism);
   if (sign != Sign::any && sgn(number.value) < 0)
     throw InputError(value.where, value.what + " is negative: " + written,
                      sign == Sign::positive ? "write a value above 0" : "write 0 or a value above 0");
@@ -245,9 +293,11 @@ void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, co
     const std::set<std::string> used = symbols(parse_expression(text_of(source), source.where));
     for (auto later = entry; later != parameters.end(); ++later)
       if (used.contains(later->key)) refuse_later(entry->key, later->key, source);
+    const bool overridden = source.where.file != entry->value.where.file;
     Parameter parameter;
     parameter.name = entry->key;
-    InSi read = read_in_si(mechanism, source, Scope::parameters);
+    InSi read =
+        overridden ? read_instead(mechanism, source, entry->value) : read_in_si(mechanism, source, Scope::parameters);
     parameter.expression = std::move(read.expression);
     parameter.dimension = read.dimension;
     const ExactValue result = evaluate_at(parameter.expression, mechanism, source);

@@ -43,6 +43,9 @@ Expression read_varying(const Mechanism& mechanism, const Value& value);
 Value of_coordinate(Value value, const Coordinate& coordinate);
 void check_identifier(const std::string& name, const core::SourcePosition& where, const std::string& what);
 void check_label(const std::string& name, const core::SourcePosition& where, const std::string& what);
+/// A value of a parameter, or a difference of two, in the file's own numbers. Throws for a plain number where the
+/// parameter carries a unit.
+Rational read_parameter_value(const Mechanism& mechanism, const Parameter& parameter, const Value& value);
 void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Override>& overrides);
 void read_workspace(Mechanism& mechanism, const Value& value);
 
@@ -94,8 +97,6 @@ void read_springs(Mechanism& mechanism, const std::optional<Value>& value);
 void read_limits(Mechanism& mechanism, const std::optional<Value>& value);
 
 // --- read_task.cpp
-/// Designs take plain numbers: throws for a parameter that was written with a unit in a file of other units than SI.
-void check_plain(const Mechanism& mechanism, const std::string& parameter, const core::SourcePosition& where);
 /// A task from the mapping of its keys, whatever it says of its format.
 core::Task task_of(const Value& document, const Mechanism& mechanism);
 

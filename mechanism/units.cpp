@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/reader.hpp"
+#include "mechanism/written_unit.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -322,21 +323,7 @@ bool has_unit_symbol(const Expression& e) {
 }
 
 /// "mm" and "N" of "N/mm": what a number of the file would be meant in.
-std::string coherent_words(const Units& units, const Dimension& d) {
-  std::string above, below;
-  const std::array<std::pair<int, std::string>, 5> parts = {{{d.force, units.force.name},
-                                                             {d.mass, units.mass.name},
-                                                             {d.length, units.length.name},
-                                                             {d.angle, units.angle.name},
-                                                             {d.time, "s"}}};
-  for (const auto& [exponent, name] : parts) {
-    if (exponent == 0) continue;
-    std::string& side = exponent > 0 ? above : below;
-    side += (side.empty() ? "" : " ") + name;
-    if (std::abs(exponent) > 1) side += "^" + std::to_string(std::abs(exponent));
-  }
-  return (above.empty() ? "1" : above) + (below.empty() ? "" : "/" + below);
-}
+std::string coherent_words(const Units& units, const Dimension& d) { return words_of(coherent_unit(units, d)); }
 
 }  // namespace
 
@@ -346,6 +333,26 @@ std::optional<Dimension> dimension_of(const std::string& field) {
 }
 
 bool is_field(const std::string& key) { return fields().contains(key); }
+
+std::optional<NamedSize> unit_of_symbol(const Expression& symbol, const Units& units) {
+  if (symbol.kind() != Kind::symbol) return std::nullopt;
+  const auto unit = as_unit(symbol);
+  if (!unit) return std::nullopt;
+  return NamedSize{symbol.name().substr(std::string(unit_mark).size()),
+                   unit->second * power(file_size(units, unit->first), -1), unit->first};
+}
+
+ParameterUnit coherent_unit(const Units& units, const Dimension& d) {
+  ParameterUnit unit;
+  const std::array<std::pair<int, std::string>, 5> parts = {{{d.force, units.force.name},
+                                                             {d.mass, units.mass.name},
+                                                             {d.length, units.length.name},
+                                                             {d.angle, units.angle.name},
+                                                             {d.time, "s"}}};
+  for (const auto& [exponent, name] : parts)
+    if (exponent != 0) unit.powers.emplace_back(name, exponent);
+  return unit;
+}
 
 std::string words_of(const Dimension& dimension) {
   const std::vector<std::pair<Dimension, const char*>> known = {{length, "a length"},

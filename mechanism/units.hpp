@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mechanism/mechanism.hpp"
+#include "mechanism/written_unit.hpp"
 #include "mechanism/yaml_input.hpp"
 
 namespace clearloci::mechanism {
@@ -21,6 +22,7 @@ struct UnitSize {
   int pi = 0;
 
   bool is_one() const { return factor == 1 && pi == 0; }
+  bool operator==(const UnitSize&) const = default;
 };
 
 /// A unit has whole powers up to this, such as the m^2 of an inertia.
@@ -59,6 +61,17 @@ InSi in_si(const Expression& written, const Mechanism& mechanism, const std::opt
 
 /// in_si for the number under a value's field, with complaints about units that do not fit.
 InSi in_si(const Expression& written, const Mechanism& mechanism, const Value& value);
+
+/// A unit's symbol: its name, and its size in the file's own numbers.
+struct NamedSize {
+  std::string name;
+  UnitSize size;
+  Dimension dimension;
+};
+std::optional<NamedSize> unit_of_symbol(const Expression& symbol, const Units& units);
+
+/// One of the file's unit for that: "N/mm", 1 of it.
+ParameterUnit coherent_unit(const Units& units, const Dimension& dimension);
 
 /// The tree with units put in for SI, where no file is about.
 Expression with_si_units(const Expression& written);

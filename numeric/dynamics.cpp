@@ -6,9 +6,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/errors.hpp"
+#include "core/shown_units.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/idle.hpp"
@@ -253,9 +253,9 @@ class InstantEquations {
 std::string place_words(const Motion& motion, const Instant& at) {
   std::string text;
   for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
-    char value[40];
-    std::snprintf(value, sizeof value, "%.6g", at.coordinates[c].value());
-    text += (c == 0 ? "" : ", ") + motion.model.mechanism.coordinates[c].name + " = " + value;
+    const mechanism::Coordinate& own = motion.model.mechanism.coordinates[c];
+    text += (c == 0 ? "" : ", ") + own.name + " = " +
+            core::told(at.coordinates[c].value(), own.angle ? "rad" : "m", motion.model.mechanism.units);
   }
   return text;
 }

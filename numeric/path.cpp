@@ -105,11 +105,10 @@ Corner corner_at(const Waypoint& waypoint, const Place& before, const Place& aft
 void check_fit(const Waypoint& waypoint, const Waypoint& next, double length, const Corner& a, const Corner& b) {
   if (a.cut + b.cut <= length * (1 + 1e-12)) return;
   const Waypoint& wrong = a.cut >= b.cut ? waypoint : next;
-  const Corner& corner = a.cut >= b.cut ? a : b;
-  char largest[32];
-  std::snprintf(largest, sizeof largest, "%.4g", corner.radius * length / (a.cut + b.cut));
+  char percent[32];
+  std::snprintf(percent, sizeof percent, "%.3g", std::floor(1000 * length / (a.cut + b.cut)) / 10);
   throw core::InputError(wrong.where, "the rounded corner does not fit the lines beside it",
-                         std::string("write a radius of at most ") + largest);
+                         std::string("write a radius of at most ") + percent + " % of this one");
 }
 
 CompiledPath straight_path(const mechanism::Trajectory& trajectory) {

@@ -9,8 +9,10 @@
 #include "clearloci/study.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
+#include "mechanism/open_design.hpp"
 #include "mechanism/read_study.hpp"
 #include "mechanism/write_values.hpp"
+#include "mechanism/written_unit.hpp"
 #include "studies/collection.hpp"
 #include "studies/design_table.hpp"
 #include "studies/designs.hpp"
@@ -203,6 +205,13 @@ std::string written(const core::Rational& value) {
   return core::rational_from_decimal(decimal) == value ? decimal : core::to_string(value);
 }
 
+/// As the mechanism file says it, with the unit of the parameter.
+std::string value_words(const Model& model, const std::string& parameter, const core::Rational& value) {
+  const mechanism::Mechanism& own = model.content().mechanism;
+  const auto unit = mechanism::unit_of(*mechanism::parameter_named(own, parameter), own.units);
+  return written(value) + (unit ? " " + mechanism::words_of(*unit) : "");
+}
+
 std::vector<Model::Value> values_of(const Model& model, const StudyResult& result, const StudyDesign& design) {
   std::vector<Model::Value> values;
   const core::Study& study = result.study;
@@ -214,7 +223,7 @@ std::vector<Model::Value> values_of(const Model& model, const StudyResult& resul
     const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), design.values[i]);
     // Of a search values are short decimals, of which the double knows all digits.
     const core::Rational value = numbered ? exact[i] : core::rational_from_decimal(std::string(text.data(), end));
-    values.emplace_back(study.vary[i].name, written(value));
+    values.emplace_back(study.vary[i].name, value_words(model, study.vary[i].name, value));
   }
   for (const Model::Value& own : model.values())
     if (std::none_of(values.begin(), values.end(), [&](const Model::Value& v) { return v.first == own.first; }))

@@ -10,7 +10,9 @@
 #include "core/enclosure.hpp"
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/open_design.hpp"
 #include "mechanism/read.hpp"
+#include "mechanism/written_unit.hpp"
 
 namespace clearloci {
 namespace {
@@ -63,7 +65,7 @@ StudyProblem::StudyProblem(const Model& model, const core::Study& study) : model
     throw core::InputError({study_.file}, "pose_error is proven in the plane, and " + own.file + " is spatial",
                            "choose another figure");
   for (const std::string& text : study_.keep) {
-    const mechanism::Keep keep = mechanism::parse_keep(text, {study_.file});
+    const mechanism::Keep keep = mechanism::parse_keep(text, {study_.file}, own);
     keep_.push_back(keep);
     keep_in_varied_.push_back(
         {mechanism::in_varied(keep.left, own, varied_), mechanism::in_varied(keep.right, own, varied_), keep.strict});
@@ -252,8 +254,12 @@ void StudyJudge::measure(StudyDesign& design, const std::vector<Rational>& value
 
 void StudyJudge::measure_zones(StudyDesign& design, const std::vector<Rational>& values) {
   std::vector<Model::Value> own;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    own.emplace_back(problem_.study().vary[i].name, core::to_string(values[i]));
+  const mechanism::Mechanism& mechanism = problem_.model().content().mechanism;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string& name = problem_.study().vary[i].name;
+    own.emplace_back(name,
+                     mechanism::value_words(*mechanism::parameter_named(mechanism, name), values[i], mechanism.units));
+  }
   double area = 0, circle = 0;
   try {
     const core::ZoneMap map = find_zones(problem_.model().with(own));

@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"ListAsNumber", "d: L", "d: [1]", 6, 6, "single value"},
         Mistake{"EmptyParameter", "d: L", "d:", 6, 3, "is empty"},
         Mistake{"NegativeLength", "[L, L], side: right", "[L, -L], side: right", 14, 36,
-                "a length of point B1 is negative: -L = -1/2"},
+                "a length of point B1 is negative: -L = -0.5 m"},
         Mistake{"ZeroLength", "[L, L], side: right", "[L, L - 1/2], side: right", 14, 36, "is zero"},
         Mistake{"NegativeMass", "mass: 1}", "mass: -1}", 17, 34, "the mass of link A1B1 is negative: -1"},
         Mistake{"NegativeInertia", "mass: 1}", "mass: 1, inertia: -0.1}", 17, 46, "inertia of link A1B1 is negative"},

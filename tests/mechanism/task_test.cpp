@@ -3,8 +3,11 @@
 
 #include <map>
 
+#include "core/task.hpp"
+#include "five_bar_text.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
+#include "mechanism/write_task.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -65,6 +68,24 @@ TEST(Task, NeedsAPlaneOfTwoCoordinates) {
 TEST(Task, ConvexAndConcavePolygonsAreFine) {
   EXPECT_EQ(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0.25, -0.6]]"), "");
   EXPECT_EQ(complaint("polygon: [[0, -0.8], [0.5, -0.8], [0.5, -0.6], [0.25, -0.75], [0, -0.6]]"), "");
+}
+
+TEST(Task, WrittenReadsBackAsItself) {
+  const std::string in_mm = with(five_bar_text, "parameters:", "units: {length: mm, force: kN}\nparameters:");
+  const Mechanism m = parse_mechanism(with(with(in_mm, "[-0.5, 1.0]", "[-500, 1000]"), "L: 0.5", "L: 500"), "m.yaml");
+  const std::vector<std::string> shapes = {"box: {x: [-12.345678, 80], y: [1/3, 0.5]}",
+                                           "circle: {centre: [0, 0.25], radius: 0.125}",
+                                           "polygon: [[0, 0], [100, 0], [50, 0.75]]", "path: [[0, 0], [100, 0.5]]"};
+  for (const std::string& shape : shapes) {
+    const core::Task task =
+        parse_task("format: 1\n" + shape + "\nmargin: 0.2\nmin_force: 0.003\nmin_couple: 2\n", "t.yaml", m);
+    const std::string text = task_text(task, m);
+    EXPECT_NE(text.find(shape.substr(0, shape.find(':'))), std::string::npos) << text;
+    EXPECT_EQ(task_text(parse_task(text, "again.yaml", m), m), text);
+    EXPECT_EQ(parse_task(text, "again.yaml", m).margin, task.margin);
+    EXPECT_EQ(parse_task(text, "again.yaml", m).min_force, task.min_force);
+    EXPECT_EQ(core::bounds(parse_task(text, "again.yaml", m).shape), core::bounds(task.shape)) << text;
+  }
 }
 
 }  // namespace

@@ -6,9 +6,11 @@
 
 #include "five_bar_text.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/open_design.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
 #include "mechanism/trajectory.hpp"
+#include "mechanism/written_unit.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -221,6 +223,65 @@ TEST(Units, WrongOnesAreRefused) {
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
     }
   }
+}
+
+/// The mechanism's parameter with a value in the place of the file's.
+const Parameter& parameter(const Mechanism& m, const std::string& name) { return *parameter_named(m, name); }
+
+TEST(Units, PlainNumbersInThePlaceOfAParameterAreInItsUnit) {
+  // d is written in cm, F in N, in a file in mm and kN; values are kept in the file's numbers.
+  const Mechanism m = parse_mechanism(in_mm, "m.yaml", {{"d", "60"}, {"F", "3/2"}, {"L", "510"}});
+  EXPECT_EQ(parameter(m, "d").value, 600);
+  EXPECT_EQ(value_words(parameter(m, "d"), m), "600 mm");
+  EXPECT_EQ(parameter(m, "F").value, Rational(3, 2000));
+  EXPECT_EQ(parameter(m, "L").value, 510) << "a plain number stays one";
+  // A number with a unit says itself what it is, and so does what is made of parameters that carry one.
+  EXPECT_EQ(parameter(parse_mechanism(in_mm, "m.yaml", {{"d", "0.6 m"}}), "d").value, 600);
+  EXPECT_EQ(
+      parameter(parse_mechanism(with(in_mm, "F: 100 N", "F: 100 N, G: 2 N"), "m.yaml", {{"G", "3*F"}}), "G").value,
+      Rational(3, 10));
+}
+
+TEST(Units, PlainNumbersInThePlaceOfAParameterKeepItsUnitWhereTheFileIsInSi) {
+  const std::string text = with(five_bar_text, "  d: L", "  d: 500 mm\n  k: 2 N/mm\n  turn: 30 deg");
+  const Mechanism m = parse_mechanism(text, "si.yaml", {{"k", "3"}, {"d", "450"}, {"turn", "45"}});
+  EXPECT_EQ(parameter(m, "k").value, 3000);
+  EXPECT_EQ(value_words(parameter(m, "k"), m), "3000 N/m");
+  EXPECT_EQ(parameter(m, "d").value, Rational(9, 20));
+  EXPECT_NEAR(core::to_double(parameter(m, "turn").value), std::numbers::pi / 4, 1e-15);
+  EXPECT_EQ(value_words(parameter(m, "turn"), m), "45 deg");
+  // Terms of different units have none in common: what is plain stays plain.
+  const std::string mixed = with(five_bar_text, "  d: L", "  d: 1 mm + 1 cm");
+  EXPECT_EQ(parameter(parse_mechanism(mixed, "si.yaml", {{"d", "0.5"}}), "d").value, Rational(1, 2));
+}
+
+TEST(Units, TolerancesOfAParameterWithAUnitCarryOne) {
+  const Mechanism m = parse_mechanism(in_mm, "m.yaml");
+  const std::string task = "format: 1\nbox: {x: [0, 10], y: [0, 10]}\ntolerances: {d: TOLERANCE}\n";
+  EXPECT_EQ(parse_task(with(task, "TOLERANCE", "0.1 cm"), "t.yaml", m).tolerances.front().above, 1);
+  try {
+    parse_task(with(task, "TOLERANCE", "0.1"), "t.yaml", m);
+    ADD_FAILURE() << "a plain number was taken";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("write its unit, such as 0.1 mm"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Units, RefusalsSpeakInThem) {
+  const Mechanism m = parse_mechanism(in_mm, "m.yaml");
+  const auto says = [](const auto& call, const std::string& words) {
+    try {
+      call();
+      ADD_FAILURE() << "accepted; wanted: " << words;
+    } catch (const core::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  says([&] { parse_task("format: 1\nbox: {x: [900, 1100], y: [0, 10]}\n", "t.yaml", m); },
+       "x from 900 mm to 1100 mm, not within -500 mm to 1000 mm");
+  says([&] { parse_task("format: 1\nbox: {x: [100, 50], y: [0, 10]}\n", "t.yaml", m); }, "from 100 mm to 50 mm");
+  says([&] { parse_mechanism(with(in_mm, "lengths: [L, L]", "lengths: [L, -L]"), "m.yaml"); }, "-L = -500 mm");
+  says([&] { parse_mechanism(with(in_mm, "[-1000, 1000]", "[1000, -1000]"), "m.yaml"); }, "1000 is above -1000");
 }
 
 }  // namespace
