@@ -1,7 +1,9 @@
 #include "analysis/verification.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "analysis/framed.hpp"
@@ -11,6 +13,7 @@
 #include "analysis/task_demands.hpp"
 #include "analysis/tolerant_verification.hpp"
 #include "core/errors.hpp"
+#include "core/rational.hpp"
 #include "loci/plane_graph.hpp"
 #include "loci/sheet_maps.hpp"
 #include "loci/task_clearance.hpp"
@@ -19,6 +22,7 @@
 #include "mechanism/actions.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/read_task.hpp"
+#include "mechanism/write_task.hpp"
 #include "numeric/line_witness.hpp"
 #include "numeric/take_up.hpp"
 #include "numeric/task_witness.hpp"
@@ -358,6 +362,14 @@ class Verifier {
   std::vector<std::string> notes_;
 };
 
+/// A way that was found as a number that people write: six digits of it in the file's unit.
+core::Rational round_way(double way, const core::Units& units) {
+  const core::Rational unit = mechanism::length_unit(units);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", way / core::to_double(unit));
+  return core::rational_from_decimal(text.data()) * unit;
+}
+
 bool inside(const core::Zone& zone, const Point2& at) {
   return loci::inside_ring(zone.outer, at) && std::none_of(zone.holes.begin(), zone.holes.end(), [&](const auto& hole) {
            return loci::inside_ring(hole, at);
@@ -453,9 +465,12 @@ Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, c
   LociRequest fine = request;
   fine.tolerance = std::min(request.tolerance, of_box * extent(mechanism));
   Verifier verifier(mechanism, task, fine);
+  const auto way = [&](const Point2& by) {
+    return core::RationalPoint{round_way(by[0], mechanism.units), round_way(by[1], mechanism.units)};
+  };
   const auto moved = [&](const Point2& by) {
     Task other = task;
-    other.shape = core::translated(task.shape, {core::Rational(by[0]), core::Rational(by[1])});
+    other.shape = core::translated(task.shape, way(by));
     return other;
   };
   const auto accept = [&](const loci::Fit& fit) { return verifier.proven(moved(fit.by)); };
@@ -471,7 +486,7 @@ Verification fit_task(const mechanism::Mechanism& mechanism, const Task& task, c
   const auto fit = loci::fit_task(maps, mode_of(verifier.sides(), maps.front()->tower), task.shape,
                                   core::to_double(task.margin), goal, verifier.signature(), accept, pulse);
   Verification result = verifier.verify(fit ? moved(fit->by) : task);
-  if (fit) result.by = core::RationalPoint{core::Rational(fit->by[0]), core::Rational(fit->by[1])};
+  if (fit) result.by = way(fit->by);
   add_zones(mechanism, verifier, result);
   return result;
 }

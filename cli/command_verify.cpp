@@ -18,6 +18,8 @@
 #include "core/errors.hpp"
 #include "mechanism/read_pose_task.hpp"
 #include "mechanism/read_task.hpp"
+#include "mechanism/write_task.hpp"
+#include "report/files.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/pose_verification.hpp"
@@ -33,6 +35,9 @@ struct VerifyCommand {
   std::string formats = "svg,png";
   std::string certificate;
 };
+
+/// Where a place that was found is written, as a task to be read.
+constexpr const char* moved_task = "moved.yaml";
 
 int status_of(core::Verdict verdict) {
   switch (verdict) {
@@ -126,7 +131,11 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
-  const std::vector<std::filesystem::path> files = report::stage_answer(staged, result, folder, formats);
+  std::vector<std::filesystem::path> files = report::stage_answer(staged, result, folder, formats);
+  if (result.by) {
+    files.push_back(folder / moved_task);
+    staged.add(files.back(), mechanism::task_text(result.task, mechanism));
+  }
   staged.commit();
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::verification_object(result)));

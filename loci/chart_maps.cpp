@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "loci/chart_points.hpp"
 #include "loci/curve_projection.hpp"
+#include "loci/sheet_maps.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -300,8 +301,7 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   };
   std::stable_sort(joined.curves.begin(), joined.curves.end(),
                    [&](const LocusCurve& a, const LocusCurve& b) { return rank(a) < rank(b); });
-  int number = 0;
-  for (LocusCurve& curve : joined.curves) curve.id = "c" + std::to_string(++number);
+  number_curves(joined.curves);
   return joined;
 }
 

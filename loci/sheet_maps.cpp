@@ -198,8 +198,13 @@ void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
   };
   std::stable_sort(map.curves.begin(), map.curves.end(),
                    [&](const LocusCurve& a, const LocusCurve& b) { return key(a) < key(b); });
-  int number = 0;
-  for (LocusCurve& curve : map.curves) curve.id = "c" + std::to_string(++number);
+  number_curves(map.curves);
+}
+
+void number_curves(std::vector<LocusCurve>& curves) {
+  int number = 0, margins = 0;
+  for (LocusCurve& curve : curves)
+    curve.id = curve.kind == core::LocusKind::margin ? "m" + std::to_string(++margins) : "c" + std::to_string(++number);
 }
 
 }  // namespace clearloci::loci

@@ -33,4 +33,8 @@ bool is_on_sheet(const core::RootTower& tower, const core::WorkingMode& mode, co
 /// Gravest kinds first, then as the polynomials order them; ids follow.
 void sort_and_name(core::LocusMap& map, const std::vector<core::WorkingMode>& modes);
 
+/// "c1", "c2", ... in their order, and "m1", ... of margins, so that the others are called the same whatever margin is
+/// asked for.
+void number_curves(std::vector<LocusCurve>& curves);
+
 }  // namespace clearloci::loci

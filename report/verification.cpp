@@ -86,7 +86,7 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
     case core::TaskWitness::Kind::too_small:
       words = fmt::format("|{}| is {} {}, less than {}", reaction_name(witness.too_small.front()),
                           engineering(*witness.size, size_digits), unit_of(witness.too_small.front(), units),
-                          core::to_string(*witness.least));
+                          engineering(core::to_double(*witness.least), size_digits));
       break;
     case core::TaskWitness::Kind::displaced:
       words = fmt::format("the clearances displace the end effector by {} {}, more than {}",
@@ -98,8 +98,10 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
     words += fmt::format(" under the load ({}, {}) {}", engineering((*witness.load)[0], place_digits),
                          engineering((*witness.load)[1], place_digits), units.force.name);
   for (const core::WitnessLoad& own : witness.loads)
-    words += fmt::format(" under ({}, {}) N and {} N m as load {}", engineering(own.force[0], place_digits),
-                         engineering(own.force[1], place_digits), engineering(own.couple, place_digits), own.load + 1);
+    words += fmt::format(" under ({}, {}) {} and {} N m as load {}",
+                         engineering(own.force[0] / units.force.size, place_digits),
+                         engineering(own.force[1] / units.force.size, place_digits), units.force.name,
+                         engineering(own.couple, place_digits), own.load + 1);
   for (std::size_t i = 0; i < witness.design.size(); ++i)
     words += fmt::format("{}{} = {}", i == 0 ? " of the design " : ", ", witness.design[i].first,
                          exact_number(witness.design[i].second));
@@ -107,6 +109,10 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
     words += fmt::format("; {} {} from the task, within its margin", engineering(witness.distance, size_digits),
                          units.length.name);
   return words;
+}
+
+std::string shown_witness_words(const core::Verification& result) {
+  return witness_words(*in_file_units(result).witness, result.units);
 }
 
 Json verification_object(const core::Verification& result) {

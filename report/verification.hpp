@@ -16,6 +16,9 @@ const char* verdict_line(core::Verdict verdict);
 /// The witness in these units (in_file_units); SI where none are given.
 std::string witness_words(const core::TaskWitness& witness, const core::Units& units = {});
 
+/// Of an answer with a witness, in the units of its mechanism file.
+std::string shown_witness_words(const core::Verification& result);
+
 nlohmann::ordered_json verification_object(const core::Verification& result);
 
 /// A line a fact. `fit`: a place was looked for. Ends with a newline.

@@ -43,6 +43,7 @@ class Tutorial(unittest.TestCase):
         self.assertIn("dx [mm]", first)
         self.assertIn("H7/g6 at 12 mm: a radial clearance of 3 to 17.5 µm", first)
         self.assertIn("link BP parallel to the load", printed["clearloci loci press.yaml"])
+        self.assertIn("VERIFIED", printed["clearloci verify press.yaml out/moved/moved.yaml"])
         self.assertIn("VERIFIED", printed["clearloci verify press.yaml moved.yaml"])
         self.assertIn("REFUTED", printed["clearloci verify press.yaml task.yaml"])
 
