@@ -73,7 +73,10 @@ Json answer_verify(const Json& body, const Watch& watch) {
   const Fields fields(body);
   const Model model = model_of(fields);
   if (!over_two_lengths(model)) return pose_verification(fields, model, watch);
-  return report::verification_object(verification(fields, watch));
+  const Verification result = verification(fields, watch);
+  Json answer = report::verification_object(result);
+  if (result.witness) answer["reason_shown"] = report::shown_witness_words(result);
+  return answer;
 }
 
 Json answer_export(const Json& body, const Watch& watch) {

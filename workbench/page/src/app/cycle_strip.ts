@@ -3,6 +3,7 @@ import type { Point } from "../data/answers";
 import { colourOf, drawMarker, groupKey } from "../draw/loci";
 import { Layer } from "../draw/surface";
 import { ticks, tickText } from "../draw/view";
+import { unitOf } from "../data/units";
 import { h } from "./dom";
 import { verdictColour } from "./stage_drawing";
 import type { Workbench } from "./workbench";
@@ -67,7 +68,8 @@ export class CycleStrip {
     const size = { width: this.element.clientWidth, height: this.element.clientHeight };
     this.layer.resize(size);
     const context = this.layer.begin();
-    const { picture, theme, state } = this.bench;
+    const { picture, theme, state, units } = this.bench;
+    const unit = unitOf(units, range.angle);
     const x = (value: number): number => margin + ((value - range.lower) / (range.upper - range.lower)) * (size.width - 2 * margin);
     const y = 30;
     this.element.setAttribute("aria-valuenow", String(state.at?.[0] ?? 0));
@@ -92,8 +94,8 @@ export class CycleStrip {
     context.fillStyle = theme.faded_ink;
     context.font = "11px system-ui, sans-serif";
     context.textAlign = "center";
-    for (const tick of ticks(range.lower, range.upper, (size.width - 2 * margin) / (range.upper - range.lower), 56, range.angle)) {
-      context.fillText(tickText(tick, range.angle), x(tick), 70);
+    for (const tick of ticks(range.lower, range.upper, (size.width - 2 * margin) / (range.upper - range.lower), 56, unit)) {
+      context.fillText(tickText(tick, unit), x(tick), 70);
       context.fillRect(x(tick), y + 12, 1, 4);
     }
     const hidden = new Set(state.hidden);
@@ -115,6 +117,6 @@ export class CycleStrip {
     context.fillStyle = theme.ink;
     context.textAlign = "left";
     context.font = "600 12px system-ui, sans-serif";
-    context.fillText(`${range.name} = ${range.angle ? `${((at * 180) / Math.PI).toFixed(2)} deg` : `${at.toPrecision(5)} m`}`, Math.min(x(at) + 6, size.width - 130), 16);
+    context.fillText(`${range.name} = ${Number((at / unit.size).toPrecision(5))} ${unit.name}`, Math.min(x(at) + 6, size.width - 130), 16);
   }
 }

@@ -12,7 +12,7 @@ async function firstState(start: Start): Promise<State> {
   const linked = await fromHash(location.hash);
   if (linked) return linked;
   let model = new ModelText(start.text);
-  for (const [name, value] of Object.entries(start.values)) model = model.write(["parameters", name], value);
+  for (const [name, value] of Object.entries(start.values)) model = model.writeNumber(["parameters", name], value);
   return freshState(start.file.split("/").pop() ?? "model.yaml", model.text);
 }
 

@@ -1,6 +1,7 @@
 // The side of the page: what the curves mean, values to change, modes to choose, what the pose does.
 import type { Sketch, Zone } from "../data/answers";
-import { lengthWords, roundText, shortNumber } from "../data/exact";
+import { roundText } from "../data/exact";
+import { areaWords, lengthWords } from "../data/units";
 import type { Adjustable } from "../data/model_text";
 import { groupKey } from "../draw/loci";
 import { drawSketch, placesOf } from "../draw/mechanism";
@@ -24,7 +25,7 @@ export function readingPanel(bench: Workbench, stage: Stage): Panel {
       ? "The marks along the strip below are the loci: what lets go there stands in the legend. Drag the end effector, or along the strip."
       : `Point at a ${bench.coordinates.length === 3 ? "surface" : "curve"}: what lets go there, why, and its formula stand here. Drag the end effector, the joints on the ground, or the empty plane.`;
   const zoneWords = (zone: Zone): string =>
-    `${zone.id}: ${shortNumber(zone.area)} m², largest circle ${lengthWords(zone.inscribed_circle.radius)}${zone.certified ? ", proven" : ", not proven"}`;
+    `${zone.id}: ${areaWords(zone.area, bench.units)}, largest circle of radius ${lengthWords(zone.inscribed_circle.radius, bench.units)}${zone.certified ? ", proven" : ", not proven"}`;
   const show = (): void => {
     const { hovered } = stage;
     if (hovered?.curve) return replace(body, readingOf(bench.rules, hovered.curve));
@@ -53,7 +54,7 @@ export function legendPanel(bench: Workbench): Panel {
       return replace(notes);
     }
     const groups = [...picture.curve_groups, ...picture.point_groups, ...picture.surface_groups];
-    const now = JSON.stringify([groups.map((group) => [group.kind, group.what, groupKey(group)]), bench.state.hidden, bench.dark, picture.loci.notes, picture.loci.complete, bench.zonesFault]);
+    const now = JSON.stringify([groups.map((group) => [group.kind, group.what, groupKey(group)]), bench.state.hidden, bench.dark, picture.notes, picture.loci.complete, bench.zonesFault]);
     if (now === signature) return;
     signature = now;
     const rows = groups.map((group) => {
@@ -63,10 +64,10 @@ export function legendPanel(bench: Workbench): Panel {
       const why = "why" in group && group.why ? h("span", { class: "quiet" }, ` ${group.why}`) : undefined;
       return h("label", { class: "legend-row" }, box, legendSample(group, theme), h("span", {}, group.what, why));
     });
-    replace(body, ...rows);
+    replace(body, ...rows, ...picture.remarks.map((remark) => h("p", { class: "quiet" }, remark)));
     replace(
       notes,
-      ...notesInShort(picture.loci.notes).map((note) => h("p", {}, note)),
+      ...notesInShort(picture.notes).map((note) => h("p", {}, note)),
       picture.loci.complete ? undefined : h("p", { class: "fault" }, incompleteWords(picture.loci)),
       bench.zonesFault ? h("p", { class: "fault" }, `zones: ${bench.zonesFault}`) : undefined,
     );

@@ -1,4 +1,5 @@
 // Reactions and errors along the path of a task, or over the cycle of a linkage.
+import { smallUnit, unitOf } from "../data/units";
 import { h, replace, section } from "./dom";
 import type { Panel } from "./panels";
 import { Plot } from "./plot";
@@ -18,14 +19,15 @@ export function plotsPanel(bench: Workbench): Panel {
   let way: Way | undefined;
 
   const cycle = (): boolean => bench.coordinates.length === 1;
+  const inUnits = (one: Way | undefined): Way | undefined => one && { ...one, x: one.x.map((value) => value / bench.units.length.size), label: one.label.replace("(m)", `(${bench.units.length.name})`) };
   const wayNow = (): Way | undefined => {
     const [only] = bench.coordinates;
     if (cycle() && only) {
       const values = alongCycle(only.lower, only.upper, 360);
-      const factor = only.angle ? 180 / Math.PI : 1;
-      return { x: values.map((value) => value * factor), poses: values, label: `${only.name} (${only.angle ? "deg" : "m"})` };
+      const unit = unitOf(bench.units, only.angle);
+      return { x: values.map((value) => value / unit.size), poses: values, label: `${only.name} (${unit.name})` };
     }
-    return bench.overTwoLengths && bench.state.task ? alongPath(outline(bench.state.task.shape), steps) : undefined;
+    return bench.overTwoLengths && bench.state.task ? inUnits(alongPath(outline(bench.state.task.shape), steps)) : undefined;
   };
   const wanted = (): boolean => cycle() || (element.open && bench.state.task !== undefined);
   let asked = "";
@@ -54,8 +56,8 @@ export function plotsPanel(bench: Workbench): Panel {
     return [...joints];
   };
   const marks = (): number[] => {
-    const factor = bench.coordinates[0]?.angle ? 180 / Math.PI : 1;
-    return cycle() ? (bench.picture?.loci.isolated_points ?? []).filter((point) => point.kind !== "workspace-boundary").map((point) => (point.at[0] ?? 0) * factor) : [];
+    const { size } = unitOf(bench.units, bench.coordinates[0]?.angle ?? false);
+    return cycle() ? (bench.picture?.loci.isolated_points ?? []).filter((point) => point.kind !== "workspace-boundary").map((point) => (point.at[0] ?? 0) / size) : [];
   };
 
   const show = (): void => {
@@ -69,12 +71,14 @@ export function plotsPanel(bench: Workbench): Panel {
       const limit = 20 * (sizes[Math.floor(sizes.length / 2)] ?? 1) || Infinity; // near a singularity they grow without bound
       return values.map((value) => (value !== null && Math.abs(value) > limit ? null : value));
     };
-    forces.show({ xLabel: label, yLabel: "N", x, series: magnitudes().slice(0, 12).map(([joint, values]) => ({ label: joint, values: clipped(values) })), marks: marks() }, theme);
+    const inForce = (values: (number | null)[]): (number | null)[] => values.map((value) => (value === null ? null : value / bench.units.force.size));
+    const small = smallUnit(bench.units);
+    forces.show({ xLabel: label, yLabel: bench.units.force.name, x, series: magnitudes().slice(0, 12).map(([joint, values]) => ({ label: joint, values: inForce(clipped(values)) })), marks: marks() }, theme);
     const acting = Object.entries(sweep.answer.reactions).filter(([, column]) => column.quantity === "M" || column.quantity === "F");
     couples.element.hidden = acting.length === 0;
     if (acting.length > 0) couples.show({ xLabel: label, yLabel: acting[0]?.[1].unit ?? "", x, series: acting.map(([name, column]) => ({ label: name, values: clipped(column.values) })), marks: marks() }, theme);
     const names = bench.facts?.spatial ? ["dx", "dy", "dz"] : ["dx", "dy"];
-    errors.show({ xLabel: label, yLabel: "mm", x, series: names.map((name, k) => ({ label: name, values: clipped(sweep.answer.errors.map((error) => (error?.[k] === null || error?.[k] === undefined ? null : error[k] * 1e3))) })), marks: marks() }, theme);
+    errors.show({ xLabel: label, yLabel: small.name, x, series: names.map((name, k) => ({ label: name, values: clipped(sweep.answer.errors.map((error) => (error?.[k] === null || error?.[k] === undefined ? null : error[k] / small.size))) })), marks: marks() }, theme);
   };
   for (const plot of [forces, couples, errors]) {
     plot.onCursor = (at) => {

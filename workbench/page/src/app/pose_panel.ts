@@ -1,25 +1,31 @@
 // What the mechanism does in the pose: where it is, how far off, what each joint bears.
 import type { Pose } from "../data/answers";
 import { reactionName } from "../data/answers";
-import { lengthWords, parseExact, shortNumber, toNumber } from "../data/exact";
+import { parseExact, shortNumber, toNumber } from "../data/exact";
+import { lengthWords, turnWords, unitOf, type Unit, type Units } from "../data/units";
 import { h, replace, section } from "./dom";
 import type { Panel } from "./panels";
 import type { Stage } from "./stage";
 import type { Workbench } from "./workbench";
 
-function errorWords(pose: Pose): string {
+function errorWords(pose: Pose, units: Units): string {
   const error = pose.pose_error;
   if (!error) return `undefined: ${pose.vanishing.map(reactionName).join(", ")} vanish${pose.vanishing.length === 1 ? "es" : ""}`;
   return Object.entries(error)
-    .map(([name, value]) => `${name} ${name.startsWith("dalpha") ? `${shortNumber((value ?? NaN) * 1e3, 3)} mrad` : lengthWords(value)}`)
+    .map(([name, value]) => `${name} ${name.startsWith("dalpha") ? turnWords(value, units) : lengthWords(value, units)}`)
     .join(", ");
 }
 
-/** `largest`: of all reactions; what is nothing beside it is rounding. */
-function reactionCells(parts: Record<string, number | null>, largest: number): string {
+/** Of the components of a reaction: f, N and F are forces, m, M and T couples. */
+function isForce(name: string): boolean {
+  return !/^(m|M|T)/.test(name);
+}
+
+/** `largest`: of all reactions; what is nothing beside it is rounding. Forces in the file's unit, couples in N m. */
+function reactionCells(parts: Record<string, number | null>, largest: number, units: Units): string {
   const rounding = 1e-12 * largest;
   return Object.entries(parts)
-    .map(([name, value]) => `${name} ${shortNumber(value !== null && Math.abs(value) < rounding ? 0 : value)}`)
+    .map(([name, value]) => `${name} ${shortNumber(value === null ? null : (Math.abs(value) < rounding ? 0 : value) / (isForce(name) ? units.force.size : 1))}`)
     .join("  ");
 }
 
@@ -30,7 +36,8 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
   const table = h("table", { class: "reactions" });
   const inputs: HTMLInputElement[] = [];
 
-  const degrees = (k: number): number => (bench.coordinates[k]?.angle ? 180 / Math.PI : 1);
+  const unit = (k: number): Unit => unitOf(bench.units, bench.coordinates[k]?.angle ?? false);
+  let built = "";
   const build = (): void => {
     inputs.length = 0;
     replace(
@@ -44,7 +51,7 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
             fault.textContent = `'${input.value}' is no number; write one such as 0.25 or 7/20`;
             return;
           }
-          at[k] = toNumber(exact) / degrees(k);
+          at[k] = Number((toNumber(exact) * unit(k).size).toPrecision(15));
           bench.change({ at });
         });
         const slider = h("input", { type: "range", min: coordinate.lower, max: coordinate.upper, step: "any", "aria-label": `${coordinate.name} of the pose`, class: "pose-slider" });
@@ -55,27 +62,29 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
         });
         slider.addEventListener("change", () => bench.history.endGesture());
         inputs.push(input, slider);
-        return h("label", { class: "value-row" }, h("span", { class: "value-name" }, coordinate.name), slider, input, h("span", { class: "unit" }, coordinate.angle ? "deg" : "m"));
+        return h("label", { class: "value-row" }, h("span", { class: "value-name" }, coordinate.name), slider, input, h("span", { class: "unit" }, unit(k).name));
       }),
     );
   };
 
   const update = (): void => {
     const { pose, state } = bench;
-    if (inputs.length !== 2 * bench.coordinates.length) build();
+    const signature = JSON.stringify([bench.coordinates, bench.units]);
+    if (signature !== built) build();
+    built = signature;
     bench.coordinates.forEach((_, k) => {
       const [input, slider] = [inputs[2 * k], inputs[2 * k + 1]];
       const value = state.at?.[k];
       if (value === undefined || !input || !slider) return;
-      if (document.activeElement !== input) input.value = String(Number((value * degrees(k)).toPrecision(7)));
+      if (document.activeElement !== input) input.value = String(Number((value / unit(k).size).toPrecision(7)));
       slider.value = String(value);
     });
     fault.textContent = bench.poseFault ?? "";
     if (!pose) return;
     const worst = pose.worst_case["dp"];
     const shown: [string, string][] = [
-      ["pose error", errorWords(pose)],
-      ["at worst, any load", lengthWords(worst)],
+      ["pose error", errorWords(pose, bench.units)],
+      ["at worst, any load", lengthWords(worst, bench.units)],
       ["|A|", `${shortNumber(pose.determinant)}${pose.singular ? ": singular" : ""}`],
       ["condition", shortNumber(pose.condition)],
     ];
@@ -85,7 +94,7 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
     const lost = new Set(pose.vanishing.map((one) => one.joint));
     replace(
       table,
-      h("tbody", {}, ...Object.entries(pose.reactions).map(([joint, parts]) => h("tr", lost.has(joint) ? { class: "lost" } : {}, h("th", { scope: "row" }, joint), h("td", {}, reactionCells(parts, largest), lost.has(joint) ? " — lets go" : "")))),
+      h("tbody", {}, ...Object.entries(pose.reactions).map(([joint, parts]) => h("tr", lost.has(joint) ? { class: "lost" } : {}, h("th", { scope: "row" }, joint), h("td", {}, reactionCells(parts, largest, bench.units), lost.has(joint) ? " — lets go" : "")))),
     );
   };
   return {

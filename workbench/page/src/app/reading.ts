@@ -4,7 +4,7 @@ import { reactionName } from "../data/answers";
 import { toLatex } from "../data/exact";
 import { h } from "./dom";
 
-export type Readable = Pick<Curve, "kind" | "vanishing"> & Partial<Pick<Curve, "cause" | "factor" | "implicit" | "certified">>;
+export type Readable = Pick<Curve, "kind" | "vanishing"> & Partial<Pick<Curve, "id" | "cause" | "factor" | "implicit" | "certified">>;
 
 export function readingOf(rules: Rules, one: Readable): HTMLElement {
   const kind = rules.kinds.find((own) => own.kind === one.kind);
@@ -14,7 +14,7 @@ export function readingOf(rules: Rules, one: Readable): HTMLElement {
   return h(
     "div",
     { class: "curve-reading" },
-    h("p", {}, h("strong", {}, names ? `${names} = 0` : kind?.words ?? one.kind), names ? ` — ${kind?.words ?? one.kind}` : ""),
+    h("p", {}, one.id ? `${one.id}: ` : "", h("strong", {}, names ? `${names} = 0` : kind?.words ?? one.kind), names ? ` — ${kind?.words ?? one.kind}` : ""),
     one.cause ? h("p", {}, one.cause) : undefined,
     h("p", { class: "quiet" }, kind?.happens ?? ""),
     formula ? h("p", {}, `degree ${one.implicit?.degree}${one.certified ? ", proven" : ", not proven"}`) : undefined,

@@ -1,5 +1,6 @@
 // The stage of three coordinates.
-import { roundText } from "../data/exact";
+import { roundText, shortNumber } from "../data/exact";
+import { unitOf } from "../data/units";
 import { ticks, tickText } from "../draw/view";
 import type { Axis } from "../space/axes";
 import { h, replace } from "./dom";
@@ -77,7 +78,8 @@ export class SpaceStage implements Panel {
     this.slider.min = String(range?.lower ?? 0);
     this.slider.max = String(range?.upper ?? 1);
     this.slider.value = String(slice.at);
-    this.words.textContent = `${range?.name ?? ""} = ${range?.angle ? `${((slice.at * 180) / Math.PI).toFixed(1)} deg` : `${slice.at.toFixed(4)} m`}`;
+    const unit = unitOf(bench.units, range?.angle ?? false);
+    this.words.textContent = `${range?.name ?? ""} = ${shortNumber(slice.at / unit.size)} ${unit.name}`;
     if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice, this.axes());
     scene?.showPose(bench.state.at, this.bars());
     const shape = bench.state.task?.shape;
@@ -87,11 +89,10 @@ export class SpaceStage implements Panel {
 
   /** Of about four numbers each. */
   private axes(): Axis[] {
-    return this.bench.coordinates.map(({ name, lower, upper, angle }) => ({
-      name,
-      unit: angle ? "deg" : "m",
-      ticks: ticks(lower, upper, 4 / (upper - lower), 1, angle).map((at) => ({ at, text: tickText(at, angle) })),
-    }));
+    return this.bench.coordinates.map(({ name, lower, upper, angle }) => {
+      const unit = unitOf(this.bench.units, angle);
+      return { name, unit: unit.name, ticks: ticks(lower, upper, 4 / (upper - lower), 1, unit).map((at) => ({ at, text: tickText(at, unit) })) };
+    });
   }
 
   /** The links, where the coordinates are the end effector's place in space. */

@@ -1,6 +1,7 @@
 // The plane on which one designs: loci and zones below, the mechanism and the task above, all of it moved by hand.
 import type { Curve, Point, Sketch } from "../data/answers";
 import { parseExact, roundText } from "../data/exact";
+import { unitOf } from "../data/units";
 import type { ValuePath } from "../data/model_text";
 import { drawBox, drawGrid, type AxisNames } from "../draw/axes";
 import { drawCurves, drawPoints, drawWorkspace, drawZoneNames, drawZones, shownOf, type Shown } from "../draw/loci";
@@ -161,7 +162,7 @@ export class Stage {
     const names = bench.picture.loci.coordinates;
     const axes: AxisNames = {
       names: this.cycle ? ["x", "y"] : [names[0] ?? "x", names[1] ?? "y"],
-      angles: this.angles,
+      units: [unitOf(bench.units, this.angles[0]), unitOf(bench.units, this.angles[1])],
     };
     if (this.cycle) {
       drawGrid(context, view, this.size, axes, theme);
@@ -185,7 +186,7 @@ export class Stage {
     const { view, bench } = this;
     if (!view || !this.active) return;
     const { theme, state, pose } = bench;
-    if (state.task && !this.cycle) drawTask(context, view, state.task, bench.verdict, theme, bench.model.metres ?? 1);
+    if (state.task && !this.cycle) drawTask(context, view, state.task, bench.verdict, theme, bench.model.metres);
     const sketch = this.sketch;
     if (sketch) {
       context.globalAlpha = bench.poseFault ? 0.45 : 1;
@@ -292,7 +293,8 @@ export class Stage {
 
   /** Round decimals no coarser than a pixel. */
   private onGrid(value: number): number {
-    return Number(roundText(value, 1 / (this.view?.scale[0] ?? 1)));
+    const { metres } = this.bench.model; // round in the file's unit
+    return Number((Number(roundText(value / metres, 1 / metres / (this.view?.scale[0] ?? 1))) * metres).toPrecision(12));
   }
 
   /** The next drag on the empty plane draws a task of this kind; none: it moves the plane again. */
@@ -359,7 +361,7 @@ export class Stage {
     const { bench } = this;
     const point = bench.model.basePoints.find((one) => one.name === name);
     const metres = bench.model.metres;
-    if (!point || metres === undefined) return;
+    if (!point) return;
     let model = bench.model;
     this.slots(point.path).forEach((slot, axis) => {
       if (slot) model = model.write(slot, roundText(to[axis as 0 | 1] / metres, 1 / metres / (this.view?.scale[0] ?? 1)));

@@ -1,5 +1,6 @@
 // The numbers of a task's shape, to read and to type: of one that was drawn, and of one that a fit has moved.
 import { parseExact, toNumber } from "../data/exact";
+import { unitOf, type Unit } from "../data/units";
 import { h, replace } from "./dom";
 import type { TaskShape } from "./state";
 import type { Workbench } from "./workbench";
@@ -57,7 +58,7 @@ export function showNumbers(parent: HTMLElement, bench: Workbench): void {
   if (!shape) return replace(parent);
   if (parent.contains(document.activeElement)) return;
   const names = bench.coordinates.map((one) => one.name);
-  const unit = (axis: number | undefined): { size: number; name: string } => (axis !== undefined && bench.coordinates[axis]?.angle ? { size: Math.PI / 180, name: "deg" } : { size: 1, name: "m" });
+  const unit = (axis: number | undefined): Unit => unitOf(bench.units, axis !== undefined && (bench.coordinates[axis]?.angle ?? false));
   const field = (row: number, column: number, entry: Entry): HTMLInputElement => {
     const { size } = unit(entry.axis);
     const input = h("input", { type: "text", class: "exact", "aria-label": entry.label, autocomplete: "off", value: String(Number((entry.value / size).toPrecision(7))) });

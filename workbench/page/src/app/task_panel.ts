@@ -1,6 +1,7 @@
 // A task: drawn, dragged, verified while it moves, moved to where it fits.
 import type { Verdict } from "../data/answers";
-import { lengthWords, shortNumber } from "../data/exact";
+import { shortNumber } from "../data/exact";
+import { lengthWords, placeWords, type Units } from "../data/units";
 import { ask, AskingError } from "./asking";
 import { download, h, replace, section } from "./dom";
 import type { Panel } from "./panels";
@@ -10,26 +11,22 @@ import { showNumbers } from "./task_numbers";
 import { movedShape } from "./task_text";
 import type { Workbench } from "./workbench";
 
-function placeWords(at: readonly number[], bench: Workbench): string {
-  return at.map((value, k) => (bench.coordinates[k]?.angle ? `${shortNumber((value * 180) / Math.PI)} deg` : shortNumber(value))).join(", ");
-}
-
 function verdictWords(verdict: Verdict, bench: Workbench): string {
   switch (verdict.verdict) {
     case "verified":
-      return `Verified: no locus, singularity or boundary in the task, proven.${marginWords(verdict)}`;
+      return `Verified: no locus, singularity or boundary in the task, proven.${marginWords(verdict, bench.units)}`;
     case "refuted":
-      return `Refuted: ${verdict.witness?.reason ?? "it fails"} at (${placeWords(verdict.witness?.at ?? [], bench)}).`;
+      return `Refuted: ${verdict.reason_shown ?? verdict.witness?.reason ?? "it fails"} at ${placeWords(verdict.witness?.at ?? [], bench.coordinates.map((one) => one.angle), bench.units)}.`;
     default:
       return `Undecided: neither proven nor refuted; ${verdict.open?.reason ?? ""}.`;
   }
 }
 
 /** Of lengths and of angles, as far as the task has them. */
-function marginWords(verdict: Verdict): string {
+function marginWords(verdict: Verdict, units: Units): string {
   const margins = [
-    ...(typeof verdict.margin === "number" ? [lengthWords(verdict.margin)] : []),
-    ...(typeof verdict.angle_margin === "number" ? [`${shortNumber((verdict.angle_margin * 180) / Math.PI)} deg`] : []),
+    ...(typeof verdict.margin === "number" ? [lengthWords(verdict.margin, units)] : []),
+    ...(typeof verdict.angle_margin === "number" ? [`${shortNumber(verdict.angle_margin / units.angle.size)} ${units.angle.name}`] : []),
   ];
   return margins.length > 0 ? ` Margin at least ${margins.join(" and ")}.` : "";
 }
@@ -47,7 +44,8 @@ function firstShape(kind: TaskShape["kind"], bench: Workbench): TaskShape {
   const sizes = [x, y].map((one) => 0.08 * ((one?.upper ?? 1) - (one?.lower ?? 0)));
   const least = Math.min(...sizes);
   const size = (axis: 0 | 1): number => (bench.overTwoLengths ? least : sizes[axis] ?? least);
-  const round = (value: number): number => Number(value.toPrecision(3));
+  const { metres } = bench.model; // round in the file's unit
+  const round = (value: number): number => Number((Number((value / metres).toPrecision(3)) * metres).toPrecision(12));
   const place = (dx: number, dy: number): [number, number] => [round((at[0] ?? 0) + dx * size(0)), round((at[1] ?? 0) + dy * size(1))];
   switch (kind) {
     case "box":

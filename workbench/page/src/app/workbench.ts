@@ -5,6 +5,7 @@ import { toHash } from "./address";
 import { ask, AskingError, Following, type Fault } from "./asking";
 import { History, type State, type TaskState } from "./state";
 import { taskText } from "./task_text";
+import type { Units } from "../data/units";
 
 /** An error beside the field that caused it; without one, above the picture. */
 export interface ShownFault {
@@ -84,6 +85,9 @@ export class Workbench {
   get inPlace(): boolean {
     return this.facts?.pose_is_place ?? false;
   }
+  get units(): Units {
+    return this.model.units;
+  }
   /** A task as its file says it. */
   taskFile(task: TaskState): string {
     return taskText(task, { names: this.model.coordinateNames, angles: this.coordinates.map((one) => one.angle), unit: this.model.taskUnit });
@@ -149,7 +153,7 @@ export class Workbench {
 
   setValue(id: string, value: string, gesture?: string): void {
     const one = this.adjustable(id);
-    if (one && value.trim() !== "") this.change({ text: this.model.write(one.path, value.trim()).text }, gesture, id);
+    if (one && value.trim() !== "") this.change({ text: this.model.writeNumber(one.path, value.trim()).text }, gesture, id);
   }
 
   /** Asks for everything anew. */

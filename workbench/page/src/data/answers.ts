@@ -1,5 +1,7 @@
 // What the server answers, as docs/results.md and report/viewer.hpp say.
 
+import type { Units } from "./units";
+
 export type Point = [number, number];
 
 export interface Vanishing {
@@ -60,7 +62,7 @@ export interface Loci {
 }
 
 /** "singularity", "boundary", or a place among a theme's curves. */
-export type ColourRole = number | "singularity" | "boundary";
+export type ColourRole = number | "singularity" | "boundary" | "margin";
 
 export interface CurveGroup {
   kind: string;
@@ -102,9 +104,17 @@ export interface Mesh {
 export interface Picture {
   loci: Loci;
   curve_groups: CurveGroup[];
+  /** Reasons that several of them share. */
+  remarks: string[];
   point_groups: PointGroup[];
   surface_groups: SurfaceGroup[];
   meshes: Mesh[];
+  /** Those of the mechanism file, and the notes in them. */
+  units: Units;
+  notes: string[];
+  parameters: { name: string; value: string }[];
+  /** Of all modes; none where the page shows none. */
+  zones: (Zone & { working_mode: ModeNames })[];
   sketches: { working_mode: ModeNames; sketch: Sketch }[];
 }
 
@@ -115,6 +125,8 @@ export interface Sketch {
   loads: { at: Point; force: Point; couple: number }[];
   springs?: { from: Point; to: Point; torsion: boolean }[];
   gravity: Point;
+  /** The end effector's point. */
+  end_effector?: { name: string; at: Point };
 }
 
 export interface Theme {
@@ -203,6 +215,8 @@ export interface Verdict {
   angle_margin?: number | null;
   nearest: { curve: string | null; kind: string; joints: string[]; at: number[]; distance: number } | null;
   witness: { at: number[]; reason: string; distance: number; design?: Record<string, number> } | null;
+  /** The witness's reason in the units of the file. */
+  reason_shown?: string;
   open: { reason: string; cells: number } | null;
   moved_by?: Point;
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { lengthWords, parseExact, roundText, shortNumber, toLatex, toNumber, toText } from "./exact";
+import { parseExact, roundText, shortNumber, toLatex, toNumber, toText } from "./exact";
 
 describe("exact numbers", () => {
   it.each([
@@ -36,10 +36,6 @@ describe("values the hand reaches", () => {
 });
 
 describe("words", () => {
-  it("chooses the unit in which a length is read", () => {
-    expect([2.8e-4, 1.2e-5, 0.03, 0.45, 0].map((value) => lengthWords(value))).toEqual(["280 µm", "12 µm", "30 mm", "0.45 m", "0 m"]);
-    expect(lengthWords(null)).toBe("unbounded");
-  });
   it("shortens numbers", () => {
     expect([1234.567, 0, 1e-9, -0.1].map((value) => shortNumber(value))).toEqual(["1235", "0", "1e-9", "-0.1"]);
   });

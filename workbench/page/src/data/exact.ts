@@ -67,16 +67,6 @@ export function shortNumber(value: number | null | undefined, digits = 4): strin
   return String(Number(value.toPrecision(digits)));
 }
 
-/** Of a length, in the unit in which it is read best: "0.28 mm", "12 µm", "0.45 m". */
-export function lengthWords(metres: number | null | undefined): string {
-  if (metres === null || metres === undefined || !Number.isFinite(metres)) return "unbounded";
-  const size = Math.abs(metres);
-  if (size === 0) return "0 m";
-  if (size < 1e-3) return `${shortNumber(metres * 1e6, 3)} µm`;
-  if (size < 0.1) return `${shortNumber(metres * 1e3, 3)} mm`;
-  return `${shortNumber(metres, 4)} m`;
-}
-
 /** "x^2 - 1/2*x*y" as LaTeX: "x^{2} - \frac{1}{2} x y". */
 export function toLatex(polynomial: string): string {
   return polynomial

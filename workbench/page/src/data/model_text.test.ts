@@ -19,6 +19,16 @@ describe("a mechanism file", () => {
     expect(model.write(["joints", "A1", "clearance", "radial"], "20e-6").text).toContain("clearance: {radial: 20e-6, angular: 0.5e-3}}");
     expect(model.write(["points", "A1", 0], "0.1").text).toContain("A1: [0.1, 0]");
   });
+  it("keeps the unit in which a value is written", () => {
+    const model = new ModelText("units: {length: mm}\nparameters:\n  k: 2 N/mm\n  turn: 30 deg\n  L: 200\n");
+    const row = (id: string): unknown => model.adjustables.find((one) => one.id === `parameters/${id}`);
+    expect(row("k")).toMatchObject({ text: "2", unit: "N/mm", value: 2 });
+    expect(row("L")).toMatchObject({ text: "200", unit: "", value: 200 });
+    expect(model.writeNumber(["parameters", "k"], "3").read(["parameters", "k"])).toBe("3 N/mm");
+    expect(model.writeNumber(["parameters", "turn"], "0.5 rad").read(["parameters", "turn"])).toBe("0.5 rad");
+    expect(model.writeNumber(["parameters", "L"], "7/20").read(["parameters", "L"])).toBe("7/20");
+    expect(model.units).toMatchObject({ declared: true, length: { name: "mm", size: 1e-3 }, angle: { name: "deg" } });
+  });
   it("keeps a wrong value one value", () => {
     const wrong = new ModelText(fiveBar).write(["loads", 0, "force", 0], "1, 2], x: [");
     expect(wrong.read(["loads", 0, "force", 0])).toBe("1, 2], x: [");
@@ -62,6 +72,6 @@ describe("a mechanism file", () => {
     const text = read(name);
     const model = new ModelText(text);
     expect(model.wrong).toBe(false);
-    for (const one of model.adjustables) expect(model.write(one.path, one.text).text).toBe(text);
+    for (const one of model.adjustables) expect(model.writeNumber(one.path, one.text).text).toBe(text);
   });
 });

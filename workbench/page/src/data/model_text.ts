@@ -1,6 +1,7 @@
 // The mechanism file as text whose values change in place: comments, order and spelling of all else stay as they are.
 import { isMap, isScalar, isSeq, parseDocument, type Document, type Node } from "yaml";
 import { parseExact, toNumber } from "./exact";
+import { unitsOf, type Units } from "./units";
 
 /** Where a value stands in the file. */
 export type ValuePath = (string | number)[];
@@ -12,7 +13,7 @@ export interface Adjustable {
   label: string;
   unit: string;
   group: "parameters" | "lengths" | "loads" | "springs" | "gravity" | "points" | "clearances";
-  /** As written. */
+  /** As written, without the unit. */
   text: string;
   /** Of a plain number; an expression is typed, not slid. */
   value: number | undefined;
@@ -53,6 +54,12 @@ export class ModelText {
     return new ModelText(this.text.slice(0, from) + written + this.text.slice(to));
   }
 
+  /** The same with a plain number in the unit in which the old value is written: 3 in the place of `2 N/mm` is `3 N/mm`. */
+  writeNumber(path: ValuePath, value: string): ModelText {
+    const unit = /^\s*[-+0-9.eE/]+\s+([A-Za-z][\w^*/ ]*?)\s*$/.exec(this.read(path) ?? "")?.[1];
+    return this.write(path, unit && parseExact(value) ? `${value} ${unit}` : value);
+  }
+
   /** The path of the value at a place of the file (from 1 on), if one of these stands there. */
   at(line: number, column: number, adjustables: Adjustable[]): Adjustable | undefined {
     const lines = this.text.split("\n");
@@ -90,9 +97,15 @@ export class ModelText {
     return this.read(["units", measure]) ?? { length: "m", angle: "rad", force: "N" }[measure];
   }
 
-  /** How many m the file's unit of length is; nothing where it is none of these. */
-  get metres(): number | undefined {
-    return { m: 1, dm: 0.1, cm: 0.01, mm: 1e-3, um: 1e-6, km: 1e3, in: 0.0254, ft: 0.3048 }[this.unit("length")];
+  /** What answers are shown in. */
+  get units(): Units {
+    const said = (key: string): string | undefined => this.read(["units", key]);
+    return unitsOf(this.node(["units"]) ? { length: said("length"), angle: said("angle"), force: said("force") } : undefined);
+  }
+
+  /** How many m the file's unit of length is. */
+  get metres(): number {
+    return this.units.length.size;
   }
 
   /** How tasks write their lengths, which are m on the page. */
@@ -120,9 +133,10 @@ export class ModelText {
     const add = (path: ValuePath, label: string, unit: string, group: Adjustable["group"]): void => {
       const text = this.read(path);
       if (text === undefined) return;
-      const exact = parseExact(text);
+      const [, number = text, own = ""] = /^\s*([-+0-9.eE/]+)\s+([A-Za-z][\w^*/ ]*?)\s*$/.exec(text) ?? [];
+      const exact = parseExact(number);
       const shown = { m: this.unit("length"), rad: this.unit("angle"), N: this.unit("force"), "N m": `${this.unit("force")} m` }[unit] ?? unit;
-      list.push({ id: path.join("/"), path, label, unit: shown, group, text, value: exact && toNumber(exact) });
+      list.push({ id: path.join("/"), path, label, unit: exact && own ? own : shown, group, text: exact && own ? number : text, value: exact && toNumber(exact) });
     };
     const addVector = (path: ValuePath, label: string, unit: string, group: Adjustable["group"]): void => {
       const node = this.node(path);

@@ -1,10 +1,11 @@
 // Grid, frame and numbers around the plane.
 import type { Theme } from "../data/answers";
+import type { Unit } from "../data/units";
 import { page, plane, ticks, tickText, type Box, type Size, type View } from "./view";
 
 export interface AxisNames {
   names: [string, string];
-  angles: [boolean, boolean];
+  units: [Unit, Unit];
 }
 
 export function drawGrid(context: CanvasRenderingContext2D, view: View, size: Size, axes: AxisNames, theme: Theme): void {
@@ -16,8 +17,8 @@ export function drawGrid(context: CanvasRenderingContext2D, view: View, size: Si
   context.lineWidth = 1;
   context.font = "11px system-ui, sans-serif";
   context.beginPath();
-  const xs = ticks(low[0], high[0], view.scale[0], 80, axes.angles[0]);
-  const ys = ticks(low[1], high[1], view.scale[1], 60, axes.angles[1]);
+  const xs = ticks(low[0], high[0], view.scale[0], 80, axes.units[0]);
+  const ys = ticks(low[1], high[1], view.scale[1], 60, axes.units[1]);
   for (const x of xs) {
     const at = Math.round(page(view, [x, 0])[0]) + 0.5;
     context.moveTo(at, 0);
@@ -31,16 +32,16 @@ export function drawGrid(context: CanvasRenderingContext2D, view: View, size: Si
   context.stroke();
   context.textAlign = "center";
   context.textBaseline = "bottom";
-  for (const x of xs) context.fillText(tickText(x, axes.angles[0]), page(view, [x, 0])[0], size.height - 3);
+  for (const x of xs) context.fillText(tickText(x, axes.units[0]), page(view, [x, 0])[0], size.height - 3);
   context.textAlign = "left";
   context.textBaseline = "middle";
   for (const y of ys) {
     const at = page(view, [0, y])[1];
-    if (at < size.height - 22 && at > 10) context.fillText(tickText(y, axes.angles[1]), 4, at);
+    if (at < size.height - 22 && at > 10) context.fillText(tickText(y, axes.units[1]), 4, at);
   }
   context.font = "italic 12px system-ui, sans-serif";
   context.fillStyle = theme.ink;
-  const unit = (axis: 0 | 1): string => `${axes.names[axis]} (${axes.angles[axis] ? "deg" : "m"})`;
+  const unit = (axis: 0 | 1): string => `${axes.names[axis]} (${axes.units[axis].name})`;
   context.textAlign = "right";
   context.textBaseline = "bottom";
   context.fillText(unit(0), size.width - 6, size.height - 18);

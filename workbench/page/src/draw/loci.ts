@@ -6,6 +6,7 @@ import { page, type View } from "./view";
 export function colourOf(theme: Theme, role: ColourRole): string {
   if (role === "singularity") return theme.singularity;
   if (role === "boundary") return theme.boundary;
+  if (role === "margin") return theme.failed;
   return theme.curves[role % theme.curves.length] ?? theme.ink;
 }
 

@@ -164,6 +164,12 @@ export function drawNames(context: CanvasRenderingContext2D, view: View, sketch:
     context.strokeText(names.join(", "), at[0] + 8, at[1] + below);
     context.fillText(names.join(", "), at[0] + 8, at[1] + below);
   }
+  const end = sketch.end_effector;
+  if (end && !sketch.joints.some((joint) => joint.at[0] === end.at[0] && joint.at[1] === end.at[1])) {
+    const at = page(view, end.at);
+    context.strokeText(end.name, at[0] + 8, at[1] - 8);
+    context.fillText(end.name, at[0] + 8, at[1] - 8);
+  }
   context.restore();
 }
 

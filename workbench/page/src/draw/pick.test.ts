@@ -27,8 +27,10 @@ describe("places", () => {
     expect(after[1]).toBeCloseTo(before[1], 12);
   });
   it("have round ticks, angles in degrees", () => {
-    expect(ticks(-1, 1, 100, 45, false)).toEqual([-1, -0.5, 0, 0.5, 1]);
-    expect(ticks(0, 2 * Math.PI, 60, 80, true).map((one) => Math.round((one * 180) / Math.PI))).toEqual([0, 90, 180, 270, 360]);
+    expect(ticks(-1, 1, 100, 45, { name: "m", size: 1 })).toEqual([-1, -0.5, 0, 0.5, 1]);
+    expect(ticks(0, 2 * Math.PI, 60, 80, { name: "deg", size: Math.PI / 180 }).map((one) => Math.round((one * 180) / Math.PI))).toEqual([0, 90, 180, 270, 360]);
+    const inch = { name: "in", size: 0.0254 };
+    expect(ticks(0, 0.127, 1000, 45, inch).map((one) => one / inch.size)).toEqual([0, 2, 4]);
   });
 });
 

@@ -1,5 +1,6 @@
 // Where a place of the plane stands on the canvas.
 import type { Point } from "../data/answers";
+import type { Unit } from "../data/units";
 
 export interface Size {
   width: number;
@@ -51,9 +52,10 @@ export function moved(view: View, by: Point): View {
   return { scale: view.scale, origin: [view.origin[0] + by[0], view.origin[1] + by[1]] };
 }
 
-/** Round values from low to high, some `apart` pixels from each other. Angles in rad are at round degrees. */
-export function ticks(low: number, high: number, scale: number, apart: number, angle: boolean): number[] {
-  const unit = angle ? Math.PI / 180 : 1;
+/** Values from low to high that are round in their unit, some `apart` pixels from each other; degrees at their own. */
+export function ticks(low: number, high: number, scale: number, apart: number, shown: Unit): number[] {
+  const unit = shown.size;
+  const angle = shown.name === "deg";
   const least = apart / scale / unit;
   const power = 10 ** Math.floor(Math.log10(least));
   const steps = angle && least > 1 ? [5, 10, 15, 30, 45, 90, 180, 360] : [power, 2 * power, 5 * power, 10 * power];
@@ -64,6 +66,6 @@ export function ticks(low: number, high: number, scale: number, apart: number, a
   return list;
 }
 
-export function tickText(value: number, angle: boolean): string {
-  return String(Number((angle ? (value * 180) / Math.PI : value).toPrecision(6)) + 0);
+export function tickText(value: number, shown: Unit): string {
+  return String(Number((value / shown.size).toPrecision(6)) + 0);
 }

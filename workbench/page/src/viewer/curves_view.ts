@@ -1,13 +1,15 @@
 // Loci over two coordinates: zoom by the wheel, move by dragging, point at curves.
 import { h, replace } from "../app/dom";
 import { readingOf } from "../app/reading";
-import { sameMode, type Curve, type Point } from "../data/answers";
+import { sameMode, type Curve, type Point, type Sketch } from "../data/answers";
 import { drawBox, drawGrid } from "../draw/axes";
-import { drawCurves, drawPoints, drawWorkspace, shownOf, type Shown } from "../draw/loci";
-import { drawLoads, drawNames, drawSketch, drawSprings } from "../draw/mechanism";
+import { drawCurves, drawPoints, drawWorkspace, drawZoneNames, drawZones, shownOf, type Shown } from "../draw/loci";
+import { drawLoads, drawNames, drawSketch, drawSprings, placesOf } from "../draw/mechanism";
 import { curveAt } from "../draw/pick";
 import { Layer } from "../draw/surface";
 import { fit, moved, zoomed, type Box, type Size, type View } from "../draw/view";
+import { unitOf } from "../data/units";
+import { zonesKey } from "./legend";
 import { themeOf, type LociView, type Settings } from "./view";
 
 export class CurvesView implements LociView {
@@ -57,10 +59,21 @@ export class CurvesView implements LociView {
     return [units?.[0] === "rad", units?.[1] === "rad"];
   }
 
+  private get sketch(): Sketch | undefined {
+    const { data, mode } = this.settings;
+    return data.sketches.find((one) => mode && sameMode(one.working_mode, mode))?.sketch;
+  }
+
   private showAll(): void {
     const [x, y] = this.settings.data.loci.box;
     if (!x || !y || this.size.width === 0) return;
     const box: Box = { low: [x[0], y[0]], high: [x[1], y[1]] };
+    // With the mechanism, where that does not make the loci small.
+    const places = this.sketch ? placesOf(this.sketch) : [];
+    const low: Point = [Math.min(box.low[0], ...places.map((at) => at[0])), Math.min(box.low[1], ...places.map((at) => at[1]))];
+    const high: Point = [Math.max(box.high[0], ...places.map((at) => at[0])), Math.max(box.high[1], ...places.map((at) => at[1]))];
+    const growth = Math.max(high[0] - low[0], high[1] - low[1]) / Math.max(x[1] - x[0], y[1] - y[0]);
+    if (growth <= 3) Object.assign(box, { low, high });
     this.change(fit(box, this.size, !this.angles.some(Boolean)));
   }
 
@@ -100,12 +113,15 @@ export class CurvesView implements LociView {
     if (!view || !x || !y) return;
     const [first, second] = data.loci.coordinates;
     drawWorkspace(context, view, this.shown.rings, theme);
-    drawGrid(context, view, this.size, { names: [first ?? "x", second ?? "y"], angles: this.angles }, theme);
+    const zones = hidden.has(zonesKey) ? [] : data.zones.filter((one) => !mode || sameMode(one.working_mode, mode));
+    drawZones(context, view, zones, theme, false);
+    drawGrid(context, view, this.size, { names: [first ?? "x", second ?? "y"], units: [unitOf(data.units, this.angles[0]), unitOf(data.units, this.angles[1])] }, theme);
     drawBox(context, view, { low: [x[0], y[0]], high: [x[1], y[1]] }, theme);
-    const sketch = data.sketches.find((one) => mode && sameMode(one.working_mode, mode))?.sketch;
+    const { sketch } = this;
     if (sketch) drawSketch(context, view, sketch, theme);
     drawCurves(context, view, this.shown, theme, { strength: 1, highlight: this.lit?.id });
     drawPoints(context, view, this.shown, theme);
+    drawZoneNames(context, view, zones, theme);
     if (sketch) {
       drawSprings(context, view, sketch, theme);
       drawLoads(context, view, sketch, theme);

@@ -4,9 +4,12 @@ import { legendSample } from "../app/legend_sample";
 import { groupKey } from "../draw/loci";
 import { themeOf, type Settings } from "./view";
 
+/** Under which zones are switched off. */
+export const zonesKey = "zones";
+
 export function legend(settings: Settings, refresh: () => void): HTMLElement[] {
   const { data, hidden } = settings;
-  return [...data.curve_groups, ...data.point_groups, ...data.surface_groups].map((group) => {
+  const rows: HTMLElement[] = [...data.curve_groups, ...data.point_groups, ...data.surface_groups].map((group) => {
     const key = groupKey(group);
     const box = h("input", { type: "checkbox", change: () => {
       if (box.checked) hidden.delete(key);
@@ -16,4 +19,14 @@ export function legend(settings: Settings, refresh: () => void): HTMLElement[] {
     box.checked = !hidden.has(key);
     return h("label", { class: "legend-row" }, box, legendSample(group, themeOf(settings)), h("span", {}, group.what, "why" in group && group.why ? h("span", { class: "quiet" }, ` ${group.why}`) : undefined));
   });
+  rows.push(...data.remarks.map((remark) => h("p", { class: "quiet" }, remark)));
+  if (data.zones.length === 0) return rows;
+  const zones = h("input", { type: "checkbox", change: () => {
+    if (zones.checked) hidden.delete(zonesKey);
+    else hidden.add(zonesKey);
+    refresh();
+  } });
+  zones.checked = !hidden.has(zonesKey);
+  const sample = h("span", { class: "zone-sample", "aria-hidden": "true" }, ...themeOf(settings).zones.slice(0, 3).map((colour) => h("span", { style: `background: ${colour}` })));
+  return [...rows, h("label", { class: "legend-row" }, zones, sample, h("span", {}, "zones, the largest first"))];
 }

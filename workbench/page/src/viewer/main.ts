@@ -4,6 +4,7 @@ import "./viewer.css";
 import type { Picture, Rules } from "../data/answers";
 import { h, replace } from "../app/dom";
 import { CurvesView } from "./curves_view";
+import { glossary } from "./glossary";
 import { legend } from "./legend";
 import { RangeView } from "./range_view";
 import { SurfacesView } from "./surfaces_view";
@@ -28,6 +29,7 @@ function main(): void {
     settings.mode = modes[Number(modeBox.value)];
     refresh();
   } }, ...modes.map((mode, k) => h("option", { value: k }, Object.entries(mode).map(([point, side]) => `${point} ${side}`).join(", ") || "the only one")));
+  const parameters = data.parameters.length > 0 ? h("details", { open: true }, h("summary", {}, "Parameters"), h("dl", { class: "parameters" }, ...data.parameters.flatMap((one) => [h("dt", {}, one.name), h("dd", {}, one.value)]))) : undefined;
   const theme = h("button", { type: "button", click: () => {
     settings.dark = !settings.dark;
     refresh();
@@ -35,7 +37,7 @@ function main(): void {
   replace(
     root,
     h("header", { class: "viewer-head" }, h("h1", {}, data.loci.mechanism), modes.length > 1 ? modeBox : undefined, theme),
-    h("div", { class: "viewer-body" }, view.element, h("aside", {}, reading, rows, h("div", { class: "quiet" }, ...data.loci.notes.map((note) => h("p", {}, note)), h("p", {}, view.hint)))),
+    h("div", { class: "viewer-body" }, view.element, h("aside", {}, reading, rows, parameters, glossary(), h("div", { class: "quiet" }, ...data.notes.map((note) => h("p", {}, note)), h("p", {}, view.hint)))),
   );
   refresh();
 }

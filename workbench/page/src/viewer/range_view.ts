@@ -5,6 +5,7 @@ import { sameMode, type IsolatedPoint } from "../data/answers";
 import { colourOf, drawMarker, groupKey } from "../draw/loci";
 import { Layer } from "../draw/surface";
 import { ticks, tickText, type Size } from "../draw/view";
+import { unitOf, type Unit } from "../data/units";
 import { themeOf, type LociView, type Settings } from "./view";
 
 const margin = 34;
@@ -58,6 +59,9 @@ export class RangeView implements LociView {
   private get angle(): boolean {
     return this.settings.data.loci.units?.[0] === "rad";
   }
+  private get unit(): Unit {
+    return unitOf(this.settings.data.units, this.angle);
+  }
   private value(x: number): number {
     return this.range[0] + ((x - margin) / (this.size.width - 2 * margin)) * (this.range[1] - this.range[0]);
   }
@@ -96,11 +100,11 @@ export class RangeView implements LociView {
     context.font = "11px system-ui, sans-serif";
     context.textAlign = "center";
     const scale = (this.size.width - 2 * margin) / (this.range[1] - this.range[0]);
-    for (const tick of ticks(this.range[0], this.range[1], scale, 64, this.angle)) {
+    for (const tick of ticks(this.range[0], this.range[1], scale, 64, this.unit)) {
       context.fillRect(this.x(tick), 20, 0.5, bottom - 20);
-      context.fillText(tickText(tick, this.angle), this.x(tick), bottom + 16);
+      context.fillText(tickText(tick, this.unit), this.x(tick), bottom + 16);
     }
-    context.fillText(`${data.loci.coordinates[0] ?? ""} (${this.angle ? "deg" : "m"})`, this.size.width / 2, bottom + 34);
+    context.fillText(`${data.loci.coordinates[0] ?? ""} (${this.unit.name})`, this.size.width / 2, bottom + 34);
     this.marks = [];
     groups.forEach((group, row) => {
       const y = 40 + (row + 0.5) * step;
