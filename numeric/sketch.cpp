@@ -206,6 +206,8 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
       result.springs.push_back({point_of(p, spring.from_point), point_of(p, spring.to_point), false});
   }
   result.gravity = in_plane(p.gravity);
+  const auto& end = m.points[static_cast<std::size_t>(m.end_effector_point)];
+  result.end_effector = core::SketchPoint{end.auxiliary ? "" : end.name, point_of(p, m.end_effector_point)};
   return result;
 }
 

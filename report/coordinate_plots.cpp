@@ -52,22 +52,21 @@ class ModePlots {
       panel.y_range = clipped_range(panel);
       plot.panels.push_back(std::move(panel));
     }
+    share_ranges(plot);
     if (plot.panels.size() > 3) plot.panel_height = 110;
     return plot;
   }
 
+  /// A panel for each thing that joints do, with a line a joint.
   Plot take_up() const {
     Plot plot = frame("take-up");
-    for (std::size_t j = 0; j < result_.joints.size(); ++j) {
-      const std::string& name = result_.joints[j];
-      add_take_up(plot, "beta_" + name, "β of " + name, {"β (deg)", 0}, static_cast<int>(j));
-      add_displacement(plot, name);
-      add_take_up(plot, "theta_" + name, "play of the drive " + name, angle_, static_cast<int>(j));
-      add_take_up(plot, "travel_" + name, "play of the drive " + name, small_length_, static_cast<int>(j));
-      add_take_up(plot, "normal_" + name, "across the guide " + name, small_length_, static_cast<int>(j));
-      add_take_up(plot, "tilt_" + name, "tilt in the guide " + name, angle_, static_cast<int>(j));
-    }
-    plot.panel_height = 80;
+    add_take_ups(plot, "beta_", "β (deg)", "β of ", {"β (deg)", 0});
+    for (const char axis : {'x', 'y', 'z'}) add_displacements(plot, axis);
+    add_take_ups(plot, "theta_", "play of the drive", "drive ", angle_);
+    add_take_ups(plot, "travel_", "play of the drive", "drive ", small_length_);
+    add_take_ups(plot, "normal_", "across the guide", "guide ", small_length_);
+    add_take_ups(plot, "tilt_", "tilt in the guide", "guide ", angle_);
+    plot.panel_height = plot.panels.size() > 1 ? 130 : 0;
     return plot;
   }
 
@@ -169,43 +168,51 @@ class ModePlots {
     }
   }
 
-  /// In space a panel for where a joint is pressed to, a line a component.
-  void add_displacement(Plot& plot, const std::string& joint) const {
-    if (!errors_.samples.has("d_" + joint + "_x")) return;
+  /// In space a panel a component of where joints are pressed to.
+  void add_displacements(Plot& plot, char axis) const {
     PlotPanel panel;
-    panel.y_label = small_length_.name;
-    double most = 0;
-    for (int c = 0; c < 3; ++c) {
-      const std::string axis(1, "xyz"[c]);
-      const std::vector<double>& values = errors_.samples.at("d_" + joint + "_" + axis);
-      panel.series.push_back({"d" + axis + " of " + joint, {line(at_, values, small_length_.per_si)}, c});
-      for (const double value : values)
-        if (std::isfinite(value)) most = std::max(most, small_length_.per_si * std::abs(value));
+    panel.y_label = fmt::format("d{} ({})", axis, small_length_.name);
+    for (std::size_t j = 0; j < result_.joints.size(); ++j) {
+      const std::string column = "d_" + result_.joints[j] + "_" + axis;
+      if (!errors_.samples.has(column)) continue;
+      panel.series.push_back({fmt::format("d{} of {}", axis, result_.joints[j]),
+                              {line(at_, errors_.samples.at(column), small_length_.per_si)},
+                              static_cast<int>(j)});
     }
-    panel.y_range = {-1.25 * most, 1.25 * most};
-    if (most <= rounding) panel.y_range = {-1, 1};
-    plot.panels.push_back(std::move(panel));
+    add_even(plot, std::move(panel));
   }
 
-  /// A panel where the joint has that take-up; a unit without size: an angle to be drawn in degrees.
-  void add_take_up(Plot& plot, const std::string& column, const std::string& label, const ShownUnit& unit,
-                   int number) const {
-    const double factor = unit.per_si;
-    if (!errors_.samples.has(column)) return;
-    const std::vector<double>& values = errors_.samples.at(column);
+  /// A panel where joints have that take-up; a unit without size: an angle to be drawn in degrees.
+  void add_take_ups(Plot& plot, const std::string& column, const std::string& what, const std::string& label,
+                    const ShownUnit& unit) const {
+    const bool direction = unit.per_si == 0;
     PlotPanel panel;
-    panel.y_label = unit.name;
-    panel.series.push_back({label, {factor == 0 ? angle_line(at_, values) : line(at_, values, factor)}, number});
-    if (factor == 0) {
+    panel.y_label = direction ? unit.name : what + " (" + unit.name + ")";
+    for (std::size_t j = 0; j < result_.joints.size(); ++j) {
+      const std::string& name = result_.joints[j];
+      if (!errors_.samples.has(column + name)) continue;
+      const std::vector<double>& values = errors_.samples.at(column + name);
+      panel.series.push_back(
+          {label + name, {direction ? angle_line(at_, values) : line(at_, values, unit.per_si)}, static_cast<int>(j)});
+    }
+    if (direction && !panel.series.empty()) {
       panel.degrees = true;
       panel.y_range = {-190, 190};
+      plot.panels.push_back(std::move(panel));
     } else {
-      double most = 0;
-      for (const double value : values)
-        if (std::isfinite(value)) most = std::max(most, factor * std::abs(value));
-      panel.y_range = {-1.25 * most, 1.25 * most};
-      if (most <= rounding) panel.y_range = {-1, 1};
+      add_even(plot, std::move(panel));
     }
+  }
+
+  /// As far up as down.
+  static void add_even(Plot& plot, PlotPanel panel) {
+    if (panel.series.empty()) return;
+    double most = 0;
+    for (const PlotSeries& series : panel.series)
+      for (const core::Polyline& points : series.lines)
+        for (const core::Point2& point : points)
+          if (std::isfinite(point[1])) most = std::max(most, std::abs(point[1]));
+    panel.y_range = most <= rounding ? std::array<double, 2>{-1, 1} : std::array<double, 2>{-1.25 * most, 1.25 * most};
     plot.panels.push_back(std::move(panel));
   }
 

@@ -1,12 +1,15 @@
 #include "report/drawing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "report/label_places.hpp"
 #include "report/mechanism_drawing.hpp"
 #include "report/pixel_image.hpp"
 #include "report/task_drawing.hpp"
+#include "report/wording.hpp"
 #include "report/zone_drawing.hpp"
 
 namespace clearloci::report {
@@ -166,6 +169,37 @@ void draw_loci(const Context& context, const Subject& subject, const Layout& lay
     apply(context, stroke);
     for (const auto* curve : group->curves) draw_curve(context, layout, *curve);
   }
+}
+
+/// Beside the curves, as far as there is room: the names that tables and answers have for them.
+void write_curve_ids(const Context& context, const Subject& subject, const Layout& layout, LabelPlaces& labels) {
+  constexpr Font font{7.5, false, false};
+  constexpr double aside = 7, most_covered = 0.15;  // pt; part of a label
+  constexpr std::array parts = {0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9};
+  for (const CurveGroup& group : subject.groups.curves)
+    for (const core::LocusCurve* const curve : group.curves) {
+      const auto longest = std::max_element(curve->arcs.begin(), curve->arcs.end(),
+                                            [](const auto& a, const auto& b) { return a.length < b.length; });
+      if (longest == curve->arcs.end() || longest->points.size() < 2) continue;
+      const core::Polyline& points = longest->points;
+      std::vector<Point2> places;
+      for (const double part : parts) {
+        const auto k =
+            std::min(points.size() - 2, static_cast<std::size_t>(part * static_cast<double>(points.size() - 1)));
+        const Point2 from = layout.page(points[k]), to = layout.page(points[k + 1]);
+        const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+        if (!(length > 0) || from[0] < layout.plot.x || from[0] > layout.plot.right() || from[1] < layout.plot.y ||
+            from[1] > layout.plot.bottom())
+          continue;
+        for (const double side : {aside, -aside})
+          places.push_back({(from[0] + to[0]) / 2 - side * (to[1] - from[1]) / length,
+                            (from[1] + to[1]) / 2 + side * (to[0] - from[0]) / length});
+      }
+      const std::string id = printable(curve->id);
+      const auto at = labels.take_free(places, text_width(id, font) + 3, font.size + 1, most_covered);
+      if (at)
+        write_over_lines(context, id, (*at)[0], (*at)[1] + 0.36 * font.size, font, group.stroke.colour, Align::centre);
+    }
 }
 
 void draw_isolated_points(const Context& context, const Subject& subject, const Layout& layout) {
@@ -331,9 +365,12 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   draw_loci(context, subject, layout);
   draw_isolated_points(context, subject, layout);
   draw_open_places(context, subject, layout);
-  if (subject.sketch != nullptr) draw_joints_and_loads(context, layout, *subject.sketch, legend_reasons(layout));
-  if (subject.zones != nullptr && subject.task == nullptr) draw_zone_numbers(context, subject, layout);
-  if (subject.task != nullptr) draw_task(context, *subject.task, layout);
+  LabelPlaces labels(layout.plot);
+  if (subject.sketch != nullptr)
+    draw_joints_and_loads(context, layout, *subject.sketch, legend_reasons(layout), labels);
+  if (subject.task != nullptr) draw_task(context, *subject.task, layout, labels);
+  if (subject.zones != nullptr) draw_zone_numbers(context, subject, layout, labels);
+  write_curve_ids(context, subject, layout, labels);
   context->restore();
 
   draw_axes(context, layout);

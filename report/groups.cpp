@@ -1,6 +1,7 @@
 #include "report/groups.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "report/wording.hpp"
 
@@ -23,12 +24,14 @@ Stroke reaction_stroke(core::LocusKind kind, int within_kind, int number) {
   switch (kind) {
     case core::LocusKind::contact_loss:
       return {colour, 2.2, pick(contact_loss), false};
+    case core::LocusKind::margin:
+      return {light_theme.failed, 1.1, pick(margin), false};
     case core::LocusKind::backlash:
       return {colour, 2.6, pick(backlash), true};
     case core::LocusKind::component:
       return {colour, 1.2, pick(component), true};
     default:
-      return {colour, 1.1, pick(margin), false};
+      return {colour, 1.1, {}, false};
   }
 }
 
@@ -43,8 +46,8 @@ bool same_reactions(const std::vector<core::Vanishing>& a, const std::vector<cor
 }
 
 /// A factor of many terms is no reading for a legend.
-std::string reason_of(const core::LocusCurve& curve) {
-  constexpr int readable = 44;
+std::string reason_of(const core::LocusMap& map, const core::LocusCurve& curve) {
+  const int readable = readable_factor(map, 44);
   const bool short_factor = curve.cause.empty() && reads_well(curve.factor, readable);
   return reason_words(curve.kind, curve.vanishing, curve.factor, curve.cause, readable) + (short_factor ? " = 0" : "");
 }
@@ -55,24 +58,23 @@ std::string what_words(const core::LocusCurve& curve) {
   return what.empty() || !is_reaction(curve.kind) ? kind_words(curve.kind) : what;
 }
 
-void add_curve(Groups& groups, const core::LocusCurve& curve) {
+/// Curves of which the legend says the same are one group: those of one reason, or of reasons without a reading.
+void add_curve(Groups& groups, const core::LocusMap& map, const core::LocusCurve& curve) {
   const bool reaction = is_reaction(curve.kind);
-  const std::string reason = !reaction ? "" : curve.cause.empty() ? curve.factor : curve.cause;
+  const std::string what = what_words(curve), why = reaction ? reason_of(map, curve) : "";
   const auto same = [&](const CurveGroup& group) {
     return group.kind == curve.kind && group.excited == curve.excited &&
-           (!reaction || (group.reason == reason && same_reactions(group.vanishing, curve.vanishing)));
+           (!reaction || (group.what == what && group.why == why && same_reactions(group.vanishing, curve.vanishing)));
   };
   auto group = std::find_if(groups.curves.begin(), groups.curves.end(), same);
   if (group == groups.curves.end()) {
     CurveGroup fresh;
     fresh.kind = curve.kind;
     fresh.excited = curve.excited;
-    fresh.reason = reason;
-    fresh.what = what_words(curve);
-    if (reaction) {
-      fresh.vanishing = curve.vanishing;
-      fresh.why = reason_of(curve);
-    }
+    fresh.reason = !reaction ? "" : curve.cause.empty() ? curve.factor : curve.cause;
+    fresh.what = what;
+    fresh.why = why;
+    if (reaction) fresh.vanishing = curve.vanishing;
     group = groups.curves.insert(groups.curves.end(), std::move(fresh));
   }
   group->curves.push_back(&curve);
@@ -113,22 +115,72 @@ void choose_strokes(Groups& groups) {
   }
 }
 
+bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// The sentence with "it" in the place of the joint's name.
+std::string of_it(std::string sentence, const std::string& joint) {
+  for (std::size_t at = sentence.find(joint); !joint.empty() && at != std::string::npos;
+       at = sentence.find(joint, at)) {
+    const std::size_t end = at + joint.size();
+    const bool word =
+        (at == 0 || !is_letter(sentence[at - 1])) && (end == sentence.size() || !is_letter(sentence[end]));
+    if (word) sentence.replace(at, joint.size(), "it");
+    at += word ? 2 : joint.size();
+  }
+  return sentence;
+}
+
+/// What the reasons of several groups have in common, said once: "the loads do no work in the motion that it alone
+/// drives".
+void tell_common_reasons(Groups& groups) {
+  std::vector<std::pair<std::string, std::vector<CurveGroup*>>> sentences;
+  for (CurveGroup& group : groups.curves)
+    for (const core::Vanishing& one : group.vanishing) {
+      const std::string common = of_it(group.why, one.joint);
+      if (common == group.why) continue;
+      const auto known =
+          std::find_if(sentences.begin(), sentences.end(), [&](const auto& own) { return own.first == common; });
+      if (known == sentences.end())
+        sentences.push_back({common, {&group}});
+      else if (known->second.back() != &group)
+        known->second.push_back(&group);
+    }
+  for (const auto& [common, members] : sentences) {
+    if (members.size() < 2) continue;
+    groups.remarks.push_back("each: " + common);
+    for (CurveGroup* const group : members) group->why.clear();
+  }
+}
+
 }  // namespace
 
 Colour palette_colour(int number) { return palette[static_cast<std::size_t>(number) % palette.size()]; }
 
+std::string ids_of(const CurveGroup& group) {
+  constexpr std::size_t told = 4;
+  const std::size_t count = group.curves.size();
+  std::string words;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (count > told && i > 1 && i + 1 < count) continue;
+    words += (i == 0 ? "" : count > told && i + 1 == count ? ", …, " : ", ") + printable(group.curves[i]->id);
+  }
+  return words;
+}
+
 Groups group_loci(const core::LocusMap& map) {
   Groups groups;
-  for (const auto& curve : map.curves) add_curve(groups, curve);
+  for (const auto& curve : map.curves) add_curve(groups, map, curve);
   for (const auto& point : map.isolated_points) add_point(groups, point);
   std::stable_sort(groups.curves.begin(), groups.curves.end(),
                    [](const CurveGroup& a, const CurveGroup& b) { return a.kind < b.kind; });
   choose_strokes(groups);
+  tell_common_reasons(groups);
   return groups;
 }
 
 Groups groups_of_mode(const Groups& groups, const core::WorkingMode& mode) {
   Groups chosen;
+  chosen.remarks = groups.remarks;
   for (CurveGroup group : groups.curves) {
     std::erase_if(group.curves, [&](const auto* curve) { return curve->mode != mode || curve->arcs.empty(); });
     if (!group.curves.empty()) chosen.curves.push_back(std::move(group));

@@ -54,7 +54,11 @@ struct PointGroup {
 struct Groups {
   std::vector<CurveGroup> curves;
   std::vector<PointGroup> points;
+  std::vector<std::string> remarks = {};  ///< reasons that several groups share
 };
+
+/// "c1, c4": the ids of a group's curves; of many the first and the last.
+std::string ids_of(const CurveGroup& group);
 
 /// The groups point into `map`, which must outlive them.
 Groups group_loci(const core::LocusMap& map);

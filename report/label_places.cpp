@@ -34,7 +34,8 @@ double LabelPlaces::cost(const Box& box) const {
   return covered;
 }
 
-core::Point2 LabelPlaces::take(const std::vector<core::Point2>& places, double width, double height) {
+std::pair<Box, double> LabelPlaces::cheapest(const std::vector<core::Point2>& places, double width,
+                                             double height) const {
   constexpr double worth_moving = 1;  // pt²: less is not seen
   Box best{};
   double least = HUGE_VAL;
@@ -48,8 +49,21 @@ core::Point2 LabelPlaces::take(const std::vector<core::Point2>& places, double w
       least = own;
     }
   }
+  return {best, least};
+}
+
+core::Point2 LabelPlaces::take(const std::vector<core::Point2>& places, double width, double height) {
+  const Box best = cheapest(places, width, height).first;
   occupy(best, 1);
   return {best.x + best.width / 2, best.y + best.height / 2};
+}
+
+std::optional<core::Point2> LabelPlaces::take_free(const std::vector<core::Point2>& places, double width, double height,
+                                                   double part) {
+  const auto [best, covered] = cheapest(places, width, height);
+  if (!(covered <= part * width * height)) return std::nullopt;
+  occupy(best, 1);
+  return core::Point2{best.x + best.width / 2, best.y + best.height / 2};
 }
 
 }  // namespace clearloci::report

@@ -3,6 +3,8 @@
 // Private to report/.
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/locus_map.hpp"
@@ -23,12 +25,17 @@ class LabelPlaces {
   /// It is occupied from then on.
   core::Point2 take(const std::vector<core::Point2>& places, double width, double height);
 
+  /// The same where no more than this part of the label would be covered; else nothing is taken.
+  std::optional<core::Point2> take_free(const std::vector<core::Point2>& places, double width, double height,
+                                        double part);
+
  private:
   struct Occupied {
     Box box;
     double weight;
   };
   double cost(const Box& box) const;
+  std::pair<Box, double> cheapest(const std::vector<core::Point2>& places, double width, double height) const;
 
   Box room_;
   std::vector<Occupied> occupied_;

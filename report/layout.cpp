@@ -112,7 +112,7 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
   const auto add = [&](SampleKind sample, const std::string& label, const std::string& reason = "") -> LegendEntry& {
     LegendEntry entry;
     entry.sample = sample;
-    entry.lines.push_back({label, false});
+    if (!label.empty()) entry.lines.push_back({label, false});
     if (!reason.empty()) entry.lines.push_back({reason, true});
     return entries.emplace_back(std::move(entry));
   };
@@ -121,13 +121,14 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
     add(SampleKind::colour_bar, layer.field->label + " (" + layer.scale.unit + ")", saturation_words(layer.scale));
   }
   for (const auto& group : subject.groups.curves) {
-    add(SampleKind::curve, group.what, group.why).stroke = group.stroke;
+    add(SampleKind::curve, group.what + " (" + ids_of(group) + ")", group.why).stroke = group.stroke;
   }
+  for (const std::string& remark : subject.groups.remarks) add(SampleKind::remark, "", remark);
   for (const auto& group : subject.groups.points) add(SampleKind::point, group.label).marker = group.marker;
   if (subject.task != nullptr) {
     const TaskMark& task = *subject.task;
     const std::string margin = task.margin > 0 ? " with its margin" : "";
-    add(SampleKind::task, task.verified ? "task, verified" + margin : "task, not verified");
+    add(SampleKind::task, (task.verified ? "task, verified" : "task, not verified") + margin);
     if (!task.points.empty())
       add(SampleKind::task_point, task.verified ? "nearest point of a locus" : "where the task fails");
   }
@@ -137,7 +138,7 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
       std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
     if (subject.zones != nullptr)
       add(SampleKind::zones, "zones, the largest first",
-          subject.task == nullptr ? "dashed: the largest circle inside" : "");
+          subject.task == nullptr ? "dashed: the largest circle inside" : "numbered as in the zones' table");
     else
       add(SampleKind::workspace, "workspace");
   }

@@ -40,6 +40,35 @@ void draw_bar(const Context& context, const std::vector<Point2>& path, double wi
   stroke(width_of_bar - 1.4, link_fill, 0.85);
 }
 
+/// The convex outline of some points, closed; of points in a line the way there and back.
+std::vector<Point2> outline_of(std::vector<Point2> points) {
+  std::sort(points.begin(), points.end());
+  const auto turns_right = [](const std::vector<Point2>& way, const Point2& next) {
+    const Point2 &a = way[way.size() - 2], &b = way.back();
+    return (b[0] - a[0]) * (next[1] - a[1]) - (b[1] - a[1]) * (next[0] - a[0]) <= 0;
+  };
+  std::vector<Point2> all;
+  for (int half = 0; half < 2; ++half) {
+    std::vector<Point2> way;
+    for (const Point2& point : points) {
+      while (way.size() > 1 && turns_right(way, point)) way.pop_back();
+      way.push_back(point);
+    }
+    all.insert(all.end(), way.begin(), way.end() - 1);
+    std::reverse(points.begin(), points.end());
+  }
+  if (!all.empty()) all.push_back(all.front());
+  return all;
+}
+
+/// A link of three points or more: the loci stay readable through it.
+void draw_plate(const Context& context, const std::vector<Point2>& points) {
+  for (const Point2& point : outline_of(points)) context->line_to(point[0], point[1]);
+  context->close_path();
+  set_colour(context, link_fill, 0.3);
+  context->fill();
+}
+
 /// A rail is a line under the slider, a telescopic leg a bar that grows thinner half way.
 void draw_slide(const Context& context, const Layout& layout, const core::SketchSlide& slide) {
   const Point2 from = layout.page(slide.from), to = layout.page(slide.to);
@@ -161,6 +190,21 @@ void write_label(const Context& context, const std::string& text, const Font& fo
   write_over_lines(context, text, middle[0], middle[1] + 0.36 * font.size, font, colour, Align::centre);
 }
 
+/// From a place to a label that is not beside it.
+void draw_leader(const Context& context, const Point2& at, const Point2& label, double half_width) {
+  constexpr double beside = 17, clear = pin_radius + 3;  // pt
+  const Point2 end = {std::clamp(at[0], label[0] - half_width, label[0] + half_width),
+                      label[1] + (at[1] > label[1] ? 5 : -5)};
+  const double length = std::hypot(end[0] - at[0], end[1] - at[1]);
+  if (length < beside) return;
+  context->unset_dash();
+  context->move_to(at[0] + clear * (end[0] - at[0]) / length, at[1] + clear * (end[1] - at[1]) / length);
+  context->line_to(end[0], end[1]);
+  context->set_line_width(0.5);
+  set_colour(context, outline, 0.6);
+  context->stroke();
+}
+
 /// Joints at one place share a label, written for the first of them.
 void write_joint_name(const Context& context, const Layout& layout, const core::Sketch& sketch,
                       const core::SketchJoint& joint, LabelPlaces& labels) {
@@ -173,11 +217,47 @@ void write_joint_name(const Context& context, const Layout& layout, const core::
   const Point2 at = layout.page(joint.at);
   const double width = text_width(name, name_font);
   std::vector<Point2> places;
-  for (const double distance : {joint.actuated ? 11.0 : 9.0, 18.0, 28.0})
+  for (const double distance : {joint.actuated ? 11.0 : 9.0, 18.0, 28.0, 42.0})
     for (const Point2& direction : name_directions(sketch, joint))
       places.push_back({at[0] + direction[0] * (distance + width / 2 * std::abs(direction[0])),
                         at[1] - direction[1] * (distance + 2)});
-  write_label(context, name, name_font, outline, places, labels);
+  const Point2 middle = place_of(name, name_font, places, labels);
+  draw_leader(context, at, middle, width / 2);
+  write_over_lines(context, name, middle[0], middle[1] + 0.36 * name_font.size, name_font, outline, Align::centre);
+}
+
+/// A cross on a ring at the end effector's point, with its name where no joint there has written one.
+void write_end_effector(const Context& context, const Layout& layout, const core::Sketch& sketch, LabelPlaces& labels) {
+  if (!sketch.end_effector) return;
+  const core::SketchPoint& end = *sketch.end_effector;
+  const Point2 at = layout.page(end.at);
+  const bool on_joint = std::any_of(sketch.joints.begin(), sketch.joints.end(),
+                                    [&](const core::SketchJoint& joint) { return joint.at == end.at; });
+  if (on_joint) return;
+  constexpr double radius = 3, reach = 5.5;
+  context->unset_dash();
+  context->set_line_width(1.1);
+  set_colour(context, outline);
+  context->begin_new_sub_path();
+  context->arc(at[0], at[1], radius, 0, full_turn);
+  for (const Point2& way : {Point2{1, 0}, Point2{0, 1}}) {
+    context->move_to(at[0] - reach * way[0], at[1] - reach * way[1]);
+    context->line_to(at[0] + reach * way[0], at[1] + reach * way[1]);
+  }
+  context->stroke();
+  labels.occupy({at[0] - reach, at[1] - reach, 2 * reach, 2 * reach}, 0.6);
+  const std::string name = printable(end.name);
+  if (name.empty()) return;
+  const double width = text_width(name, name_font);
+  std::vector<Point2> places;
+  for (const double distance : {10.0, 18.0, 28.0})
+    for (int k = 0; k < 16; ++k) {
+      const Point2 way = {std::cos(full_turn * k / 16), std::sin(full_turn * k / 16)};
+      places.push_back({at[0] + way[0] * (distance + width / 2 * std::abs(way[0])), at[1] - way[1] * (distance + 2)});
+    }
+  const Point2 middle = place_of(name, name_font, places, labels);
+  draw_leader(context, at, middle, width / 2);
+  write_over_lines(context, name, middle[0], middle[1] + 0.36 * name_font.size, name_font, outline, Align::centre);
 }
 
 constexpr double couple_radius = 15;
@@ -249,6 +329,11 @@ void write_force(const Context& context, const core::SketchLoad& load, const Arr
       const Point2 across = {-side * unit[1], side * unit[0]};
       places.push_back({other[0] + part * length * unit[0] + across[0] * (half_width + 5),
                         other[1] + part * length * unit[1] + across[1] * (half_height + 5)});
+    }
+  for (const double away : {1.0, 1.8})
+    for (int k = 0; k < 12; ++k) {
+      const Point2 way = {std::cos(full_turn * k / 12), std::sin(full_turn * k / 12)};
+      places.push_back({end[0] + way[0] * away * (half_width + 8), end[1] + way[1] * away * (half_height + 8)});
     }
   write_label(context, words, load_font, load_colour, places, labels);
 }
@@ -343,9 +428,8 @@ void draw_links(const Context& context, const Layout& layout, const core::Sketch
   for (const auto& link : sketch.links) {
     std::vector<Point2> path;
     for (const auto& point : link.points) path.push_back(layout.page(point));
-    // A link of three points or more is a plate: its outline closes.
-    if (path.size() > 2) path.push_back(path.front());
-    draw_bar(context, path, bar_width);
+    if (path.size() > 2) draw_plate(context, path);
+    draw_bar(context, path.size() > 2 ? outline_of(path) : path, bar_width);
   }
   for (const auto& spring : sketch.springs) {
     if (spring.torsion)
@@ -407,9 +491,9 @@ void write_link_names(const Context& context, const Layout& layout, const core::
 }
 
 /// What labels had better leave in sight: pins and brackets, arrows, and less so bars.
-LabelPlaces places_around(const Layout& layout, const core::Sketch& sketch, const std::vector<Arrow>& arrows) {
+void keep_free(const Layout& layout, const core::Sketch& sketch, const std::vector<Arrow>& arrows,
+               LabelPlaces& labels) {
   constexpr double of_pins = 0.6, of_bars = 0.15, of_arrows = 0.6, of_springs = 0.3;
-  LabelPlaces labels(layout.plot);
   for (const core::SketchLink& link : sketch.links)
     for (std::size_t i = 0; i + 1 < link.points.size() + (link.points.size() > 2 ? 1 : 0); ++i)
       labels.occupy(layout.page(link.points[i]), layout.page(link.points[(i + 1) % link.points.size()]), bar_width,
@@ -430,7 +514,6 @@ LabelPlaces places_around(const Layout& layout, const core::Sketch& sketch, cons
     if (load.couple != 0)
       labels.occupy({at[0] - couple_radius, at[1] - couple_radius, 2 * couple_radius, 2 * couple_radius}, of_bars);
   }
-  return labels;
 }
 
 /// In the plot's corner.
@@ -447,7 +530,7 @@ void draw_gravity(const Context& context, const Layout& layout, const core::Sket
 }  // namespace
 
 void draw_joints_and_loads(const Context& context, const Layout& layout, const core::Sketch& sketch,
-                           const std::string& words) {
+                           const std::string& words, LabelPlaces& labels) {
   draw_pins(context, layout, sketch);
   double largest = 0;
   for (const auto& load : sketch.loads) largest = std::max(largest, std::hypot(load.force[0], load.force[1]));
@@ -459,9 +542,10 @@ void draw_joints_and_loads(const Context& context, const Layout& layout, const c
     }
     if (load.couple != 0) draw_couple(context, layout, load);
   }
-  LabelPlaces labels = places_around(layout, sketch, arrows);
+  keep_free(layout, sketch, arrows, labels);
   draw_gravity(context, layout, sketch, labels);
   for (const auto& joint : sketch.joints) write_joint_name(context, layout, sketch, joint, labels);
+  write_end_effector(context, layout, sketch, labels);
   auto arrow = arrows.begin();
   for (const auto& load : sketch.loads) {
     if (load.force != Point2{0, 0}) write_force(context, load, *arrow++, labels);
@@ -473,7 +557,8 @@ void draw_joints_and_loads(const Context& context, const Layout& layout, const c
 void draw_alone(const Context& context, const Box& box, const core::Sketch& sketch, const std::string& words) {
   const Layout alone = lay_out_alone(sketch, box);
   draw_links(context, alone, sketch);
-  draw_joints_and_loads(context, alone, sketch, words);
+  LabelPlaces labels(alone.plot);
+  draw_joints_and_loads(context, alone, sketch, words, labels);
 }
 
 void draw_mechanism_sample(const Context& context, double x, double y, double width) {

@@ -4,6 +4,7 @@
 
 #include <cairomm/context.h>
 
+#include "report/label_places.hpp"
 #include "report/layout.hpp"
 
 namespace clearloci::report {
@@ -12,9 +13,10 @@ namespace clearloci::report {
 void draw_links(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout, const core::Sketch& sketch);
 
 /// Joints with their names, the names of the links that occur in `words`, what the legend says, forces as arrows with
-/// their size, couples as turning arrows with theirs, and gravity in the plot's corner.
+/// their size, couples as turning arrows with theirs, and gravity in the plot's corner. All of that is kept free of
+/// `labels`.
 void draw_joints_and_loads(const Cairo::RefPtr<Cairo::Context>& context, const Layout& layout,
-                           const core::Sketch& sketch, const std::string& words);
+                           const core::Sketch& sketch, const std::string& words, LabelPlaces& labels);
 
 /// All of it in a box of its own, with the names of the links that `words` speak of.
 void draw_alone(const Cairo::RefPtr<Cairo::Context>& context, const Box& box, const core::Sketch& sketch,

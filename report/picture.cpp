@@ -58,13 +58,16 @@ std::string picture(const core::LocusMap& in_si, const core::WorkingMode& mode, 
 }
 
 std::string field_picture(const core::LocusMap& in_si, const core::WorkingMode& mode, const core::FieldMap& si_fields,
-                          const core::Field& si_field, PictureFormat format) {
+                          const core::Field& si_field, PictureFormat format, const std::vector<double>& coloured_by) {
   const core::LocusMap map = in_file_units(in_si);
   core::FieldMap own = si_fields;
   own.fields = {si_field};
   const core::FieldMap fields = in_file_units(std::move(own), map.units, map.angles);
   const core::Field& field = fields.fields.front();
-  const FieldLayer layer{&fields, &field, scale_of(field.values, field.is_signed, field.unit)};
+  std::vector<double> values = coloured_by.empty() ? field.values : coloured_by;
+  if (!coloured_by.empty())
+    for (double& value : values) value *= shown_unit(si_field.unit, map.units).per_si;
+  const FieldLayer layer{&fields, &field, scale_of(values, field.is_signed, field.unit)};
   return drawn({&map, mode, groups_of_mode(group_loci(map), mode), nullptr, &layer, nullptr, nullptr}, format);
 }
 

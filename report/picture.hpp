@@ -24,10 +24,11 @@ const char* ending_of(PictureFormat format);
 std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
                     PictureFormat format, bool beside = false);
 
+/// `coloured_by`: values in SI that choose the scale of the colours; none: the field's own.
 /// A field of `fields` in colours over the workspace, the loci and singularities of the mode drawn over it. Nothing is
 /// painted where the field is not a number.
 std::string field_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::FieldMap& fields,
-                          const core::Field& field, PictureFormat format);
+                          const core::Field& field, PictureFormat format, const std::vector<double>& coloured_by = {});
 
 /// The zones of one working mode in colours, numbered, with their largest circles, the loci drawn over them.
 std::string zone_picture(const core::ZoneMap& map, const core::WorkingMode& mode, PictureFormat format);

@@ -156,6 +156,9 @@ class PlotDrawing {
     for (const PlotSeries& series : panel.series) {
       if (panel.field) stroke(context, f, series, {{1, 1, 1}, 2.4, {}, true});
       stroke(context, f, series, stroke_of(series));
+      if (panel.field) continue;
+      draw_jumps(context, f, series);
+      draw_cuts(&context, f, series);
     }
     context->restore();
     draw_axes(context, panel, f, i + 1 == frames_.size());
@@ -184,18 +187,74 @@ class PlotDrawing {
     set_stroke(context, s);
     for (const core::Polyline& line : series.lines) {
       context->begin_new_sub_path();
+      const Point2* before = nullptr;
       for (const Point2& point : line) {
         if (!std::isfinite(point[0]) || !std::isfinite(point[1])) {
           context->begin_new_sub_path();
+          before = nullptr;
           continue;
         }
         const Point2 at = f.page(point);
+        // Lines do not run along a jump, which is drawn by itself.
+        if (before != nullptr && point[0] == (*before)[0] && point[1] != (*before)[1]) context->begin_new_sub_path();
+        before = &point;
         // Cairo's own numbers are small; what leaves the panel is clipped anyway.
         constexpr double far = 1e4;
         context->line_to(std::clamp(at[0], -far, far), std::clamp(at[1], -far, far));
       }
       context->stroke();
     }
+  }
+
+  /// Where a line goes on at another height: a jump, as a thin dotted line.
+  void draw_jumps(const Context& context, const Frame& f, const PlotSeries& series) const {
+    constexpr double beside = 1e-6;  // of the range: what is nearer is at one place
+    const double near = beside * (f.high[0] - f.low[0]);
+    Stroke s = stroke_of(series);
+    s.width *= 0.6;
+    s.dash = {1.5, 2};
+    set_stroke(context, s);
+    for (const core::Polyline& line : series.lines) {
+      const Point2* before = nullptr;
+      for (const Point2& point : line) {
+        if (!std::isfinite(point[0]) || !std::isfinite(point[1])) continue;
+        if (before != nullptr && point[0] - (*before)[0] <= near && point[1] != (*before)[1]) {
+          const Point2 from = f.page(*before), to = f.page(point);
+          context->move_to(from[0], std::clamp(from[1], f.box.y, f.box.bottom()));
+          context->line_to(to[0], std::clamp(to[1], f.box.y, f.box.bottom()));
+          context->stroke();
+        }
+        before = &point;
+      }
+    }
+  }
+
+  /// Triangles at the panel's upper or lower side where a line goes beyond it. Whether there is one.
+  static bool draw_cuts(const Context* context, const Frame& f, const PlotSeries& series) {
+    constexpr double size = 3.6;  // pt
+    bool any = false;
+    for (const core::Polyline& line : series.lines) {
+      bool beyond = false;
+      for (const Point2& point : line) {
+        const bool above = point[1] > f.high[1], below = point[1] < f.low[1];
+        const bool now = std::isfinite(point[0]) && std::isfinite(point[1]) && (above || below) &&
+                         point[0] >= f.low[0] && point[0] <= f.high[0];
+        if (now && !beyond) {
+          any = true;
+          if (context != nullptr) {
+            const double x = f.page(point)[0], side = above ? 1 : -1, y = above ? f.box.y : f.box.bottom();
+            (*context)->move_to(x, y + side);
+            (*context)->line_to(x - size, y + side * (1 + 1.7 * size));
+            (*context)->line_to(x + size, y + side * (1 + 1.7 * size));
+            (*context)->close_path();
+            set_colour(*context, stroke_of(series).colour);
+            (*context)->fill();
+          }
+        }
+        beyond = now;
+      }
+    }
+    return any;
   }
 
   static void draw_field(const Context& context, const PlotField& field, const FieldScale& scale, const Frame& f) {
@@ -300,6 +359,11 @@ class PlotDrawing {
       context->stroke();
       write(printable(series.label), x + indent, ink);
     }
+    const std::vector<PlotSeries>& own = plot_.panels[i].series;
+    const bool cut = !plot_.panels[i].field && std::any_of(own.begin(), own.end(), [&](const PlotSeries& series) {
+      return draw_cuts(nullptr, f, series);
+    });
+    if (cut) write("▲ goes beyond the range shown", x, faded_ink);
     if (i != 0) return;
     for (std::size_t style = 0; style < plot_.mark_labels.size(); ++style) {
       const bool used = std::any_of(plot_.marks.begin(), plot_.marks.end(),
@@ -321,6 +385,18 @@ class PlotDrawing {
 };
 
 }  // namespace
+
+void share_ranges(Plot& plot) {
+  for (PlotPanel& panel : plot.panels)
+    if (!panel.y_range) panel.y_range = reach({panel}, 1, 0.06);
+  const std::vector<PlotPanel> own = plot.panels;
+  for (PlotPanel& panel : plot.panels)
+    for (const PlotPanel& other : own)
+      if (other.y_label == panel.y_label && !other.series.empty()) {
+        widen(*panel.y_range, (*other.y_range)[0]);
+        widen(*panel.y_range, (*other.y_range)[1]);
+      }
+}
 
 std::string plot(const Plot& plot, PictureFormat format) {
   const PlotDrawing drawing(plot);

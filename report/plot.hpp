@@ -54,6 +54,9 @@ struct Plot {
   double panel_height = 0;               ///< pt; 0: by the number of panels
 };
 
+/// Panels of one unit get the range that all of them need, so that they can be compared.
+void share_ranges(Plot& plot);
+
 struct NamedPlot {
   std::string name;  ///< of the file, without its ending
   Plot plot;

@@ -246,6 +246,7 @@ std::string study_text(const StudyResult& result) {
   for (std::size_t f = 0; f < result.figures.size(); ++f)
     out += fmt::format("  {:<14} {} {}\n", core::to_string(result.figures[f]), short_number(best.figures[f], 6),
                        unit_of(result.figures[f]));
+  for (const std::string& words : edge_words(result)) out += "  " + words + "\n";
   if (result.front.size() > 1)
     out += fmt::format("front        {} designs, none better in every goal\n", result.front.size());
   return out;

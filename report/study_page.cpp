@@ -73,7 +73,9 @@ std::string sentence(const StudyResult& result) {
   for (std::size_t f = 0; f < result.figures.size(); ++f)
     words += fmt::format(", {} {} {}", core::to_string(result.figures[f]), short_number(best.figures[f], 5),
                          unit_of(result.figures[f]));
-  return words + ".";
+  words += ".";
+  for (const std::string& own : edge_words(result)) words += " " + own + ".";
+  return words;
 }
 
 std::string what_was_varied(const StudyResult& result) {

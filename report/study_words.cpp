@@ -157,4 +157,21 @@ std::vector<std::pair<std::string, double>> cell_reasons(const StudyResult& resu
   return most_first(parts);
 }
 
+std::vector<std::string> edge_words(const core::StudyResult& result) {
+  constexpr double at_end = 1e-3;  // of the range: a search ends that near to it
+  std::vector<std::string> sentences;
+  if (!result.best) return sentences;
+  const std::vector<double>& values = result.designs[*result.best].values;
+  for (std::size_t i = 0; i < result.study.vary.size() && i < values.size(); ++i) {
+    const core::StudyParameter& own = result.study.vary[i];
+    const double lower = core::to_double(own.lower), upper = core::to_double(own.upper),
+                 near = at_end * (upper - lower);
+    const bool low = values[i] <= lower + near;
+    if (!low && values[i] < upper - near) continue;
+    sentences.push_back(own.name + " is at the " + (low ? "lower" : "upper") + " end of its range, " +
+                        exact_number(low ? lower : upper) + ": designs beyond it may be better");
+  }
+  return sentences;
+}
+
 }  // namespace clearloci::report

@@ -27,6 +27,10 @@ std::vector<std::string> task_words(const core::Task& task);
 /// What a reason of designs that fail means: "workspace" as "a pose of the task is out of reach".
 std::string meaning_of(const std::string& reason);
 
+/// Where the best design lies at an end of what was varied, and designs beyond may be better: "L is at the upper end of
+/// its range, 0.7: designs beyond it may be better". A sentence a parameter.
+std::vector<std::string> edge_words(const core::StudyResult& result);
+
 /// How many designs have a status.
 std::size_t count(const core::StudyResult& result, core::StudyDesign::Status status);
 

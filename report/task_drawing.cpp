@@ -38,7 +38,7 @@ void draw_ring(const Context& context, const TaskMark& task, const core::Point2&
 
 }  // namespace
 
-void draw_task(const Context& context, const TaskMark& task, const Layout& layout) {
+void draw_task(const Context& context, const TaskMark& task, const Layout& layout, LabelPlaces& labels) {
   const auto trace = [&] {
     context->begin_new_sub_path();
     for (const core::Point2& p : task.outline) {
@@ -62,7 +62,11 @@ void draw_task(const Context& context, const TaskMark& task, const Layout& layou
   outline_style(context, task);
   trace();
   context->stroke();
-  for (const core::Point2& p : task.points) draw_ring(context, task, layout.page(p));
+  for (const core::Point2& p : task.points) {
+    const core::Point2 at = layout.page(p);
+    draw_ring(context, task, at);
+    labels.occupy({at[0] - 2 * ring, at[1] - 2 * ring, 4 * ring, 4 * ring}, 1);
+  }
   context->unset_dash();
 }
 

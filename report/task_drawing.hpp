@@ -3,12 +3,15 @@
 
 #include <cairomm/context.h>
 
+#include "report/label_places.hpp"
 #include "report/layout.hpp"
 
 namespace clearloci::report {
 
-/// The task and its margin: green and solid where it is verified, red and dashed where it is not.
-void draw_task(const Cairo::RefPtr<Cairo::Context>& context, const TaskMark& task, const Layout& layout);
+/// The task and its margin: green and solid where it is verified, red and dashed where it is not. What it takes is kept
+/// free of `labels`.
+void draw_task(const Cairo::RefPtr<Cairo::Context>& context, const TaskMark& task, const Layout& layout,
+               LabelPlaces& labels);
 
 /// Samples for the legend, with their left ends at (x, y).
 void draw_task_sample(const Cairo::RefPtr<Cairo::Context>& context, const TaskMark& task, double x, double y,

@@ -148,6 +148,7 @@ NamedPlot error_plot(const core::TrajectoryResult& result) {
   } else {
     add("dalpha", "error in orientation", "mrad", 2);
   }
+  share_ranges(plot);
   add_marks(result, plot, false);
   return {"trajectory-error", std::move(plot)};
 }
@@ -156,18 +157,17 @@ NamedPlot take_up_plot(const core::TrajectoryResult& result) {
   Plot plot = frame(result, "direction of the take-up");
   plot.x_label = "time (s)";
   const core::Table& c = result.samples;
+  PlotPanel panel;
+  panel.y_label = "β (deg)";
+  panel.degrees = true;
+  panel.y_range = {-190, 190};
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
     const std::string& name = result.joints[j];
     if (!c.has("beta_" + name)) continue;
-    PlotPanel panel;
-    panel.y_label = "β (deg)";
-    panel.degrees = true;
-    panel.y_range = {-190, 190};
     panel.series.push_back({"β of " + name, {angle_line(c.at("time"), c.at("beta_" + name))}, static_cast<int>(j)});
-    plot.panels.push_back(std::move(panel));
   }
+  if (!panel.series.empty()) plot.panels.push_back(std::move(panel));
   add_marks(result, plot, true);
-  plot.panel_height = 80;
   return {"trajectory-take-up", std::move(plot)};
 }
 
@@ -249,7 +249,8 @@ std::size_t sample_at(const core::PeriodSweep& sweep, double distance) {
 }
 
 NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& name, const std::string& label,
-                     const std::vector<double>& values, bool is_signed, const std::string& unit) {
+                     const std::vector<double>& values, bool is_signed, const std::string& unit,
+                     const std::vector<double>& coloured_by) {
   // The plot is drawn when the result is no more.
   const auto kept = std::make_shared<const core::PeriodSweep>(*result.sweep);
   const core::PeriodSweep& sweep = *kept;
@@ -268,7 +269,7 @@ NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& na
   panel.y_label = "period (s)";
   panel.y_range = {lowest, highest};
   const std::size_t rows = sweep.periods.size();
-  panel.field = {label, unit, is_signed, values, [kept, values, lowest, highest, rows](double x, double y) {
+  panel.field = {label, unit, is_signed, coloured_by, [kept, values, lowest, highest, rows](double x, double y) {
                    const double place = (y - lowest) / (highest - lowest) * static_cast<double>(rows);
                    const auto row = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(rows) - 0.5));
                    return values[kept->index(row, sample_at(*kept, x))];
@@ -305,14 +306,19 @@ std::vector<NamedPlot> trajectory_plots(const core::TrajectoryResult& given) {
   const core::PeriodSweep& sweep = *result.sweep;
   const std::string length = length_name(result);
   std::vector<double> distances = lengths(sweep.dx, sweep.dy);
-  plots.push_back(sweep_plot(result, "periods-dx", "error in x", sweep.dx, true, length));
-  plots.push_back(sweep_plot(result, "periods-dy", "error in y", sweep.dy, true, length));
+  std::vector<double> all = sweep.dx;  // one scale for all of them
+  for (const std::vector<double>* const more : {&sweep.dy, &sweep.dz})
+    all.insert(all.end(), more->begin(), more->end());
+  plots.push_back(sweep_plot(result, "periods-dx", "error in x", sweep.dx, true, length, all));
+  plots.push_back(sweep_plot(result, "periods-dy", "error in y", sweep.dy, true, length, all));
   if (spatial) {
-    plots.push_back(sweep_plot(result, "periods-dz", "error in z", sweep.dz, true, length));
+    plots.push_back(sweep_plot(result, "periods-dz", "error in z", sweep.dz, true, length, all));
     distances = lengths(distances, sweep.dz);
   }
-  plots.push_back(sweep_plot(result, "periods-dalpha", "error in orientation", sweep.dalpha, !spatial, "rad"));
-  plots.push_back(sweep_plot(result, "periods-dp", "distance from the nominal place", distances, false, length));
+  plots.push_back(
+      sweep_plot(result, "periods-dalpha", "error in orientation", sweep.dalpha, !spatial, "rad", sweep.dalpha));
+  plots.push_back(
+      sweep_plot(result, "periods-dp", "distance from the nominal place", distances, false, length, distances));
   return plots;
 }
 

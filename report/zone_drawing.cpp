@@ -1,5 +1,6 @@
 #include "report/zone_drawing.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "report/mechanism_drawing.hpp"
@@ -44,20 +45,29 @@ void draw_zones(const Context& context, const Subject& subject, const Layout& la
   });
 }
 
-void draw_zone_numbers(const Context& context, const Subject& subject, const Layout& layout) {
+void draw_zone_numbers(const Context& context, const Subject& subject, const Layout& layout, LabelPlaces& labels) {
+  const bool circles = subject.task == nullptr;  // a task's picture tells of the task
   for_each_zone(subject, [&](const core::Zone& zone, std::size_t) {
     const core::Point2 at = layout.page(zone.inscribed.centre);
     const double radius = zone.inscribed.radius * layout.scale[0];
-    set_colour(context, circle_colour, 0.8);
-    context->set_line_width(0.7);
-    context->set_dash(std::vector<double>{3, 2}, 0);
-    context->begin_new_sub_path();
-    context->arc(at[0], at[1], radius, 0, 2 * std::numbers::pi);
-    context->stroke();
-    context->unset_dash();
+    if (circles) {
+      set_colour(context, circle_colour, 0.8);
+      context->set_line_width(0.7);
+      context->set_dash(std::vector<double>{3, 2}, 0);
+      context->begin_new_sub_path();
+      context->arc(at[0], at[1], radius, 0, 2 * std::numbers::pi);
+      context->stroke();
+      context->unset_dash();
+    }
     if (radius < least_numbered) return;
+    std::vector<core::Point2> places = {at};
+    for (const double away : {0.45, 0.8})
+      for (int k = 0; k < 8; ++k)
+        places.push_back({at[0] + away * radius * std::cos(std::numbers::pi / 4 * k),
+                          at[1] + away * radius * std::sin(std::numbers::pi / 4 * k)});
+    const core::Point2 middle = labels.take(places, text_width(zone.id, number_font) + 4, number_font.size + 2);
     set_colour(context, {0.1, 0.1, 0.1});
-    write_text(context, zone.id, at[0], at[1] + 0.36 * number_font.size, number_font, Align::centre);
+    write_text(context, zone.id, middle[0], middle[1] + 0.36 * number_font.size, number_font, Align::centre);
   });
 }
 

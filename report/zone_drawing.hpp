@@ -3,6 +3,7 @@
 
 #include <cairomm/context.h>
 
+#include "report/label_places.hpp"
 #include "report/layout.hpp"
 
 namespace clearloci::report {
@@ -10,8 +11,10 @@ namespace clearloci::report {
 /// Every zone of the mode filled; neighbours in numbering differ in colour.
 void draw_zones(const Cairo::RefPtr<Cairo::Context>& context, const Subject& subject, const Layout& layout);
 
-/// The largest circles and the zones' numbers, over everything else. Zones too small for a number have none.
-void draw_zone_numbers(const Cairo::RefPtr<Cairo::Context>& context, const Subject& subject, const Layout& layout);
+/// The zones' numbers over everything else, among `labels`, and without a task the largest circles. Zones too small for
+/// a number have none.
+void draw_zone_numbers(const Cairo::RefPtr<Cairo::Context>& context, const Subject& subject, const Layout& layout,
+                       LabelPlaces& labels);
 
 /// A sample for the legend, with its left end at (x, y).
 void draw_zone_sample(const Cairo::RefPtr<Cairo::Context>& context, double x, double y, double width);

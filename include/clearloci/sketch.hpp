@@ -46,6 +46,12 @@ struct SketchSpring {
   bool torsion = false;  ///< in a joint at `from`
 };
 
+/// The end effector's point.
+struct SketchPoint {
+  std::string name;
+  Point2 at{};
+};
+
 struct Sketch {
   std::vector<SketchLink> links;
   std::vector<SketchSlide> slides;
@@ -53,6 +59,7 @@ struct Sketch {
   std::vector<SketchLoad> loads;
   Point2 gravity{};  ///< m/s^2, zero where absent
   std::vector<SketchSpring> springs = {};
+  std::optional<SketchPoint> end_effector = {};
 };
 
 }  // namespace clearloci::inline core
