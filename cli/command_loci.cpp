@@ -6,8 +6,10 @@
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
+#include "analysis/zones.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
@@ -15,6 +17,7 @@
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "mechanism/read_pose_task.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
@@ -40,6 +43,17 @@ void check_formats(const std::set<std::string>& formats, std::size_t coordinates
                              coordinates == 3 ? "surfaces go to stl, obj, vtk, csv and pictures" : "leave it out");
 }
 
+/// What the page shows besides the loci, over two lengths and as far as there is time.
+std::optional<core::ZoneMap> zones_of_page(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  if (mechanism::has_pose_tasks(mechanism) || mechanism.coordinates.size() != 2) return std::nullopt;
+  try {
+    return find_zones(mechanism, request);
+  } catch (const core::InputError&) {  // there are none, as where every pose is singular
+  } catch (const core::LimitReached&) {
+  }
+  return std::nullopt;
+}
+
 int run(const LociCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<report::LociSheet>());
   const std::future<void> letters = report::prepare_pictures(formats);
@@ -58,10 +72,12 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
+  std::optional<core::ZoneMap> zones;
+  if (formats.contains("html")) zones = zones_of_page(mechanism, request);
   report::StagedFiles staged;
   if (certify) stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate, map);
-  const std::vector<std::filesystem::path> files =
-      report::stage_loci(staged, {map, sample_sketches(mechanism, map)}, folder, formats);
+  const std::vector<std::filesystem::path> files = report::stage_loci(
+      staged, {map, sample_sketches(mechanism, map), zones ? &*zones : nullptr}, folder, formats);
   staged.commit();
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::loci_object(map)));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/rational.hpp"
 #include "report/wording.hpp"
@@ -96,8 +95,9 @@ bool is_force(core::Quantity quantity) { return core::unit_of(quantity) == "N"; 
 }  // namespace
 
 core::LocusMap in_file_units(core::LocusMap map) {
-  if (!map.units.declared) return map;
   const std::vector<bool> angles = map.angles;
+  map.notes = core::in_file_units(std::move(map.notes), map.units, angles);
+  if (!map.units.declared) return map;
   const Scaling scaling(map.units, angles);
   for (std::size_t c = 0; c < map.lower.size(); ++c) {
     if (scaling.angle(c)) continue;
@@ -159,6 +159,7 @@ core::ZoneMap in_file_units(core::ZoneMap map) {
 }
 
 core::Verification in_file_units(core::Verification result) {
+  result.notes = core::in_file_units(std::move(result.notes), result.units, {});
   if (!result.units.declared) return result;
   const std::vector<bool> none;
   const Scaling scaling(result.units, none);
@@ -211,25 +212,12 @@ core::Sketch in_file_units(core::Sketch sketch, const core::Units& units) {
     scaling.place(spring.to);
   }
   for (core::SketchLoad& load : sketch.loads) scaling.place(load.at);
+  if (sketch.end_effector) scaling.place(sketch.end_effector->at);
   return sketch;
 }
 
-ShownUnit shown_unit(const std::string& si, const core::Units& units) {
-  if (!units.declared) return {si, 1};
-  const auto of = [](const core::Unit& unit, const std::string& rest) {
-    return ShownUnit{unit.name + rest, 1 / unit.size};
-  };
-  for (const std::string rest : {"", "/s", "/s²", "/s^2"}) {
-    if (si == "m" + rest) return of(units.length, rest);
-    if (si == "rad" + rest) return of(units.angle, rest);
-    if (si == "N" + rest) return of(units.force, rest);
-  }
-  return {si, 1};
-}
-
 ShownUnit table_unit(const std::string& si, const core::Units& units, double most) {
-  if (si == "rad" && !units.angle_declared) return {"deg", 180 / std::numbers::pi};
-  if (si != "m" || units.declared) return shown_unit(si, units);
+  if (si != "m" || units.declared) return core::told_unit(si, units);
   // From a tenth of the larger unit on, which reads better: 0.2 mm, and 50 µm.
   if (most >= 0.1 || !(most > 0)) return {"m", 1};
   if (most >= 1e-4) return {"mm", 1e3};

@@ -12,6 +12,7 @@
 #include "clearloci/trajectory.hpp"
 #include "clearloci/verify.hpp"
 #include "core/locus_map.hpp"
+#include "core/shown_units.hpp"
 #include "core/sketch.hpp"
 
 namespace clearloci::report {
@@ -28,14 +29,10 @@ core::Table in_file_units(core::Table table, const core::Units& units);
 /// Distances, forces and columns of samples; what has to do with angles stays in rad, and couples in N m.
 core::TrajectoryResult in_file_units(core::TrajectoryResult result);
 
-/// The unit in which a quantity of SI units is shown, and how many of it one SI unit is: "mm/s", 1000 for "m/s".
-struct ShownUnit {
-  std::string name;
-  double per_si = 1;
-};
-ShownUnit shown_unit(const std::string& si, const core::Units& units);
+using core::shown_unit;
+using core::ShownUnit;
 
-/// The same in a table: angles are in degrees unless the file says otherwise, and where it declares no units, lengths
+/// As core::told_unit, and where it declares no units, lengths
 /// of which the largest is `most` (m) are in m, mm, µm or nm.
 ShownUnit table_unit(const std::string& si, const core::Units& units, double most = 1);
 

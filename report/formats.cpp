@@ -103,6 +103,17 @@ Files loci_stl(const LociSheet& loci) {
 }
 
 Files loci_html(const LociSheet& loci) { return {{"loci.html", html_page(loci)}}; }
+Files zones_html(const core::ZoneMap& map) { return {{"zones.html", html_page({map.loci, {}, &map})}}; }
+
+/// The values of all fields of the answer that are to be compared with this one.
+std::vector<double> like(const core::ErrorMap& errors, const core::Field& field) {
+  std::vector<double> values;
+  for (const core::ModeErrors& one : errors.modes)
+    for (const core::Field& other : one.map.fields)
+      if (other.unit == field.unit && other.is_signed == field.is_signed)
+        values.insert(values.end(), other.values.begin(), other.values.end());
+  return values;
+}
 
 template <PictureFormat format>
 Files error_pictures(const core::ErrorMap& errors) {
@@ -112,7 +123,7 @@ Files error_pictures(const core::ErrorMap& errors) {
       std::string name = field.name;
       std::replace(name.begin(), name.end(), '_', '-');
       files.push_back({"error-" + name + which(errors, one) + ending_of(format),
-                       field_picture(errors.loci, one.mode, one.map, field, format)});
+                       field_picture(errors.loci, one.mode, one.map, field, format, like(errors, field))});
     }
   return files;
 }
@@ -228,7 +239,7 @@ const std::vector<Format>& formats() {
         {"vtk", any, loci_vtk, pose_zones_vtk, error_vtk, volume_vti},
         {"stl", surfaces, loci_stl, pose_zones_stl},
         {"obj", surfaces, loci_obj},
-        {"html", any, loci_html},
+        {"html", any, loci_html, zones_html},
     };
     // A build without the workbench has no viewer to put into a page.
     if (viewer_bundle().script.empty()) std::erase_if(list, [](const Format& one) { return one.name == "html"; });

@@ -19,7 +19,7 @@ constexpr int table_width = 120;
 constexpr double degrees = 180 / std::numbers::pi;
 
 /// A longer factor would fill the screen; `equations` prints it whole.
-constexpr int readable_factor = 60;
+constexpr int longest_factor = 60;
 
 /// Of a direct singularity.
 constexpr const char* not_excited = "not excited by this load";
@@ -40,10 +40,11 @@ std::string what_vanishes(const std::vector<core::Vanishing>& vanishing) {
 }
 
 /// What vanishes, and on a line of its own where.
-std::string where(const core::LocusCurve& curve) {
+std::string where(const core::LocusMap& map, const core::LocusCurve& curve) {
   const std::string what = what_vanishes(curve.vanishing);
   const std::string start = (what.empty() ? "" : what + "\n") + (curve.excited ? "" : std::string(not_excited) + "\n");
-  return start + reason_words(curve.kind, curve.vanishing, curve.factor, curve.cause, readable_factor);
+  return start +
+         reason_words(curve.kind, curve.vanishing, curve.factor, curve.cause, readable_factor(map, longest_factor));
 }
 
 /// "open: 3 places, 0.2 % of the box"; empty where there are none.
@@ -96,7 +97,7 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
     const std::string open =
         open_words(map, take_those([&](const core::OpenRegion& own) { return is_open_place_of(own, curve); }));
     rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind),
-                    where(curve) + (open.empty() ? "" : "\n" + open),
+                    where(map, curve) + (open.empty() ? "" : "\n" + open),
                     curve.implicit.is_zero() ? "-" : std::to_string(core::total_degree(curve.implicit)),
                     closed_form_words(curve.closed_form, map.tower.coordinates, exact),
                     std::to_string(curve.arcs.size()), engineering(total_length(curve), size_digits)});
@@ -144,10 +145,11 @@ std::string point_rows(const core::LocusMap& map, const core::WorkingMode& mode)
 }
 
 /// Where it vanishes: the cause, the factor where it is short, or the degree.
-std::string where(const core::LocusSurface& surface) {
+std::string where(const core::LocusMap& map, const core::LocusSurface& surface) {
   const std::string what = what_vanishes(surface.vanishing);
   const std::string start = what.empty() ? "" : what + "\n";
-  return start + reason_words(surface.kind, surface.vanishing, surface.factor, surface.cause, readable_factor);
+  return start + reason_words(surface.kind, surface.vanishing, surface.factor, surface.cause,
+                              readable_factor(map, longest_factor));
 }
 
 std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mode) {
@@ -163,8 +165,8 @@ std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mod
   for (const auto& surface : map.surfaces) {
     if (surface.mode != mode) continue;
     const int degree = core::total_degree(surface.implicit);
-    rows.push_back({printable(surface.id) + (surface.certified ? "" : "*"), kind_words(surface.kind), where(surface),
-                    degree > 0 ? std::to_string(degree) : "-", std::to_string(surface.components),
+    rows.push_back({printable(surface.id) + (surface.certified ? "" : "*"), kind_words(surface.kind),
+                    where(map, surface), degree > 0 ? std::to_string(degree) : "-", std::to_string(surface.components),
                     std::to_string(surface.triangles.size()), engineering(surface.area, size_digits)});
   }
   return rows.empty() ? "no surfaces\n" : format_rows(heading, rows);
@@ -215,7 +217,8 @@ std::string single_coordinate_rows(const core::LocusMap& map, const core::Workin
   for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
     const auto& point = map.isolated_points[i];
     if (point.mode != mode) continue;
-    const std::string why = reason_words(point.kind, point.vanishing, point.factor, point.cause, 2 * readable_factor);
+    const std::string why =
+        reason_words(point.kind, point.vanishing, point.factor, point.cause, 2 * readable_factor(map, longest_factor));
     const std::string what = what_vanishes(point.vanishing) + (point.excited ? "" : not_excited);
     rows.push_back({"p" + std::to_string(i + 1), kind_words(point.kind), what + (what.empty() ? "" : "\n") + why,
                     place(map, point.at.front())});
@@ -256,7 +259,7 @@ std::string notes(const core::LocusMap& map) {
 std::string loci_table(const core::LocusMap& in_si, bool exact) {
   const core::LocusMap map = in_file_units(in_si);
   std::string out = printable(map.mechanism);
-  const std::string parameters = printable(parameter_words(map));
+  const std::string parameters = printable(parameter_words(map, exact));
   if (!parameters.empty()) out += "\n" + parameters;
   out += "\n";
   std::vector<core::WorkingMode> modes = modes_of(map);

@@ -1,4 +1,5 @@
 #include "report/pose_verification.hpp"
+#include "core/shown_units.hpp"
 
 #include <fmt/format.h>
 
@@ -235,7 +236,8 @@ std::string pose_verification_text(const core::PoseVerification& result) {
   for (const core::LeastReaction& own : result.least)
     put("least", fmt::format("|{}| at least {} over the task, proven; {} met", reaction_name(own.reaction),
                              words.effort(own.reaction, own.proven), words.effort(own.reaction, own.met)));
-  for (const std::string& note : told_once(result.notes)) text += printable(note) + "\n";
+  for (const std::string& note : told_once(core::in_file_units(result.notes, result.units, result.angles)))
+    text += printable(note) + "\n";
   return text;
 }
 

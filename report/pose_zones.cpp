@@ -1,4 +1,5 @@
 #include "report/pose_zones.hpp"
+#include "core/shown_units.hpp"
 
 #include <fmt/format.h>
 
@@ -211,7 +212,8 @@ std::string pose_zones_table(const core::PoseZones& map) {
   out += fmt::format("\nin doubt {} {}, out of reach {} {}; {} cells\n", size(map.in_doubt), unit.name,
                      size(map.outside), unit.name, map.cells);
   if (!map.complete) out += "the time limit came first\n";
-  for (const std::string& note : told_once(map.notes)) out += printable(note) + "\n";
+  for (const std::string& note : told_once(core::in_file_units(map.notes, map.units, map.angles)))
+    out += printable(note) + "\n";
   return out;
 }
 

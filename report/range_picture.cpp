@@ -50,8 +50,8 @@ std::vector<Row> rows_of(const core::LocusMap& map, const core::WorkingMode& mod
   std::vector<std::pair<std::string, Row>> rows;
   for (const auto& point : map.isolated_points) {
     if (point.mode != mode) continue;
-    const std::string words = words_of(point),
-                      reason = reason_words(point.kind, point.vanishing, point.factor, point.cause, longest_factor);
+    const std::string words = words_of(point), reason = reason_words(point.kind, point.vanishing, point.factor,
+                                                                     point.cause, readable_factor(map, longest_factor));
     auto row = rows.begin();
     while (row != rows.end() && (row->first != words + reason || row->second.kind != point.kind)) ++row;
     if (row == rows.end()) {

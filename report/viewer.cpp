@@ -9,11 +9,13 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "core/shown_units.hpp"
 #include "report/base64.hpp"
 #include "report/groups.hpp"
 #include "report/loci_json.hpp"
 #include "report/surface_groups.hpp"
 #include "report/wording.hpp"
+#include "report/zones.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -44,10 +46,11 @@ Json theme_json(const Theme& theme) {
           {"zone_strength", theme.zone_strength}};
 }
 
-/// Where a theme has the colour of such loci: "singularity", "boundary", or a place among its curves.
+/// Where a theme has the colour of such loci: "singularity", "boundary", "margin", or a place among its curves.
 Json colour_role(core::LocusKind kind, int number) {
   if (kind == core::LocusKind::direct_singularity) return "singularity";
   if (kind == core::LocusKind::workspace_boundary) return "boundary";
+  if (kind == core::LocusKind::margin) return "margin";
   return number % static_cast<int>(light_theme.curves.size());
 }
 
@@ -158,6 +161,15 @@ constexpr std::array happenings = {
     Happening{core::LocusKind::workspace_boundary, "a leg is stretched out or folded: the end of what can be reached"},
     Happening{core::LocusKind::no_limit, "what the reaction is there depends on where one comes from"}};
 
+/// What the page shows: as told_unit, so degrees unless the file says otherwise.
+Json units_object(const core::Units& units) {
+  const auto unit = [&](const char* si) {
+    const core::ShownUnit shown = core::told_unit(si, units);
+    return Json{{"name", shown.name}, {"size", 1 / shown.per_si}};
+  };
+  return {{"declared", units.declared}, {"length", unit("m")}, {"angle", unit("rad")}, {"force", unit("N")}};
+}
+
 }  // namespace
 
 Json sketch_object(const core::Sketch& sketch) {
@@ -174,6 +186,8 @@ Json sketch_object(const core::Sketch& sketch) {
                               {"actuated", joint.actuated}});
   for (const core::SketchLoad& load : sketch.loads)
     body["loads"].push_back({{"at", load.at}, {"force", load.force}, {"couple", load.couple}});
+  if (sketch.end_effector && !sketch.end_effector->name.empty())
+    body["end_effector"] = {{"name", printable(sketch.end_effector->name)}, {"at", sketch.end_effector->at}};
   for (const core::SketchSpring& spring : sketch.springs)
     body["springs"].push_back({{"from", spring.from}, {"to", spring.to}, {"torsion", spring.torsion}});
   return body;
@@ -196,10 +210,20 @@ Json viewer_object(const LociSheet& loci) {
     if (!one.beside)
       sketches.push_back(
           {{"working_mode", mode_object(loci.map.tower, one.mode)}, {"sketch", sketch_object(one.sketch)}});
-  Json map = loci_object(loci.map);
-  map.erase("timing");  // a page of the same loci has the same bytes
-  return {{"loci", std::move(map)},
+  const core::LocusMap& map = loci.map;
+  Json answer = loci_object(map);
+  answer.erase("timing");  // a page of the same loci has the same bytes
+  Json parameters = Json::array(), zones = Json::array();
+  for (const auto& [name, value] : map.parameters)
+    parameters.push_back({{"name", printable(name)}, {"value", printable(decimal_words(value))}});
+  if (loci.zones != nullptr) zones = zones_object(*loci.zones)["zones"];
+  return {{"loci", std::move(answer)},
+          {"units", units_object(map.units)},
+          {"notes", told_once(core::in_file_units(map.notes, map.units, map.angles))},
+          {"parameters", std::move(parameters)},
+          {"zones", std::move(zones)},
           {"curve_groups", curve_groups(groups)},
+          {"remarks", groups.remarks},
           {"point_groups", point_groups(groups, loci.map)},
           {"surface_groups", surface_groups(loci.map)},
           {"meshes", std::move(meshes)},

@@ -15,8 +15,9 @@ namespace clearloci::report {
 /// mechanism.
 nlohmann::ordered_json drawing_rules();
 
-/// {"loci": as loci.json, "curve_groups", "point_groups", "surface_groups", "meshes", "sketches"}: what is drawn alike
-/// and how, by the ids of loci.json; triangles as little-endian floats and indices in base64.
+/// {"loci": as loci.json, "units", "notes" and "parameters" as tables tell them, "zones" as zones.json, "curve_groups",
+/// "point_groups", "surface_groups", "meshes", "sketches"}: what is drawn alike and how, by the ids of loci.json;
+/// triangles as little-endian floats and indices in base64.
 nlohmann::ordered_json viewer_object(const LociSheet& loci);
 
 nlohmann::ordered_json sketch_object(const core::Sketch& sketch);

@@ -32,11 +32,9 @@ std::array<double, 2> values_of(const core::QuadraticNumber& value, const core::
   return {core::to_double(value.rational) + root, core::to_double(value.rational) - root};
 }
 
-/// "1/2"; what stands for an irrational number, or is as long, as a decimal unless `exact`.
+/// "0.5", or with `exact` "1/2".
 std::string rational_words(const core::Rational& value, bool exact) {
-  constexpr std::size_t longest = 12;  // of a number that somebody wrote: "123456/78901"
-  std::string text = core::to_string(value);
-  return exact || text.size() <= longest ? text : short_number(core::to_double(value), digits_of_decimals);
+  return exact ? core::to_string(value) : short_number(core::to_double(value), digits_of_decimals);
 }
 
 /// "√(69/100)", or "1/2" where the square root is exact; a decimal unless `exact`.
@@ -133,13 +131,13 @@ std::string kind_words(core::LocusKind kind) {
 std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing) {
   const bool margin = kind == core::LocusKind::margin;
   const std::vector<std::pair<core::Quantity, std::string>> wordings = {
-      {core::Quantity::f, margin ? "contact force at its minimum" : "contact lost"},
-      {core::Quantity::end_ahead, margin ? "end ahead at its minimum" : "end ahead lifts"},
-      {core::Quantity::end_behind, margin ? "end behind at its minimum" : "end behind lifts"},
-      {core::Quantity::N, margin ? "normal force at its minimum" : "normal force zero"},
+      {core::Quantity::f, margin ? "margin of the contact force lost" : "contact lost"},
+      {core::Quantity::end_ahead, margin ? "margin of the end ahead lost" : "end ahead lifts"},
+      {core::Quantity::end_behind, margin ? "margin of the end behind lost" : "end behind lifts"},
+      {core::Quantity::N, margin ? "margin of the normal force lost" : "normal force zero"},
       {core::Quantity::T, "couple zero"},
-      {core::Quantity::M, margin ? "couple at its minimum" : "backlash"},
-      {core::Quantity::F, margin ? "axial force at its minimum" : "backlash along the axis"},
+      {core::Quantity::M, margin ? "margin of the couple lost" : "backlash"},
+      {core::Quantity::F, margin ? "margin of the axial force lost" : "backlash along the axis"},
       {core::Quantity::fx, "fx = 0"},
       {core::Quantity::fy, "fy = 0"},
       {core::Quantity::fz, "fz = 0"},
@@ -166,6 +164,10 @@ bool reads_well(const std::string& factor, int longest) {
     if (digits > most_digits) return false;
   }
   return true;
+}
+
+int readable_factor(const core::LocusMap& map, int longest) {
+  return map.units.declared && map.units.length.size != 1 ? 0 : longest;
 }
 
 std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing, const std::string& factor,
@@ -233,13 +235,19 @@ std::string mode_slug(const core::TowerNames& tower, const core::WorkingMode& mo
   return joined(parts, "-");
 }
 
-std::string parameter_words(const core::LocusMap& map) {
+std::string decimal_words(const std::string& value) {
+  const std::string number = value.substr(0, value.find(' '));
+  const bool is_number = number.find_first_not_of("-0123456789/") == std::string::npos && !number.empty();
+  if (!is_number || number.find('/') == std::string::npos) return value;
+  core::Rational exact(number);
+  exact.canonicalize();
+  return short_number(core::to_double(exact), place_digits) + value.substr(number.size());
+}
+
+std::string parameter_words(const core::LocusMap& map, bool exact) {
   std::vector<std::string> parts;
-  const std::string in_degrees = "*pi/180";
-  for (const auto& [name, value] : map.parameters) {
-    const bool angle = value.size() > in_degrees.size() && value.ends_with(in_degrees);
-    parts.push_back(name + " = " + (angle ? value.substr(0, value.size() - in_degrees.size()) + " deg" : value));
-  }
+  for (const auto& [name, value] : map.parameters)
+    parts.push_back(name + " = " + (exact ? value : decimal_words(value)));
   return joined(parts, ", ");
 }
 

@@ -25,6 +25,10 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
 /// Whether a factor is short enough to be read, in columns and in the digits of its numbers.
 bool reads_well(const std::string& factor, int longest);
 
+/// How long a factor may be that stands beside numbers of the map: none is read where the map is in other units than
+/// the polynomials, which are in m.
+int readable_factor(const core::LocusMap& map, int longest);
+
 /// Why it vanishes: the cause; the factor, where it reads well, as it stands; else what the vanishing means by
 /// virtual work, which holds of any factor: "the loads do no work in the motion that A1 alone drives".
 std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing, const std::string& factor,
@@ -44,8 +48,12 @@ std::string mode_words(const core::TowerNames& tower, const core::WorkingMode& m
 /// "right-left": the mode as a part of a file's name.
 std::string mode_slug(const core::TowerNames& tower, const core::WorkingMode& mode);
 
-/// "L = 1/2, d = 1/2".
-std::string parameter_words(const core::LocusMap& map);
+/// The numbers of a value as it is written as decimals: "0.35" of "7/20", "0.333333 N/mm" of "1/3 N/mm". An expression
+/// is left as it is.
+std::string decimal_words(const std::string& value);
+
+/// "L = 0.5, k = 3 N/mm"; `exact`: "L = 1/2".
+std::string parameter_words(const core::LocusMap& map, bool exact = false);
 
 /// The modes of the map's curves, points and regions, each once, in order of appearance.
 std::vector<core::WorkingMode> modes_of(const core::LocusMap& map);

@@ -21,7 +21,7 @@ def _axes(ax: Axes | None, coordinates: list[str]) -> Axes:
     if ax is None:
         import matplotlib.pyplot as plt
 
-        ax = plt.subplots()[1]
+        ax = plt.subplots(layout="constrained")[1]  # room for a legend beside the plot
     ax.set_aspect("equal")
     ax.set_xlabel(f"{coordinates[0]} (m)")
     ax.set_ylabel(f"{coordinates[1]} (m)")
@@ -61,9 +61,12 @@ def plot_loci(loci: Loci, ax: Axes | None, working_mode: dict[str, str] | None) 
         if region.working_mode == mode:
             _fill(ax, region.rings, color="0.95", zorder=0)
     plot_curves(loci.curves, ax, mode)
+    named: set[str] = set()
     for point in loci.isolated_points:
         if point.working_mode == mode:
-            ax.plot(*point.at, "o", color="black", fillstyle="none", label=f"isolated: {', '.join(point.vanishing)}")
+            label = f"isolated: {', '.join(point.vanishing)}"
+            ax.plot(*point.at, "o", color="black", fillstyle="none", label=None if label in named else label)
+            named.add(label)
     (x0, x1), (y0, y1) = loci.box
     ax.set_xlim(x0, x1)
     ax.set_ylim(y0, y1)
@@ -106,7 +109,7 @@ def plot_trajectory(motion: Any, columns: list[str], ax: Axes | None) -> Axes:
     if ax is None:
         import matplotlib.pyplot as plt
 
-        ax = plt.subplots()[1]
+        ax = plt.subplots(layout="constrained")[1]  # room for a legend beside the plot
     for column in columns:
         ax.plot(motion.samples["time"], motion.samples[column], label=f"{column} ({motion.units[column]})")
     for loss in motion.losses:

@@ -16,8 +16,8 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 TEST(LociTable, SaysWhatVanishesWhereAndHow) {
   const std::string table = loci_table(fixture::five_bar_map());
   for (const char* part :
-       {"Planar 5R manipulator", "L = 1/2, d = 1/2", "Working mode: B1 right, B2 left", "f: A1, B1, P; M: A1",
-        "link PB2 parallel to the load", "circle centre (1/2, -1/2), radius 1/2", "direct singularity",
+       {"Planar 5R manipulator", "L = 0.5, d = 0.5", "Working mode: B1 right, B2 left", "f: A1, B1, P; M: A1",
+        "link PB2 parallel to the load", "circle centre (0.5, -0.5), radius 0.5", "direct singularity",
         "workspace boundary", "backlash", "isolated points", "-0.198205"}) {
     EXPECT_TRUE(has(table, part)) << part << "\n" << table;
   }
@@ -31,7 +31,7 @@ TEST(LociTable, FitsTheTerminalAndItsColumnsAlign) {
       EXPECT_LE(columns(line), 120) << line;
       const std::size_t degree = line.find("degree");
       if (degree != std::string::npos) degree_column = columns(line.substr(0, degree)) + 6;
-      if (has(line, "circle centre (1/2, 1/2)")) {
+      if (has(line, "circle centre (0.5, 0.5)")) {
         EXPECT_EQ(columns(line.substr(0, line.find("circle"))), degree_column + 2) << line;
       }
     }
