@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -289,6 +290,7 @@ class Nodes {
       std::optional<Star> star = enclosed_star(zero, tower_, part_, program);
       if (!star || !all_vanish(program, *star)) continue;
       star->singular = true;
+      star->room = room_around(program, zero, box);
       for (const core::NodeForm* form : forms_)
         for (const core::NodeForm::Part& own : form->parts) star->apex->vanishing.push_back(own.line);
       stars.push_back(std::move(*star));
@@ -302,6 +304,40 @@ class Nodes {
     for (const core::NodeForm* form : forms)
       for (const core::NodeForm::Part& own : form->parts) all.push_back(own.sheet);
     return subtower(tower, mode, all);
+  }
+
+  /// How far no root gets near zero, to all appearance: next to a workspace boundary what is written around the node is
+  /// enclosed badly.
+  static double room_around(const SheetProgram& program, const SheetZero& zero, const Surroundings& box) {
+    constexpr int directions = 16, most_halvings = 24;
+    constexpr double widest = 0.06, least_square = 0.3;
+    auto registers = program.registers<double>();
+    const auto squares_at = [&](double x, double y) {
+      std::vector<double> squares;
+      registers.set(0, x);
+      registers.set(1, y);
+      for (int j = 0; j < program.roots(); ++j) {
+        registers.run_square(j);
+        squares.push_back(registers.square(j));
+        const double root = std::sqrt(std::max(0.0, squares.back()));
+        registers.set(2 + j, zero.roots[static_cast<std::size_t>(j)] < 0 ? -root : root);
+      }
+      return squares;
+    };
+    const std::vector<double> middle = squares_at(zero.x, zero.y);
+    const auto is_clear = [&](double reach) {
+      for (int k = 0; k < directions; ++k) {
+        const double angle = 2 * std::numbers::pi * k / directions;
+        const std::vector<double> own = squares_at(zero.x + reach * std::cos(angle), zero.y + reach * std::sin(angle));
+        for (std::size_t j = 0; j < own.size(); ++j)
+          if (!(own[j] > least_square * middle[j])) return false;
+      }
+      return true;
+    };
+    double reach =
+        widest * std::max(core::to_double(box.upper[0] - box.lower[0]), core::to_double(box.upper[1] - box.lower[1]));
+    for (int k = 0; k < most_halvings && !is_clear(std::numbers::sqrt2 * reach); ++k) reach /= 2;
+    return reach;
   }
 
   static bool is_known(const std::vector<Star>& stars, const SheetZero& zero) {

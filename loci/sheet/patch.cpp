@@ -272,6 +272,7 @@ std::optional<std::array<double, 4>> rectangle_around(const Star& star, const st
     const double distance = std::max(std::abs(base[0] - x), std::abs(base[1] - y));
     if (distance > 0) reach = std::min(reach, share * distance);
   }
+  reach = std::min(reach, star.room);
   const double edge = margin * reach;
   if (x < box[0] - edge || x > box[1] + edge || y < box[2] - edge || y > box[3] + edge) return std::nullopt;
   // Short binary fractions, so that the charts' coefficients stay short.

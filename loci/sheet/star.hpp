@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,8 @@ struct Star {
   /// Of a touch or a corner: a branch of a direct singularity reaches it on the working mode's sheet.
   bool singular = false;
   std::optional<Apex> apex = {};  ///< of a cone at no rational point
+  /// A rectangle around it reaches no farther: of a node, so that no workspace boundary passes through.
+  double room = std::numeric_limits<double>::infinity();
 
   /// One coordinate is counted off a tangent.
   bool is_sheared() const { return shape == Shape::touch || shape == Shape::bend; }

@@ -7,7 +7,7 @@ import pytest
 
 def test_loci_are_curves_with_arrays(five_bar):
     loci = five_bar.loci(working_mode="all")
-    assert loci.complete
+    assert loci.complete and loci.open == []
     assert {c.kind for c in loci.curves} >= {"contact-loss", "backlash", "direct-singularity", "workspace-boundary"}
     for curve in loci.curves:
         assert curve.certified
