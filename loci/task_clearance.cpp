@@ -65,7 +65,7 @@ std::optional<NearestLocus> nearest_locus(const core::LocusProblem& problem, con
   best.distance = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < map.curves.size(); ++c) {
     const core::LocusCurve& curve = map.curves[c];
-    if (curve.mode != mode || !cuts_workspace(curve)) continue;
+    if (curve.mode != mode || !cuts_workspace(curve.kind)) continue;
     for (const core::Arc& arc : curve.arcs)
       for (std::size_t i = 1; i < arc.points.size(); ++i) {
         const double before = best.distance;
@@ -100,7 +100,7 @@ core::Polyline places_of(const std::vector<const LocusMap*>& maps, const core::W
   core::Polyline places;
   for (const LocusMap* map : maps) {
     for (const core::LocusCurve& curve : map->curves) {
-      if (curve.mode != mode || !cuts_workspace(curve)) continue;
+      if (curve.mode != mode || !cuts_workspace(curve.kind)) continue;
       for (const core::Arc& arc : curve.arcs) {
         if (!arc.points.empty()) places.push_back(arc.points.front());
         for (std::size_t i = 1; i < arc.points.size(); ++i) {
