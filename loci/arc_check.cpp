@@ -152,6 +152,7 @@ struct Sound {
 Sound sound_pieces(const core::Arc& arc, std::deque<ArcCheck>& checks, double tolerance) {
   constexpr std::size_t fewest = 4;  // vertices that no place with a few wrong ones has by chance
   Sound sound;
+  if (arc.points.empty()) return sound;
   core::Arc piece;
   std::size_t told = 0;  // the last vertex of the piece before
   const auto held = [&](const core::Point2& at, core::ArcEnd end) {
@@ -224,10 +225,9 @@ bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map)
     std::deque<ArcCheck> checks = checks_of(problem, curve);
     for (std::size_t last = next; last-- > first;) {
       const auto place = curve.arcs.begin() + static_cast<std::ptrdiff_t>(wrong[last].arc);
-      Sound sound;
-      if (wrong[last].fault.in_vertices)
-        sound = sound_pieces(*place, checks, problem.tolerance);
-      else
+      // What is wrong with an arc as a whole may be so anywhere along it.
+      Sound sound = sound_pieces(*place, checks, problem.tolerance);
+      if (!wrong[last].fault.in_vertices)
         sound.gaps = {extent_of(place->points.empty() ? core::Polyline{wrong[last].fault.at} : place->points)};
       for (const PlaneBox& gap : sound.gaps) leave_open(label_of(curve), curve.mode, gap, map);
       curve.arcs.insert(curve.arcs.erase(place), sound.pieces.begin(), sound.pieces.end());

@@ -53,7 +53,9 @@ class Run {
       const double chord = std::hypot(to[0] - from[0], to[1] - from[1]);
       // A shallow arc over a chord c with sagitta d is 8 d^2 / (3 c) longer than it.
       if (target.open) arc.open.push_back({hull(from[0], to[0]), hull(from[1], to[1])});
-      if (chord > 0) arc.length += chord + 8 * target.deviation * target.deviation / (3 * chord);
+      // Over one that is shorter than the sagitta it is not shallow: there the bound of either way holds.
+      if (chord > 0)
+        arc.length += chord + std::min(8 * target.deviation * target.deviation / (3 * chord), 2 * target.deviation);
       arc.points.push_back(to);
       at = std::move(target.point);
       leg = target.leg;
