@@ -91,6 +91,40 @@ TEST(CurveArrangement, AnIsolatedPointIsFoundEvenOnAnotherCurve) {
   EXPECT_EQ(there, 1);
 }
 
+// Along a line of a 3-RPR's poses: a curve with an isolated point, which CGAL's own construction does not bear beside
+// any other curve. On x = 0 it has a double point in (0, -1/4) alone.
+TEST(CurveArrangement, ACurveWithAnIsolatedPointIsBorneBesideOthers) {
+  const Polynomial sextic = {
+      2, {{{6, 0}, 256000000},  {{5, 1}, 502272000},  {{5, 0}, 1154432000}, {{4, 2}, 502364416},  {{4, 1}, 2149201792},
+          {{4, 0}, 2087301776}, {{3, 3}, 502272000},  {{3, 2}, 1642250624}, {{3, 1}, 3558394688}, {{3, 0}, 1927912664},
+          {{2, 4}, 246364416},  {{2, 3}, 1400611584}, {{2, 2}, 1854448864}, {{2, 1}, 2878243120}, {{2, 0}, 950689249},
+          {{1, 4}, 753408000},  {{1, 3}, 967296000},  {{1, 2}, 951792000},  {{1, 1}, 1127544000}, {{1, 0}, 234570000},
+          {{0, 4}, 576000000},  {{0, 2}, 252000000},  {{0, 1}, 162000000},  {{0, 0}, 22500000}}};
+  const std::array<Rational, 2> lower = {Rational(-1, 4), Rational(-3, 4)}, upper = {Rational(3, 4), Rational(1, 4)};
+  const CurveArrangement alone({sextic}, lower, upper), both({sextic, x}, lower, upper);
+  EXPECT_EQ(edges_on(both, 0), edges_on(alone, 0));
+  EXPECT_EQ(edges_on(both, 1), 2);
+  EXPECT_EQ(both.vertices(), alone.vertices() + 2);
+  EXPECT_EQ(both.edges().size(), alone.edges().size() + 4);
+  bool there = false;
+  for (int v = 0; v < static_cast<int>(both.vertices()); ++v) there = there || both.is_near(v, {0, -0.25}, 1e-15);
+  EXPECT_TRUE(there);
+}
+
+TEST(CurveArrangement, ALineThatIsIrrationalIsCutByAll) {
+  // x^2 = 1/2: two lines, each with the circle above and below and the sides of the box.
+  const CurveArrangement arrangement({core::primitive_part(x * x - number({1, 2})), circle(0, 0, 1)}, {-2, -2}, {2, 2});
+  EXPECT_EQ(edges_on(arrangement, 0), 6);
+  EXPECT_EQ(edges_on(arrangement, 1), 6);
+}
+
+TEST(CurveArrangement, BranchesThatComeFromInfinityAreNotJoined) {
+  // x y = 1/4: from above to the right, and from below to the left, of the line x = 0.
+  const CurveArrangement arrangement({core::primitive_part(x * y - number({1, 4})), x}, {-1, -1}, {1, 1});
+  EXPECT_EQ(edges_on(arrangement, 0), 2);
+  EXPECT_EQ(edges_on(arrangement, 1), 1);
+}
+
 TEST(CurveArrangement, SamplesLieOnTheirEdge) {
   const Polynomial cubic = core::primitive_part(y * y - x * x * x + x);  // an oval and a branch
   const CurveArrangement arrangement({cubic}, {-2, -2}, {2, 2});

@@ -1,0 +1,64 @@
+// Designs whose curves have isolated points: the exact engine answers them, and as the adaptive one does.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "analysis/loci.hpp"
+#include "core/errors.hpp"
+#include "tests/laws/lattice_designs.hpp"
+#include "tests/laws/same_topology.hpp"
+
+namespace clearloci {
+namespace {
+
+bool is_certified(const core::LocusMap& map) {
+  return std::all_of(map.curves.begin(), map.curves.end(),
+                     [](const core::LocusCurve& curve) { return curve.certified; });
+}
+
+/// Traces by either engine. True: both certify all, and tell the same.
+bool holds(const mechanism::Mechanism& mechanism) {
+  LociRequest request;
+  request.engine = core::Engine::exact;
+  const core::LocusMap exact = trace_loci(mechanism, request);
+  EXPECT_TRUE(exact.complete);
+  request.engine = core::Engine::adaptive;
+  const core::LocusMap adaptive = trace_loci(mechanism, request);
+  if (!is_certified(exact) || !is_certified(adaptive)) return false;
+  const std::vector<std::string> all = test::differences(exact, adaptive);
+  EXPECT_TRUE(all.empty()) << all.front();
+  return all.empty();
+}
+
+// At given orientations, on the lattice of quarters. The second once ended CGAL's sweep.
+TEST(ExactDesigns, PlatformsOnThreeTelescopes) {
+  int told = 0;
+  for (int i = 3000; i < 3008; ++i) {
+    std::seed_seq sequence{20261122, static_cast<int>(test::Family::three_rpr), i};
+    std::mt19937 random(sequence);
+    const std::string text = i % 2 == 0 ? test::lattice_design(random, test::Family::three_rpr, i % 3 == 2)
+                                        : test::generic_design(random, test::Family::three_rpr, i % 3 == 2);
+    SCOPED_TRACE(std::to_string(i) + "\n" + text);
+    try {
+      told += holds(mechanism::parse_mechanism(text, "lattice.yaml")) ? 1 : 0;
+    } catch (const core::InputError&) {  // no pose within the box
+    }
+  }
+  EXPECT_GE(told, 4);
+}
+
+// Over the angles of two motors the curves of a component are biquadratic in the half tangents.
+TEST(ExactDesigns, AComponentOverTwoAngles) {
+  LociRequest request;
+  request.quantities = {core::Quantity::fx};
+  const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/";
+  const core::LocusMap map = trace_loci(mechanism::read_mechanism(folder + "five_bar_angles_fx.yaml"), request);
+  EXPECT_TRUE(map.complete);
+  EXPECT_FALSE(map.curves.empty());
+}
+
+}  // namespace
+}  // namespace clearloci
