@@ -43,34 +43,37 @@ bool plays_part_of(const LocusFactor& factor, LocusKind kind) {
 
 }  // namespace
 
+double vertex_reach(const std::vector<double>& lower, const std::vector<double>& upper) {
+  double largest = 0, size = 0;
+  for (std::size_t c = 0; c < lower.size(); ++c) {
+    size = std::max(size, upper[c] - lower[c]);
+    largest = std::max({largest, std::abs(lower[c]), std::abs(upper[c])});
+  }
+  return std::max(vertex_accuracy * size, spacings * std::numeric_limits<double>::epsilon() * largest);
+}
+
 ArcCheck::ArcCheck(const core::LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode)
     : problem_(problem),
       mode_(mode),
       program_(problem.tower, functions(problem, factor)),
       registers_(program_.registers<Interval>()) {
-  double largest = 0, size = 0;
   for (std::size_t c = 0; c < 2; ++c) {
     lower_[c] = core::to_double(problem.lower[c]);
     upper_[c] = core::to_double(problem.upper[c]);
-    size = std::max(size, upper_[c] - lower_[c]);
-    largest = std::max({largest, std::abs(lower_[c]), std::abs(upper_[c])});
   }
-  reach_ = std::max(vertex_accuracy * size, spacings * std::numeric_limits<double>::epsilon() * largest);
+  reach_ = vertex_reach({lower_[0], lower_[1]}, {upper_[0], upper_[1]});
   const int denominators = static_cast<int>(problem.tower.denominators.size());
   for (int f = 1; f < program_.functions(); ++f)
     (f < program_.functions() - denominators ? singularities_ : undefined_).push_back(f);
 }
 
-std::optional<std::string> ArcCheck::fault_at(const core::Point2& at, core::ArcEnd end) {
+std::optional<std::string> ArcCheck::fault_at(const core::Point2& at, core::ArcEnd end, const core::Point2& reach) {
   bool on_side = false;
   for (std::size_t c = 0; c < 2; ++c) {
-    if (!(at[c] >= lower_[c] - reach_ && at[c] <= upper_[c] + reach_)) return "a vertex outside the box";
-    on_side = on_side || at[c] <= lower_[c] + reach_ || at[c] >= upper_[c] - reach_;
+    if (!(at[c] >= lower_[c] - reach[c] && at[c] <= upper_[c] + reach[c])) return "a vertex outside the box";
+    on_side = on_side || at[c] <= lower_[c] + reach[c] || at[c] >= upper_[c] - reach[c];
   }
-  for (const int v : {0, 1}) {
-    const double x = at[static_cast<std::size_t>(v)];
-    registers_.set(v, Interval(x - reach_, x + reach_));
-  }
+  for (std::size_t c = 0; c < 2; ++c) registers_.set(static_cast<int>(c), Interval(at[c] - reach[c], at[c] + reach[c]));
   bool on_boundary = false;
   for (int j = 0; j < program_.roots(); ++j) {
     registers_.run_square(j);
@@ -102,7 +105,11 @@ std::optional<std::string> ArcCheck::fault_at(const core::Point2& at, core::ArcE
   return std::nullopt;
 }
 
-bool ArcCheck::holds(const core::Point2& vertex, core::ArcEnd end) { return !fault_at(vertex, end); }
+bool ArcCheck::holds(const core::Point2& vertex, core::ArcEnd end) { return holds(vertex, end, {reach_, reach_}); }
+
+bool ArcCheck::holds(const core::Point2& vertex, core::ArcEnd end, const core::Point2& reach) {
+  return !fault_at(vertex, end, reach);
+}
 
 std::optional<ArcFault> ArcCheck::operator()(const core::Arc& arc) {
   if (arc.points.size() < 2) return ArcFault{"an arc without vertices", {}};
@@ -119,7 +126,8 @@ std::optional<ArcFault> ArcCheck::operator()(const core::Arc& arc) {
     core::ArcEnd end = core::ArcEnd::none;
     if (i == 0) end = arc.ends[0];
     if (i + 1 == arc.points.size()) end = arc.ends[1];
-    if (auto what = fault_at(arc.points[i], end)) return ArcFault{std::move(*what), arc.points[i], true};
+    if (auto what = fault_at(arc.points[i], end, {reach_, reach_}))
+      return ArcFault{std::move(*what), arc.points[i], true};
   }
   // A chord that strays by the tolerance hides less than twice that of a curve that does not turn back.
   const double hidden = 2 * problem_.tolerance * static_cast<double>(arc.points.size());
@@ -134,14 +142,14 @@ bool owns(const LocusFactor& factor, const core::LocusCurve& curve) {
   return std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
 }
 
-namespace {
-
 std::deque<ArcCheck> checks_of(const core::LocusProblem& problem, const core::LocusCurve& curve) {
   std::deque<ArcCheck> checks;
   for (const LocusFactor& factor : problem.factors)
     if (owns(factor, curve)) checks.emplace_back(problem, factor, curve.mode);
   return checks;
 }
+
+namespace {
 
 struct Sound {
   std::vector<core::Arc> pieces;

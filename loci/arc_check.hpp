@@ -2,6 +2,8 @@
 // vertices refute what is not in the box, not on the curve or not in the mode. Always armed.
 #pragma once
 
+#include <array>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,9 +32,11 @@ class ArcCheck {
   std::optional<ArcFault> operator()(const core::Arc& arc);
   /// Whether one vertex, or an end of this kind, passes.
   bool holds(const core::Point2& vertex, core::ArcEnd end);
+  /// The same of a vertex that may be off by `reach` in either coordinate.
+  bool holds(const core::Point2& vertex, core::ArcEnd end, const core::Point2& reach);
 
  private:
-  std::optional<std::string> fault_at(const core::Point2& at, core::ArcEnd end);
+  std::optional<std::string> fault_at(const core::Point2& at, core::ArcEnd end, const core::Point2& reach);
 
   const core::LocusProblem& problem_;
   core::WorkingMode mode_;
@@ -42,6 +46,12 @@ class ArcCheck {
   double reach_ = 0;
   std::vector<int> singularities_, undefined_;  ///< functions of the program: every |A|, every denominator
 };
+
+/// By how much a vertex of a map over this box may be off, in the larger of its sides and of its numbers.
+double vertex_reach(const std::vector<double>& lower, const std::vector<double>& upper);
+
+/// The checks of the factors whose zeros a curve may be: a vertex is to pass one of them. None: nothing is known of it.
+std::deque<ArcCheck> checks_of(const core::LocusProblem& problem, const core::LocusCurve& curve);
 
 /// An arc of a map that is proven to be wrong.
 struct WrongArc {

@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <limits>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "core/errors.hpp"
+#include "loci/arc_check.hpp"
 #include "loci/chart_points.hpp"
 #include "loci/curve_projection.hpp"
+#include "loci/place_words.hpp"
 #include "loci/sheet_maps.hpp"
 
 namespace clearloci::loci {
@@ -30,11 +36,29 @@ constexpr double most_bend = 1.3;
 
 double distance(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
+/// Per coordinate, where the charts' boxes together begin and end: lengths, and angles.
+std::array<std::vector<double>, 2> joined_box(const std::vector<const LocusProblem*>& charts) {
+  std::array<std::vector<double>, 2> box;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (const LocusProblem* chart : charts) {
+      const auto at = [&](const core::Rational& end) {
+        const double value = core::to_double(end);
+        return chart->charts[i] ? core::angle_at(*chart->charts[i], value) : value;
+      };
+      const double lower = at(chart->lower[i]), upper = at(chart->upper[i]);
+      if (box[0].size() <= i) box[0].push_back(lower), box[1].push_back(upper);
+      box[0][i] = std::min(box[0][i], lower);
+      box[1][i] = std::max(box[1][i], upper);
+    }
+  return box;
+}
+
 /// One chart's map with angles in place of their t.
 class Unrolled {
  public:
-  Unrolled(const LocusProblem& problem, const LocusMap& map, double tolerance)
-      : problem_(problem), map_(map), projections_(problem, map), tolerance_(tolerance) {}
+  /// `reach`: by how much a vertex over the angles may be off.
+  Unrolled(const LocusProblem& problem, const LocusMap& map, double tolerance, double reach)
+      : problem_(problem), map_(map), projections_(problem, map), tolerance_(tolerance), reach_(reach) {}
 
   Point2 place(const Point2& at) const {
     Point2 result = at;
@@ -45,15 +69,25 @@ class Unrolled {
 
   Polyline ring(const Polyline& points) const {
     Polyline result = {place(points.front())};
-    for (std::size_t k = 1; k < points.size(); ++k) append(points[k - 1], points[k], nullptr, result);
+    for (std::size_t k = 1; k < points.size(); ++k) append_chord(points[k - 1], points[k], result);
     return result;
   }
 
-  Arc arc(int curve, const Arc& own) {
+  /// `open`: where vertices fail the last check (arc_check.hpp), and where chords bend more than is allowed since none
+  /// was found between their ends.
+  Arc arc(int curve, const Arc& own, Polyline& open) {
+    const CurveProjection& onto = projections_.of(curve);
+    const auto [known, fresh] = checks_.try_emplace(curve);
+    if (fresh) known->second = checks_of(problem_, map_.curves[static_cast<std::size_t>(curve)]);
+    const OneCurve on{onto, known->second, open};
     Arc result = own;
     result.points = {place(own.points.front())};
-    const CurveProjection& onto = projections_.of(curve);
-    for (std::size_t k = 1; k < own.points.size(); ++k) append(own.points[k - 1], own.points[k], &onto, result.points);
+    if (!holds(on.checks, result.points.front(), own.ends[0])) open.push_back(result.points.front());
+    for (std::size_t k = 1; k < own.points.size(); ++k) {
+      append_curve(own.points[k - 1], own.points[k], pieces_of(own.points[k - 1], own.points[k]), on, result.points);
+      const ArcEnd end = k + 1 == own.points.size() ? own.ends[1] : ArcEnd::none;
+      if (!holds(on.checks, result.points.back(), end)) open.push_back(result.points.back());
+    }
     return result;
   }
 
@@ -64,25 +98,76 @@ class Unrolled {
   }
 
  private:
-  /// The image of a chord, cut where it bends; `onto`: the curve, null of a border's chord.
-  void append(const Point2& from, const Point2& to, const CurveProjection* onto, Polyline& points) const {
+  struct OneCurve {
+    const CurveProjection& onto;
+    std::deque<ArcCheck>& checks;
+    Polyline& open;
+  };
+
+  /// Into how many parts the image of a chord is cut, for it bends.
+  int pieces_of(const Point2& from, const Point2& to) const {
     double bend = 0;
     for (std::size_t i = 0; i < 2; ++i)
       if (problem_.charts[i]) bend = std::max(bend, most_bend / 8 * (to[i] - from[i]) * (to[i] - from[i]));
-    const int pieces = std::max(1, static_cast<int>(std::ceil(std::sqrt(bend / (tolerance_ / 2)))));
-    for (int k = 1; k < pieces; ++k) {
-      const double part = static_cast<double>(k) / pieces;
-      const Point2 near = {from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])};
-      const Point2 on = onto == nullptr ? near : (*onto)(near).at;
-      points.push_back(place(distance(on, near) <= 2 * map_.tolerance ? on : near));
+    return std::max(1, static_cast<int>(std::ceil(std::sqrt(bend / (tolerance_ / 2)))));
+  }
+
+  void append_chord(const Point2& from, const Point2& to, Polyline& points) const {
+    const int pieces = pieces_of(from, to);
+    for (int k = 1; k < pieces; ++k) points.push_back(place(between(from, to, static_cast<double>(k) / pieces)));
+    points.push_back(place(to));
+  }
+
+  void append_curve(const Point2& from, const Point2& to, int pieces, const OneCurve& curve, Polyline& points) const {
+    if (pieces > 1) {
+      const int half = pieces / 2;
+      if (const auto on = point_between(from, to, static_cast<double>(half) / pieces, curve)) {
+        append_curve(from, *on, half, curve, points);
+        append_curve(*on, to, pieces - half, curve, points);
+        return;
+      }
+      curve.open.push_back(place(between(from, to, 0.5)));
     }
     points.push_back(place(to));
+  }
+
+  /// A point of the curve beside its chord that passes the last check.
+  std::optional<Point2> point_between(const Point2& from, const Point2& to, double share, const OneCurve& curve) const {
+    const Point2 way = {to[0] - from[0], to[1] - from[1]}, near = between(from, to, share);
+    const double square = way[0] * way[0] + way[1] * way[1];
+    const auto fits = [&](const Point2& at) {
+      const Point2 gone = {at[0] - from[0], at[1] - from[1]};
+      const double along = gone[0] * way[0] + gone[1] * way[1], across = gone[0] * way[1] - gone[1] * way[0];
+      return along > 0 && along < square && std::abs(across) <= 2 * map_.tolerance * std::sqrt(square) &&
+             holds(curve.checks, place(at), ArcEnd::none);
+    };
+    if (const Point2 on = curve.onto(near).at; fits(on)) return on;
+    if (const auto on = curve.onto.between(from, to); on && fits(*on)) return on;
+    return std::nullopt;
+  }
+
+  static Point2 between(const Point2& from, const Point2& to, double share) {
+    return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
+  }
+
+  /// Whether a vertex over the angles, as it is handed out, passes the last check.
+  bool holds(std::deque<ArcCheck>& checks, const Point2& at, ArcEnd end) const {
+    Point2 own = at, reach = {reach_, reach_};
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!problem_.charts[i]) continue;
+      own[i] = core::parameter_at(*problem_.charts[i], at[i]);
+      reach[i] *= (1 + own[i] * own[i]) / 2;
+      reach[i] += std::numeric_limits<double>::epsilon();  // of what the tangent is rounded by
+    }
+    return checks.empty() ||
+           std::any_of(checks.begin(), checks.end(), [&](ArcCheck& check) { return check.holds(own, end, reach); });
   }
 
   const LocusProblem& problem_;
   const LocusMap& map_;
   CurveProjections projections_;
-  double tolerance_;
+  std::map<int, std::deque<ArcCheck>> checks_;
+  double tolerance_, reach_;
 };
 
 /// Where charts meet: per coordinate, the angles at which one of them ends and another begins.
@@ -209,6 +294,18 @@ class Joining {
   std::vector<std::array<End, 2>> partner_;
 };
 
+/// `open`: over the angles.
+std::string note_of_open(const LocusCurve& curve, const Polyline& open, const LocusProblem& chart) {
+  std::array<double, 4> box = {open[0][0], open[0][0], open[0][1], open[0][1]};
+  for (const Point2& at : open)
+    for (std::size_t i = 0; i < 2; ++i) {
+      box[2 * i] = std::min(box[2 * i], at[i]);
+      box[2 * i + 1] = std::max(box[2 * i + 1], at[i]);
+    }
+  return "vertices of " + (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
+         " are not known to rounding, " + place_words_of_angles(chart, box);
+}
+
 bool is_same(const LocusCurve& a, const LocusCurve& b) {
   return a.kind == b.kind && a.vanishing == b.vanishing && a.factor == b.factor && a.cause == b.cause &&
          a.mode == b.mode && a.excited == b.excited;
@@ -232,9 +329,11 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   joined.tolerance = tolerance;
   joined.angles = {charts.front()->charts[0].has_value(), charts.front()->charts[1].has_value()};
 
+  const auto [lower, upper] = joined_box(charts);
+  const double reach = vertex_reach(lower, upper);
   std::vector<std::set<std::size_t>> charts_with;  // by curve of the joined map
   for (std::size_t m = 0; m < maps.size(); ++m) {
-    Unrolled own(*charts[m], maps[m], tolerance);
+    Unrolled own(*charts[m], maps[m], tolerance, reach);
     joined.complete = joined.complete && maps[m].complete;
     joined.out_of_time = joined.out_of_time || maps[m].out_of_time;
     for (core::OpenRegion region : maps[m].open) {
@@ -262,13 +361,18 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
       charts_with[index].insert(m);
       if (!(known->implicit == curve.implicit)) charts_with[index].insert(maps.size());  // of no single polynomial
       known->certified = known->certified && curve.certified;
+      Polyline open;
       for (const Arc& arc : curve.arcs) {
-        Arc unrolled = own.arc(static_cast<int>(c), arc);
+        Arc unrolled = own.arc(static_cast<int>(c), arc, open);
         const bool known_already = std::all_of(unrolled.points.begin(), unrolled.points.end(),
                                                [&](const Point2& p) { return on_seam(seams, p); }) &&
                                    std::any_of(known->arcs.begin(), known->arcs.end(),
                                                [&](const Arc& other) { return is_within(unrolled, other); });
         if (!known_already) known->arcs.push_back(std::move(unrolled));
+      }
+      if (!open.empty()) {
+        known->certified = false;
+        joined.notes.push_back(note_of_open(curve, open, *charts[m]));
       }
     }
     for (core::IsolatedPoint point : maps[m].isolated_points) {

@@ -1,13 +1,14 @@
 #include "loci/isolated_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <span>
 
 #include "loci/edge_labels.hpp"
+#include "loci/place_words.hpp"
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
 #include "loci/sheet/multi_interval.hpp"
@@ -30,19 +31,6 @@ bool makes_vanish(const core::LocusFactor& factor, const std::string& joint, Qua
   return factor.role == FactorRole::reaction &&
          std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
                      [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
-}
-
-/// "(0.25, -0.7)"; angles, which a chart has by their half tangents, in degrees.
-std::string place_words(const LocusProblem& problem, const core::Point2& at) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  std::string words;
-  for (std::size_t c = 0; c < 2; ++c) {
-    const bool angle = c < problem.charts.size() && problem.charts[c].has_value();
-    words +=
-        (c == 0 ? "(" : ", ") +
-        (angle ? std::to_string(core::angle_at(*problem.charts[c], at[c]) * degrees) + " deg" : std::to_string(at[c]));
-  }
-  return words + ")";
 }
 
 /// Whether a curve passes within `reach` of a point.
@@ -191,14 +179,17 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
 
 core::Point2 middle_of(const sheet::Cell& cell) { return {cell.x.middle(), cell.y.middle()}; }
 
+std::array<double, 4> box_of(const sheet::Cell& cell) {
+  return {cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()};
+}
+
 /// Where points may be that nothing was proven of: once for all joints along a chain, whose forces vanish together.
 class Doubts {
  public:
-  void add(const std::string& joint, std::size_t places, const std::string& first) {
-    const std::string where =
-        places == 1 ? "a place near " + first + " where an isolated point is neither proven nor excluded"
-                    : std::to_string(places) +
-                          " places where an isolated point is neither proven nor excluded, the first near " + first;
+  /// `where`: a box round all of the places.
+  void add(const std::string& joint, std::size_t places, const std::string& box) {
+    const std::string where = "an isolated point is neither proven nor excluded " +
+                              (places == 1 ? box : "in " + std::to_string(places) + " places, all " + box);
     const auto known = std::find_if(all_.begin(), all_.end(), [&](const auto& doubt) { return doubt.first == where; });
     if (known == all_.end())
       all_.push_back({where, {joint}});
@@ -288,16 +279,19 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       }
       // What no proof was had for is a point where Newton finds one, and else only worth a note.
       std::size_t open = 0;
+      sheet::Cell hull;
       for (const sheet::Cell& cell : found.undecided) {
         const core::Point2 centre = middle_of(cell);
         const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
         const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
-        if (at && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size}))
+        if (at && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size})) {
           add(*at, false);
-        else
-          ++open;
+          continue;
+        }
+        hull = open == 0 ? cell : sheet::Cell{core::hull(hull.x, cell.x), core::hull(hull.y, cell.y)};
+        ++open;
       }
-      if (open > 0) doubts.add(joint, open, place_words(problem, middle_of(found.undecided.front())));
+      if (open > 0) doubts.add(joint, open, place_words(problem, box_of(hull)));
     }
   }
   doubts.tell(map.notes);

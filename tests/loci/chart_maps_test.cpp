@@ -81,6 +81,33 @@ TEST(ChartMaps, WhatEndsAtTheBoxDoesSoInEveryChart) {
   for (std::size_t i = 0; i < ends.size(); ++i) EXPECT_NEAR(ends[i], expected[i], on_curve);
 }
 
+// x = s with s^2 = t + 1/2: beside its end on the boundary, s = 0, points of a chord are off the sheet, where Newton's
+// method across it finds nothing. Vertices between its ends are on the curve there as elsewhere.
+TEST(ChartMaps, VerticesBesideABoundaryAreOnTheCurve) {
+  LocusProblem problem = chart_of(0, 1, 1);
+  core::Root root;
+  root.name = "s1";
+  root.point = "B1";
+  root.square = {3, {{{0, 1, 0}, 1}, {{0, 0, 0}, Rational(1, 2)}}};
+  problem.tower.roots.push_back(root);
+  problem.modes = {{1}};
+  problem.lower[0] = -1;
+  core::LocusFactor& factor = problem.factors.front();
+  factor.sheet = {3, {{{1, 0, 0}, 1}, {{0, 0, 1}, -1}}};
+  factor.implicit = {{2, {{{2, 0}, 2}, {{0, 1}, -2}, {{0, 0}, -1}}}};
+  const LocusMap map = join_charts({&problem}, {trace(problem)}, {{1}}, tolerance);
+  ASSERT_EQ(map.curves.size(), 1U);
+  EXPECT_TRUE(map.curves[0].certified);
+  std::size_t vertices = 0;
+  for (const core::Arc& arc : map.curves[0].arcs)
+    for (const Point2& at : arc.points) {
+      EXPECT_NEAR(at[0] * at[0], std::tan(at[1] / 2) + 0.5, 1e-12);
+      EXPECT_GE(at[0], -1e-12);
+      ++vertices;
+    }
+  EXPECT_GT(vertices, 50U);
+}
+
 TEST(ChartMaps, AChartAloneKeepsItsPolynomial) {
   const LocusProblem only = chart_of(0, 1, 1);
   const LocusMap map = join_charts({&only}, {trace(only)}, {{}}, tolerance);
