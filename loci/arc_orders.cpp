@@ -37,6 +37,36 @@ int sign_in_doubles(const Polynomial& p, const std::vector<MultiInterval>& at) {
   return std::isfinite(sum.lower()) && std::isfinite(sum.upper()) ? sum.sign() : 0;
 }
 
+/// By what the result is to be multiplied to be what it was.
+Rational scale_for_doubles(Polynomial& p) {
+  if (p.is_zero()) return 1;
+  const Rational before = p.terms.front().coefficient;
+  p = core::scaled_for_doubles(p);
+  return before / p.terms.front().coefficient;
+}
+
+/// The coefficients of the powers of an angle, of which the variable is the angle + angle_shift.
+std::vector<Polynomial> powers_of_angle(const Polynomial& p, std::size_t variable) {
+  std::vector<std::map<std::vector<int>, Rational, std::greater<>>> powers;
+  for (core::Term term : p.terms) {
+    const int power = std::exchange(term.exponents[variable], 0);
+    if (powers.size() <= static_cast<std::size_t>(power)) powers.resize(static_cast<std::size_t>(power) + 1);
+    core::Integer factor = 1;  // binomial(power, k) shift^(power - k)
+    for (int k = power; k >= 0; --k) {
+      powers[static_cast<std::size_t>(k)][term.exponents] += term.coefficient * Rational(factor);
+      factor = factor * k / (power - k + 1) * core::angle_shift;
+    }
+  }
+  std::vector<Polynomial> list;
+  for (const auto& own : powers) {
+    Polynomial& coefficient = list.emplace_back();
+    coefficient.variables = p.variables;
+    for (const auto& [exponents, value] : own)
+      if (value != 0) coefficient.terms.push_back({exponents, value});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::optional<CurvePoint> curve_point(const Polynomial& curve, const std::array<double, 2>& near, double reach) {
@@ -88,17 +118,17 @@ const CurveAlgebra::Divided& CurveAlgebra::divided(const Polynomial& p) {
       ++own.order;
     }
     // What a curve with long coefficients leaves of a product is below what MultiInterval resolves.
-    own.rest = core::scaled_for_doubles(own.rest);
+    own.scale = scale_for_doubles(own.rest);
     return own;
   });
 }
 
-const Polynomial& CurveAlgebra::conjugate(const Polynomial& p, int root) {
+const CurveAlgebra::Conjugate& CurveAlgebra::conjugate(const Polynomial& p, int root) {
   // A polynomial names its own root: the last that it holds.
   return known_or(conjugates_, p, [&] {
-    Polynomial product = conjugate_product(p, root, tower_);
-    if (!product.is_zero()) product = core::scaled_for_doubles(product);
-    return product;
+    Conjugate own{conjugate_product(p, root, tower_)};
+    own.scale = scale_for_doubles(own.product);
+    return own;
   });
 }
 
@@ -188,25 +218,110 @@ std::optional<Germ> ArcOrders::coordinate_germ(const Polynomial& p, int side) {
   return Germ{own.order, own.order % 2 == 0 ? cofactor : side * cofactor};
 }
 
-/// By powers of the angle's root, which is positive: told where the lowest order is that of one of them alone.
+std::optional<Germ> ArcOrders::angle_germ(int root, int side) {
+  const core::Root& own = tower_.roots[static_cast<std::size_t>(root)];
+  const std::optional<Germ> cosine = germ(own.cosine_and_sine[0], side), sine = germ(own.cosine_and_sine[1], side);
+  if (!cosine || !sine) return std::nullopt;
+  if (sine->order == 0 || (cosine->order == 0 && cosine->sign > 0)) return sine;
+  return std::nullopt;
+}
+
 std::optional<Germ> ArcOrders::germ_with_angle(const Polynomial& p, int root, int side) {
-  const std::size_t variable = tower_.coordinates.size() + static_cast<std::size_t>(root);
-  std::map<int, Polynomial> powers;
-  for (core::Term term : p.terms) {
-    Polynomial& own = powers[std::exchange(term.exponents[variable], 0)];
-    own.variables = p.variables;
-    own.terms.push_back(std::move(term));
-  }
+  const std::vector<Polynomial> powers = powers_of_angle(p, tower_.coordinates.size() + static_cast<std::size_t>(root));
+  const std::optional<Germ> angle = angle_germ(root, side);
+  if (!angle) return std::nullopt;
   Germ lowest;
-  bool several = false;
-  for (const auto& [power, coefficient] : powers) {
-    const std::optional<Germ> own = germ(coefficient, side);
+  bool opposed = false;
+  for (std::size_t k = 0; k < powers.size(); ++k) {
+    std::optional<Germ> own = germ(powers[k], side);
     if (!own) return std::nullopt;
+    if (k > 0) {
+      own->order += angle->order * static_cast<int>(k);
+      own->sign *= k % 2 == 0 ? std::abs(angle->sign) : angle->sign;
+    }
     if (own->is_zero() || (!lowest.is_zero() && own->order > lowest.order)) continue;
-    several = !lowest.is_zero() && own->order == lowest.order;
+    opposed = !lowest.is_zero() && own->order == lowest.order && (opposed || own->sign != lowest.sign);
     lowest = *own;
   }
-  return several ? std::nullopt : std::optional(lowest);
+  if (!opposed) return lowest;
+  const std::optional<MultiInterval> sum = lead_with_angle(p, root, side);
+  if (!sum || sum->sign() == 0) return std::nullopt;
+  return Germ{lowest.order, sum->sign()};
+}
+
+std::optional<MultiInterval> ArcOrders::lead_of_angle(int root, int side) {
+  const core::Root& own = tower_.roots[static_cast<std::size_t>(root)];
+  const std::optional<Germ> angle = angle_germ(root, side);
+  if (!angle) return std::nullopt;
+  if (angle->order == 0)
+    return at_[tower_.coordinates.size() + static_cast<std::size_t>(root)] - MultiInterval(Rational(core::angle_shift));
+  const std::optional<MultiInterval> cosine = lead(own.cosine_and_sine[0], side);
+  const std::optional<MultiInterval> sine = lead(own.cosine_and_sine[1], side);
+  if (!cosine || !sine) return std::nullopt;
+  return *sine * inverse(*cosine);
+}
+
+std::optional<MultiInterval> ArcOrders::lead_with_angle(const Polynomial& p, int root, int side) {
+  const std::vector<Polynomial> powers = powers_of_angle(p, tower_.coordinates.size() + static_cast<std::size_t>(root));
+  const std::optional<Germ> angle = angle_germ(root, side);
+  const std::optional<MultiInterval> turn = lead_of_angle(root, side);
+  if (!angle || !turn) return std::nullopt;
+  std::optional<Rational> least;
+  MultiInterval sum(0.0), power(1.0);
+  for (std::size_t k = 0; k < powers.size(); ++k, power = power * *turn) {
+    const std::optional<Germ> own = germ(powers[k], side);
+    if (!own) return std::nullopt;
+    if (own->is_zero() || (k > 0 && angle->is_zero())) continue;
+    const Rational order = own->order + angle->order * static_cast<int>(k);
+    if (least && order > *least) continue;
+    const std::optional<MultiInterval> coefficient = lead(powers[k], side);
+    if (!coefficient) return std::nullopt;
+    const MultiInterval term = *coefficient * power;
+    sum = least && order == *least ? sum + term : term;
+    least = order;
+  }
+  return sum;
+}
+
+std::optional<MultiInterval> ArcOrders::lead(const Polynomial& p, int side) {
+  if (rule_) return std::nullopt;
+  const std::optional<Germ> own = germ(p, side);
+  if (!own) return std::nullopt;
+  if (own->is_zero()) return MultiInterval(0.0);
+  if (own->order == 0) {
+    std::vector<MultiInterval> at = at_;
+    at.resize(std::max(at.size(), static_cast<std::size_t>(p.variables)), MultiInterval(0.0));
+    return evaluate(p, at);
+  }
+  const int top = top_root(p, tower_);
+  if (top < 0) {
+    const CurveAlgebra::Divided& divided = algebra_->divided(p);
+    const MultiInterval rest = evaluate(divided.rest, at_) * MultiInterval(divided.scale);
+    return divided.order % 2 != 0 && side < 0 ? -rest : rest;
+  }
+  if (tower_.roots[static_cast<std::size_t>(top)].is_angle()) return lead_with_angle(p, top, side);
+  return lead_over_root(p, top, side);
+}
+
+/// Of a + b s, with the orders of both as germ() compares them.
+std::optional<MultiInterval> ArcOrders::lead_over_root(const Polynomial& p, int root, int side) {
+  const auto [a, b] = split(p, static_cast<int>(tower_.coordinates.size()) + root);
+  const Germ& square = squares_.at(side)[static_cast<std::size_t>(root)];
+  const std::optional<Germ> plain = germ(a, side), rooted = germ(b, side);
+  std::optional<MultiInterval> first = lead(a, side), second = lead(b, side);
+  const std::optional<MultiInterval> under = lead(tower_.roots[static_cast<std::size_t>(root)].square, side);
+  if (!plain || !rooted || !first || !second || !under || !under->non_negative()) return std::nullopt;
+  const MultiInterval value = square_root(*under);
+  second = *second * (mode_[static_cast<std::size_t>(root)] > 0 ? value : -value);
+  const Rational order = rooted->order + square.order / 2;
+  if (rooted->is_zero() || square.is_zero()) return first;
+  if (plain->is_zero()) return second;
+  if (plain->order != order) return plain->order < order ? first : second;
+  if (const MultiInterval sum = *first + *second; sum.sign() != 0) return sum;
+  const CurveAlgebra::Conjugate& conjugate = algebra_->conjugate(p, root);
+  const std::optional<MultiInterval> both = lead(conjugate.product, side);
+  if (!both) return std::nullopt;
+  return *both * MultiInterval(conjugate.scale) * inverse(*first - *second);
 }
 
 /// +1 or -1 where it is proven, else 0.
@@ -244,7 +359,7 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
   if (plain->is_zero()) return rooted;
   if (plain->order != rooted->order) return plain->order < rooted->order ? plain : rooted;
   if (plain->sign == rooted->sign) return plain;
-  const Polynomial& product = algebra_->conjugate(p, top);
+  const Polynomial& product = algebra_->conjugate(p, top).product;
   if (product.is_zero()) return Germ{};
   std::optional<Germ> both = germ(product, side);
   if (!both || both->is_zero()) return both;

@@ -8,6 +8,10 @@
 //     equal, signs differ                   -> v(a^2 - b^2 Q) - v(a): the conjugate a - b s does not cancel
 // The signs are those next to the curve, and come out of the same recursion: at its bottom stand polynomials in the
 // coordinates, whose cofactor p / g^v has a sign at a point of the curve, told by intervals.
+//
+// An angle phi, an arc tangent of Y / X, is no algebraic number: it vanishes as Y does where X > 0. Of c0 + c1 phi +
+// ... whose terms of the lowest order v differ in sign, the sum of the leading coefficients, lim c / |g|^v, tells
+// whether they cancel: where its enclosure excludes zero they do not; else nothing is told.
 #pragma once
 
 #include <functional>
@@ -46,12 +50,16 @@ class CurveAlgebra {
   CurveAlgebra(const core::RootTower& tower, core::Polynomial curve) : tower_(tower), curve_(std::move(curve)) {}
 
   struct Divided {
-    int order = 0;          ///< how often the curve divides the polynomial
-    core::Polynomial rest;  ///< what is left of it then
+    int order = 0;            ///< how often the curve divides the polynomial
+    core::Polynomial rest;    ///< what is left of it then, over `scale`
+    core::Rational scale{1};  ///< positive
   };
   const Divided& divided(const core::Polynomial& p);
-  /// p times its conjugate by a root, scaled for doubles.
-  const core::Polynomial& conjugate(const core::Polynomial& p, int root);
+  struct Conjugate {
+    core::Polynomial product;  ///< p times its conjugate by a root, over `scale`
+    core::Rational scale{1};   ///< positive
+  };
+  const Conjugate& conjugate(const core::Polynomial& p, int root);
 
  private:
   template <class Value>
@@ -64,7 +72,7 @@ class CurveAlgebra {
   core::Polynomial curve_;
   std::mutex mutex_;  // of what follows
   Known<Divided> divided_;
-  Known<core::Polynomial> conjugates_;
+  Known<Conjugate> conjugates_;
 };
 
 /// The algebra of the curves of a tower. May be shared by threads.
@@ -109,6 +117,14 @@ class ArcOrders {
   std::optional<Germ> coordinate_germ(const core::Polynomial& p, int side);
   int sign_at_point(const core::Polynomial& p);
   std::optional<Germ> germ_with_angle(const core::Polynomial& p, int root, int side);
+  std::optional<Germ> angle_germ(int root, int side);
+  /// The limit of an element over |g|^order on one side, enclosed; nothing where its germ is not told. Required: the
+  /// curve's own rule.
+  std::optional<sheet::MultiInterval> lead(const core::Polynomial& p, int side);
+  std::optional<sheet::MultiInterval> lead_over_root(const core::Polynomial& p, int root, int side);
+  std::optional<sheet::MultiInterval> lead_of_angle(int root, int side);
+  /// Of several terms of one order.
+  std::optional<sheet::MultiInterval> lead_with_angle(const core::Polynomial& p, int root, int side);
 
   const core::RootTower& tower_;
   core::WorkingMode mode_;

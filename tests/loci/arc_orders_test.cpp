@@ -113,6 +113,49 @@ TEST(ArcOrders, AreRightAtIrrationalPoints) {
   EXPECT_EQ(order(arc, S - X, 1), Rational(0));
 }
 
+/// The angle of (1, tangent) alone; its variable is the angle + 4.
+RootTower angle_of(const Polynomial& tangent) {
+  RootTower tower;
+  tower.coordinates = {"x", "y"};
+  core::Root& root = tower.roots.emplace_back();
+  root.name = "s1";
+  root.role = core::RootRole::length;
+  root.cosine_and_sine = {ring(1), core::with_variables(tangent, 3)};
+  root.square = ring(1) + core::with_variables(tangent * tangent, 3);
+  return tower;
+}
+
+TEST(ArcOrders, CompareAnAngleWithWhatItIsAddedTo) {
+  const Polynomial angle = S - ring(4);
+  const RootTower tower = angle_of(x);  // atan(1/3) = 0.32 where it is looked at
+  ArcOrders arc(tower, {1}, y, exactly({1, 3}, 0));
+  ASSERT_TRUE(arc.decided());
+  for (const int side : {1, -1}) {
+    EXPECT_EQ(order(arc, Y * S, side), Rational(1));
+    EXPECT_EQ(order(arc, Y * angle, side), Rational(1));
+    EXPECT_EQ(order(arc, Y * Y * angle - Y * Y, side), Rational(2));
+    EXPECT_EQ(order(arc, Y * Y * angle - Y, side), Rational(1));
+    EXPECT_EQ(order(arc, X * angle, side), Rational(0));
+    // One term above the other: 0.32 - 1 and 0.32 - 0.3.
+    EXPECT_EQ(arc.germ(Y * angle - Y, side)->sign, -side);
+    EXPECT_EQ(arc.germ(Y * angle - ring({3, 10}) * Y, side)->sign, side);
+  }
+}
+
+TEST(ArcOrders, TellNothingWhereAnAngleCancels) {
+  const Polynomial angle = S - ring(4);
+  const RootTower tower = angle_of(y);
+  ArcOrders arc(tower, {1}, y, exactly({1, 3}, 0));
+  ASSERT_TRUE(arc.decided());
+  for (const int side : {1, -1}) {
+    EXPECT_EQ(order(arc, angle, side), Rational(1));
+    EXPECT_EQ(order(arc, angle * Y, side), Rational(2));
+    EXPECT_EQ(order(arc, angle + Y, side), Rational(1));
+    EXPECT_EQ(order(arc, angle - ring(2) * Y, side), Rational(1));
+    EXPECT_FALSE(arc.germ(angle - Y, side).has_value());  // -y^3/3: no enclosure of a quotient tells
+  }
+}
+
 TEST(ArcOrders, DivideOnlyWhatDivides) {
   EXPECT_EQ(core::exact_quotient(circle * (x + y), circle), x + y);
   EXPECT_FALSE(core::exact_quotient(circle * (x + y) + plane(1), circle).has_value());
