@@ -23,7 +23,7 @@ class Pose(Asked):
     unreachable: str | None  #: why it is not reached: the first point that cannot be placed, or the limit that it is beyond
     points: dict[str, list[float]]
     reactions: dict[str, dict[str, float]]  #: joint -> {"fx": N, "fy": N, "M": N m}
-    determinant: float | None  #: |A|
+    determinant: float | None  #: ``|A|``
     condition: float | None
     singular: bool | None
     take_up: dict[str, dict[str, Any]]
