@@ -71,7 +71,7 @@ class Model:
 
     @property
     def parameters(self) -> dict[str, float]:
-        """Values in SI units."""
+        """Values in the units of the file, as `with_parameters` takes them."""
         return {name: own["value"] for name, own in self._handle.parameters.items()}
 
     @property
@@ -296,7 +296,21 @@ class Model:
         if working_mode == "all":
             return ask(lambda own: [Pose(**one) for one in own], "solve_pose_in_modes", self, values, bool(iterate))
         given = arguments.options(self, working_mode=working_mode)
-        return ask(lambda own: Pose(**own), "solve_pose", self, values, bool(iterate), **given)
+        outside = self._outside(values)
+
+        def pose_of(own: dict[str, Any]) -> Pose:
+            if own["unreachable"] is not None and outside:
+                own["unreachable"] += f"; {outside}"
+            return Pose(**own)
+
+        return ask(pose_of, "solve_pose", self, values, bool(iterate), **given)
+
+    def _outside(self, at: list[float]) -> str:
+        """Which coordinate is out of its range, a hint for those who write mm or degrees; empty where none is."""
+        for value, (name, (lower, upper)) in zip(at, self.coordinates.items()):
+            if not lower <= value <= upper:
+                return f"{name} = {value:g} is outside its range from {lower:g} to {upper:g}, in m or rad"
+        return ""
 
     def reactions(self, poses: ArrayLike, *, working_mode: WorkingMode | None = None) -> dict[str, np.ndarray]:
         """Scalar reactions, N and N m, at poses (n, coordinates): name -> (n,), NaN where a pose is out of reach."""

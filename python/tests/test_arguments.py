@@ -116,7 +116,8 @@ def test_numbers_are_taken_as_they_are_written(five_bar):
 
 def test_a_pose_out_of_reach_has_no_numbers(five_bar):
     pose = five_bar.pose((5, 5))
-    assert not pose and "B1" in pose.unreachable
+    assert not pose and "B1" in pose.unreachable and "x = 5 is outside its range from -0.5 to 1, in m" in pose.unreachable
+    assert "range" not in five_bar.pose((0.9, 0.9)).unreachable
     assert pose.determinant is None and pose.condition is None and pose.singular is None and pose.worst is None
     assert pose.error is None and pose.reactions == {} and pose.points == {}
     with pytest.raises(ValueError, match="out of reach"):
