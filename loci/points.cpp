@@ -399,6 +399,20 @@ bool add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::v
 
 }  // namespace
 
+namespace {
+
+/// What a factor makes vanish, in a line: formulas of it may fill pages.
+std::string words_of(const LocusFactor& factor) {
+  if (!factor.cause.empty()) return factor.cause;
+  if (factor.role == FactorRole::direct_singularity) return "|A|";
+  std::string names;
+  for (const Vanishing& own : factor.vanishing)
+    names += (names.empty() ? "" : ", ") + core::to_string(own.quantity) + " of " + own.joint;
+  return names.empty() ? "a factor" : names;
+}
+
+}  // namespace
+
 void add_points_of_one_coordinate(const LocusProblem& problem, const TraceOptions& options, LocusMap& map) {
   core::ensure(problem.tower.coordinates.size() == 1, "one free coordinate");
   std::vector<Search> searches;
@@ -413,8 +427,8 @@ void add_points_of_one_coordinate(const LocusProblem& problem, const TraceOption
       const LocusFactor& factor = problem.factors[refused];
       if (has_angle(factor.sheet, problem.tower)) {
         searches[refused] = Search::open;
-        map.notes.push_back("undecided: where " + (factor.cause.empty() ? factor.expression : factor.cause) +
-                            " vanishes, which holds an angle that enclosures do not tell from its zeros");
+        map.notes.push_back("undecided: zeros of " + words_of(factor) +
+                            ", with an angle that enclosures do not tell from its zeros");
       } else {
         searches[refused] = Search::by_polynomial;
         roots = candidates(problem, searches);

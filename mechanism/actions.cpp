@@ -9,6 +9,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/rigidity.hpp"
+#include "mechanism/spring_ends.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -121,6 +122,7 @@ std::string name_of(const Mechanism& mechanism, const Limit& limit) {
 }
 
 std::string words_of(const Mechanism& mechanism, const Limit& limit, bool upper) {
+  if (auto of_spring = words_of_spring_ends(mechanism, limit)) return *of_spring;
   const core::Unit& length = mechanism.units.length;
   const double unit =
       limit.is_angle() ? 180 / std::numbers::pi : (mechanism.frame ? mechanism.frame->scale_value() : 1) / length.size;

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/posture_sample.hpp"
+#include "mechanism/spring_ends.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -146,9 +147,11 @@ std::vector<std::string> idle_notes(const Mechanism& m) {
     lines += (lines.empty() ? "" : ", ") + line_name(m, a, b);
     balls += (balls.empty() ? "" : ", ") + joint.name;
   }
-  if (lines.empty()) return {};
-  return {"what hangs on two balls may spin about the line through them (" + lines +
-          "), which moves nothing else: held still at " + balls};
+  std::vector<std::string> notes = notes_of_spring_ends(m);
+  if (!lines.empty())
+    notes.insert(notes.begin(), "what hangs on two balls may spin about the line through them (" + lines +
+                                    "), which moves nothing else: held still at " + balls);
+  return notes;
 }
 
 }  // namespace clearloci::mechanism

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanism/posture_sample.hpp"
+#include "mechanism/rigidity.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -44,13 +45,14 @@ std::vector<std::vector<int>> modes_of(const Mechanism& mechanism) {
 }  // namespace
 
 std::vector<bool> idle_limits(const Mechanism& mechanism) {
-  constexpr std::size_t postures = 8;
+  constexpr std::size_t postures = 12;
   std::vector<bool> idle(mechanism.limits.size(), !mechanism.limits.empty());
   if (mechanism.limits.empty()) return idle;
+  const HeldByLinks held = held_by_links(mechanism);
   std::vector<double> least(idle.size(), INFINITY), greatest(idle.size(), -INFINITY);
   for (const std::vector<int>& mode : modes_of(mechanism))
     for (const SampledPosture& posture : sample_poses(mechanism, mode, postures))
-      for (std::size_t i = 0; i < idle.size(); ++i) {
+      for (std::size_t i = 0; i < idle.size() && keeps(held, posture.points); ++i) {
         const double value = kept(mechanism.limits[i], posture.points);
         idle[i] = idle[i] && std::isfinite(value);
         least[i] = std::min(least[i], value);

@@ -10,6 +10,7 @@
 #include "mechanism/inline_points.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/repeat.hpp"
+#include "mechanism/spring_ends.hpp"
 #include "mechanism/units.hpp"
 
 namespace clearloci::mechanism {
@@ -77,6 +78,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   check_axes(mechanism);
   check_springs(mechanism);
   check_rigidity(mechanism);
+  limit_spring_ends(mechanism);
   return mechanism;
 }
 

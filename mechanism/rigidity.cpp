@@ -17,6 +17,8 @@ using Vector = std::array<double, 3>;
 using Pair = std::array<PointIndex, 2>;
 
 constexpr std::size_t enough_postures = 24;
+/// Of a link's size: points nearer than that are in one place.
+constexpr double least_part = 1e-6;
 /// What rounding moves a point by, of its coordinates, with room for a construction.
 constexpr double rounding = 1e-13;
 
@@ -227,7 +229,8 @@ void add_turns(const Mechanism& mechanism, LinkIndex index, const std::vector<Sa
   const std::size_t corners = mechanism.space == Space::spatial ? 4 : 3;
   if (points.size() < corners || postures.empty()) return;
   const double size = size_of(points, postures);
-  const double least = std::pow(flat, corners - 2.0) * std::pow(size, static_cast<double>(corners) - 1);
+  const double powers = static_cast<double>(corners) - 1;  // of a length in a turn
+  const double least = std::pow(flat, powers - 1) * std::pow(size, powers);
   for (std::size_t i = corners - 1; i < points.size(); ++i) {
     std::vector<PointIndex> own(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(corners) - 1);
     own.push_back(points[i]);
@@ -236,7 +239,7 @@ void add_turns(const Mechanism& mechanism, LinkIndex index, const std::vector<Sa
     for (std::size_t p = 0; p < postures.size(); ++p)
       if (kept[p]) sizes.push_back(turn_of(own, postures[p].points));
     if (sizes.empty()) continue;
-    const auto usual = usual_value(sizes, bending * std::pow(size, static_cast<double>(corners) - 1));
+    const auto usual = usual_value(sizes, bending * std::pow(size, powers));
     if (usual && std::abs(*usual) > least) result.turns.push_back({index, own, *usual});
   }
 }
@@ -259,8 +262,8 @@ HeldByLinks held_by_links(const Mechanism& mechanism) {
   const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), enough_postures);
   if (postures.size() < 2) return result;
   const std::vector<Sampled> distances = sampled_distances(mechanism, postures, true);
-  for (const Sampled& own : distances)
-    if (own.usual) result.distances.push_back(own.held);
+  for (const Sampled& own : distances)  // of points in one place there is no ratio, nor a side to be on
+    if (own.usual && *own.usual > own.tolerance / bending * least_part) result.distances.push_back(own.held);
   std::vector<bool> kept;
   for (std::size_t p = 0; p < postures.size(); ++p) kept.push_back(keeps(distances, p));
   for (std::size_t l = 0; l < mechanism.links.size(); ++l)
@@ -275,6 +278,17 @@ void check_rigidity(const Mechanism& mechanism) {
     const auto [least, greatest] = std::minmax_element(own.lengths.begin(), own.lengths.end());
     if (!own.usual || (!own.held.by_sides && *greatest - *least > own.tolerance)) refuse(mechanism, own, postures);
   }
+}
+
+bool keeps(const HeldByLinks& held, const PosturePoints& points) {
+  const auto is_long = [&](const HeldDistance& own) {
+    const double now =
+        distance(points[static_cast<std::size_t>(own.first)], points[static_cast<std::size_t>(own.second)]);
+    return std::abs(now * now / (own.length * own.length) - 1) <= bending;
+  };
+  const auto turns = [&](const HeldTurn& own) { return turn_of(own.points, points) / own.size > 0; };
+  return std::all_of(held.distances.begin(), held.distances.end(), is_long) &&
+         std::all_of(held.turns.begin(), held.turns.end(), turns);
 }
 
 std::string words_of(const Mechanism& mechanism, const HeldDistance& held) {

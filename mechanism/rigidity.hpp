@@ -5,6 +5,7 @@
 // proves it sheet by sheet, and whoever builds a posture holds it to rounding.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ inline constexpr double bending = 1e-8;
 
 /// Nothing of what changes with the variables of an open design.
 HeldByLinks held_by_links(const Mechanism& mechanism);
+
+/// Whether a posture bends no link, to `bending`.
+bool keeps(const HeldByLinks& held, const std::vector<std::array<double, 3>>& points);
 
 /// "distance C1-Q1 of the rigid link rod2".
 std::string words_of(const Mechanism& mechanism, const HeldDistance& held);

@@ -129,6 +129,20 @@ TEST(RigidLinks, TheSideOnWhichOneBendsIsNoWorkspace) {
   EXPECT_NE(there.witness->limit.find("rod2"), std::string::npos) << there.witness->limit;
 }
 
+TEST(RigidLinks, LimitsAtTheirLengthsBoundNothing) {
+  const mechanism::Mechanism m = mechanism::parse_mechanism(
+      delta({}) +
+          "limits:\n  - {distance: [C1, Q1], within: [600, 700]}\n  - {distance: [G1, B1], within: [300, 900]}\n",
+      "delta.yaml");
+  const numeric::NumericModel model = numeric::compile(m);
+  const std::vector<int> mode = mechanism::working_mode(m);
+  EXPECT_TRUE(numeric::reachable(model, std::vector<double>{0.1, -0.8}, mode));
+  EXPECT_FALSE(numeric::reachable(model, std::vector<double>{0.65, -0.5}, mode));
+  EXPECT_TRUE(
+      decide_task(m, mechanism::parse_task("format: 1\nbox: {x: [100, 150], y: [-800, -750]}\n", "task.yaml", m))
+          .verified());
+}
+
 TEST(RigidLinks, OneThatIsRigidNowhereIsRefusedWithItsLengths) {
   std::string text = delta({});
   const std::string right = "  Q1: [x - tip - h, y]\n";

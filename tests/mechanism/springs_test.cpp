@@ -6,6 +6,7 @@
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/frame.hpp"
+#include "mechanism/idle.hpp"
 #include "mechanism/read.hpp"
 
 namespace clearloci::mechanism {
@@ -124,6 +125,20 @@ TEST(ReadLimits, KeepDistancesAndAngles) {
   expect_complaint("limits: [{distance: [A1, P], with: [0.31, 0.52]}]\n", "did you mean 'within'?");
   expect_complaint("limits: [{within: [0.31, 0.52]}]\n", "of nothing");
   expect_complaint("limits: [{distance: [A1, A1], within: [0.31, 0.52]}]\n", "names the point A1 twice");
+}
+
+TEST(ReadSprings, EndTheWorkspaceWhereTheirEndsMeetAlongACurve) {
+  const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/springs/";
+  const Mechanism m = read_mechanism(folder + "gripper_spring_ends_meet.yaml");
+  ASSERT_EQ(m.limits.size(), 1U);
+  EXPECT_GT(m.limits[0].lower_value, 0);
+  EXPECT_EQ(words_of(m, m.limits[0], false), "spring S1, whose ends H1 and H2 meet");
+  const std::vector<std::string> notes = idle_notes(m);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("its force turns round"), std::string::npos);
+  // B1 passes through H at single poses alone; and without a free length the force goes through nothing.
+  EXPECT_TRUE(parsed(text + "springs: [{links: [ground, A1B1], at: [H, B1], stiffness: 800, free_length: 0.1}]\n")
+                  .limits.empty());
 }
 
 TEST(Frames, LeaveForcesAsTheyAre) {
