@@ -53,12 +53,12 @@ struct Part {
 
 class ArcCheck {
  public:
-  ArcCheck(const mechanism::Mechanism& m, Curve& curve, int number, const std::vector<int>& singular,
-           std::vector<KnownArc>& arcs, std::vector<std::string>& unchecked)
+  ArcCheck(const mechanism::Mechanism& m, Curve& curve, const CurvePart& part, std::vector<KnownArc>& arcs,
+           std::vector<std::string>& unchecked)
       : m_(m),
         curve_(curve),
         c_(curve.c),
-        number_(number),
+        part_(part),
         arcs_(arcs),
         unchecked_(unchecked),
         covered_(curve.paths.size()) {
@@ -67,18 +67,18 @@ class ArcCheck {
       core::StraightLineBuilder builder;
       if (!is_at_zero(j)) roots_.push_back(builder.line(builder.variable(2 + j)));
     }
-    for (const int f : singular) singular_.push_back(&c_.functions[static_cast<std::size_t>(f)].program);
+    for (const int f : part.singular) singular_.push_back(&c_.functions[static_cast<std::size_t>(f)].program);
   }
 
   void run() {
     for (KnownArc& known : arcs_) {
       if (known.curve->mode != curve_.claim.mode || !kind_fits(known.curve->kind, curve_.claim.role)) continue;
-      if (!is_mine(*known.arc)) continue;
+      if (!is_mine(*known.curve, *known.arc)) continue;
       if (known.curve->certified)
         match(*known.arc);
       else
         uncertain_ = true;
-      known.sheet = number_;
+      known.sheet = part_.number;
     }
     for (std::size_t p = 0; p < covered_.size(); ++p) check_path(curve_.paths[p], covered_[p]);
   }
@@ -97,26 +97,33 @@ class ArcCheck {
   double vertex_reach(const Point2& at) const {
     return on_curve * curve_.size + 8 * 0x1p-52 * std::max(std::abs(at[0]), std::abs(at[1]));
   }
-  /// Of vertices next to the ends less is known: these may have been moved to the box.
+  /// Ends are computed apart, and may have been moved to the box.
   double reach_of(const core::Arc& arc, std::size_t i) const {
     const bool end = !arc.closed && (i == 0 || i + 1 == arc.points.size());
-    return end ? same_place * curve_.size : vertex_reach(arc.points[i]);
+    return (end ? 10 : 1) * vertex_reach(arc.points[i]);
   }
 
   /// The arc claims to be one of this function: most of some places lie on it.
-  bool is_mine(const core::Arc& arc) {
+  bool is_mine(const CurveClaim& claim, const core::Arc& arc) {
     int on = 0;
     const std::size_t n = arc.points.size();
+    // Of a single chord that tells little: then what vanishes on it has to be the function's, too.
+    if (n == 2 && curve_.claim.role == FactorRole::reaction &&
+        std::none_of(claim.vanishing.begin(), claim.vanishing.end(),
+                     [&](const Reaction& reaction) { return part_.vanishing.contains(reaction); }))
+      return false;
     for (const std::size_t quarter : {1u, 2u, 3u}) {
       if (n > 2) {
         const Point2& at = arc.points[std::clamp<std::size_t>(quarter * (n - 1) / 4, 1, n - 2)];
         on += holds_zero(at, 10 * vertex_reach(at)) ? 1 : 0;
       } else {
+        // A chord alone: its middle may lie near another curve too, its ends do not.
         const Point2 &a = arc.points[0], &b = arc.points[1];
-        on += holds_zero({0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}, 1.5 * c_.tolerance) ? 1 : 0;
+        const Point2 at = quarter == 1 ? a : quarter == 3 ? b : Point2{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+        on += holds_zero(at, quarter == 2 ? 1.5 * c_.tolerance : same_place * curve_.size) ? 1 : 0;
       }
     }
-    return on >= 2;
+    return on >= (n > 2 ? 2 : 3);
   }
 
   /// The vertices run along paths of this sheet one after another, through open cells between.
@@ -146,6 +153,8 @@ class ArcCheck {
       cover(runs[i], arc, i > 0 || runs[i].open_before, i + 1 < runs.size() || runs[i].open_after);
     }
     if (arc.closed && arc.points.front() != arc.points.back()) curve_.fail("a closed arc does not close");
+    if (arc.closed && (arc.ends[0] != ArcEnd::none || arc.ends[1] != ArcEnd::none))
+      curve_.fail("a closed arc has ends");
     if (!arc.closed)
       for (const std::size_t end : {0u, 1u}) check_end(arc, end);
   }
@@ -248,27 +257,34 @@ class ArcCheck {
     const Point2& at = end == 0 ? arc.points.front() : arc.points.back();
     const double reach = same_place * curve_.size;
     const Interval x = around(at[0], reach), y = around(at[1], reach);
+    const auto on_boundary = [&] {
+      const auto here = posture(m_, sides_of(c_, curve_.claim.mode), x, y);
+      return !here || std::any_of(here->squares.begin(), here->squares.end(),
+                                  [](const Interval& q) { return q.contains_zero(); });
+    };
+    const auto on_singularity = [&] {
+      return std::any_of(singular_.begin(), singular_.end(), [&](const core::StraightLine* program) {
+        Sheet sheet(parts_of(c_, curve_.claim.mode, curve_.claim.at_zero), {program});
+        return program != &curve_.program && sheet.enter(x, y) && !sheet.is_free(0);
+      });
+    };
     bool there = false;
     switch (arc.ends[end]) {
       case ArcEnd::box:
         for (std::size_t i = 0; i < 4; ++i) there = there || std::abs(at[i / 2] - box_[i]) < reach;
         break;
-      case ArcEnd::boundary: {
-        const auto here = posture(m_, sides_of(c_, curve_.claim.mode), x, y);
-        there = !here || std::any_of(here->squares.begin(), here->squares.end(),
-                                     [](const Interval& q) { return q.contains_zero(); });
+      case ArcEnd::boundary:
+        there = on_boundary();
         break;
-      }
       case ArcEnd::direct_singularity:
-        for (const core::StraightLine* program : singular_) {
-          Sheet sheet(parts_of(c_, curve_.claim.mode, curve_.claim.at_zero), {program});
-          there = there || (sheet.enter(x, y) && !sheet.is_free(0));
-        }
+        there = on_singularity();
         break;
       case ArcEnd::crossing:
         for (const KnownArc& other : arcs_)
           there = there || (other.arc != &arc && other.curve->mode == curve_.claim.mode &&
                             passes_near(other.arc->points, at, 2.5 * c_.tolerance));
+        // What ends on something graver is named after that.
+        there = there && !on_singularity() && (curve_.claim.role != FactorRole::reaction || !on_boundary());
         break;
       case ArcEnd::none:
         break;
@@ -336,7 +352,7 @@ class ArcCheck {
       return std::all_of(std::begin(curve_.piece(step).ends), std::end(curve_.piece(step).ends), [&](const End& end) {
         const Point2 at = curve_.junction(end.junction).place.at();
         return std::any_of(arcs_.begin(), arcs_.end(), [&](const KnownArc& known) {
-          return known.sheet == number_ && passes_near(known.arc->points, at, 1.5 * c_.tolerance);
+          return known.sheet == part_.number && passes_near(known.arc->points, at, 1.5 * c_.tolerance);
         });
       });
     });
@@ -487,7 +503,7 @@ class ArcCheck {
   const mechanism::Mechanism& m_;
   Curve& curve_;
   const CertificateFile& c_;
-  int number_;
+  const CurvePart& part_;
   std::vector<KnownArc>& arcs_;
   std::vector<std::string>& unchecked_;
   std::vector<std::vector<Part>> covered_;  // by path
@@ -499,9 +515,9 @@ class ArcCheck {
 
 }  // namespace
 
-void check_arcs(const mechanism::Mechanism& m, Curve& curve, int number, const std::vector<int>& singular,
-                std::vector<KnownArc>& arcs, std::vector<std::string>& unchecked) {
-  ArcCheck(m, curve, number, singular, arcs, unchecked).run();
+void check_arcs(const mechanism::Mechanism& m, Curve& curve, const CurvePart& part, std::vector<KnownArc>& arcs,
+                std::vector<std::string>& unchecked) {
+  ArcCheck(m, curve, part, arcs, unchecked).run();
 }
 
 }  // namespace clearloci::check

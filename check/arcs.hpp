@@ -2,6 +2,7 @@
 // what of it no arc covers is outside, or makes nothing wanted vanish. Private to check/.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,15 @@ struct KnownArc {
   int sheet = -1;  ///< by which it was found right; -1: none yet
 };
 
-/// Throws FalseClaim. `singular`: functions on which |A| vanishes; those other than the curve's own cut it. `number`:
-/// of the sheet. What is neither shown nor refuted is added to `unchecked`.
-void check_arcs(const mechanism::Mechanism& m, Curve& curve, int number, const std::vector<int>& singular,
-                std::vector<KnownArc>& arcs, std::vector<std::string>& unchecked);
+/// What a curve has to do with the statics of its mode.
+struct CurvePart {
+  int number = 0;                ///< of the sheet
+  std::vector<int> singular;     ///< functions on which |A| vanishes; those other than the curve's own cut it
+  std::set<Reaction> vanishing;  ///< reactions that its function is a factor of
+};
+
+/// Throws FalseClaim. What is neither shown nor refuted is added to `unchecked`.
+void check_arcs(const mechanism::Mechanism& m, Curve& curve, const CurvePart& part, std::vector<KnownArc>& arcs,
+                std::vector<std::string>& unchecked);
 
 }  // namespace clearloci::check

@@ -99,6 +99,7 @@ struct CertificateFile {
   std::vector<PointClaim> points;
   std::vector<ZoneClaim> zones;
   std::optional<TaskClaim> task;
+  std::vector<std::pair<int, int>> slits;  ///< SheetParts::slits; from the model, not in the file
   std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of the check; not in the file
 };
 

@@ -28,6 +28,16 @@ namespace {
 using core::FactorRole;
 using core::Quantity;
 
+/// The gravest of what vanishes: what loses contact, an actuator's couple or force, a component.
+core::LocusKind gravest_kind(const std::vector<Reaction>& vanishing) {
+  core::LocusKind kind = core::LocusKind::component;
+  for (const auto& [joint, quantity] : vanishing) {
+    if (quantity == Quantity::f || core::is_guide_end(quantity)) return core::LocusKind::contact_loss;
+    if (quantity == Quantity::M || quantity == Quantity::F) kind = core::LocusKind::backlash;
+  }
+  return kind;
+}
+
 constexpr int no_pose = -2;  // of an arc of a mode that could not be looked at
 constexpr std::size_t most_bytes = 400'000'000;
 
@@ -37,6 +47,8 @@ class Check {
 
   Examination run() {
     check_header();
+    check_kinds();
+    find_slits();
     for (const CurveClaim& curve : c_.curves)
       for (const core::Arc& arc : curve.arcs) arcs_.push_back({&curve, &arc});
     for (int mode = 0; mode < static_cast<int>(c_.modes.size()); ++mode) {
@@ -82,6 +94,32 @@ class Check {
     for (const std::string& joint : c_.joints)
       if (std::none_of(m_.joints.begin(), m_.joints.end(), [&](const auto& own) { return own.name == joint; }))
         throw FalseClaim("joints: '" + joint.substr(0, 40) + "' is none of the model's");
+  }
+
+  /// The limits of torsion springs are the last, in the order of the springs, whose angles are named after them.
+  void find_slits() {
+    std::size_t next = c_.limit_roots.size();
+    for (const mechanism::Spring& spring : m_.springs)
+      next -= spring.kind == mechanism::Spring::Kind::torsion ? 1U : 0U;
+    for (const mechanism::Spring& spring : m_.springs) {
+      if (spring.kind != mechanism::Spring::Kind::torsion) continue;
+      const int limit = c_.limit_roots.at(next++);
+      for (std::size_t j = 0; j < c_.root_points.size(); ++j)
+        if (c_.root_points[j] == spring.name) c_.slits.emplace_back(static_cast<int>(j), limit);
+    }
+  }
+
+  /// Kinds follow from what vanishes, whether it is claimed to be certain or not.
+  void check_kinds() const {
+    const auto check = [](core::LocusKind kind, const std::vector<Reaction>& vanishing, const std::string& what) {
+      if (kind <= core::LocusKind::component && kind != gravest_kind(vanishing))
+        throw FalseClaim(fmt::format("{} is said to be of the kind {}, where {} vanish", what, core::to_string(kind),
+                                     names({vanishing.begin(), vanishing.end()})));
+      std::set<Reaction> different(vanishing.begin(), vanishing.end());
+      if (different.size() != vanishing.size()) throw FalseClaim(what + " names one reaction twice");
+    };
+    for (const CurveClaim& curve : c_.curves) check(curve.kind, curve.vanishing, "a curve");
+    for (const PointClaim& point : c_.points) check(point.kind, point.vanishing, "a point");
   }
 
   std::string name(int function) const { return c_.functions[static_cast<std::size_t>(function)].name; }
@@ -139,12 +177,31 @@ class Check {
                          [&](int maker) { return has_zeros(orders.squares[static_cast<std::size_t>(own)], maker); }))
           throw FalseClaim(name(sheet.function) + ": it does not vanish with the root that is said to be zero");
       }
-      check_sheet(sheet, singular);
+      check_sheet(sheet, {0, singular, vanishing_with(orders, makers(sheet.function))});
     }
     if (c_.task && c_.task->mode == mode) check_task(m_, c_, orders, examination_);
   }
 
-  void check_sheet(const SheetCells& sheet, const std::vector<int>& singular) {
+  /// Reactions that one of the functions is a factor of.
+  std::set<Reaction> vanishing_with(const Orders& orders, const std::vector<int>& functions) const {
+    const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
+    std::set<Reaction> result;
+    for (std::size_t j = 0; j < m_.joints.size(); ++j) {
+      const std::vector<Quantity> parts = mechanism::contact_components(m_, m_.joints[j]);
+      bool force = false;
+      for (std::size_t k = 0; k < unknowns.size(); ++k) {
+        if (unknowns[k].joint != static_cast<int>(j)) continue;
+        const bool zero = !orders.reactions[k] || std::any_of(functions.begin(), functions.end(),
+                                                              [&](int f) { return has_zeros(orders.reactions[k], f); });
+        if (zero) result.insert({m_.joints[j].name, unknowns[k].quantity});
+        force = force || (zero && std::find(parts.begin(), parts.end(), unknowns[k].quantity) != parts.end());
+      }
+      if (force) result.insert({m_.joints[j].name, Quantity::f});
+    }
+    return result;
+  }
+
+  void check_sheet(const SheetCells& sheet, CurvePart part) {
     Curve curve(c_, sheet);
     examination_.cells += curve.cells;
     examination_.graphs += curve.graphs;
@@ -155,7 +212,8 @@ class Check {
       examination_.unchecked.push_back(fmt::format("margin {} in mode {}: its function is not held against the model",
                                                    name(sheet.function).substr(0, 60), sheet.mode + 1));
     sheets_.push_back(sheet);
-    check_arcs(m_, curve, static_cast<int>(sheets_.size()) - 1, singular, arcs_, examination_.unchecked);
+    part.number = static_cast<int>(sheets_.size()) - 1;
+    check_arcs(m_, curve, part, arcs_, examination_.unchecked);
   }
 
   /// A function that was left to the exact engine: all of its cells are the checker's.

@@ -1,5 +1,12 @@
 // The second opinion: verifies a certificate (docs/certificates.md) from the model, with statics, intervals and proofs
 // of its own. Nothing of what wrote the certificate is used here: only the reader of mechanism files and plain data.
+//
+// In the order in which to read the folder:
+//   interval, certificate         the arithmetic; what a file says
+//   statics, sheet, identity      the model's equations; functions over cells; that the two are of one mechanism
+//   zeros, curves                 zeros with proof; what the cells of a function prove about its curve
+//   plane, labels, arcs, points   arcs along those curves, what vanishes there, and at points
+//   zones, task, check            what rests on them; what is asked, one after the other
 #pragma once
 
 #include <chrono>

@@ -461,7 +461,13 @@ std::vector<Spot> Curve::spots(const Point2& at, double reach, bool& open) {
       const Step& here = paths[static_cast<std::size_t>(path)].steps[static_cast<std::size_t>(step)];
       const double from = piece(here).ends[0].key.middle(), to = piece(here).ends[1].key.middle();
       if (own.upper() < from || to < own.lower()) continue;
-      const double part = std::clamp((own.middle() - from) / (to - from), 0.0, 1.0);
+      double part = std::clamp((own.middle() - from) / (to - from), 0.0, 1.0);
+      // Next to the boundary a root tells little of how far along a place is.
+      for (const int end : {0, 1}) {
+        const Junction& rim = junction(piece(here).ends[end].junction);
+        const Point2 there = rim.place.at();
+        if (rim.kind == Junction::Kind::rim && std::hypot(there[0] - at[0], there[1] - at[1]) <= reach) part = end;
+      }
       result.push_back({path, step + (here.forward ? part : 1 - part)});
     }
   }

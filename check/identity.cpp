@@ -265,7 +265,7 @@ Sides sides_of(const CertificateFile& certificate, int mode) {
 
 SheetParts parts_of(const CertificateFile& certificate, int mode, std::vector<int> at_zero) {
   return {&certificate.squares, certificate.modes.at(static_cast<std::size_t>(mode)), std::move(at_zero),
-          certificate.deadline};
+          certificate.slits, certificate.deadline};
 }
 
 Orders orders_of(const mechanism::Mechanism& m, const CertificateFile& certificate, int mode) {

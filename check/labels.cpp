@@ -10,7 +10,8 @@ namespace {
 
 using core::Quantity;
 
-constexpr int newton_steps = 14, near = 200, nearer = 260;  // the latter: distances as powers of 1/2
+// The latter: distances as powers of 1/2. Rationals that stand for irrational lengths are off by less than 2^-99.
+constexpr int newton_steps = 14, near = 50, nearer = 80;
 // Orders are halves of integers; those of 1/2 and more are told from 0 by this.
 constexpr double no_order = 0.25;
 constexpr double nothing = 0x1p-300;

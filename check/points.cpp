@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "check/zeros.hpp"
 
@@ -15,14 +16,14 @@ using core::Point2;
 using core::Quantity;
 
 // Relative to the box: points were rounded to doubles.
-constexpr double same_point = 1e-9;
+constexpr double same_point = 1e-10;
 constexpr std::size_t most_cells = 60'000;
 
 class PointCheck {
  public:
   PointCheck(const mechanism::Mechanism& m, const CertificateFile& c, int mode, const Orders& orders,
              Examination& examination)
-      : m_(m), c_(c), mode_(mode), orders_(orders), examination_(examination), claimed_(c.points.size(), false) {
+      : m_(m), c_(c), mode_(mode), orders_(orders), examination_(examination), claimed_(c.points.size()) {
     for (std::size_t i = 0; i < 4; ++i) box_[i] = c.box[i].get_d();
     size_ = std::max(box_[1] - box_[0], box_[3] - box_[2]);
   }
@@ -32,8 +33,14 @@ class PointCheck {
       for (const std::string& joint : c_.joints) check_joint(joint);
     for (std::size_t i = 0; i < c_.points.size(); ++i) {
       const PointClaim& point = c_.points[i];
-      if (point.mode != mode_ || claimed_[i]) continue;
+      if (point.mode != mode_) continue;
       const std::string place = fmt::format("({}, {})", point.at[0], point.at[1]);
+      // Of each joint asked for that is said to lose its contact.
+      const bool all = std::all_of(point.vanishing.begin(), point.vanishing.end(), [&](const Reaction& reaction) {
+        return reaction.second != Quantity::f || claimed_[i].contains(reaction.first) ||
+               std::find(c_.joints.begin(), c_.joints.end(), reaction.first) == c_.joints.end();
+      });
+      if (!claimed_[i].empty() && all) continue;
       if (!point.certified || point.kind != core::LocusKind::contact_loss || undecided_)
         examination_.unchecked.push_back("the isolated point " + place);
       else
@@ -89,7 +96,7 @@ class PointCheck {
       const double reach = same_point * size_;
       if (at[0] < box_[0] - reach || box_[1] + reach < at[0] || at[1] < box_[2] - reach || box_[3] + reach < at[1])
         continue;
-      if (!in_workspace(place) || on_contact_loss(joint, at)) continue;
+      if (!in_workspace(place)) continue;
       const bool on_side =
           at[0] < box_[0] + reach || box_[1] - reach < at[0] || at[1] < box_[2] + reach || box_[3] - reach < at[1];
       bool listed = false;
@@ -99,11 +106,12 @@ class PointCheck {
         if (std::find(point.vanishing.begin(), point.vanishing.end(), Reaction{joint, Quantity::f}) ==
             point.vanishing.end())
           continue;
+        if (listed) throw FalseClaim(fmt::format("two points are ({}, {}) in mode {}", at[0], at[1], mode_ + 1));
         listed = true;
-        if (!claimed_[i]) ++examination_.points;
-        claimed_[i] = true;
+        if (claimed_[i].empty()) ++examination_.points;
+        claimed_[i].insert(joint);
       }
-      if (!listed && !on_side)
+      if (!listed && !on_side && !on_contact_loss(joint, at))
         throw FalseClaim(fmt::format("{} loses contact at ({}, {}) in mode {}, but no point says so", joint, at[0],
                                      at[1], mode_ + 1));
     }
@@ -137,7 +145,7 @@ class PointCheck {
   int mode_;
   const Orders& orders_;
   Examination& examination_;
-  std::vector<bool> claimed_;
+  std::vector<std::set<std::string>> claimed_;  // by whom each was found
   std::array<double, 4> box_{};
   double size_ = 0;
   bool undecided_ = false;

@@ -36,6 +36,10 @@ Sheet::Sheet(const SheetParts& parts, const std::vector<const StraightLine*>& fu
       used_[j] = used_[j] || (!is_zero(j) && core::depends_on(line, 2 + static_cast<int>(j)));
   };
   for (const StraightLine* function : functions) use(*function);
+  for (const auto& [angle, limit] : parts_.slits) {
+    const auto end = static_cast<std::size_t>(limit);
+    used_[end] = used_[end] || (used_[static_cast<std::size_t>(angle)] && !is_zero(end));
+  }
   for (std::size_t j = roots; j-- > 0;)
     if (used_[j]) use((*parts_.squares)[j]);
   values_.assign(2 + roots, Interval(bits_));
@@ -234,10 +238,23 @@ Interval Sheet::tangent(int f, int c) const {
   return determinant(minor);
 }
 
+/// By the slopes of what is left to the limit; the angle itself is any there.
+bool Sheet::is_beyond_slit() const {
+  return std::any_of(parts_.slits.begin(), parts_.slits.end(), [&](const auto& slit) {
+    const auto limit = static_cast<std::size_t>(slit.second);
+    if (!used_[limit]) return false;
+    const std::size_t square = square_results_[limit];
+    Interval left = middle_values_[square];
+    for (int c = 0; c < dimension(); ++c)
+      left = left + slopes_[square][static_cast<std::size_t>(c)] * (local(c) - middle(c));
+    return left.below();
+  });
+}
+
 bool Sheet::is_free(int f) {
   if (!value(f).contains_zero()) return true;
   differentiate();
-  return !centred(f).contains_zero();
+  return !centred(f).contains_zero() || is_beyond_slit();
 }
 
 }  // namespace clearloci::check

@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "check/interval.hpp"
@@ -21,6 +22,8 @@ struct SheetParts {
   const std::vector<core::StraightLine>* squares = nullptr;  ///< Q_j over (x, y, s1...s_{j-1})
   std::vector<int> signs;                                    ///< of the roots
   std::vector<int> at_zero;  ///< roots that are 0 on this sheet: their Q_j = 0 is not asked for
+  /// Angles of torsion springs, as roots, each with the limit beyond which it is another: they go together.
+  std::vector<std::pair<int, int>> slits = {};
   std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then core::LimitReached is thrown
 };
 
@@ -59,7 +62,8 @@ class Sheet {
   /// The minor of (slopes of f, slopes of G) without column c: where it is free of 0, every value of coordinate c is
   /// taken at most once on f = 0 in the cell.
   Interval tangent(int f, int c) const;
-  /// f has no zero in the cell that was entered, by its value or its slopes.
+  /// f has no zero in the cell that was entered, by its value or its slopes, or all of the cell is beyond the limit of
+  /// a slit.
   bool is_free(int f);
 
  private:
@@ -71,6 +75,7 @@ class Sheet {
   void run(std::size_t stage, std::vector<Interval>& values) const;
   void run_slopes(std::size_t stage);
   void set_root(std::size_t j, bool lift);
+  bool is_beyond_slit() const;
 
   SheetParts parts_;
   mpfr_prec_t bits_;

@@ -181,6 +181,13 @@ Vector off_rest(const Mechanism& m, const Pose& pose, const Posture& posture, co
   return {dot(rest, b), cross(rest, b)};
 }
 
+/// Its force is k v, whatever the length of v.
+bool has_no_free_length(const Pose& pose, const mechanism::Spring& spring) {
+  if (spring.kind != mechanism::Spring::Kind::linear) return false;
+  const Interval l0 = pose.value(spring.free_length);
+  return l0.lower() == 0 && l0.upper() == 0;
+}
+
 /// The matrix of the equations with the column -w_e behind it.
 class Equations {
  public:
@@ -275,10 +282,9 @@ class Equations {
     const Vector v = arm(spring.to_point) - arm(spring.from_point);
     const bool linear = spring.kind == mechanism::Spring::Kind::linear;
     const Interval k = pose_.value(spring.stiffness), l0 = pose_.value(spring.free_length);
-    const bool free_at_zero = linear && l0.lower() == 0 && l0.upper() == 0;
-    const Interval per_length = free_at_zero ? k
-                                : linear     ? k - k * l0 / root_of(square_of(v))
-                                             : pose_.value(spring.force) / root_of(square_of(v));
+    const Interval per_length = has_no_free_length(pose_, spring) ? k
+                                : linear                          ? k - k * l0 / root_of(square_of(v))
+                                                                  : pose_.value(spring.force) / root_of(square_of(v));
     add(spring.from, last, force_at(spring.from_point, per_length * v), -1);
     add(spring.to, last, force_at(spring.to_point, per_length * v), 1);
   }
@@ -358,7 +364,7 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
     if (!closure.place(point)) return std::nullopt;
   const Pose pose(m, x, y);
   for (const mechanism::Spring& spring : m.springs) {
-    if (spring.kind == mechanism::Spring::Kind::torsion) continue;
+    if (spring.kind == mechanism::Spring::Kind::torsion || has_no_free_length(pose, spring)) continue;
     const auto at = [&](mechanism::PointIndex point) {
       return closure.result.points.at(static_cast<std::size_t>(point));
     };
