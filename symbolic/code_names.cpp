@@ -231,6 +231,14 @@ std::string replace_all(std::string text, std::string_view what, std::string_vie
   return text;
 }
 
+/// Those that LaTeX has a command for.
+const Words greek_letters = {"alpha",   "beta",   "gamma", "delta",   "epsilon", "zeta",  "eta",   "theta", "iota",
+                             "kappa",   "lambda", "mu",    "nu",      "xi",      "pi",    "rho",   "sigma", "tau",
+                             "upsilon", "phi",    "chi",   "psi",     "omega",   "Gamma", "Delta", "Theta", "Lambda",
+                             "Xi",      "Pi",     "Sigma", "Upsilon", "Phi",     "Psi",   "Omega"};
+
+std::string upright(const std::string& word) { return "\\mathrm{" + latex_text(word) + "}"; }
+
 }  // namespace
 
 bool CodeNames::is_free(const std::string& name) const {
@@ -264,7 +272,12 @@ const std::string& CodeNames::name(const std::string& kind, const std::string& w
 
 std::string CodeNames::in_formula(const std::string& kind, const std::string& wanted) {
   const std::string& written = name(kind, wanted);
-  return language_ == Language::latex ? latex_symbol(written) : written;
+  if (language_ != Language::latex) return written;
+  // What is derived of a point has its own letter first: x of the point i is no xi. Names of a file may be set alike:
+  // theta1 and theta_1.
+  const std::string set = kind == derived ? latex_derived(written) : latex_symbol(written);
+  const auto [same, fresh] = set_.emplace(set, written);
+  return fresh || same->second == written ? set : upright(written);
 }
 
 std::string comment_text(const std::string& text, Language language) {
@@ -282,10 +295,26 @@ std::string comment_text(const std::string& text, Language language) {
 
 std::string latex_text(const std::string& name) { return replace_all(name, "_", "\\_"); }
 
-std::string latex_symbol(const std::string& name) {
-  std::string first = latex_text(name.substr(0, 1));
+std::string latex_derived(const std::string& name) {
+  const std::string first = latex_text(name.substr(0, 1));
   if (name.size() == 1) return first;
-  return first + "_{" + latex_text(name.substr(1)) + "}";
+  const std::string of = name.substr(1);
+  return first + "_{" + (greek_letters.contains(of) ? "\\" + of : latex_text(of)) + "}";
+}
+
+std::string latex_symbol(const std::string& name) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const auto end_of_word = std::find_if_not(name.begin(), name.end(), is_letter);
+  const std::string word(name.begin(), end_of_word);
+  // A letter and what it is of: "xB2", "lAB".
+  if (word.empty() || (word.size() > 1 && std::isupper(static_cast<unsigned char>(word[1])) != 0))
+    return latex_derived(name);
+  std::string rest(end_of_word, name.end());
+  if (rest.size() > 1 && rest.front() == '_') rest.erase(0, 1);
+  const std::string first = greek_letters.contains(word) ? "\\" + word : word.size() == 1 ? word : upright(word);
+  if (rest.empty()) return first;
+  const bool is_word = rest.size() > 1 && std::all_of(rest.begin(), rest.end(), is_letter);
+  return first + "_{" + (greek_letters.contains(rest) ? "\\" + rest : is_word ? upright(rest) : latex_text(rest)) + "}";
 }
 
 }  // namespace clearloci::symbolic

@@ -5,8 +5,11 @@
 #include <functional>
 #include <iomanip>
 #include <memory>
+#include <optional>
+#include <regex>
 #include <sstream>
 
+#include "core/angle_chart.hpp"
 #include "core/locus_map.hpp"
 #include "core/virtual_work.hpp"
 #include "mechanism/evaluate.hpp"
@@ -75,7 +78,7 @@ class SheetWriter {
  private:
   // Kinds of names: the file's parameters and coordinates, no two of which are alike, and what is derived.
   static constexpr const char* user = "";
-  static constexpr const char* derived = "derived ";
+  static constexpr const char* derived = CodeNames::derived;
 
   /// The file's names come first, so that derived ones give way.
   void name_symbols() {
@@ -94,6 +97,8 @@ class SheetWriter {
       } else if (angle != mechanism_.coordinates.end()) {
         const std::string call = name.substr(0, 3);
         symbols_.push_back((language_ == Language::latex ? "\\" + call : call) + "(" + written(angle->name) + ")");
+      } else if (const std::optional<std::string> half = half_angle(name)) {
+        symbols_.push_back(*half);
       } else {
         const bool own = std::any_of(mechanism_.coordinates.begin(), mechanism_.coordinates.end(),
                                      [&](const auto& c) { return c.name == name; });
@@ -110,6 +115,19 @@ class SheetWriter {
       const auto v = static_cast<std::size_t>(length.variable);
       symbols_[v] = names_.in_formula(derived, ring[v]);
     }
+  }
+
+  /// The variable that stands for an angle in implicit polynomials: "tan(theta/2)".
+  std::optional<std::string> half_angle(const std::string& variable) {
+    for (std::size_t i = 0; i < mechanism_.coordinates.size(); ++i) {
+      const std::optional<core::AngleChart>& chart = geometry_.charts()[i];
+      const std::string& angle = mechanism_.coordinates[i].name;
+      if (!chart || core::parameter_name(*chart, angle) != variable) continue;
+      const std::string own = core::parameter_name(*chart, names_.in_formula(user, angle));
+      if (language_ != Language::latex) return own;
+      return "\\" + std::regex_replace(own, std::regex("[ *]pi\\)"), " \\pi)");
+    }
+    return std::nullopt;
   }
 
   /// A symbol of the closure: "kB1".
