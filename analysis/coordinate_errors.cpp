@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/error.hpp"
+#include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/reaction_rows.hpp"
@@ -171,6 +172,8 @@ CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const 
   if (mechanism.coordinates.size() != 1)
     throw core::InputError({mechanism.file}, "errors over a range need one free coordinate",
                            "write the others as parameters");
+  if (const std::optional<Framed> own = framed_where_far(mechanism))
+    return from_frame(coordinate_errors(own->mechanism, request), mechanism, own->frame);
   CoordinateErrors all;
   all.loci = loci_below(mechanism, request);
   const std::vector<DyadSides> modes =

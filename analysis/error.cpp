@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/singular_modes.hpp"
@@ -77,6 +78,8 @@ ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& re
   if (request.with_zones && !request.with_loci)
     throw core::InputError({mechanism.file}, "zones are bounded by the loci", "ask for the loci too");
   require_coordinates(mechanism, 2, 2, "maps of errors are drawn");
+  if (const std::optional<Framed> own = framed_where_far(mechanism))
+    return from_frame(error_map(own->mechanism, request), mechanism, own->frame);
   const numeric::NumericModel model = numeric::compile(mechanism);
   ErrorMap errors;
   errors.notes = mechanism::fit_notes(mechanism);

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "analysis/error.hpp"
+#include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
@@ -13,6 +14,8 @@ namespace clearloci {
 
 VolumeErrors error_volume(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
   require_coordinates(mechanism, 3, 3, "volumes of errors are filled");
+  if (const std::optional<Framed> own = framed_where_far(mechanism))
+    return from_frame(error_volume(own->mechanism, request), mechanism);
   const numeric::NumericModel model = numeric::compile(mechanism);
   VolumeErrors errors;
   errors.units = mechanism.units;

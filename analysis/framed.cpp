@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <regex>
 #include <string>
+#include <utility>
 
 namespace clearloci {
 namespace {
@@ -15,7 +16,7 @@ using mechanism::Frame;
 
 /// A free coordinate back in the units of the file: one rounding of the exact value.
 double outside(double value, std::size_t coordinate, const std::vector<bool>& angles, const Frame& frame) {
-  if (coordinate < angles.size() && angles[coordinate]) return value;
+  if ((coordinate < angles.size() && angles[coordinate]) || !std::isfinite(value)) return value;
   return core::to_double(frame.from[coordinate] + frame.scale * Rational(value));
 }
 
@@ -30,6 +31,9 @@ class Outward {
   Point2 place(const Point2& at) const { return {value(at[0], 0), value(at[1], 1)}; }
   void move(core::Polyline& points) const {
     for (Point2& at : points) at = place(at);
+  }
+  void move(std::vector<double>& pose) const {
+    for (std::size_t i = 0; i < pose.size(); ++i) pose[i] = value(pose[i], i);
   }
   double size(double length) const { return frame_.scale_value() * length; }
   bool lengths() const { return lengths_; }
@@ -55,6 +59,9 @@ class Outward {
     if (!surface.implicit.is_zero()) surface.implicit = polynomial(surface.implicit);
     for (core::Point3& at : surface.vertices)
       for (std::size_t i = 0; i < 3; ++i) at[i] = value(at[i], i);
+    for (core::LocusSurface::Open& open : surface.open)
+      for (core::Point3* const at : {&open.lower, &open.upper})
+        for (std::size_t i = 0; i < 3; ++i) (*at)[i] = value((*at)[i], i);
     for (std::size_t i = 0; i < 3; ++i)
       if (!angles_[i]) surface.resolution[i] = size(surface.resolution[i]);
     if (lengths_) surface.deviation = size(surface.deviation);
@@ -140,12 +147,26 @@ class Outward {
 
 }  // namespace
 
-std::optional<Framed> framed(const mechanism::Mechanism& mechanism) {
+std::optional<Framed> framed(const mechanism::Mechanism& mechanism, Scaling scaling, mechanism::Parameters parameters) {
+  if (mechanism.frame) return std::nullopt;
   Frame frame = mechanism::frame_of(mechanism);
+  if (scaling == Scaling::none) frame.scale = 1;
   if (frame.is_usual()) return std::nullopt;
-  std::optional<mechanism::Mechanism> inside = mechanism::in_frame(mechanism, frame);
+  std::optional<mechanism::Mechanism> inside = mechanism::in_frame(mechanism, frame, parameters);
   if (!inside) return std::nullopt;
   return Framed{std::move(frame), std::move(*inside)};
+}
+
+std::optional<Framed> framed_where_far(const mechanism::Mechanism& mechanism) {
+  if (mechanism.frame || !mechanism::is_far(mechanism)) return std::nullopt;
+  return framed(mechanism, Scaling::none);
+}
+
+void certify(const core::LocusMap& map, const std::optional<Framed>& framed, core::Certificate& certificate) {
+  certificate.map = map;
+  if (!framed) return;
+  std::copy_n(framed->frame.from.begin(), 2, certificate.from.begin());
+  certificate.scale = framed->frame.scale;
 }
 
 LociRequest in_frame(LociRequest request, const Frame& frame) {
@@ -167,6 +188,40 @@ core::Task in_frame(core::Task task, const Frame& frame) {
   task.margin /= frame.scale;
   if (task.min_couple) *task.min_couple /= frame.scale;
   return task;
+}
+
+core::Task in_frame(core::Task task, const core::Certificate& certificate) {
+  return in_frame(std::move(task),
+                  Frame{.from = {certificate.from.begin(), certificate.from.end()}, .scale = certificate.scale});
+}
+
+core::PoseTask in_frame(core::PoseTask task, const Frame& frame) {
+  const auto move = [&](core::RationalPose& at) {
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] -= frame.from[i];
+  };
+  if (auto* box = std::get_if<core::PoseBoxShape>(&task.shape)) move(box->lower), move(box->upper);
+  if (auto* ball = std::get_if<core::PoseBallShape>(&task.shape)) move(ball->centre);
+  if (auto* path = std::get_if<core::PosePathShape>(&task.shape))
+    std::for_each(path->points.begin(), path->points.end(), move);
+  if (auto* mesh = std::get_if<core::PoseMeshShape>(&task.shape))
+    for (core::Point3& at : mesh->corners)
+      for (std::size_t i = 0; i < 3; ++i) at[i] = core::to_double(Rational(at[i]) - frame.from[i]);
+  return task;
+}
+
+mechanism::Trajectory in_frame(mechanism::Trajectory trajectory, const Frame& frame) {
+  const auto move = [&](std::vector<Rational>& at) {
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] -= frame.from[i];
+  };
+  for (mechanism::Waypoint& waypoint : trajectory.waypoints) move(waypoint.at);
+  if (!trajectory.timed) return trajectory;
+  std::for_each(trajectory.timed->rows.begin(), trajectory.timed->rows.end(), move);
+  using core::Expression;
+  for (std::size_t i = 0; i < trajectory.timed->coordinates.size(); ++i) {
+    Expression& own = trajectory.timed->coordinates[i];
+    own = Expression::apply(Expression::Kind::add, {own, Expression::number(-frame.from[i])});
+  }
+  return trajectory;
 }
 
 core::LocusMap from_frame(core::LocusMap map, const mechanism::Mechanism& mechanism, const Frame& frame) {
@@ -214,6 +269,118 @@ core::ZoneMap from_frame(core::ZoneMap map, const mechanism::Mechanism& mechanis
   return map;
 }
 
+Pose from_frame(Pose pose, const mechanism::Mechanism& mechanism, const Frame& frame) {
+  const Outward outward(mechanism, frame);
+  const auto place = [&](core::PosePoint& point) {
+    for (std::size_t i = 0; i < point.at.size(); ++i)
+      if (std::isfinite(point.at[i])) point.at[i] = core::to_double(frame.origin[i] + Rational(point.at[i]));
+  };
+  outward.move(pose.at);
+  std::for_each(pose.points.begin(), pose.points.end(), place);
+  if (pose.actual)
+    for (core::DisplacedLink& link : pose.actual->links) std::for_each(link.points.begin(), link.points.end(), place);
+  return pose;
+}
+
+ErrorMap from_frame(ErrorMap errors, const mechanism::Mechanism& mechanism, const Frame& frame) {
+  errors.loci = from_frame(std::move(errors.loci), mechanism, frame);
+  for (core::ModeErrors& mode : errors.modes)
+    for (std::size_t i = 0; i < 2; ++i) {
+      mode.map.lower[i] = core::to_double(mechanism.coordinates[i].lower);
+      mode.map.upper[i] = core::to_double(mechanism.coordinates[i].upper);
+    }
+  return errors;
+}
+
+VolumeErrors from_frame(VolumeErrors errors, const mechanism::Mechanism& mechanism) {
+  for (core::VolumeModeErrors& mode : errors.modes)
+    for (std::size_t i = 0; i < 3; ++i) {
+      mode.volume.lower[i] = core::to_double(mechanism.coordinates[i].lower);
+      mode.volume.upper[i] = core::to_double(mechanism.coordinates[i].upper);
+    }
+  return errors;
+}
+
+CoordinateErrors from_frame(CoordinateErrors errors, const mechanism::Mechanism& mechanism, const Frame& frame) {
+  const Outward outward(mechanism, frame);
+  errors.loci = from_frame(std::move(errors.loci), mechanism, frame);
+  errors.range = {core::to_double(mechanism.coordinates[0].lower), core::to_double(mechanism.coordinates[0].upper)};
+  for (core::CoordinateModeErrors& mode : errors.modes) {
+    for (double& value : mode.samples.columns.front()) value = outward.value(value, 0);
+    for (core::ErrorEvent& event : mode.events) outward.move(event.point.at);
+  }
+  return errors;
+}
+
+TrajectoryResult from_frame(TrajectoryResult result, const mechanism::Mechanism& mechanism, const Frame& frame) {
+  const auto move = [&](const std::string& name, const Rational& by) {
+    const auto own = std::find(result.samples.names.begin(), result.samples.names.end(), name);
+    if (own == result.samples.names.end()) return;
+    for (double& value : result.samples.columns[static_cast<std::size_t>(own - result.samples.names.begin())])
+      if (std::isfinite(value)) value = core::to_double(by + Rational(value));
+  };
+  for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i)
+    move("q_" + mechanism.coordinates[i].name, frame.from[i]);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const char* const point : {"p", "actual_p"}) move(point + std::string(1, "xyz"[i]), frame.origin[i]);
+  return result;
+}
+
+core::PoseZones from_frame(core::PoseZones map, const mechanism::Mechanism& mechanism, const Frame& frame) {
+  const Outward outward(mechanism, frame);
+  for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
+    map.lower[i] = core::to_double(mechanism.coordinates[i].lower);
+    map.upper[i] = core::to_double(mechanism.coordinates[i].upper);
+  }
+  for (core::PoseZone& zone : map.zones) {
+    for (std::vector<double>* const at : {&zone.lower, &zone.upper, &zone.sample}) outward.move(*at);
+    for (core::PoseZoneEnd& end : zone.ends) end.at = outward.value(end.at, 0);
+    for (std::vector<core::Point3>& face : zone.faces)
+      for (core::Point3& at : face)
+        for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) at[i] = outward.value(at[i], i);
+    if (zone.ball) outward.move(zone.ball->centre);
+  }
+  for (std::string& note : map.notes) note = outward.note(note);
+  return map;
+}
+
+core::PoseVerification from_frame(core::PoseVerification result, const core::PoseTask& task,
+                                  const mechanism::Mechanism& mechanism, const Frame& frame) {
+  const Outward outward(mechanism, frame);
+  core::PoseShape moved = std::exchange(result.task, task).shape;
+  if (result.by || result.scale) {
+    const auto move = [&](core::RationalPose& at) {
+      for (std::size_t i = 0; i < at.size(); ++i) at[i] += frame.from[i];
+    };
+    if (auto* box = std::get_if<core::PoseBoxShape>(&moved)) move(box->lower), move(box->upper);
+    if (auto* ball = std::get_if<core::PoseBallShape>(&moved)) move(ball->centre);
+    if (auto* path = std::get_if<core::PosePathShape>(&moved))
+      std::for_each(path->points.begin(), path->points.end(), move);
+    if (auto* mesh = std::get_if<core::PoseMeshShape>(&moved))
+      for (core::Point3& at : mesh->corners)
+        for (std::size_t i = 0; i < 3; ++i) at[i] = outward.value(at[i], i);
+    result.task.shape = std::move(moved);
+  }
+  if (result.nearest) outward.move(result.nearest->at);
+  if (result.witness) outward.move(result.witness->at);
+  if (result.open) outward.move(result.open->lower), outward.move(result.open->upper);
+  for (std::string& note : result.notes) note = outward.note(note);
+  return result;
+}
+
+void move_from_frame(std::optional<core::TaskWitness>& witness, std::optional<core::OpenTask>& open,
+                     const mechanism::Mechanism& mechanism, const Frame& frame) {
+  const Outward outward(mechanism, frame);
+  if (witness) {
+    witness->at = outward.place(witness->at);
+    witness->distance = outward.size(witness->distance);
+  }
+  if (open) {
+    open->lower = outward.place(open->lower);
+    open->upper = outward.place(open->upper);
+  }
+}
+
 Verification from_frame(Verification result, const core::Task& task, const mechanism::Mechanism& mechanism,
                         const Frame& frame) {
   const Outward outward(mechanism, frame);
@@ -227,14 +394,7 @@ Verification from_frame(Verification result, const core::Task& task, const mecha
     result.nearest->at = outward.place(result.nearest->at);
     result.nearest->distance = outward.size(result.nearest->distance);
   }
-  if (result.witness) {
-    result.witness->at = outward.place(result.witness->at);
-    result.witness->distance = outward.size(result.witness->distance);
-  }
-  if (result.open) {
-    result.open->lower = outward.place(result.open->lower);
-    result.open->upper = outward.place(result.open->upper);
-  }
+  move_from_frame(result.witness, result.open, mechanism, frame);
   result.map = from_frame(std::move(result.map), mechanism, frame);
   for (std::string& note : result.notes) note = outward.note(note);
   return result;
@@ -243,14 +403,11 @@ Verification from_frame(Verification result, const core::Task& task, const mecha
 numeric::ValidationReport from_frame(numeric::ValidationReport report, const mechanism::Mechanism& mechanism,
                                      const Frame& frame) {
   const Outward outward(mechanism, frame);
-  const auto move = [&](std::vector<double>& at) {
-    for (std::size_t i = 0; i < at.size(); ++i) at[i] = outward.value(at[i], i);
-  };
   for (numeric::DisputedEdge& edge : report.disputed_edges) {
-    move(edge.from);
-    move(edge.to);
+    outward.move(edge.from);
+    outward.move(edge.to);
   }
-  for (numeric::DisputedArc& arc : report.disputed_arcs) move(arc.at);
+  for (numeric::DisputedArc& arc : report.disputed_arcs) outward.move(arc.at);
   return report;
 }
 

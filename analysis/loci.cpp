@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "analysis/framed.hpp"
@@ -172,6 +174,57 @@ void claim_no_zeros(const std::vector<core::LocusFactor>& factors, core::Certifi
   }
 }
 
+/// Expressions in the coordinates of the file, in place of those that the frame's have.
+class FileTexts {
+ public:
+  explicit FileTexts(const std::vector<symbolic::DerivedProblem>& derived) {
+    for (const symbolic::DerivedProblem& one : derived) texts_.insert(one.in_file.begin(), one.in_file.end());
+  }
+
+  void write(TracedProblem& traced) const {
+    if (texts_.empty()) return;
+    write(traced.problem, traced.map);
+    for (TracedSheet& sheet : traced.sheets) write(sheet.problem, sheet.map);
+  }
+
+ private:
+  void write(core::LocusProblem& problem, core::LocusMap& map) const {
+    for (core::LocusFactor& factor : problem.factors) write(factor.expression);
+    for (core::LocusCurve& curve : map.curves) write(curve.factor);
+    for (core::LocusSurface& surface : map.surfaces) write(surface.factor);
+    for (core::SpaceCurve& curve : map.space_curves) write(curve.factor);
+    for (core::IsolatedPoint& point : map.isolated_points) write(point.factor);
+    write_open(map);
+    for (std::string& note : map.notes)
+      for (const auto& [inside, outside] : texts_)
+        if (const std::size_t at = note.find("where " + inside + " "); at != std::string::npos)
+          note.replace(at + 6, inside.size(), outside);
+  }
+
+  /// Places that are open are named as their curves are.
+  template <typename Map>
+  void write_open(Map& map) const {
+    if constexpr (requires { map.open; })
+      for (auto& region : map.open) write(region.factor);
+  }
+
+  /// One, or several with "; " between them.
+  void write(std::string& list) const {
+    constexpr std::string_view apart = "; ";
+    std::string result;
+    for (std::size_t at = 0; at <= list.size();) {
+      const std::size_t end = std::min(list.find(apart, at), list.size());
+      const std::string one = list.substr(at, end - at);
+      const auto own = texts_.find(one);
+      result += (at == 0 ? "" : "; ") + (own == texts_.end() ? one : own->second);
+      at = end + apart.size();
+    }
+    list = std::move(result);
+  }
+
+  std::map<std::string, std::string> texts_;
+};
+
 /// Derives the problem and traces it; fills in the notes and the time of every stage begun.
 TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const LociRequest& request,
                                const TraceMeans& means, TraceEffort effort) {
@@ -211,6 +264,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
         if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
     map.notes.insert(map.notes.begin(), notes.begin(), notes.end());
     traced.problem = std::move(derived.front().problem);
+    FileTexts(derived).write(traced);
   } catch (const core::LimitReached& limit) {
     (symbolic > 0 ? tracing : symbolic) = seconds_since(start);
     map = unfinished_map(mechanism, limit.what());
@@ -328,10 +382,12 @@ symbolic::Selection selection_of(const LociRequest& request) {
 
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request,
                           core::Certificate* certificate) {
-  // A certificate speaks of the mechanism of the file.
-  if (const std::optional<Framed> own = certificate == nullptr ? framed(mechanism) : std::nullopt)
-    return from_frame(trace_member(own->mechanism, in_frame(request, own->frame), {}).map, mechanism, own->frame);
-  return trace_member(mechanism, request, {.certificate = certificate}).map;
+  const std::optional<Framed> own = framed(mechanism);
+  core::LocusMap map =
+      own ? trace_member(own->mechanism, in_frame(request, own->frame), {.certificate = certificate}).map
+          : trace_member(mechanism, request, {.certificate = certificate}).map;
+  if (certificate != nullptr) certify(map, own, *certificate);
+  return own ? from_frame(std::move(map), mechanism, own->frame) : map;
 }
 
 TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request, const TraceMeans& means,
@@ -341,7 +397,8 @@ TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociReq
 
 core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,
                           const LociRequest& request) {
-  if (framed(member)) return trace_loci(member, request);
+  // A family is derived in the coordinates of the file: from there it serves as long as its members are near by.
+  if (mechanism::is_far(member)) return trace_loci(member, request);
   return trace_member(member, request, {.family = &family}).map;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
@@ -320,6 +321,13 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   require_values(mechanism, at.size());
   require_rates(mechanism, request);
   const std::vector<numeric::Bounded> values = with_rounding(at);
+  if (const std::optional<Framed> own = framed_where_far(mechanism)) {
+    std::vector<core::Rational> inside = at;
+    for (std::size_t i = 0; i < inside.size(); ++i) inside[i] -= own->frame.from[i];
+    Pose pose = from_frame(solve_pose(own->mechanism, inside, request), mechanism, own->frame);
+    for (std::size_t i = 0; i < values.size(); ++i) pose.at[i] = values[i].value;
+    return pose;
+  }
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
   Pose pose;

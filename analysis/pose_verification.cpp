@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/pose_fit.hpp"
@@ -381,14 +382,21 @@ class Verifier {
 }  // namespace
 
 PoseVerification verify_poses(const Mechanism& mechanism, const PoseTask& task, const LociRequest& request) {
+  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
+    return from_frame(verify_poses(own->mechanism, in_frame(task, own->frame), request), task, mechanism, own->frame);
   return Verifier(mechanism, task, request).verify(true);
 }
 
 PoseVerification decide_poses(const Mechanism& mechanism, const PoseTask& task, const LociRequest& request) {
+  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
+    return from_frame(decide_poses(own->mechanism, in_frame(task, own->frame), request), task, mechanism, own->frame);
   return Verifier(mechanism, task, request).verify(false);
 }
 
 PoseVerification fit_poses(const Mechanism& mechanism, const PoseTask& task, PoseFit goal, const LociRequest& request) {
+  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
+    return from_frame(fit_poses(own->mechanism, in_frame(task, own->frame), goal, request), task, mechanism,
+                      own->frame);
   Verifier verifier(mechanism, task, request);
   const PoseJudge judge{[&](const core::PoseShape& shape) {
                           verifier.place(shape);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/pose_demands.hpp"
@@ -196,6 +197,8 @@ void note_meeting_ends(PoseZones& map) {
 }  // namespace
 
 PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociRequest& request, long cells) {
+  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
+    return from_frame(find_pose_zones(own->mechanism, request, cells), mechanism, own->frame);
   require_coordinates(mechanism, 1, 3, "zones are cut");
   if (request.all_working_modes || request.working_modes.size() > 1)
     throw core::InputError({.file = "--working-mode"}, "zones by cells are those of one working mode",

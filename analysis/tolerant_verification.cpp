@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/design_task.hpp"
+#include "analysis/framed.hpp"
 #include "core/enclosure.hpp"
 #include "core/errors.hpp"
 #include "numeric/design_witness.hpp"
@@ -356,7 +357,13 @@ void decide_tolerant(const mechanism::Mechanism& mechanism, const core::Task& ta
   result.task = task;
   if (result.verdict == core::Verdict::refuted) return;
   result.zone = result.verified() ? result.zone : "";
-  Tolerant(mechanism, task, request).decide(result);
+  // Tolerances are of the file's parameters: moved alone, its lengths keep their units.
+  if (const auto own = framed(mechanism, Scaling::none, mechanism::Parameters::kept)) {
+    Tolerant(own->mechanism, in_frame(task, own->frame), request).decide(result);
+    move_from_frame(result.witness, result.open, mechanism, own->frame);
+  } else {
+    Tolerant(mechanism, task, request).decide(result);
+  }
   if (!result.verified()) result.zone.clear();
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/reaction_rows.hpp"
@@ -209,6 +210,9 @@ void check(const TrajectoryRequest& request) {
 TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                                    const TrajectoryRequest& request) {
   check(request);
+  if (const std::optional<Framed> own = framed_where_far(mechanism))
+    return from_frame(follow_trajectory(own->mechanism, in_frame(trajectory, own->frame), request), mechanism,
+                      own->frame);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
   const numeric::Motion motion = numeric::compile_motion(mechanism, trajectory, sides);

@@ -137,19 +137,8 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
   return all;
 }
 
-}  // namespace
-
-core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                         core::Certificate* certificate, const symbolic::LocusFamily* family) {
-  require_coordinates(mechanism, 2, 2, "zones are cut");
-  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
-    if (coordinate.angle)
-      throw core::InputError(
-          {mechanism.file},
-          "zones lie in the plane of two lengths, and the free coordinate '" + coordinate.name + "' is an angle",
-          "make it a parameter and vary it with --set; 'loci' and 'validate' take angles");
-  if (const std::optional<Framed> own = certificate == nullptr ? framed(mechanism) : std::nullopt)
-    return from_frame(find_zones(own->mechanism, in_frame(request, own->frame)), mechanism, own->frame);
+core::ZoneMap cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                        core::Certificate* certificate, const symbolic::LocusFamily* family) {
   constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
   LociRequest finer = request;
   loci::sheet::KnownSearches known;
@@ -171,6 +160,28 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
     map.loci.timing.emplace_back("zones", taken.count());
     return std::move(map);
   }
+}
+
+}  // namespace
+
+core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                         core::Certificate* certificate, const symbolic::LocusFamily* family) {
+  require_coordinates(mechanism, 2, 2, "zones are cut");
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    if (coordinate.angle)
+      throw core::InputError(
+          {mechanism.file},
+          "zones lie in the plane of two lengths, and the free coordinate '" + coordinate.name + "' is an angle",
+          "make it a parameter and vary it with --set; 'loci' and 'validate' take angles");
+  const bool alone = family == nullptr || mechanism::is_far(mechanism);
+  const std::optional<Framed> own = alone ? framed(mechanism) : std::nullopt;
+  core::ZoneMap map = own ? cut_zones(own->mechanism, in_frame(request, own->frame), certificate, nullptr)
+                          : cut_zones(mechanism, request, certificate, family);
+  if (certificate != nullptr) {
+    certify(map.loci, own, *certificate);
+    certificate->zones = map.zones;
+  }
+  return own ? from_frame(std::move(map), mechanism, own->frame) : map;
 }
 
 ZoneMap find_zones(const Model& model, const LociRequest& request) {

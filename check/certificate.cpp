@@ -36,6 +36,9 @@ class Reader {
     for (const Json& pair : array(at(root, "model"), "set")) c.overrides.emplace_back(text(pair, 0), text(pair, 1));
     for (const Json& name : array(root, "coordinates")) c.coordinates.push_back(text(name));
     if (c.coordinates.size() != 2) fail("it is not about two coordinates");
+    for (std::size_t i = 0; i < 2; ++i) c.from[i] = rational(text(array(at(root, "frame"), "from"), i));
+    c.scale = rational(text(at(root, "frame"), "scale"));
+    if (!(c.scale > 0)) fail("the scale of its frame is not above 0");
     for (std::size_t i = 0; i < 4; ++i) c.box[i] = rational(text(at(array(root, "box"), i / 2), i % 2));
     c.tolerance = number(at(root, "tolerance"));
     for (const Json& name : array(root, "joints")) c.joints.push_back(text(name));

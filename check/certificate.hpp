@@ -83,6 +83,8 @@ struct CertificateFile {
   std::string command, model;
   std::vector<std::pair<std::string, std::string>> overrides;
   std::vector<std::string> coordinates;
+  std::array<core::Rational, 2> from;  ///< the model's coordinates are from + scale times those of the certificate
+  core::Rational scale;
   std::array<core::Rational, 4> box;  ///< x0, x1, y0, y1
   double tolerance = 0;
   std::vector<std::string> joints;

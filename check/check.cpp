@@ -75,7 +75,8 @@ class Check {
       throw core::InputError({m_.file}, "only planar mechanisms over two lengths can be checked", "");
     for (std::size_t i = 0; i < 2; ++i) {
       if (c_.coordinates[i] != m_.coordinates[i].name) throw FalseClaim("coordinates: they are not the model's");
-      if (c_.box[2 * i] != m_.coordinates[i].lower || c_.box[2 * i + 1] != m_.coordinates[i].upper)
+      if (in_file(i, c_.box[2 * i]) != m_.coordinates[i].lower ||
+          in_file(i, c_.box[2 * i + 1]) != m_.coordinates[i].upper)
         throw FalseClaim("box: it is not the model's");
     }
     if (!(c_.box[0] < c_.box[1] && c_.box[2] < c_.box[3])) throw FalseClaim("box: it is empty");
@@ -120,6 +121,10 @@ class Check {
     };
     for (const CurveClaim& curve : c_.curves) check(curve.kind, curve.vanishing, "a curve");
     for (const PointClaim& point : c_.points) check(point.kind, point.vanishing, "a point");
+  }
+
+  core::Rational in_file(std::size_t coordinate, const core::Rational& value) const {
+    return c_.from[coordinate] + c_.scale * value;
   }
 
   std::string name(int function) const { return c_.functions[static_cast<std::size_t>(function)].name; }
@@ -332,8 +337,11 @@ Examination check_certificate_text(const std::string& model_text, const std::str
     certificate.deadline = deadline;
     if (!same_text(model_text, certificate.model))
       throw FalseClaim("model: it is not the file that the certificate was made for");
-    const mechanism::Mechanism mechanism =
+    mechanism::Mechanism mechanism =
         mechanism::without_idle_limits(mechanism::parse_mechanism(model_text, model_file, certificate.overrides));
+    // What is claimed of a pose is held against the model at that pose of the model's own.
+    mechanism.frame = mechanism::Frame{
+        .origin = {}, .from = {certificate.from.begin(), certificate.from.end()}, .scale = certificate.scale};
     return Check(mechanism, certificate).run();
   } catch (const FalseClaim& claim) {
     Examination examination;

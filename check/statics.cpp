@@ -29,7 +29,8 @@ Interval square_of(const Vector& a) { return squared(a[0]) + squared(a[1]); }
 
 class Pose {
  public:
-  Pose(const Mechanism& m, const Interval& x, const Interval& y) : m_(m), x_(x), y_(y), bits_(x.bits()) {}
+  Pose(const Mechanism& m, const Interval& x, const Interval& y)
+      : m_(m), bits_(x.bits()), x_(outside(0, x)), y_(outside(1, y)) {}
 
   Interval number(double value) const { return {value, bits_}; }
 
@@ -84,13 +85,19 @@ class Pose {
   }
 
  private:
+  /// A coordinate of the frame that the certificate is in as that of the model.
+  Interval outside(std::size_t coordinate, const Interval& inside) const {
+    if (!m_.frame || m_.frame->is_usual()) return inside;
+    return number(m_.frame->from[coordinate]) + number(m_.frame->scale) * inside;
+  }
+
   [[noreturn]] Interval refuse_function() const {
     throw core::InputError({m_.file}, "a function of a coordinate that check does not know", "");
   }
 
   const Mechanism& m_;
-  const Interval &x_, &y_;
   mpfr_prec_t bits_;
+  Interval x_, y_;
 };
 
 /// Places the points one by one.

@@ -3,6 +3,7 @@
 //
 //   dyad B on A, P:   D = |P - A|^2,  k = a^2 - b^2 + D,  Q = 4 a^2 D - k^2,  B = A + (k (P - A) +- sqrt(Q) J (P - A))
 //   / (2 D) slider S on Q, C: U = u . u,  p = u . (C - Q),  Q = l^2 U - (u x (C - Q))^2,  S = Q + (p +- sqrt(Q)) u / U
+// x and y are seen in the frame of the mechanism, where it has one.
 #pragma once
 
 #include <array>

@@ -24,15 +24,14 @@ void require_certifiable(const mechanism::Mechanism& mechanism) {
 }
 
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
-                       const CommonArguments& arguments, const core::Certificate& certificate,
-                       const core::LocusMap& map, const report::CertifiedMore& more) {
+                       const CommonArguments& arguments, const core::Certificate& certificate, const core::Task* task) {
   std::ifstream stream(arguments.model, std::ios::binary);
   report::CertificateSource source{command, {std::istreambuf_iterator<char>(stream), {}}, {}};
   for (const std::string& pair : arguments.overrides) {
     const std::size_t sign = pair.find('=');
     source.overrides.emplace_back(pair.substr(0, sign), sign == std::string::npos ? "" : pair.substr(sign + 1));
   }
-  staged.add(file, report::certificate_text(source, certificate, map, more));
+  staged.add(file, report::certificate_text(source, certificate, task));
 }
 
 }  // namespace clearloci::cli

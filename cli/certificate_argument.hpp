@@ -19,6 +19,6 @@ void require_certifiable(const mechanism::Mechanism& mechanism);
 /// Adds `file`, which appears with the files of the answer that it certifies.
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
                        const CommonArguments& arguments, const core::Certificate& certificate,
-                       const core::LocusMap& map, const report::CertifiedMore& more = {});
+                       const core::Task* task = nullptr);
 
 }  // namespace clearloci::cli

@@ -75,7 +75,7 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   std::optional<core::ZoneMap> zones;
   if (formats.contains("html")) zones = zones_of_page(mechanism, request);
   report::StagedFiles staged;
-  if (certify) stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate, map);
+  if (certify) stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate);
   const std::vector<std::filesystem::path> files = report::stage_loci(
       staged, {map, sample_sketches(mechanism, map), zones ? &*zones : nullptr}, folder, formats);
   staged.commit();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/framed.hpp"
 #include "analysis/pose_verification.hpp"
 #include "analysis/verification.hpp"
 #include "cli/certificate_argument.hpp"
@@ -74,11 +75,11 @@ std::optional<PoseFit> parse_pose_fit(const std::string& word) {
 void certify(const VerifyCommand& arguments, const mechanism::Mechanism& mechanism, const Verification& result,
              const LociRequest& request, report::StagedFiles& staged) {
   core::Certificate certificate;
-  const core::LocusMap map = trace_loci(mechanism, request, &certificate);
+  trace_loci(mechanism, request, &certificate);
   const bool nominal = result.verified() && !result.task.loads && result.task.tolerances.empty() &&
                        result.task.loads_within.empty() && !result.task.pose_error;
-  stage_certificate(staged, arguments.certificate, "verify", arguments.common, certificate, map,
-                    {.task = nominal ? &result.task : nullptr});
+  const core::Task task = in_frame(result.task, certificate);
+  stage_certificate(staged, arguments.certificate, "verify", arguments.common, certificate, nominal ? &task : nullptr);
 }
 
 /// Over other than two lengths: a verdict without traced loci.

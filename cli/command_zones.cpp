@@ -72,9 +72,7 @@ int run(const ZonesCommand& arguments, TimeLimit& limit) {
 
   const std::filesystem::path folder = output_folder(arguments.common);
   report::StagedFiles staged;
-  if (certify)
-    stage_certificate(staged, arguments.certificate, "zones", arguments.common, certificate, map.loci,
-                      {.zones = &map.zones});
+  if (certify) stage_certificate(staged, arguments.certificate, "zones", arguments.common, certificate);
   const std::vector<std::filesystem::path> files = report::stage_answer(staged, map, folder, formats);
   staged.commit();
   if (arguments.common.json) {

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "clearloci/zones.hpp"
 #include "core/locus_factor.hpp"
+#include "core/locus_map.hpp"
 
 namespace clearloci::inline core {
 
@@ -47,6 +49,11 @@ struct Certificate {
   LocusProblem problem;            ///< that was solved
   std::vector<SheetClaim> sheets;  ///< of every factor and mode that was proven on the sheets
   std::vector<OpenClaim> open;
+  LocusMap map;             ///< that was traced
+  std::vector<Zone> zones;  ///< that were cut
+  /// A free coordinate of the mechanism file is from + scale times the one that all of the above speaks of.
+  std::array<Rational, 2> from{};
+  Rational scale = 1;
 };
 
 }  // namespace clearloci::inline core

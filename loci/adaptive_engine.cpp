@@ -306,7 +306,8 @@ Found find_adaptively(const LocusProblem& problem, const TraceOptions& options) 
   const std::shared_ptr<const CurveAlgebras> algebras = curve_algebras(problem, options);
   std::vector<SheetShare> shares = trace_on_sheets(problem, options, *algebras, cells_before_exact(problem, options));
   if (options.certificate != nullptr) {
-    *options.certificate = {problem, {}, {}};
+    *options.certificate = {};
+    options.certificate->problem = problem;
     for (const SheetShare& share : shares) options.certificate->open.push_back({share.mode, share.factor});
   }
   LocusMap map = gathered(problem, options, *algebras, shares);

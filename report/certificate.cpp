@@ -152,7 +152,7 @@ Json task_object(const core::Task& task) {
 }  // namespace
 
 std::string certificate_text(const CertificateSource& source, const core::Certificate& certificate,
-                             const core::LocusMap& map, const CertifiedMore& more) {
+                             const core::Task* task) {
   const core::LocusProblem& problem = certificate.problem;
   const auto mode_of = [&](const core::WorkingMode& mode) {
     return std::find(problem.modes.begin(), problem.modes.end(), mode) - problem.modes.begin();
@@ -161,6 +161,8 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
   root["model"] = {{"text", source.model_text}, {"set", Json::array()}};
   for (const auto& [name, value] : source.overrides) root["model"]["set"].push_back({name, value});
   root["coordinates"] = problem.tower.coordinates;
+  root["frame"] = {{"from", {core::to_string(certificate.from[0]), core::to_string(certificate.from[1])}},
+                   {"scale", core::to_string(certificate.scale)}};
   root["box"] = Json::array();
   for (std::size_t i = 0; i < problem.lower.size(); ++i)
     root["box"].push_back({core::to_string(problem.lower[i]), core::to_string(problem.upper[i])});
@@ -209,7 +211,7 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
   root["open"] = std::move(open);
 
   root["curves"] = Json::array();
-  for (const core::LocusCurve& curve : map.curves) {
+  for (const core::LocusCurve& curve : certificate.map.curves) {
     Json arcs = Json::array();
     for (const core::Arc& arc : curve.arcs)
       arcs.push_back({{"closed", arc.closed},
@@ -223,16 +225,16 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
                               {"arcs", std::move(arcs)}});
   }
   root["points"] = Json::array();
-  for (const core::IsolatedPoint& point : map.isolated_points)
+  for (const core::IsolatedPoint& point : certificate.map.isolated_points)
     root["points"].push_back({{"mode", mode_of(point.mode)},
                               {"kind", core::to_string(point.kind)},
                               {"vanishing", vanishing_list(point.vanishing)},
                               {"certified", point.certified},
                               {"at", point.at}});
-  if (more.task != nullptr) root["task"] = task_object(*more.task);
-  if (more.zones != nullptr) {
+  if (task != nullptr) root["task"] = task_object(*task);
+  if (source.command == "zones") {
     root["zones"] = Json::array();
-    for (const core::Zone& zone : *more.zones) {
+    for (const core::Zone& zone : certificate.zones) {
       Json signs = Json::array(), holes = Json::array();
       for (const auto& [reaction, sign] : zone.signs)
         signs.push_back({reaction.joint, core::to_string(reaction.quantity), sign});

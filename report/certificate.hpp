@@ -5,9 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "clearloci/zones.hpp"
 #include "core/certificate.hpp"
-#include "core/locus_map.hpp"
 #include "core/task.hpp"
 
 namespace clearloci::report {
@@ -19,13 +17,8 @@ struct CertificateSource {
   std::vector<std::pair<std::string, std::string>> overrides;
 };
 
-/// What was proven besides the loci; null where it was not asked for.
-struct CertifiedMore {
-  const std::vector<core::Zone>* zones = nullptr;
-  const core::Task* task = nullptr;  ///< that was verified, in the problem's first mode
-};
-
+/// `task`: that was verified, in the problem's first mode and in the coordinates of the certificate; null: none was.
 std::string certificate_text(const CertificateSource& source, const core::Certificate& certificate,
-                             const core::LocusMap& map, const CertifiedMore& more = {});
+                             const core::Task* task = nullptr);
 
 }  // namespace clearloci::report

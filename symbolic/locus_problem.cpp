@@ -198,6 +198,7 @@ class Derivation {
     add_undirected();
     append_roots();
     result_.elimination_seconds = seconds_since(elimination_start);
+    result_.in_file = std::move(in_file_);
     return std::move(result_);
   }
 
@@ -403,23 +404,28 @@ class Derivation {
     return on_line_.emplace(factor, elimination_.norm_on_line(sheet_of(factor))).first->second;
   }
 
+  /// In the coordinates of the frame, noted with those of the file.
   std::string text(const Poly& p) const {
-    const bool primitive = mechanism_.frame && p.primitive() == p;
+    std::string inside = core::to_string(p.plain(), geometry_.ring().names());
+    if (!mechanism_.frame) return inside;
+    if (std::string outside = text_in_file(p); outside != inside) in_file_.emplace(inside, std::move(outside));
+    return inside;
+  }
+
+  std::string text_in_file(const Poly& p) const {
+    const mechanism::Frame& frame = *mechanism_.frame;
     Poly outside = p;
-    if (mechanism_.frame) {
-      const mechanism::Frame& frame = *mechanism_.frame;
-      for (int i = 0; i < geometry_.coordinates(); ++i)
-        if (!geometry_.charts()[static_cast<std::size_t>(i)])
-          outside = shifted(outside, i, frame.from[static_cast<std::size_t>(i)], frame.scale);
-      for (const InverseLength& length : geometry_.inverse_lengths())
-        outside = shifted(outside, length.variable, 0, 1 / frame.scale);
-      for (const ConstructedPoint& point : geometry_.constructed()) {
-        outside = shifted(outside, point.x, frame.origin[0], frame.scale);
-        outside = shifted(outside, point.y, frame.origin[1], frame.scale);
-        if (point.z >= 0) outside = shifted(outside, point.z, frame.origin[2], frame.scale);
-      }
-      if (primitive) outside = outside.primitive();
+    for (int i = 0; i < geometry_.coordinates(); ++i)
+      if (!geometry_.charts()[static_cast<std::size_t>(i)])
+        outside = shifted(outside, i, frame.from[static_cast<std::size_t>(i)], frame.scale);
+    for (const InverseLength& length : geometry_.inverse_lengths())
+      outside = shifted(outside, length.variable, 0, 1 / frame.scale);
+    for (const ConstructedPoint& point : geometry_.constructed()) {
+      outside = shifted(outside, point.x, frame.origin[0], frame.scale);
+      outside = shifted(outside, point.y, frame.origin[1], frame.scale);
+      if (point.z >= 0) outside = shifted(outside, point.z, frame.origin[2], frame.scale);
     }
+    if (p.primitive() == p) outside = outside.primitive();
     return core::to_string(outside.plain(), geometry_.ring().names());
   }
 
@@ -752,8 +758,13 @@ class Derivation {
       const auto widened = [&](const Poly& p) { return core::with_variables(p.plain(variables), index + 1); };
       factor.sheet = core::scaled_for_doubles(sense > 0 ? widened(left) * root - widened(right)
                                                         : widened(left) * root + widened(right));
-      factor.expression = "(" + text(senses.size) + ")*sqrt(" + text(senses.square) + (sense > 0 ? ") - (" : ") + (") +
-                          text(senses.bound) + ")";
+      const auto words = [&](const auto& write) {
+        return "(" + write(senses.size) + ")*sqrt(" + write(senses.square) + (sense > 0 ? ") - (" : ") + (") +
+               write(senses.bound) + ")";
+      };
+      factor.expression = words([this](const Poly& p) { return text(p); });
+      if (mechanism_.frame)
+        in_file_.emplace(factor.expression, words([this](const Poly& p) { return text_in_file(p); }));
       result_.problem.factors.push_back(std::move(factor));
     }
     return shared;
@@ -932,6 +943,7 @@ class Derivation {
   std::map<std::size_t, bool> heavy_;
   std::vector<core::Root> more_roots_;  ///< written in the coordinates and the roots of the geometry
   DerivedProblem result_;
+  mutable std::map<std::string, std::string> in_file_;  ///< DerivedProblem::in_file
 };
 
 /// The problems of one choice of charts.

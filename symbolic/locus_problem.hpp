@@ -1,6 +1,7 @@
 // From a mechanism to the factors whose zeros are its discontinuity loci (method.md sections 1 to 5).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ struct DerivedProblem {
   /// Factors of wanted numerators on which nothing wanted vanishes, as they are computed: with them a certificate makes
   /// up every numerator. Over two coordinates only.
   std::vector<core::LocusFactor> rest;
+  /// Expressions of factors and how the file's coordinates write them, of a mechanism in a frame: curves are sorted by
+  /// what does not depend on where the file puts them.
+  std::map<std::string, std::string> in_file = {};
   double symbolic_seconds = 0;     ///< matrix, numerators, factors
   double elimination_seconds = 0;  ///< roots eliminated, factored
   int piece = 0;                   ///< of the coordinates' ranges: problems with the same charts have the same

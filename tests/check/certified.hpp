@@ -24,11 +24,11 @@ inline std::string certificate_of(const std::string& model, const LociRequest& r
   const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model, "model.yaml");
   core::Certificate certificate;
   if (zones) {
-    const core::ZoneMap map = find_zones(mechanism, request, &certificate);
-    return report::certificate_text({"zones", model, {}}, certificate, map.loci, {.zones = &map.zones});
+    find_zones(mechanism, request, &certificate);
+    return report::certificate_text({"zones", model, {}}, certificate);
   }
-  const core::LocusMap map = trace_loci(mechanism, request, &certificate);
-  return report::certificate_text({"loci", model, {}}, certificate, map);
+  trace_loci(mechanism, request, &certificate);
+  return report::certificate_text({"loci", model, {}}, certificate);
 }
 
 inline check::Examination examination_of(const std::string& model, const std::string& certificate) {
