@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/virtual_work.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -137,7 +138,7 @@ void tell_common_reasons(Groups& groups) {
   for (CurveGroup& group : groups.curves)
     for (const core::Vanishing& one : group.vanishing) {
       const std::string common = of_it(group.why, one.joint);
-      if (common == group.why) continue;
+      if (common == group.why || !common.starts_with(core::no_work_words)) continue;
       const auto known =
           std::find_if(sentences.begin(), sentences.end(), [&](const auto& own) { return own.first == common; });
       if (known == sentences.end())
