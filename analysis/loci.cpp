@@ -194,18 +194,11 @@ class FileTexts {
     for (core::LocusSurface& surface : map.surfaces) write(surface.factor);
     for (core::SpaceCurve& curve : map.space_curves) write(curve.factor);
     for (core::IsolatedPoint& point : map.isolated_points) write(point.factor);
-    write_open(map);
+    for (core::OpenRegion& region : map.open) write(region.factor);
     for (std::string& note : map.notes)
       for (const auto& [inside, outside] : texts_)
         if (const std::size_t at = note.find("where " + inside + " "); at != std::string::npos)
           note.replace(at + 6, inside.size(), outside);
-  }
-
-  /// Places that are open are named as their curves are.
-  template <typename Map>
-  void write_open(Map& map) const {
-    if constexpr (requires { map.open; })
-      for (auto& region : map.open) write(region.factor);
   }
 
   /// One, or several with "; " between them.

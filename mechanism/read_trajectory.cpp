@@ -340,7 +340,7 @@ void check_parts(const Trajectory& trajectory) {
                      "let them add up to 1, or leave a duration out");
 }
 
-Trajectory parsed(const std::string& text, const std::string& file, const Mechanism& mechanism,
+Trajectory parsed_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism,
                   const HandedFiles* handed) {
   const Value document = parse_document(text, file);
   if (!document.is_map())
@@ -382,12 +382,12 @@ std::string to_string(LawKind kind) {
 }
 
 Trajectory parse_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism) {
-  return parsed(text, file, mechanism, nullptr);
+  return parsed_trajectory(text, file, mechanism, nullptr);
 }
 
 Trajectory parse_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism,
                             const HandedFiles& handed) {
-  return parsed(text, file, mechanism, &handed);
+  return parsed_trajectory(text, file, mechanism, &handed);
 }
 
 Trajectory read_trajectory(const std::string& path, const Mechanism& mechanism) {
