@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "bindings/bindings.hpp"
 
 namespace clearloci::python {
@@ -38,14 +41,30 @@ DyadSides sides_of(const Model& model, const py::handle& value) {
   return sides;
 }
 
+[[noreturn]] void refuse_number(const py::handle& value, const std::string& option) {
+  constexpr std::size_t longest = 40;
+  refuse(option, "'" + py::repr(value).cast<std::string>().substr(0, longest) + "' is no finite number",
+         "give a number or a fraction '1/2'");
+}
+
+/// What Python takes for a number and doubles hold.
+double finite(const py::handle& value, const std::string& option) {
+  const double number = PyFloat_AsDouble(value.ptr());
+  const bool failed = PyErr_Occurred() != nullptr;
+  PyErr_Clear();
+  if (failed || !std::isfinite(number)) refuse_number(value, option);
+  return number;
+}
+
 Rational exact(const py::handle& value, const std::string& option) {
-  if (py::isinstance<py::float_>(value)) return Rational(value.cast<double>());
+  if (py::isinstance<py::float_>(value)) return Rational(finite(value, option));
   try {
     Rational number(py::str(value).cast<std::string>());
+    if (number.get_den() == 0) refuse_number(value, option);
     number.canonicalize();
     return number;
   } catch (const std::invalid_argument&) {
-    refuse(option, "'" + py::str(value).cast<std::string>() + "' is no number", "give a number or a fraction '1/2'");
+    refuse_number(value, option);
   }
 }
 
@@ -90,18 +109,21 @@ LociRequest request_of(const Model& model, const py::kwargs& options) {
     } else if (name == "min_couple") {
       request.min_couple = exact(value, name);
     } else if (name == "tolerance") {
-      request.tolerance = value.cast<double>();
+      request.tolerance = finite(value, name);
     } else if (name == "mesh_size") {
-      request.mesh_size = value.cast<double>();
+      request.mesh_size = finite(value, name);
     } else if (name == "engine") {
       const auto engine = engine_named(value.cast<std::string>());
       if (!engine)
         refuse(name, "unknown engine '" + value.cast<std::string>() + "'", "adaptive-then-exact, exact or adaptive");
       request.engine = *engine;
     } else if (name == "time_limit") {
+      constexpr double century = 3e9;  // s; beyond, the clock's ticks would overflow
+      const double seconds = std::min(finite(value, name), century);
+      if (seconds <= 0) refuse(name, "a time limit is above zero", "give seconds");
       request.deadline =
-          std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                                 std::chrono::duration<double>(value.cast<double>()));
+          std::chrono::steady_clock::now() +
+          std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
     } else {
       throw py::type_error("unexpected keyword argument '" + name + "'");
     }

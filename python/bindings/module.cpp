@@ -23,6 +23,9 @@ void bind_errors(py::module_& module) {
       own.attr("what") = in_python(error.problem());
       own.attr("mend") = in_python(error.mend());
       PyErr_SetObject(input_error.ptr(), own.ptr());
+    } catch (const py::cast_error& error) {  // of a value in an option, a dict or a list
+      PyErr_SetObject(input_error.ptr(),
+                      input_error(std::string("a value is of another type than is asked for: ") + error.what()).ptr());
     } catch (const LimitReached& limit) {
       PyErr_SetString(limit_reached.ptr(), in_python(limit.what()).c_str());
     }
