@@ -76,8 +76,8 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   if (formats.contains("html")) zones = zones_of_page(mechanism, request);
   report::StagedFiles staged;
   if (certify) stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate);
-  const std::vector<std::filesystem::path> files = report::stage_loci(
-      staged, {map, sample_sketches(mechanism, map), zones ? &*zones : nullptr}, folder, formats);
+  const std::vector<std::filesystem::path> files =
+      report::stage_loci(staged, {map, sample_sketches(mechanism, map), zones ? &*zones : nullptr}, folder, formats);
   staged.commit();
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::loci_object(map)));

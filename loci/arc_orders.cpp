@@ -69,7 +69,7 @@ std::vector<Polynomial> powers_of_angle(const Polynomial& p, std::size_t variabl
 
 }  // namespace
 
-std::optional<CurvePoint> curve_point(const Polynomial& curve, const std::array<double, 2>& near, double reach) {
+std::optional<EnclosedPoint> curve_point(const Polynomial& curve, const std::array<double, 2>& near, double reach) {
   // Along the axis that the curve runs across.
   const std::array<double, 2> slope = {std::abs(core::evaluate(core::derivative(curve, 0), near)),
                                        std::abs(core::evaluate(core::derivative(curve, 1), near))};
@@ -89,7 +89,7 @@ std::optional<CurvePoint> curve_point(const Polynomial& curve, const std::array<
   std::vector<RealRoot> roots = real_roots(square_free_part(univariate(line)), centre - radius, centre + radius);
   if (roots.size() != 1) return std::nullopt;
   narrow_by(roots.front(), halvings);
-  CurvePoint point(2);
+  EnclosedPoint point(2);
   point[fixed] = {level, level};
   point[across] = {roots.front().lower, roots.front().upper};
   return point;
@@ -139,16 +139,16 @@ std::shared_ptr<CurveAlgebra> CurveAlgebras::of(const Polynomial& curve) const {
   return curves_.emplace_back(curve, std::make_shared<CurveAlgebra>(tower_, curve)).second;
 }
 
-ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, Polynomial curve, const CurvePoint& at)
+ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, Polynomial curve, const EnclosedPoint& at)
     : ArcOrders(tower, std::move(mode), std::make_shared<CurveAlgebra>(tower, std::move(curve)), at) {}
 
 ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, std::shared_ptr<CurveAlgebra> curve,
-                     const CurvePoint& at)
+                     const EnclosedPoint& at)
     : tower_(tower), mode_(std::move(mode)), algebra_(std::move(curve)) {
   place_roots(at);
 }
 
-ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, CoordinateGerm germ, const CurvePoint& at)
+ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, CoordinateGerm germ, const EnclosedPoint& at)
     : tower_(tower),
       mode_(std::move(mode)),
       algebra_(std::make_shared<CurveAlgebra>(tower, Polynomial{})),
@@ -156,7 +156,7 @@ ArcOrders::ArcOrders(const core::RootTower& tower, core::WorkingMode mode, Coord
   place_roots(at);
 }
 
-void ArcOrders::place_roots(const CurvePoint& at) {
+void ArcOrders::place_roots(const EnclosedPoint& at) {
   for (const auto& [lower, upper] : at) at_.emplace_back(lower, upper);
   const std::vector<MultiInterval> coordinates = at_;
   for (const int side : {1, -1}) {

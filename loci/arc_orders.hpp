@@ -37,7 +37,7 @@ struct Germ {
 };
 
 /// An enclosed point of the curve in general position on it: coordinates, each with the ends of its interval.
-using CurvePoint = std::vector<std::pair<core::Rational, core::Rational>>;
+using EnclosedPoint = std::vector<std::pair<core::Rational, core::Rational>>;
 
 /// The germs of polynomials in the coordinates, on the sides +1 and -1 of a curve; nothing where it is not told.
 using CoordinateGerm = std::function<std::optional<Germ>(const core::Polynomial& p, int side)>;
@@ -92,12 +92,12 @@ class CurveAlgebras {
 class ArcOrders {
  public:
   /// `curve`: irreducible, in the coordinates; side +1 is where it is positive.
-  ArcOrders(const core::RootTower& tower, core::WorkingMode mode, core::Polynomial curve, const CurvePoint& at);
+  ArcOrders(const core::RootTower& tower, core::WorkingMode mode, core::Polynomial curve, const EnclosedPoint& at);
   /// The same with what is known of the curve from other points of it.
   ArcOrders(const core::RootTower& tower, core::WorkingMode mode, std::shared_ptr<CurveAlgebra> curve,
-            const CurvePoint& at);
+            const EnclosedPoint& at);
   /// At what another rule tells the germs of.
-  ArcOrders(const core::RootTower& tower, core::WorkingMode mode, CoordinateGerm germ, const CurvePoint& at);
+  ArcOrders(const core::RootTower& tower, core::WorkingMode mode, CoordinateGerm germ, const EnclosedPoint& at);
 
   /// Every root's germ is known on every side from which the mode reaches the curve. Required by what follows.
   bool decided() const { return decided_; }
@@ -112,7 +112,7 @@ class ArcOrders {
   std::optional<Germ> germ(const core::Polynomial& p, int side);
 
  private:
-  void place_roots(const CurvePoint& at);
+  void place_roots(const EnclosedPoint& at);
   bool place_roots_on(int side);
   std::optional<Germ> coordinate_germ(const core::Polynomial& p, int side);
   int sign_at_point(const core::Polynomial& p);
@@ -140,6 +140,7 @@ class ArcOrders {
 
 /// A point of a plane curve within `reach` of a given one, enclosed so that no other point of it is on the same
 /// vertical or horizontal line there. Nothing where there is none.
-std::optional<CurvePoint> curve_point(const core::Polynomial& curve, const std::array<double, 2>& near, double reach);
+std::optional<EnclosedPoint> curve_point(const core::Polynomial& curve, const std::array<double, 2>& near,
+                                         double reach);
 
 }  // namespace clearloci::loci

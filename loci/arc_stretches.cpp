@@ -76,7 +76,7 @@ bool same_orders_all_along(const LocusProblem& problem, const core::WorkingMode&
                                            core::to_double(problem.upper[1] - problem.lower[1]));
   std::optional<ReactionOrders> first;
   for (const Point2& at : samples) {
-    const std::optional<CurvePoint> point = curve_point(curve, at, reach);
+    const std::optional<EnclosedPoint> point = curve_point(curve, at, reach);
     if (!point) return false;
     ArcOrders arc(problem.tower, mode, algebra, *point);
     ReactionOrders orders = reaction_orders(problem, arc, candidates);

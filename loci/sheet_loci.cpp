@@ -84,7 +84,7 @@ bool is_singular(const LocusProblem& problem, const core::WorkingMode& mode, con
 }
 
 /// An exact point of a curve next to one of an arc of it.
-std::optional<CurvePoint> point_of(const LocusProblem& problem, const core::Polynomial& curve, const Point2& at) {
+std::optional<EnclosedPoint> point_of(const LocusProblem& problem, const core::Polynomial& curve, const Point2& at) {
   const double reach = on_curve * std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                            core::to_double(problem.upper[1] - problem.lower[1]));
   return curve_point(curve, at, reach);
@@ -96,7 +96,7 @@ bool vanishes_along_all(const LocusProblem& problem, const core::WorkingMode& mo
                         const core::Polynomial& sheet) {
   return std::all_of(trace.arcs.begin(), trace.arcs.end(), [&](const TracedArc& traced) {
     const core::Polynomial& curve = own.implicit[static_cast<std::size_t>(traced.colour)];
-    const std::optional<CurvePoint> point = point_of(problem, curve, traced.inner);
+    const std::optional<EnclosedPoint> point = point_of(problem, curve, traced.inner);
     if (!point) return false;
     ArcOrders arc(problem.tower, mode, algebra[static_cast<std::size_t>(traced.colour)], *point);
     if (!arc.decided()) return false;
@@ -303,7 +303,7 @@ class Gathering {
     ReactionOrders orders;
     orders.decided = false;
     for (const Point2& at : {traced.inner, points[points.size() / 3], points[2 * points.size() / 3]}) {
-      const std::optional<CurvePoint> point = point_of(problem_, implicit, at);
+      const std::optional<EnclosedPoint> point = point_of(problem_, implicit, at);
       if (!point) continue;
       ArcOrders arc(problem_.tower, mode(share), algebras_.of(implicit), *point);
       orders = reaction_orders(problem_, arc, factors_on(problem_, implicit));

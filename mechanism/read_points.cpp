@@ -9,6 +9,8 @@
 namespace clearloci::mechanism {
 namespace {
 
+using Kind = Expression::Kind;
+
 using core::InputError;
 
 bool mentions_coordinates(const Mechanism& mechanism, const Expression& expression) {
@@ -24,7 +26,6 @@ class PolynomialCheck {
       : mechanism_(mechanism), value_(value), not_polynomial_mend_(std::move(mend)), arc_tangents_(arc_tangents) {}
 
   void operator()(const Expression& expression) const {
-    using Kind = Expression::Kind;
     if (!mentions_coordinates(mechanism_, expression)) {
       check_constant(expression);
       return;
@@ -94,7 +95,6 @@ class PolynomialCheck {
 
   /// The argument of cos or sin: sums and constant multiples of angles.
   void check_angle(const Expression& expression) const {
-    using Kind = Expression::Kind;
     if (!mentions_coordinates(mechanism_, expression)) {
       check_constant(expression);
       return;

@@ -341,7 +341,7 @@ void check_parts(const Trajectory& trajectory) {
 }
 
 Trajectory parsed_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism,
-                  const HandedFiles* handed) {
+                             const HandedFiles* handed) {
   const Value document = parse_document(text, file);
   if (!document.is_map())
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");

@@ -114,7 +114,8 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
     nothing.cause = left[i]->cause;
     nothing.mode = mode;
     const auto own = take_those([&](const core::OpenRegion& region) { return is_open_place_of(region, nothing); });
-    rows.push_back({"-", kind_words(nothing.kind), where(nothing) + "\n" + open_words(map, own), "-", "", "0", ""});
+    rows.push_back(
+        {"-", kind_words(nothing.kind), where(map, nothing) + "\n" + open_words(map, own), "-", "", "0", ""});
   }
   // The two wide columns share what the others leave of the width.
   constexpr int least = 30;

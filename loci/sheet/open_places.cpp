@@ -10,7 +10,7 @@ namespace clearloci::loci::sheet {
 namespace {
 
 // Of the region.
-constexpr double widest_place = 1.0 / 64;
+constexpr double widest_part = 1.0 / 64;
 
 double width_of(const Cell& cell) { return std::max(cell.x.width(), cell.y.width()); }
 
@@ -22,7 +22,7 @@ bool holds(const Cell& outer, const Cell& cell) {
 }  // namespace
 
 std::vector<Cell> open_places(const std::vector<Cell>& cells, double size) {
-  const double widest = widest_place * size;
+  const double widest = widest_part * size;
   std::vector<Cell> places, wide;
   for (const Cell& place : clusters(cells)) (width_of(place) <= widest ? places : wide).push_back(place);
   if (wide.empty()) return places;

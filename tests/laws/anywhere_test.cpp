@@ -175,12 +175,14 @@ TEST_P(AtPlaces, Verdicts) {
     for (const Rational& radius : {Rational(1, 50), Rational(1, 4)}) {
       core::Task task = circle(Rational(1, 4), Rational(-3, 5), radius);
       if (tolerant) task.pose_error = Rational(1, 100);
-      const Verification a = verify_task(m, task), b = verify_task(moved(m, frame), in_frame(task, frame));
+      const Verification a = verify_task(m, task, {}), b = verify_task(moved(m, frame), in_frame(task, frame), {});
       EXPECT_EQ(a.verdict, b.verdict);
       EXPECT_NEAR(a.margin, b.margin, within(m, frame));
       EXPECT_EQ(a.zone, b.zone);
       EXPECT_EQ(a.nearest.has_value(), b.nearest.has_value());
-      if (a.pose_error && b.pose_error) EXPECT_NEAR(*a.pose_error, *b.pose_error, 1e-9 * *a.pose_error);
+      if (a.pose_error && b.pose_error) {
+        EXPECT_NEAR(*a.pose_error, *b.pose_error, 1e-9 * *a.pose_error);
+      }
       if (!a.witness || !b.witness) {
         EXPECT_EQ(a.witness.has_value(), b.witness.has_value());
         continue;
@@ -217,7 +219,9 @@ TEST_P(AtPlaces, PosesAndErrors) {
     for (std::size_t k = 0; k < 400; ++k) {
       const double one = c.modes[0].map.fields[f].values[k], other = d.modes[0].map.fields[f].values[k];
       EXPECT_EQ(std::isnan(one), std::isnan(other));
-      if (!std::isnan(one)) EXPECT_NEAR(one, other, 1e-6 * (1e-4 + std::abs(one)));
+      if (!std::isnan(one)) {
+        EXPECT_NEAR(one, other, 1e-6 * (1e-4 + std::abs(one)));
+      }
     }
 }
 
@@ -236,7 +240,9 @@ TEST_P(AtPlaces, TasksAndZonesOverPoses) {
   EXPECT_EQ(a.verdict, b.verdict);
   EXPECT_EQ(a.cells, b.cells);
   EXPECT_EQ(a.margin.has_value(), b.margin.has_value());
-  if (a.margin && b.margin) EXPECT_NEAR(*a.margin, *b.margin, 1e-9);
+  if (a.margin && b.margin) {
+    EXPECT_NEAR(*a.margin, *b.margin, 1e-9);
+  }
   const core::PoseZones c = find_pose_zones(example("slider_crank")),
                         d = find_pose_zones(
                             moved(example("slider_crank"), moved_by(example("slider_crank"), GetParam().by)));

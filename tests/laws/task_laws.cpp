@@ -154,13 +154,11 @@ void judge_certificate(Subject& s) {
   try {
     const report::CertificateSource source{with_zones ? "zones" : "loci", s.design.text, {}};
     if (with_zones) {
-      const core::ZoneMap zones =
-          s.report.in_patience([&] { return find_zones(s.mechanism, s.request, &certificate); });
-      text = report::certificate_text(source, certificate, zones.loci, {.zones = &zones.zones});
+      s.report.in_patience([&] { return find_zones(s.mechanism, s.request, &certificate); });
     } else {
-      const core::LocusMap map = s.report.in_patience([&] { return trace_loci(s.mechanism, s.request, &certificate); });
-      text = report::certificate_text(source, certificate, map);
+      s.report.in_patience([&] { return trace_loci(s.mechanism, s.request, &certificate); });
     }
+    text = report::certificate_text(source, certificate);
   } catch (const core::InputError& refused) {
     return s.report.refused(refused.what());
   } catch (const core::LimitReached&) {

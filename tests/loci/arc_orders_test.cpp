@@ -26,7 +26,7 @@ RootTower over(const Polynomial& square) {
   return tower;
 }
 
-CurvePoint exactly(const Rational& x, const Rational& y) { return {{x, x}, {y, y}}; }
+EnclosedPoint exactly(const Rational& x, const Rational& y) { return {{x, x}, {y, y}}; }
 
 const Ring plane{2}, ring{3};
 const Polynomial x = plane.x(), y = plane.y(), X = ring.x(), Y = ring.y(), S = ring.s(1);
@@ -103,7 +103,7 @@ TEST(ArcOrders, HoldForRootsThatDependOnOneAnother) {
 
 TEST(ArcOrders, AreRightAtIrrationalPoints) {
   const RootTower tower = over(circle);
-  const std::optional<CurvePoint> at =
+  const std::optional<EnclosedPoint> at =
       curve_point(plane(2) * x * x + y * y - plane({1, 2}), {0.3, std::sqrt(0.32)}, 1e-9);
   ASSERT_TRUE(at.has_value());
   ArcOrders arc(tower, {1}, plane(2) * x * x + y * y - plane({1, 2}), *at);

@@ -100,7 +100,7 @@ TEST(ATask, NamesNoFileThatWasNotHandedOver) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   Json body = {{"text", example("gough_stewart.yaml")}, {"client", "test"}};
   std::string sentence;
-  for (const std::string file : {std::string("/etc/passwd"), std::string("/none.stl"), pipe.string()}) {
+  for (const std::string& file : {std::string("/etc/passwd"), std::string("/none.stl"), pipe.string()}) {
     body["task"] = "format: 1\nmesh: {file: " + file + "}\n";
     const auto answer = server.ask("verify", body);
     ASSERT_TRUE(answer) << file;
