@@ -247,15 +247,15 @@ TEST(OpenPlaces, AreToldTogetherWhereThereAreThousands) {
   label.factor = "f";
   for (int i = 0; i < 100; ++i)
     for (int k = 0; k < 100; ++k) {
-      const double x = i * 0.01, y = k * 0.01;
-      leave_open(label, {}, {x, x + 0.001, y, y + 0.001}, map);
+      const double left = i * 0.01, low = k * 0.01;
+      leave_open(label, {}, {left, left + 0.001, low, low + 0.001}, map);
     }
   finish_open_regions(map);
   EXPECT_FALSE(map.complete);
   EXPECT_LE(map.open.size(), 400u);
-  const auto holds = [&](double x, double y) {
+  const auto holds = [&](double at_x, double at_y) {
     return std::any_of(map.open.begin(), map.open.end(), [&](const core::OpenRegion& region) {
-      return region.lower[0] <= x && x <= region.upper[0] && region.lower[1] <= y && y <= region.upper[1];
+      return region.lower[0] <= at_x && at_x <= region.upper[0] && region.lower[1] <= at_y && at_y <= region.upper[1];
     });
   };
   for (int i = 0; i < 100; ++i)

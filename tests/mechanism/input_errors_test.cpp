@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "A2: [0, 0]\n  P: [x, y]\n  B1: {dyad: [A1, A2]", 14, 3, "coincide in every pose"},
         Mistake{"Unreachable", "A1: [0, 0]", "A1: [10, 0]", 14, 3,
                 "point B1 is unreachable in the whole box: |A1 P| runs from about 9"},
-        Mistake{"UnreachableInside", "[L, L], side: right", "[5, 1], side: right", 14, 3, "reach from 4 to 6 m"},
+        Mistake{"UnreachableInside", "[L, L], side: right", "[5, 1], side: right", 14, 3, "reach from 4 m to 6 m"},
         Mistake{"UnreachableFixed", "links:", "  C: {dyad: [A1, A2], lengths: [0.1, 0.1], side: left}\nlinks:", 16, 3,
                 "point C is unreachable"},
         Mistake{"UnreachableNested", "links:", "  C: {dyad: [A1, B1], lengths: [0.1, 0.2], side: left}\nlinks:", 16, 3,

@@ -47,7 +47,7 @@ TEST(Task, WrongOnesAreToldWhereAndHowToMendThem) {
   EXPECT_EQ(complaint("margin: 1"), "task.yaml:1:1: the task has no shape; write one of box, circle, polygon, path");
   EXPECT_EQ(complaint("path: []"), "task.yaml:2:7: the path has 0 points; write 2 at least: [[x, y], [x, y], ...]");
   EXPECT_EQ(complaint("box: {x: [0.4, 0.1], y: [-0.5, 0.3]}"),
-            "task.yaml:2:10: the x of the box is empty: from 2/5 to 1/10; write [lower, upper]");
+            "task.yaml:2:10: the x of the box is empty: from 0.4 m to 0.1 m; write [lower, upper]");
   EXPECT_EQ(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0, -0.6], [0.5, -0.6]]"),
             "task.yaml:2:22: the polygon crosses itself: side 2; write its corners in their order round it");
   EXPECT_NE(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0.2, -0.7]]").find("crosses itself"), std::string::npos);
