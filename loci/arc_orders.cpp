@@ -220,7 +220,8 @@ std::optional<Germ> ArcOrders::coordinate_germ(const Polynomial& p, int side) {
 
 std::optional<Germ> ArcOrders::angle_germ(int root, int side) {
   const core::Root& own = tower_.roots[static_cast<std::size_t>(root)];
-  const std::optional<Germ> cosine = germ(own.cosine_and_sine[0], side), sine = germ(own.cosine_and_sine[1], side);
+  const std::optional<Germ> cosine = germ(own.cosine_and_sine[0], side);
+  std::optional<Germ> sine = germ(own.cosine_and_sine[1], side);
   if (!cosine || !sine) return std::nullopt;
   if (sine->order == 0 || (cosine->order == 0 && cosine->sign > 0)) return sine;
   return std::nullopt;

@@ -28,7 +28,6 @@ namespace {
 using core::FactorRole;
 using core::LocusCurve;
 using core::LocusFactor;
-using core::LocusKind;
 using core::LocusMap;
 using core::LocusProblem;
 using core::Point2;

@@ -82,7 +82,7 @@ class Choice {
   }
 
   bool far() const {
-    constexpr int near_sizes = 2;
+    constexpr int near_sizes = 4;
     const Frame frame = run();
     const std::vector<Rational> origin(frame.origin.begin(), frame.origin.begin() + static_cast<long>(dimension_));
     const Rational size = power_of_two(size_exponent(origin));

@@ -228,7 +228,7 @@ Expression read_expression(const Mechanism& mechanism, const Value& value, Scope
 
 Rational read_parameter_value(const Mechanism& mechanism, const Parameter& parameter, const Value& value) {
   const InSi read = read_in_si(mechanism, value, Scope::parameters);
-  const Rational number = evaluate_at(read.expression, mechanism, value).value;
+  Rational number = evaluate_at(read.expression, mechanism, value).value;
   const Dimension& wanted = parameter.dimension;
   if (wanted == Dimension{} || read.dimension == wanted || number == 0) return number;
   const std::string unit = words_of(*unit_of(parameter, mechanism.units));

@@ -13,13 +13,13 @@ using Kind = Expression::Kind;
 
 /// a b^n.
 ParameterUnit times(ParameterUnit a, const ParameterUnit& b, int n) {
-  for (const auto& [name, exponent] : b.powers) {
-    const auto known =
-        std::find_if(a.powers.begin(), a.powers.end(), [&](const auto& own) { return own.first == name; });
-    if (known == a.powers.end())
-      a.powers.emplace_back(name, n * exponent);
+  for (const auto& power : b.powers) {
+    const auto same =
+        std::find_if(a.powers.begin(), a.powers.end(), [&](const auto& one) { return one.first == power.first; });
+    if (same == a.powers.end())
+      a.powers.emplace_back(power.first, n * power.second);
     else
-      known->second += n * exponent;
+      same->second += n * power.second;
   }
   std::erase_if(a.powers, [](const auto& own) { return own.second == 0; });
   for (int k = 0; k < std::abs(n); ++k) a.factor *= n > 0 ? b.factor : Rational(1 / b.factor);
@@ -51,7 +51,8 @@ std::optional<ParameterUnit> written_unit(const Expression& written, const Mecha
     }
     case Kind::multiply:
     case Kind::divide: {
-      const auto first = of(0), second = of(1);
+      auto first = of(0);
+      const auto second = of(1);
       if (!second) return first;
       const ParameterUnit all =
           times(first.value_or(ParameterUnit{}), *second, written.kind() == Kind::divide ? -1 : 1);

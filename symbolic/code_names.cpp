@@ -296,7 +296,7 @@ std::string comment_text(const std::string& text, Language language) {
 std::string latex_text(const std::string& name) { return replace_all(name, "_", "\\_"); }
 
 std::string latex_derived(const std::string& name) {
-  const std::string first = latex_text(name.substr(0, 1));
+  std::string first = latex_text(name.substr(0, 1));
   if (name.size() == 1) return first;
   const std::string of = name.substr(1);
   return first + "_{" + (greek_letters.contains(of) ? "\\" + of : latex_text(of)) + "}";
@@ -311,7 +311,7 @@ std::string latex_symbol(const std::string& name) {
     return latex_derived(name);
   std::string rest(end_of_word, name.end());
   if (rest.size() > 1 && rest.front() == '_') rest.erase(0, 1);
-  const std::string first = greek_letters.contains(word) ? "\\" + word : word.size() == 1 ? word : upright(word);
+  std::string first = greek_letters.contains(word) ? "\\" + word : word.size() == 1 ? word : upright(word);
   if (rest.empty()) return first;
   const bool is_word = rest.size() > 1 && std::all_of(rest.begin(), rest.end(), is_letter);
   return first + "_{" + (greek_letters.contains(rest) ? "\\" + rest : is_word ? upright(rest) : latex_text(rest)) + "}";

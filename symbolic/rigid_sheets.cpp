@@ -29,7 +29,7 @@ Poly squared_distance(const Geometry& geometry, const HeldDistance& held) {
 
 Poly turn(const Geometry& geometry, const HeldTurn& held) {
   const auto a = way(geometry, held.points[0], held.points[1]), b = way(geometry, held.points[0], held.points[2]);
-  const Poly z = a[0] * b[1] - a[1] * b[0];
+  Poly z = a[0] * b[1] - a[1] * b[0];
   if (held.points.size() == 3) return z;
   const auto c = way(geometry, held.points[0], held.points[3]);
   return (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] + z * c[2];
