@@ -27,8 +27,10 @@ endif()
 
 find_program(CLEARLOCI_CCACHE ccache)
 if(CLEARLOCI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Without these words ccache keeps nothing that is compiled with a precompiled header.
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${CLEARLOCI_CCACHE}")
+  # Without its sloppiness ccache keeps nothing that is compiled with a precompiled header. What one checkout compiled
+  # serves the next one in another folder.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros"
+    "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_NOHASHDIR=1 "${CLEARLOCI_CCACHE}")
 endif()
 
 if(CLEARLOCI_SANITIZE)
