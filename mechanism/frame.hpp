@@ -19,8 +19,8 @@ namespace clearloci::mechanism {
 /// The usual one where some coordinate is no polynomial in the free ones and their cosines and sines.
 Frame frame_of(const Mechanism& mechanism);
 
-/// Whether doubles lose digits in the coordinates of the file: the origin is more than some four sizes away, or the size is
-/// beyond what lengths in metres are written for.
+/// Whether doubles lose digits in the coordinates of the file: the origin is more than some four sizes away, or the
+/// size is beyond what lengths in metres are written for.
 bool is_far(const Mechanism& mechanism);
 
 /// What becomes of the parameters.

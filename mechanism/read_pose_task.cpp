@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/shown_units.hpp"
-#include "mechanism/handed_files.hpp"
+#include "mechanism/handed_file.hpp"
 #include "mechanism/read_loads_from.hpp"
 #include "mechanism/read_stl.hpp"
 #include "mechanism/reader.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "mechanism/evaluate.hpp"
-#include "mechanism/handed_files.hpp"
+#include "mechanism/handed_file.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/trajectory.hpp"
 

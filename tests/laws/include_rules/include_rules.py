@@ -35,7 +35,8 @@ THIRD_PARTIES = {
     "GiNaC": (("ginac/",), set(), {"symbolic", "mechanism"}),
     "CLN": (("cln/",), set(), {"symbolic", "mechanism"}),
     "FLINT": (("flint/",), set(), {"symbolic", "loci"}),
-    "CGAL": (("CGAL/", "boost/"), set(), {"loci"}),
+    "CGAL": (("CGAL/",), set(), {"loci"}),
+    "Boost": (("boost/",), set(), {"workbench"}),
     "Eigen": (("Eigen/",), {"numeric"}, set()),
     "TBB": (("tbb/", "oneapi/tbb"), {"numeric"}, {"loci"}),
     "MPI": (("mpi.h",), set(), {"studies"}),
@@ -43,7 +44,7 @@ THIRD_PARTIES = {
     "cairomm": (("cairomm/", "cairo"), set(), {"report"}),
     "nlohmann-json": (("nlohmann/",), {"report", "workbench", "cli"}, {"check"}),
     "fmt": (("fmt/",), {"report", "workbench", "cli"}, {"check"}),
-    "cpp-httplib": (("httplib.h",), set(), {"workbench"}),
+    "cpp-httplib": (("httplib.h",), set(), set()),  # its client asks in tests alone
     "CLI11": (("CLI/",), {"cli"}, set()),
 }
 
