@@ -41,7 +41,7 @@ std::string to_string(ArcEnd end) {
 }
 
 bool is_open_place_of(const OpenRegion& region, const LocusCurve& curve) {
-  return region.mode == curve.mode && region.kind == curve.kind && region.factor == curve.factor;
+  return !region.point && region.mode == curve.mode && region.kind == curve.kind && region.factor == curve.factor;
 }
 
 std::string to_string(Engine engine) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "loci/open_regions.hpp"
+#include "loci/place_words.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -228,8 +229,8 @@ bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map)
     const ArcFault& fault = wrong[first].fault;
     map.notes.push_back((next - first == 1 ? "an arc" : std::to_string(next - first) + " arcs") + " of " +
                         (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
-                        " failed the last check, and what failed it is withheld: " + fault.what + " near (" +
-                        std::to_string(fault.at[0]) + ", " + std::to_string(fault.at[1]) + ")");
+                        " failed the last check, and what failed it is withheld: " + fault.what + ", " +
+                        place_words(problem, {fault.at[0], fault.at[0], fault.at[1], fault.at[1]}));
     std::deque<ArcCheck> checks = checks_of(problem, curve);
     for (std::size_t last = next; last-- > first;) {
       const auto place = curve.arcs.begin() + static_cast<std::ptrdiff_t>(wrong[last].arc);

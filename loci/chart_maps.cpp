@@ -295,7 +295,7 @@ class Joining {
 };
 
 /// `open`: over the angles.
-std::string note_of_open(const LocusCurve& curve, const Polyline& open, const LocusProblem& chart) {
+std::string note_of_open(const LocusCurve& curve, const Polyline& open) {
   std::array<double, 4> box = {open[0][0], open[0][0], open[0][1], open[0][1]};
   for (const Point2& at : open)
     for (std::size_t i = 0; i < 2; ++i) {
@@ -303,7 +303,7 @@ std::string note_of_open(const LocusCurve& curve, const Polyline& open, const Lo
       box[2 * i + 1] = std::max(box[2 * i + 1], at[i]);
     }
   return "vertices of " + (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
-         " are not known to rounding, " + place_words_of_angles(chart, box);
+         " are not known to rounding, " + place_words(box);
 }
 
 bool is_same(const LocusCurve& a, const LocusCurve& b) {
@@ -372,7 +372,7 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
       }
       if (!open.empty()) {
         known->certified = false;
-        joined.notes.push_back(note_of_open(curve, open, *charts[m]));
+        joined.notes.push_back(note_of_open(curve, open));
       }
     }
     for (core::IsolatedPoint point : maps[m].isolated_points) {

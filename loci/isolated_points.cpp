@@ -8,6 +8,7 @@
 #include <span>
 
 #include "loci/edge_labels.hpp"
+#include "loci/open_regions.hpp"
 #include "loci/place_words.hpp"
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/isolated_zeros.hpp"
@@ -277,7 +278,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         map.out_of_time = true;
         return;
       }
-      // What no proof was had for is a point where Newton finds one, and else only worth a note.
+      // What no proof was had for is a point where Newton finds one, and else an open place.
       std::size_t open = 0;
       sheet::Cell hull;
       for (const sheet::Cell& cell : found.undecided) {
@@ -288,6 +289,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
           add(*at, false);
           continue;
         }
+        leave_point_open(joint, mode, box_of(cell), map);
         hull = open == 0 ? cell : sheet::Cell{core::hull(hull.x, cell.x), core::hull(hull.y, cell.y)};
         ++open;
       }

@@ -14,7 +14,8 @@ constexpr std::size_t most_places = 200;
 constexpr int cells_across = 16;
 
 bool is_of_same(const OpenRegion& a, const OpenRegion& b) {
-  return a.kind == b.kind && a.factor == b.factor && a.mode == b.mode && a.vanishing == b.vanishing;
+  return a.kind == b.kind && a.factor == b.factor && a.mode == b.mode && a.vanishing == b.vanishing &&
+         a.point == b.point;
 }
 
 bool is_within(const OpenRegion& inner, const OpenRegion& outer) {
@@ -72,6 +73,17 @@ PlaneBox extent_of(const core::Polyline& points) {
 void leave_open(const EdgeLabel& label, const core::WorkingMode& mode, const PlaneBox& box, LocusMap& map) {
   map.open.push_back(
       {label.kind, label.vanishing, label.factor, label.cause, mode, {box[0], box[2]}, {box[1], box[3]}});
+}
+
+void leave_point_open(const std::string& joint, const core::WorkingMode& mode, const PlaneBox& box, LocusMap& map) {
+  core::OpenRegion region;
+  region.kind = core::LocusKind::contact_loss;
+  region.vanishing = {{joint, core::Quantity::f, 1}};
+  region.mode = mode;
+  region.lower = {box[0], box[2]};
+  region.upper = {box[1], box[3]};
+  region.point = true;
+  map.open.push_back(std::move(region));
 }
 
 EdgeLabel label_of(const core::LocusCurve& curve) {

@@ -15,6 +15,10 @@ PlaneBox extent_of(const core::Polyline& points);
 /// A place at which the curves that the label is of are not settled.
 void leave_open(const EdgeLabel& label, const core::WorkingMode& mode, const PlaneBox& box, core::LocusMap& map);
 
+/// A place at which it is not settled whether the joint loses contact at isolated points.
+void leave_point_open(const std::string& joint, const core::WorkingMode& mode, const PlaneBox& box,
+                      core::LocusMap& map);
+
 /// The label of a curve that is there.
 EdgeLabel label_of(const core::LocusCurve& curve);
 

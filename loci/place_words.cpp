@@ -1,19 +1,17 @@
 #include "loci/place_words.hpp"
 
 #include <cmath>
-#include <numbers>
+#include <cstdio>
 
 namespace clearloci::loci {
 namespace {
 
-bool is_angle(const core::LocusProblem& problem, std::size_t coordinate) {
-  return coordinate < problem.charts.size() && problem.charts[coordinate].has_value();
-}
-
-/// To six decimals, away from what is between the ends of a range.
+/// To nine decimals, away from what is between the ends of a range.
 std::string decimals(double value, double (*rounded)(double)) {
-  constexpr double unit = 1e-6;
-  return std::to_string(rounded(value / unit) * unit);
+  constexpr double unit = 1e-9;
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.12g", rounded(value / unit) * unit);
+  return text.data();
 }
 
 double down(double value) { return std::floor(value); }
@@ -22,26 +20,21 @@ double nearest(double value) { return std::round(value); }
 
 }  // namespace
 
-std::string place_words_of_angles(const core::LocusProblem& problem, const std::array<double, 4>& box) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  const bool is_point = box[0] == box[1] && box[2] == box[3];
-  std::string words = is_point ? "at (" : "in (";
-  for (std::size_t c = 0; c < 2; ++c) {
-    const bool angle = is_angle(problem, c);
-    const double unit = angle ? degrees : 1, lower = unit * box[2 * c], upper = unit * box[2 * c + 1];
-    if (c > 0) words += ", ";
-    words += is_point ? decimals(lower, nearest) : decimals(lower, down) + " to " + decimals(upper, up);
-    if (angle) words += " deg";
-  }
-  return words + ")";
+std::string place_words(const std::array<double, 4>& box) {
+  if (box[0] == box[1] && box[2] == box[3])
+    return "at (" + decimals(box[0], nearest) + ", " + decimals(box[2], nearest) + ")";
+  const auto range = [&](std::size_t c) {
+    return "[" + decimals(box[2 * c], down) + ", " + decimals(box[2 * c + 1], up) + "]";
+  };
+  return "in " + range(0) + " x " + range(1);
 }
 
 std::string place_words(const core::LocusProblem& problem, const std::array<double, 4>& box) {
   std::array<double, 4> own = box;
   for (std::size_t c = 0; c < 2; ++c)
-    if (is_angle(problem, c))
+    if (c < problem.charts.size() && problem.charts[c])
       for (const std::size_t i : {2 * c, 2 * c + 1}) own[i] = core::angle_at(*problem.charts[c], box[i]);
-  return place_words_of_angles(problem, own);
+  return place_words(own);
 }
 
 }  // namespace clearloci::loci

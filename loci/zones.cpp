@@ -211,8 +211,19 @@ class ModeZones {
     for (const int i : points_) {
       if (inside(place(i))) zone.isolated_points.push_back(i);
     }
-    zone.certified = cut_.certified && is_one(rings, zone.area);
+    zone.certified = cut_.certified && !holds_open_point(inside) && is_one(rings, zone.area);
     return zone;
+  }
+
+  /// Whether isolated points of a contact loss may be inside that nothing was proven of. Their boxes are tiny.
+  template <typename Inside>
+  bool holds_open_point(const Inside& inside) const {
+    return std::any_of(map_.open.begin(), map_.open.end(), [&](const core::OpenRegion& region) {
+      if (!region.point || region.mode != mode_) return false;
+      const auto [x0, y0] = std::pair(region.lower[0], region.lower[1]);
+      const auto [x1, y1] = std::pair(region.upper[0], region.upper[1]);
+      return inside({x0, y0}) || inside({x1, y0}) || inside({x0, y1}) || inside({x1, y1});
+    });
   }
 
   /// A check by other means than those that made the face: all over it poses can be reached, and no factor of |A| has

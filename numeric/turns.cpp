@@ -186,6 +186,20 @@ class ClaimedZeros {
     }
   }
 
+  /// Over two coordinates: zeros may be anywhere in the box.
+  void leave_open(std::span<const double> lower, std::span<const double> upper) {
+    std::array<int, 2> first{}, last{};
+    for (std::size_t c = 0; c < 2; ++c) {
+      first[c] = static_cast<int>(std::floor((lower[c] - clear_[c] - axes_[c].origin) / axes_[c].step));
+      last[c] = static_cast<int>(std::floor((upper[c] + clear_[c] - axes_[c].origin) / axes_[c].step));
+      first[c] = std::max(first[c], 0);
+      last[c] = std::min(last[c], axes_[c].nodes - 2);
+    }
+    for (int i = first[0]; i <= last[0]; ++i)
+      for (int j = first[1]; j <= last[1]; ++j)
+        if (Claim* own = claim(i, j, 0, 1, 0)) own->doubtful = true;
+  }
+
   Claim of(std::size_t node, std::size_t p, std::size_t q) const {
     const auto found = claims_.find({p, q, node});
     return found == claims_.end() ? Claim{} : found->second;
@@ -238,9 +252,13 @@ void judge_joint(const TurnGrid& grid, std::span<const GridAxis> axes, const Loc
   for (const core::SpaceCurve& curve : map.space_curves)
     if (curve.mode == mode && loses_contact(curve.vanishing, joint))
       for (const core::SpaceArc& arc : curve.arcs) claims.add(arc);
-  if (axes.size() == 2)
+  if (axes.size() == 2) {
     for (const core::IsolatedPoint& point : map.isolated_points)
       if (point.mode == mode && loses_contact(point.vanishing, joint)) claims.add(point.at, 0, 1, 0);
+    for (const core::OpenRegion& region : map.open)
+      if (region.point && region.mode == mode && loses_contact(region.vanishing, joint))
+        claims.leave_open(region.lower, region.upper);
+  }
   std::array<std::size_t, 4> counts{};
   for (std::size_t p = 0; p < axes.size(); ++p)
     for (std::size_t q = p + 1; q < axes.size(); ++q)

@@ -79,7 +79,7 @@ class ModeValidation {
       if (CheckedReaction own = checked_reaction(model, reaction); own.columns.pin < 0)
         reactions_.push_back(std::move(own));
     for (const core::OpenRegion& region : map.open)
-      if (region.mode == mode) open_.push_back({&region, {}});
+      if (region.mode == mode && !region.point) open_.push_back({&region, {}});
     for (Open& own : open_)
       for (const CheckedReaction& r : reactions_)
         own.concerns.push_back(own.region->kind == LocusKind::workspace_boundary ||

@@ -161,7 +161,8 @@ Json open_array(const core::LocusMap& map) {
                     {"cause", printable(region.cause)},
                     {"working_mode", mode_object(map.tower, region.mode)},
                     {"from", region.lower},
-                    {"to", region.upper}});
+                    {"to", region.upper},
+                    {"point", region.point}});
   return list;
 }
 

@@ -113,9 +113,12 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
     nothing.factor = left[i]->factor;
     nothing.cause = left[i]->cause;
     nothing.mode = mode;
-    const auto own = take_those([&](const core::OpenRegion& region) { return is_open_place_of(region, nothing); });
-    rows.push_back(
-        {"-", kind_words(nothing.kind), where(map, nothing) + "\n" + open_words(map, own), "-", "", "0", ""});
+    const bool point = left[i]->point;
+    const auto own = take_those([&](const core::OpenRegion& region) {
+      return point ? region.point && region.vanishing == nothing.vanishing : is_open_place_of(region, nothing);
+    });
+    const std::string what = point ? what_vanishes(nothing.vanishing) + "\nat isolated points" : where(map, nothing);
+    rows.push_back({"-", kind_words(nothing.kind), what + "\n" + open_words(map, own), "-", "", "0", ""});
   }
   // The two wide columns share what the others leave of the width.
   constexpr int least = 30;

@@ -182,6 +182,7 @@ struct OpenRegion {
   std::string cause = {};
   WorkingMode mode;
   std::vector<double> lower, upper;  ///< a box: one value a coordinate, which may be the same
+  bool point = false;                ///< isolated points may be in it, and no curve
 };
 
 /// Whether a region is one of the curve's.

@@ -124,6 +124,7 @@ py::dict dict_of(const LocusMap& map) {
     one["working_mode"] = mode_of(map.tower, region.mode);
     one["lower"] = region.lower;
     one["upper"] = region.upper;
+    one["point"] = region.point;
     open.append(one);
   }
   for (const WorkspaceRegion& region : map.workspace) {

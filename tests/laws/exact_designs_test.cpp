@@ -50,14 +50,29 @@ TEST(ExactDesigns, PlatformsOnThreeTelescopes) {
   EXPECT_GE(told, 4);
 }
 
-// Over the angles of two motors the curves of a component are biquadratic in the half tangents.
+// Over the angles of two motors the curves of a component are biquadratic in the half tangents; three of them meet
+// where the ends of a dyad of equal lengths do.
 TEST(ExactDesigns, AComponentOverTwoAngles) {
   LociRequest request;
   request.quantities = {core::Quantity::fx};
   const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/";
-  const core::LocusMap map = trace_loci(mechanism::read_mechanism(folder + "five_bar_angles_fx.yaml"), request);
-  EXPECT_TRUE(map.complete);
-  EXPECT_FALSE(map.curves.empty());
+  const mechanism::Mechanism mechanism = mechanism::read_mechanism(folder + "five_bar_angles_fx.yaml");
+  request.engine = Engine::exact;
+  const core::LocusMap exact = trace_loci(mechanism, request);
+  EXPECT_TRUE(exact.complete);
+  EXPECT_EQ(exact.curves.size(), 6U);
+  for (const core::LocusCurve& curve : exact.curves) EXPECT_TRUE(curve.certified) << curve.id;
+
+  // What the other engine leaves open at that place stands in the answer.
+  request.engine = Engine::adaptive_then_exact;
+  const core::LocusMap map = trace_loci(mechanism, request);
+  EXPECT_EQ(map.curves.size(), 6U);
+  EXPECT_EQ(map.complete, map.open.empty());
+  for (const core::LocusCurve& curve : map.curves)
+    EXPECT_TRUE(curve.certified ||
+                std::any_of(map.open.begin(), map.open.end(),
+                            [&](const core::OpenRegion& region) { return core::is_open_place_of(region, curve); }))
+        << curve.id;
 }
 
 }  // namespace
