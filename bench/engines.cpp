@@ -17,10 +17,10 @@
 
 #include "analysis/loci.hpp"
 #include "clearloci/mechanism.hpp"
-#include "loci/sheet/curve_graph.hpp"
+#include "loci/curves/curve_graph.hpp"
+#include "loci/numbers/sheet_program.hpp"
 #include "loci/sheet/patch.hpp"
 #include "loci/sheet/sheet_cell.hpp"
-#include "loci/sheet/sheet_program.hpp"
 #include "loci/sheet/subtower.hpp"
 
 namespace {

@@ -112,7 +112,7 @@ int run_program(int argc, const char* const* argv) {
   } catch (const core::LimitReached& limit) {
     complain(limit.what());
     const int status = flush_standard_output() ? exit_limit_reached : exit_wrong_input;
-    std::_Exit(status);  // work left behind (loci/abandonable.hpp) must not meet the end of static objects
+    std::_Exit(status);  // work left behind (loci/curves/abandonable.hpp) must not meet the end of static objects
   } catch (const std::bad_alloc&) {
     end_without_memory();
   } catch (const std::system_error& error) {

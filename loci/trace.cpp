@@ -4,13 +4,13 @@
 #include <array>
 
 #include "core/errors.hpp"
-#include "loci/adaptive_engine.hpp"
-#include "loci/exact_engine.hpp"
-#include "loci/isolated_points.hpp"
-#include "loci/open_regions.hpp"
-#include "loci/points.hpp"
-#include "loci/sheet/isolated_zeros.hpp"
-#include "loci/sheet_maps.hpp"
+#include "loci/curves/adaptive_engine.hpp"
+#include "loci/curves/exact_engine.hpp"
+#include "loci/curves/isolated_points.hpp"
+#include "loci/curves/open_regions.hpp"
+#include "loci/curves/sheet_maps.hpp"
+#include "loci/points/points.hpp"
+#include "loci/search/isolated_zeros.hpp"
 
 namespace clearloci::loci {
 namespace {

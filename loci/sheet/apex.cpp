@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "core/errors.hpp"
-#include "loci/sheet/double_double.hpp"
+#include "loci/numbers/double_double.hpp"
+#include "loci/search/isolated_zeros.hpp"
 #include "loci/sheet/fine_zero.hpp"
-#include "loci/sheet/isolated_zeros.hpp"
 
 namespace clearloci::loci::sheet {
 

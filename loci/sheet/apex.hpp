@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/locus_factor.hpp"
-#include "loci/sheet/isolated_zeros.hpp"
+#include "loci/search/isolated_zeros.hpp"
 #include "loci/sheet/star.hpp"
 
 namespace clearloci::loci::sheet {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "loci/inverse.hpp"
+#include "loci/numbers/inverse.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "loci/sheet/multi_interval.hpp"
+#include "loci/numbers/multi_interval.hpp"
 #include "loci/sheet/sheet_cell.hpp"
 
 namespace clearloci::loci::sheet {

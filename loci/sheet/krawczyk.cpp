@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "loci/inverse.hpp"
+#include "loci/numbers/inverse.hpp"
 
 namespace clearloci::loci::sheet {
 

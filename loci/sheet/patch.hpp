@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
+#include "loci/search/zero_search.hpp"
 #include "loci/sheet/star.hpp"
-#include "loci/sheet/zero_search.hpp"
 
 namespace clearloci::loci::sheet {
 

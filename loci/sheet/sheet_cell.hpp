@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "loci/sheet/sheet_program.hpp"
+#include "loci/numbers/sheet_program.hpp"
 
 namespace clearloci::loci::sheet {
 

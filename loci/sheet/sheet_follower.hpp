@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "loci/sheet/sheet_program.hpp"
+#include "loci/numbers/sheet_program.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "loci/sheet/jet.hpp"
-#include "loci/sheet/jet_batch.hpp"
-#include "loci/sheet/sheet_program.hpp"
+#include "loci/numbers/jet.hpp"
+#include "loci/numbers/jet_batch.hpp"
+#include "loci/numbers/sheet_program.hpp"
 
 namespace clearloci::loci::sheet {
 

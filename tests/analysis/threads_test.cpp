@@ -1,5 +1,5 @@
 // Questions asked from several threads at once are answered as when they are asked alone: the libraries behind them
-// share what they keep for the whole process (symbolic/algebra_turn.hpp, loci/curve_arrangement.cpp).
+// share what they keep for the whole process (symbolic/algebra_turn.hpp, loci/curves/curve_arrangement.cpp).
 #include <gtest/gtest.h>
 
 #include <sstream>

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "analysis/zones.hpp"
-#include "loci/arc_check.hpp"
+#include "loci/curves/arc_check.hpp"
 #include "tests/laws/same_topology.hpp"
 
 namespace clearloci {
@@ -128,7 +128,7 @@ TEST(BoxInsideTheWorkspace, IsItsOwnRing) {
   }
 }
 
-// The last check (loci/arc_check.hpp) passes what was traced, and withholds what is made wrong.
+// The last check (loci/curves/arc_check.hpp) passes what was traced, and withholds what is made wrong.
 class LastCheck : public testing::Test {
  protected:
   void SetUp() override {

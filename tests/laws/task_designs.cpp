@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "loci/task_region.hpp"
+#include "loci/tasks/task_region.hpp"
 #include "numeric/reactions.hpp"
 
 namespace clearloci::test {

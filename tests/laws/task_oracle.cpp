@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "loci/task_region.hpp"
+#include "loci/tasks/task_region.hpp"
 #include "report/verification.hpp"
 
 namespace clearloci::test {

@@ -12,7 +12,7 @@
 
 #include "analysis/verification.hpp"
 #include "core/errors.hpp"
-#include "loci/task_region.hpp"
+#include "loci/tasks/task_region.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/reactions.hpp"

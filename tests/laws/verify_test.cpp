@@ -9,7 +9,7 @@
 #include <random>
 
 #include "analysis/verification.hpp"
-#include "loci/task_region.hpp"
+#include "loci/tasks/task_region.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_texts.hpp"

@@ -1,0 +1,371 @@
+#include "loci/curves/isolated_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "loci/curves/edge_labels.hpp"
+#include "loci/curves/open_regions.hpp"
+#include "loci/curves/place_words.hpp"
+#include "loci/curves/trace_sheet.hpp"
+#include "loci/numbers/multi_interval.hpp"
+#include "loci/search/isolated_zeros.hpp"
+#include "loci/search/work_queue.hpp"
+#include "loci/sheet/apex.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::FactorRole;
+using core::IsolatedPoint;
+using core::LocusKind;
+using core::LocusMap;
+using core::LocusProblem;
+using core::Quantity;
+using core::WorkingMode;
+using sheet::MultiInterval;
+
+bool makes_vanish(const core::LocusFactor& factor, const std::string& joint, Quantity quantity) {
+  return factor.role == FactorRole::reaction &&
+         std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
+                     [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
+}
+
+/// Whether a curve passes within `reach` of a point.
+bool passes(const core::LocusCurve& curve, const core::Point2& at, double reach) {
+  for (const core::Arc& arc : curve.arcs) {
+    for (std::size_t i = 1; i < arc.points.size(); ++i) {
+      const core::Point2 &a = arc.points[i - 1], &b = arc.points[i];
+      const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+      const double t = length2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
+      if (std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]) <= reach) return true;
+    }
+  }
+  return false;
+}
+
+/// Whether a contact-loss curve of the joint passes within `reach` of a point.
+bool on_contact_loss_curve(const LocusMap& map, const WorkingMode& mode, const std::string& joint,
+                           const core::Point2& at, double reach) {
+  return std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
+    return curve.mode == mode && passes(curve, at, reach) &&
+           std::any_of(curve.vanishing.begin(), curve.vanishing.end(),
+                       [&](const auto& v) { return v.joint == joint && v.quantity == Quantity::f; });
+  });
+}
+
+/// By its steps where they are fewer than the terms of its polynomial.
+MultiInterval square_of(const core::Root& root, const std::vector<MultiInterval>& at) {
+  if (root.square.terms.size() > root.line.steps.size())
+    if (std::optional<MultiInterval> value = evaluate(root.line, at)) return *value;
+  return evaluate(root.square, at);
+}
+
+/// The point on the mode's sheet; empty where it lies outside the workspace.
+std::vector<MultiInterval> on_sheet(const core::RootTower& tower, const WorkingMode& mode, const PointEnclosure& at) {
+  std::vector<MultiInterval> variables;
+  for (std::size_t i = 0; i < 2; ++i) variables.emplace_back(at.lower[i], at.upper[i]);
+  variables.resize(static_cast<std::size_t>(tower.variables()), MultiInterval(core::Rational(0)));
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    if (tower.roots[j].is_angle()) {
+      variables[2 + j] = sheet::angle_root(tower.roots[j], variables);
+      continue;
+    }
+    const MultiInterval square = square_of(tower.roots[j], variables);
+    if (!square.non_negative()) return {};
+    const MultiInterval root = square_root(square);
+    variables[2 + j] = mode[j] > 0 ? root : -root;
+  }
+  return variables;
+}
+
+/// Whether enclosures tell that a factor does not vanish: of the polynomial, or of what is computed, which is sharper
+/// where terms of a long polynomial all but cancel.
+bool is_nonzero(const core::LocusFactor& factor, const std::vector<MultiInterval>& at) {
+  if (evaluate(factor.sheet, at).sign() != 0) return true;
+  const std::optional<MultiInterval> value = evaluate(factor.line, at);
+  return value && value->sign() != 0;
+}
+
+/// Where |A| vanishes too the numerators say nothing about the reaction, 0/0: every joint's vanish there together.
+bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode, const sheet::SheetZero& zero) {
+  const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
+  const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
+  return !at.empty() &&
+         std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+           return factor.role == FactorRole::direct_singularity && !is_nonzero(factor, at);
+         });
+}
+
+/// Whether the components of a joint's force may vanish at a zero though the force does not.
+bool may_be_undirected(const LocusProblem& problem, const WorkingMode& mode, const std::string& joint,
+                       const core::Point2& at, double radius) {
+  const core::Rational x(at[0]), y(at[1]), r(std::max(radius, 1e-15));
+  return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+    if (!is_undirected_pin(factor, joint)) return false;
+    const auto there = on_sheet(problem.tower, mode, {{x - r, y - r}, {x + r, y + r}});
+    return !there.empty() && evaluate(factor.sheet, there).sign() == 0;
+  });
+}
+
+/// Whether an arc of a reaction ends on a direct singularity at a point: then its end says that there is no limit.
+bool ends_on_singularity(const LocusMap& map, const WorkingMode& mode, const core::Point2& at, double same) {
+  for (const core::LocusCurve& curve : map.curves) {
+    if (curve.mode != mode) continue;
+    for (const core::Arc& arc : curve.arcs)
+      for (const std::size_t end : {0u, 1u}) {
+        const core::Point2& p = end == 0 ? arc.points.front() : arc.points.back();
+        if (arc.ends[end] == core::ArcEnd::direct_singularity && std::hypot(p[0] - at[0], p[1] - at[1]) <= same)
+          return true;
+      }
+  }
+  return false;
+}
+
+/// Joins a joint to a point already found, or adds the point.
+void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
+  for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
+    IsolatedPoint& known = map.isolated_points[i];
+    if (known.mode != point.mode || known.kind != point.kind || known.certified != point.certified ||
+        std::hypot(known.at[0] - point.at[0], known.at[1] - point.at[1]) > same) {
+      continue;
+    }
+    for (const core::Vanishing& v : point.vanishing) {
+      if (std::find(known.vanishing.begin(), known.vanishing.end(), v) == known.vanishing.end()) {
+        known.vanishing.push_back(v);
+      }
+    }
+    return;
+  }
+  map.isolated_points.push_back(point);
+}
+
+/// Relative to the box: Newton's method in doubles finds multiple zeros no better, such as the place where the axis of
+/// a guide is undefined and every numerator vanishes.
+constexpr double multiple_zero = 1e-7;
+
+/// A common zero of two sheet polynomials by Newton's method in doubles, within `reach` of the start.
+std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMode& mode, const core::Polynomial& first,
+                                   const core::Polynomial& second, const core::Point2& start, double reach) {
+  const auto values = [&](const core::Point2& p) -> std::optional<core::Point2> {
+    std::vector<double> at = {p[0], p[1]};
+    at.resize(static_cast<std::size_t>(tower.variables()), 0.0);
+    for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+      const std::optional<double> root = core::root_value(tower.roots[j], mode[j], at);
+      if (!root) return std::nullopt;
+      at[2 + j] = *root;
+    }
+    return core::Point2{core::evaluate(first, std::span<const double>(at)),
+                        core::evaluate(second, std::span<const double>(at))};
+  };
+  core::Point2 p = start;
+  for (int i = 0; i < 30; ++i) {
+    const double h = std::max(1e-7 * reach, 1e-9);
+    const auto f = values(p), fx = values({p[0] + h, p[1]}), fy = values({p[0], p[1] + h});
+    if (!f || !fx || !fy) return std::nullopt;
+    const double a = ((*fx)[0] - (*f)[0]) / h, b = ((*fy)[0] - (*f)[0]) / h;
+    const double c = ((*fx)[1] - (*f)[1]) / h, d = ((*fy)[1] - (*f)[1]) / h;
+    const double determinant = a * d - b * c;
+    const core::Point2 step = {((*f)[0] * d - b * (*f)[1]) / determinant, (a * (*f)[1] - c * (*f)[0]) / determinant};
+    if (!std::isfinite(step[0]) || !std::isfinite(step[1])) return std::nullopt;
+    p = {p[0] - step[0], p[1] - step[1]};
+    if (std::hypot(p[0] - start[0], p[1] - start[1]) > reach) return std::nullopt;
+    if (std::hypot(step[0], step[1]) < 1e-13 * std::max(1.0, std::hypot(p[0], p[1]))) return p;
+  }
+  return std::nullopt;
+}
+
+core::Point2 middle_of(const sheet::Cell& cell) { return {cell.x.middle(), cell.y.middle()}; }
+
+std::array<double, 4> box_of(const sheet::Cell& cell) {
+  return {cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()};
+}
+
+/// Where points may be that nothing was proven of: once for all joints along a chain, whose forces vanish together.
+class Doubts {
+ public:
+  /// `where`: a box round all of the places.
+  void add(const std::string& joint, std::size_t places, const std::string& box) {
+    const std::string where = "an isolated point is neither proven nor excluded " +
+                              (places == 1 ? box : "in " + std::to_string(places) + " places, all " + box);
+    const auto known = std::find_if(all_.begin(), all_.end(), [&](const auto& doubt) { return doubt.first == where; });
+    if (known == all_.end())
+      all_.push_back({where, {joint}});
+    else if (known->second.back() != joint)
+      known->second.push_back(joint);
+  }
+
+  void tell(std::vector<std::string>& notes) const {
+    for (const auto& [where, joints] : all_) {
+      std::string names = joints.front();
+      for (std::size_t i = 1; i < joints.size(); ++i) names += ", " + joints[i];
+      notes.push_back("contact loss of " + names + ": " + where);
+    }
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<std::string>>> all_;
+};
+
+using FactorPair = std::pair<const core::LocusFactor*, const core::LocusFactor*>;
+
+/// Factors of the one and the other component of a joint's force; three equations have no common zero in general.
+std::vector<FactorPair> components_of(const LocusProblem& problem, const std::string& joint) {
+  std::vector<FactorPair> pairs;
+  const std::vector<Quantity> components = core::force_components(problem, joint);
+  if (components.size() != 2) return pairs;
+  const auto only_in = [&](Quantity one, Quantity other) {
+    std::vector<const core::LocusFactor*> list;
+    for (const core::LocusFactor& factor : problem.factors)
+      if (makes_vanish(factor, joint, one) && !makes_vanish(factor, joint, other)) list.push_back(&factor);
+    return list;
+  };
+  const std::vector<const core::LocusFactor*> second = only_in(components[1], components[0]);
+  for (const core::LocusFactor* first : only_in(components[0], components[1]))
+    for (const core::LocusFactor* other : second) pairs.emplace_back(first, other);
+  return pairs;
+}
+
+}  // namespace
+
+void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map,
+                             const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* known) {
+  if (std::find(problem.quantities.begin(), problem.quantities.end(), Quantity::f) == problem.quantities.end()) return;
+  const std::size_t first = map.isolated_points.size();
+  const std::vector<sheet::Star> cones = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
+  const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
+                               core::to_double(problem.upper[1] - problem.lower[1]));
+  // Joints along one chain bear the same force: every pair of factors is searched once.
+  std::map<FactorPair, sheet::ZeroSet> zeros;
+  for (const std::string& joint : problem.joints)
+    for (const FactorPair& pair : components_of(problem, joint)) zeros.try_emplace(pair);
+  std::vector<std::pair<const FactorPair, sheet::ZeroSet>*> searches;
+  for (auto& search : zeros) searches.push_back(&search);
+  run_in_order(searches.size(), [&](std::size_t i) {
+    auto& [pair, found] = *searches[i];
+    const auto& [fx, fy] = pair;
+    found = sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
+                                  problem.upper,
+                                  {.most_cells = most_cells, .special = cones, .stop = stop, .known = known});
+  });
+  Doubts doubts;
+  for (const std::string& joint : problem.joints) {
+    for (const FactorPair& pair : components_of(problem, joint)) {
+      const auto& [fx, fy] = pair;
+      const sheet::ZeroSet& found = zeros.at(pair);
+      const auto add = [&](const core::Point2& at, bool certified) {
+        if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
+        if (may_be_undirected(problem, mode, joint, at, 1e-12 * size)) return;
+        add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
+                  1e-9 * size);
+      };
+      // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
+      const auto add_without_limit = [&](const core::Point2& at) {
+        if (!ends_on_singularity(map, mode, at, 1e-7 * size))
+          add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
+                    1e-9 * size);
+      };
+      for (const sheet::SheetZero& zero : found.zeros) {
+        if (!on_direct_singularity(problem, mode, zero))
+          add({zero.x, zero.y}, true);
+        else
+          add_without_limit({zero.x, zero.y});
+      }
+      if (stop && stop()) {
+        map.out_of_time = true;
+        return;
+      }
+      // What no proof was had for is a point where Newton finds one, and else an open place.
+      std::size_t open = 0;
+      sheet::Cell hull;
+      for (const sheet::Cell& cell : found.undecided) {
+        const core::Point2 centre = middle_of(cell);
+        const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
+        const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
+        if (at && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size})) {
+          add(*at, false);
+          continue;
+        }
+        leave_point_open(joint, mode, box_of(cell), map);
+        hull = open == 0 ? cell : sheet::Cell{core::hull(hull.x, cell.x), core::hull(hull.y, cell.y)};
+        ++open;
+      }
+      if (open > 0) doubts.add(joint, open, place_words(problem, box_of(hull)));
+    }
+  }
+  doubts.tell(map.notes);
+}
+
+void add_touching_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
+  const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
+                               core::to_double(problem.upper[1] - problem.lower[1]));
+  for (const sheet::Star& touch : sheet::touches(problem.tower)) {
+    std::vector<core::Rational> exact(static_cast<std::size_t>(problem.tower.variables()), core::Rational(0));
+    exact[0] = touch.x;
+    exact[1] = touch.y;
+    const bool in_box = problem.lower[0] <= touch.x && touch.x <= problem.upper[0] && problem.lower[1] <= touch.y &&
+                        touch.y <= problem.upper[1];
+    const std::vector<MultiInterval> on = on_sheet(problem.tower, mode, {{touch.x, touch.y}, {touch.x, touch.y}});
+    if (!in_box || on.empty()) continue;
+    const core::Point2 at = {core::to_double(touch.x), core::to_double(touch.y)};
+    const auto vanishes = [&](const core::Polynomial& sheet) {
+      for (std::size_t j = 0; j < problem.tower.roots.size(); ++j)
+        if (touch.power_of_root(static_cast<int>(j)) == 0 && core::depends_on(sheet, 2 + static_cast<int>(j)))
+          return false;
+      return core::evaluate(sheet, exact) == 0;
+    };
+    const bool singular =
+        std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+          return factor.role == FactorRole::direct_singularity && vanishes(factor.sheet);
+        });
+    const bool reached = std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
+      return curve.mode == mode && curve.kind == LocusKind::direct_singularity && passes(curve, at, 1e-9 * size);
+    });
+    if (singular && !reached)
+      add_point(map, 0, {LocusKind::direct_singularity, {}, {at[0], at[1]}, mode, true}, 1e-9 * size);
+  }
+}
+
+bool reaches(const LocusProblem& problem, const WorkingMode& mode, const core::LocusFactor& factor,
+             const sheet::Star& star) {
+  const std::array<double, 4> box = {core::to_double(problem.lower[0]), core::to_double(problem.upper[0]),
+                                     core::to_double(problem.lower[1]), core::to_double(problem.upper[1])};
+  return sheet::reaches(problem.tower, mode, {factor.sheet, factor.line}, star, box);
+}
+
+void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& mode,
+                               const CurveArrangement& arrangement,
+                               const std::vector<std::vector<int>>& curves_of_factor,
+                               const std::vector<sheet::Star>& stars, LocusMap& map) {
+  for (const ArrangementPoint& point : arrangement.isolated_points()) {
+    const std::vector<MultiInterval> at = on_sheet(problem.tower, mode, point.enclosure);
+    if (at.empty()) continue;
+    const auto star = std::find_if(stars.begin(), stars.end(), [&](const sheet::Star& own) {
+      return point.enclosure.lower[0] <= own.x && own.x <= point.enclosure.upper[0] &&
+             point.enclosure.lower[1] <= own.y && own.y <= point.enclosure.upper[1];
+    });
+    std::vector<core::Vanishing> components;
+    LocusKind kind = LocusKind::workspace_boundary;
+    for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+      const core::LocusFactor& factor = problem.factors[f];
+      const auto& own = curves_of_factor[f];
+      if (std::find(own.begin(), own.end(), point.curve) == own.end()) continue;
+      if (evaluate(factor.sheet, at).sign() != 0) continue;
+      if (star != stars.end() && !reaches(problem, mode, factor, *star)) continue;
+      if (factor.role == FactorRole::reaction) {
+        components.insert(components.end(), factor.vanishing.begin(), factor.vanishing.end());
+      }
+      if (factor.role == FactorRole::direct_singularity) kind = LocusKind::direct_singularity;
+      if (factor.role == FactorRole::margin) kind = LocusKind::margin;
+    }
+    const std::vector<core::Vanishing> vanishing = wanted_vanishing(problem, components);
+    if (!vanishing.empty()) kind = gravest_kind(vanishing);
+    if (kind == LocusKind::workspace_boundary) continue;
+    map.isolated_points.push_back({kind, vanishing, {point.at[0], point.at[1]}, mode, true});
+  }
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,42 @@
+// Points where something vanishes without a curve of it: isolated contact losses (f_J = 0 is two equations, method.md
+// section 5) and isolated real points of a single factor.
+#pragma once
+
+#include <functional>
+
+#include "core/locus_map.hpp"
+#include "loci/curves/curve_arrangement.hpp"
+#include "loci/search/known_searches.hpp"
+#include "loci/sheet/star.hpp"
+
+namespace clearloci::loci {
+
+/// Whether where a factor vanishes the components of a joint's force may do so though the force does not.
+inline bool is_undirected_pin(const core::LocusFactor& factor, const std::string& joint) {
+  return factor.role == core::FactorRole::construction && !factor.vanishing.empty() &&
+         factor.vanishing.front().joint == joint;
+}
+
+/// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no contact-loss curve of the
+/// map. Appended to the map; what stays undecided becomes a point that is not certified.
+/// `stop`: asked now and then, may be empty; true: what is found by then is added and the map marked incomplete.
+/// `most_cells`: live ones at a time (sheet::ZeroOptions). `known`: as there.
+void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map,
+                             const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* known);
+
+/// The points at which workspace boundaries touch and |A| vanishes though no curve of the map with |A| = 0 arrives in
+/// this mode: both legs are in line with each other there.
+void add_touching_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
+
+/// A branch of the factor's zeros on the mode's sheet reaches the star.
+bool reaches(const core::LocusProblem& problem, const core::WorkingMode& mode, const core::LocusFactor& factor,
+             const sheet::Star& star);
+
+/// The isolated real points of the arrangement's curves that lie on the mode's sheet. At a star, where a construction
+/// is undefined, numerators vanish whatever the reaction does: there those count that vanish in a direction from it.
+void add_isolated_curve_points(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                               const CurveArrangement& arrangement,
+                               const std::vector<std::vector<int>>& curves_of_factor,
+                               const std::vector<sheet::Star>& stars, core::LocusMap& map);
+
+}  // namespace clearloci::loci

@@ -1,0 +1,58 @@
+// Zeros of a function on a working mode's sheet over one coordinate, without eliminating its roots: enclosures exclude
+// cells or show the function to be monotone in them. Next to a place t0 where a root of the tower comes down to zero
+// as sqrt(t - t0) the cell's coordinate is u, t = t0 +- u^2, in which function and root are smooth.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/locus_factor.hpp"
+#include "loci/numbers/sheet_program.hpp"
+
+namespace clearloci::loci {
+
+/// A simple zero; the only one of the function between the ends.
+struct SheetRoot {
+  core::Rational lower, upper;
+};
+
+/// An end of a stretch of the coordinate: enclosed, with the roots of the tower that are zero there.
+struct StretchEnd {
+  core::Rational lower, upper;
+  std::vector<bool> vanishing;    ///< one a root
+  bool function_is_zero = false;  ///< exactly
+};
+
+class SheetRoots {
+ public:
+  /// The tower outlives this. Required: one coordinate.
+  SheetRoots(const core::RootTower& tower, const core::WorkingMode& mode, const core::LocusFactor& factor);
+
+  /// The zeros strictly between two ends, ascending, narrowed to `width`, or to `enough` where signs are not told
+  /// beyond. Required: no root is zero between them, and the mode reaches all of it. Nothing: not decided, as at a zero
+  /// of higher order.
+  std::optional<std::vector<SheetRoot>> between(const StretchEnd& from, const StretchEnd& to,
+                                                const core::Rational& width, const core::Rational& enough);
+
+ private:
+  struct Cell {
+    double lower, upper;
+    bool first, last;  ///< its ends are those of the stretch
+  };
+  struct Search;
+
+  bool excluded(const Cell& cell);
+  /// Sign of the function's derivative all over the cell; 0: not told.
+  int slope_sign(const Cell& cell, const Search& search);
+  /// Of the function; 0: not told.
+  int sign_at(const core::Rational& lower, const core::Rational& upper, const std::vector<bool>& vanishing);
+  bool narrow(SheetRoot& root, int sign_below, const core::Rational& width, const core::Rational& enough);
+
+  core::WorkingMode mode_;
+  sheet::SheetProgram program_;
+  sheet::SheetProgram::Registers<sheet::Jet> jets_;
+  sheet::SheetProgram::Registers<core::Interval> intervals_;
+  sheet::SheetProgram::Registers<sheet::MultiInterval> exact_;
+};
+
+}  // namespace clearloci::loci

@@ -1,0 +1,18 @@
+// Common zeros that no enclosure proves, since the curves touch there or one of them crosses itself: where all numbers
+// are rational they are decided exactly.
+#pragma once
+
+#include <vector>
+
+#include "core/root_tower.hpp"
+#include "loci/search/zero_search.hpp"
+
+namespace clearloci::loci::sheet {
+
+/// Whether all the functions vanish at the point with the shortest coordinates within `place`, itself as far again
+/// around it, on the mode's sheet. False also where it is on a workspace boundary, a root of it is not rational or an
+/// angle, or the tower is undefined there.
+bool vanish_exactly(const core::RootTower& tower, const core::WorkingMode& mode,
+                    const std::vector<core::Polynomial>& functions, const Cell& place);
+
+}  // namespace clearloci::loci::sheet

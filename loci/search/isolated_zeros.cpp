@@ -1,0 +1,100 @@
+#include "loci/search/isolated_zeros.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/errors.hpp"
+
+namespace clearloci::loci::sheet {
+
+namespace {
+
+// Once a chart is given up the set stays open, and the others get this part of the cells.
+constexpr int share_after_giving_up = 8;
+
+/// The zero in plane coordinates. `enclosure`: of the chart's coordinates and roots.
+SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, const std::vector<Star>& stars) {
+  SheetZero zero;
+  const Cell place = chart.to_plane(Cell{enclosure[0], enclosure[1]});
+  zero.x = place.x.middle();
+  zero.y = place.y.middle();
+  zero.radius = 0.5 * std::max(place.x.width(), place.y.width());
+  for (std::size_t j = 0; j + 2 < enclosure.size(); ++j) {
+    double scale = 1;
+    if (chart.side != Chart::Side::plane) {
+      const std::vector<int>& own = stars[chart.star].roots;
+      scale = std::pow(enclosure[0].middle(), std::count(own.begin(), own.end(), static_cast<int>(j)));
+    }
+    zero.roots.push_back(scale * enclosure[2 + j].middle());
+    if (enclosure[2 + j].sign() == 0) zero.inside_workspace = false;
+  }
+  return zero;
+}
+
+ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& first,
+                    const SheetFunction& second, const std::vector<core::Rational>& lower,
+                    const std::vector<core::Rational>& upper, const ZeroOptions& options) {
+  const auto range = [&](int c) {
+    Interval* const as_interval = nullptr;
+    return hull(constant_as(lower[c], as_interval), constant_as(upper[c], as_interval));
+  };
+  const Interval box_x = range(0), box_y = range(1);
+  const double size = std::max(box_x.width(), box_y.width());
+  std::vector<Star> special = touches(tower);
+  special.insert(special.end(), options.special.begin(), options.special.end());
+  const Partition parts =
+      partition(tower, {box_x.lower(), box_x.upper(), box_y.lower(), box_y.upper()}, bases(tower), special);
+
+  ZeroSet result;
+  Charting charting(tower, {first, second}, parts.stars);
+  for (const Chart& chart : parts.charts) {
+    const bool plane = chart.side == Chart::Side::plane;
+    const ChartedSheet sheet = charting.in(chart);
+    SheetProgram program(sheet.tower, sheet.functions);
+    ZeroSearch search(program, mode, {});
+    const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {-1, 1}}};
+    const FoundZeros found = search.run(
+        seeds,
+        {options.smallest * (plane ? size : 1.0),
+         static_cast<std::size_t>(result.gave_up ? options.most_cells / share_after_giving_up : options.most_cells),
+         2e-15 * size, options.stop});
+    result.gave_up = result.gave_up || found.gave_up;
+    for (const Cell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
+    for (const std::vector<Interval>& enclosure : found.enclosures) {
+      const Cell place = chart.to_plane(Cell{enclosure[0], enclosure[1]});
+      if (disjoint(place.x, box_x) || disjoint(place.y, box_y)) continue;
+      const SheetZero zero = describe(enclosure, chart, parts.stars);
+      if (!plane && enclosure[0].contains_zero()) {
+        result.undecided.push_back(place);  // at the star itself, where the construction is undefined
+        continue;
+      }
+      // A zero on the seam of two charts is found in both.
+      const bool seen = std::any_of(result.zeros.begin(), result.zeros.end(), [&](const SheetZero& other) {
+        return std::max(std::abs(other.x - zero.x), std::abs(other.y - zero.y)) <= other.radius + zero.radius;
+      });
+      if (!seen) result.zeros.push_back(zero);
+    }
+  }
+  result.undecided = clusters(std::move(result.undecided));
+  std::sort(result.zeros.begin(), result.zeros.end(),
+            [](const SheetZero& a, const SheetZero& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  return result;
+}
+
+}  // namespace
+
+ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& first,
+                       const SheetFunction& second, const std::vector<core::Rational>& lower,
+                       const std::vector<core::Rational>& upper, const ZeroOptions& options) {
+  if (options.known == nullptr) return found_zeros(tower, mode, first, second, lower, upper, options);
+  KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper);
+  key.numbers.push_back(options.most_cells);
+  key.polynomials.push_back(first.polynomial);
+  key.polynomials.push_back(second.polynomial);
+  return *options.known->get<ZeroSet>(key, [&] {
+    return std::make_shared<const ZeroSet>(found_zeros(tower, mode, first, second, lower, upper, options));
+  });
+}
+
+}  // namespace clearloci::loci::sheet

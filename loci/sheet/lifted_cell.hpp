@@ -1,0 +1,123 @@
+// Functions on a working mode's sheet over boxes of three coordinates, enclosed with their slopes. A root whose square
+// may vanish in a cell is a coordinate of its own there, bound by one more equation, so that all is smooth up to the
+// workspace boundary:
+//     f_i(x, s) = 0,   G_l(x, s) = s_l^2 - Q_l(x, s) = 0   for the lifted roots l;   the others are functions of these.
+// Of an angle the coordinate is the variable of its chart. Private to loci/sheet.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/locus_factor.hpp"
+#include "loci/numbers/sheet_program.hpp"
+
+namespace clearloci::loci::space {
+
+using core::Interval;
+using Place = std::array<double, 3>;
+using Cell = std::array<Interval, 3>;
+using LiftedBox = std::vector<Interval>;  ///< the three coordinates, then the lifted roots
+
+/// What is known of a cell: of all rows, over the cell lifted.
+struct LiftedLook {
+  bool any = true;          ///< some pose of it can be assembled
+  LiftedBox box;            ///< the cell lifted
+  std::vector<int> lifted;  ///< roots
+  std::vector<int> place;   ///< of every root: its dimension, or -1
+  std::vector<Interval> roots;
+  std::vector<Interval> values, at_middle;  ///< the latter empty where there is no pose
+  std::vector<Interval> slopes;             ///< row after row; empty where they were not asked for
+};
+
+class LiftedCell {
+ public:
+  LiftedCell(const core::LocusProblem& problem, core::WorkingMode mode, const std::vector<sheet::SheetFunction>& all);
+
+  /// Side by side, each as lift, enter, differentiate and values_at its middle tell it. `wanted`: by the values,
+  /// whether more has to be known of a cell.
+  std::vector<LiftedLook> look_at(const std::vector<Cell>& cells,
+                                  const std::function<bool(const std::vector<Interval>&)>& wanted);
+  /// As if the cell had been lifted, entered and differentiated, but for its values. Required: its slopes are known.
+  void take(const LiftedLook& look);
+
+  /// Chooses the lifted roots of a cell and encloses them; nothing where no pose of it can be assembled.
+  std::optional<LiftedBox> lift(const Cell& cell);
+  std::size_t dimension() const { return 3 + lifted_.size(); }
+  int functions() const { return program_.functions(); }
+  int instructions() const { return program_.instructions(); }
+  /// Rows: the functions, then G_l of every lifted root.
+  std::size_t rows() const { return static_cast<std::size_t>(functions()) + lifted_.size(); }
+
+  /// Values over a part of the cell lifted last, or over a box a little larger. False: a root is not real, or may
+  /// vanish though it is not lifted.
+  bool enter(const LiftedBox& box);
+  Interval value(std::size_t row) const;
+  /// Slopes over the box entered, by the dimensions of the lifted box.
+  void differentiate();
+  const Interval& slope(std::size_t row, std::size_t dimension) const { return slopes_[row * dimension_ + dimension]; }
+
+ private:
+  using Batches = sheet::SheetProgram::Registers<sheet::IntervalBatch>;
+
+  /// Sets coordinates and roots of at most IntervalBatch::size cells.
+  void lift(const std::vector<Cell>& cells, std::vector<LiftedLook>& looks);
+  void enter_middles(std::vector<LiftedLook>& looks, std::vector<bool>& real,
+                     std::vector<std::vector<Interval>>& roots);
+  /// Of the lane's rows.
+  std::vector<Interval> values(const LiftedLook& look, const std::vector<Interval>& roots, std::size_t lane) const;
+  /// Of all rows by the dimensions, row after row, from those of the functions and of the squares by all variables.
+  template <class Partial, class SquarePartial>
+  std::vector<Interval> slopes_of(const std::vector<int>& lifted, const std::vector<int>& place,
+                                  const std::vector<Interval>& roots, const Partial& partial,
+                                  const SquarePartial& square_partial);
+
+  sheet::SheetProgram program_;
+  core::WorkingMode mode_;
+  sheet::SheetProgram::Registers<Interval> at_;
+  Batches beside_;
+  std::vector<int> lifted_;      ///< roots
+  std::vector<int> place_;       ///< of every root: its dimension, or -1
+  std::vector<Interval> roots_;  ///< as entered
+  std::vector<Interval> slopes_, partial_;
+  std::size_t dimension_ = 3;
+};
+
+/// Which rows and dimensions make a square system.
+struct Square {
+  std::vector<std::size_t> rows, free;
+};
+
+enum class Zeros { none, unique, unknown };
+
+/// Krawczyk's operator (loci/sheet/krawczyk.hpp) on a box, which is thin in the dimensions that are not free. `image`:
+/// where zeros of the box are, in all dimensions.
+Zeros krawczyk(LiftedCell& cell, const Square& system, const LiftedBox& box, LiftedBox& image);
+
+/// The only zero of a box: as narrow as doubles tell it.
+LiftedBox narrowed(LiftedCell& cell, const Square& system, LiftedBox box);
+
+/// One step of Newton's method from a point: where the free dimensions go to; nothing where their slopes are singular
+/// or there is no pose.
+std::optional<std::vector<double>> newton(LiftedCell& cell, const Square& system, const LiftedBox& at);
+
+/// Mean-value form of a row over the box, which has been entered and differentiated, from its values `at_middle`.
+bool excludes_zero(LiftedCell& cell, std::size_t row, const LiftedBox& box, const std::vector<Interval>& at_middle);
+
+/// The same where the other rows vanish: with multiples of them subtracted, so that most of the row's slope is gone.
+bool excludes_zero_with(LiftedCell& cell, std::size_t row, const std::vector<std::size_t>& others, const LiftedBox& box,
+                        const std::vector<Interval>& at_middle);
+
+/// Of a box entered and differentiated, for rows one fewer than its dimensions: a dimension of which the others are
+/// functions on the rows' common zeros in the box. The matrix of the other slopes is regular at all its points, and so
+/// is every mean of slopes between two of them.
+std::optional<std::size_t> parameter_of(const LiftedCell& cell, const std::vector<std::size_t>& rows,
+                                        const LiftedBox& box);
+
+/// The values of all rows at a point; empty where there is no pose.
+std::vector<Interval> values_at(LiftedCell& cell, const LiftedBox& box);
+
+LiftedBox middle_of(const LiftedBox& box);
+
+}  // namespace clearloci::loci::space

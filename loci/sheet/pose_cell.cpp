@@ -1,0 +1,364 @@
+#include "loci/sheet/pose_cell.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "loci/numbers/inverse.hpp"
+
+namespace clearloci::loci::pose {
+namespace {
+
+using Operation = core::PoseProgram::Operation;
+
+/// pi to half a unit in the last place.
+template <class Form>
+Form enclosed_pi() {
+  Form own(3.14159265358979312);
+  own.r = 0x1p-52;
+  return own;
+}
+
+template <class Form>
+bool is_finite(const Form& x) {
+  return std::isfinite(x.c) && std::isfinite(x.radius());
+}
+
+/// Of the numbers of x that are not negative.
+template <class Form>
+Form any_root_up_to(const Form& x) {
+  const double half = 0.5 * std::sqrt(std::max(0.0, x.upper())) * (1 + 0x1p-50);
+  Form own(half);
+  own.r = half * (1 + 0x1p-50) + Form::slack(half);
+  return own;
+}
+
+/// A row's entries and what it adds up to are sums of so many roundings at most.
+double rounded_up(double sum, std::size_t terms) { return sum * (1 + static_cast<double>(terms + 8) * 0x1p-51); }
+
+/// The point of the way from a to b that is nearest to the origin.
+std::vector<double> nearest_to_origin(const std::vector<double>& a, const std::vector<double>& b) {
+  double along = 0, length2 = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    along -= a[k] * (b[k] - a[k]);
+    length2 += (b[k] - a[k]) * (b[k] - a[k]);
+  }
+  const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  std::vector<double> point(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) point[k] = a[k] + t * (b[k] - a[k]);
+  return point;
+}
+
+double length_of(const std::vector<double>& v) {
+  double square = 0;
+  for (const double own : v) square += own * own;
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+template <class Form>
+PoseCellOf<Form>::PoseCellOf(const core::PoseStatics& statics)
+    : statics_(&statics), point_(statics), n_(static_cast<std::size_t>(statics.unknowns)), columns_(n_) {
+  for (std::size_t row = 0; row < n_; ++row)
+    for (const core::LinearRow::Term& term : statics.equations[row].terms)
+      columns_[static_cast<std::size_t>(term.unknown)].push_back({static_cast<int>(row), term.step});
+  for (const core::PoseDemand& demand : statics.demands)
+    leasts_.push_back(std::nextafter(core::to_double(demand.demand.least), demand.demand.least > 0 ? 1e300 : 0.0));
+  registers_.resize(statics.program.steps.size());
+  for (std::size_t i = 0; i < registers_.size(); ++i) {
+    const core::PoseProgram::Step& own = statics.program.steps[i];
+    if (own.operation == Operation::constant) registers_[i] = nearest<Form>(own.value);
+    if (own.operation == Operation::pi) registers_[i] = enclosed_pi<Form>();
+    varies_.push_back(own.varies ? 1 : 0);
+    if (own.operation == Operation::square_root && own.varies) closures_.push_back(own.first);
+  }
+  closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
+  inverse_.resize(n_ * n_);
+  error_.resize(n_ * n_);
+  solution_.assign(statics.loads, std::vector<double>(n_));
+  moved_.assign(statics.loads, std::vector<Form>(n_));
+  rest_.assign(statics.loads, std::vector<double>(n_));
+  least_.resize(statics.demands.size());
+  kept_.resize(statics.demands.size());
+}
+
+template <class Form>
+CellAnswers::State PoseCellOf<Form>::in_doubt(Doubt doubt, const Form& form, int demand) {
+  doubt_ = doubt;
+  demand_ = demand;
+  for (std::size_t p = 0; p < Form::noises; ++p) spreads_[p] = std::abs(form.a[p]);
+  return State::in_doubt;
+}
+
+template <class Form>
+CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& box, std::vector<Form>* boundaries) {
+  for (std::size_t i = 0; i < registers_.size(); ++i) {
+    const core::PoseProgram::Step& own = statics_->program.steps[i];
+    const Form& x = registers_[static_cast<std::size_t>(own.first)];
+    const Form& y = registers_[static_cast<std::size_t>(own.second)];
+    switch (own.operation) {
+      case Operation::constant:
+      case Operation::pi:
+        break;
+      case Operation::coordinate: {
+        const auto q = static_cast<std::size_t>(own.first);
+        Sum sum;
+        sum.add(1, Form(chart.base[q]));
+        for (std::size_t p = 0; p < box.size(); ++p) {
+          if (chart.ways[p][q] == 0) continue;
+          const auto& [low, high] = box[p];
+          Form parameter(low + 0.5 * (high - low));
+          parameter.a[p] = std::max(high - parameter.c, parameter.c - low);
+          if (parameter.a[p] > 0) parameter.r = Form::slack(std::abs(high) + std::abs(low));
+          sum.add(chart.ways[p][q], parameter);
+        }
+        registers_[i] = sum.result();
+        break;
+      }
+      case Operation::add:
+        registers_[i] = x + y;
+        break;
+      case Operation::subtract:
+        registers_[i] = x - y;
+        break;
+      case Operation::multiply:
+        registers_[i] = x * y;
+        break;
+      case Operation::square:
+        registers_[i] = squared(x);
+        break;
+      case Operation::inverse:
+        if (x.contains_zero()) return in_doubt(Doubt::workspace, x);
+        registers_[i] = inverse(x);
+        break;
+      case Operation::square_root:
+        if (x.upper() < 0) return State::outside;
+        if (x.lower() > 0) {
+          registers_[i] = square_root(x);
+          break;
+        }
+        if (boundaries == nullptr || !is_finite(x)) return in_doubt(Doubt::workspace, x);
+        boundaries->push_back(x);
+        registers_[i] = any_root_up_to(x);
+        break;
+      case Operation::cosine:
+        registers_[i] = cosine(x);
+        break;
+      case Operation::sine:
+        registers_[i] = sine(x);
+        break;
+      case Operation::angle: {
+        constexpr double half_turn = 3.14159265358979312;  // just below: there the angle is cut
+        const std::optional<Form> angle = angle_of(x, y);
+        if (!angle || !(angle->lower() > -half_turn && angle->upper() < half_turn))
+          return in_doubt(Doubt::workspace, angle ? *angle : y);
+        registers_[i] = *angle;
+        break;
+      }
+    }
+  }
+  for (const int own : statics_->positive) {
+    if (step(own).upper() < 0) return State::outside;
+    if (step(own).lower() > 0) continue;
+    if (boundaries == nullptr || !is_finite(step(own))) return in_doubt(Doubt::workspace, step(own));
+    boundaries->push_back(step(own));
+  }
+  return State::proven;
+}
+
+/// The inverse of A at the cell's middle.
+template <class Form>
+bool PoseCellOf<Form>::invert() {
+  std::vector<double> a(n_ * n_, 0.0);
+  for (std::size_t column = 0; column < n_; ++column)
+    for (const Entry& entry : columns_[column])
+      a[static_cast<std::size_t>(entry.row) * n_ + column] = step(entry.step).c;
+  return loci::invert(a, inverse_, n_, 0, &determinant_);
+}
+
+template <class Form>
+bool PoseCellOf<Form>::is_regular() {
+  if (n_ == 0) return true;  // every pivot was a number
+  std::array<double, Form::noises> moves{};
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j < n_; ++j) {
+      Sum sum;
+      if (i == j) sum.add(1, Form(1.0));
+      for (const Entry& entry : columns_[j])
+        if (const double own = inverse_at(i, static_cast<std::size_t>(entry.row)); own != 0)
+          add_step(sum, -own, entry.step);
+      const Form e = sum.result();
+      error_[i * n_ + j] = e.magnitude();
+      for (std::size_t p = 0; p < Form::noises; ++p) moves[p] += std::abs(e.a[p]);
+    }
+  // Towards the vector that |E| stretches most, kept off zero.
+  std::vector<double> weights(n_, 1.0), stretched(n_);
+  const auto stretch = [&] {
+    for (std::size_t i = 0; i < n_; ++i) {
+      double sum = 0;
+      for (std::size_t j = 0; j < n_; ++j) sum += error_[i * n_ + j] * weights[j];
+      stretched[i] = rounded_up(sum, n_);
+    }
+  };
+  constexpr int steps = 4;
+  constexpr double least_weight = 1e-4;
+  for (int k = 0; k < steps; ++k) {
+    stretch();
+    const double most = *std::max_element(stretched.begin(), stretched.end());
+    if (!(most > 0)) break;
+    for (std::size_t i = 0; i < n_; ++i) weights[i] = std::max(stretched[i] / most, least_weight);
+  }
+  stretch();
+  contraction_ = 0;
+  for (std::size_t i = 0; i < n_; ++i) contraction_ = std::max(contraction_, stretched[i] / weights[i] * (1 + 0x1p-50));
+  weights_ = std::move(weights);
+  if (contraction_ < 1) return true;
+  doubt_ = Doubt::singularity;
+  demand_ = -1;
+  spreads_ = moves;
+  return false;
+}
+
+/// w_m under a load, and w - w_m in any pose of the cell: C r and what is added to it at most.
+template <class Form>
+void PoseCellOf<Form>::solve(std::size_t load) {
+  std::vector<double>& w = solution_[load];
+  for (std::size_t i = 0; i < n_; ++i) {
+    w[i] = 0;
+    for (std::size_t j = 0; j < n_; ++j) w[i] += inverse_at(i, j) * step(statics_->equations[j].free[load]).c;
+  }
+  std::vector<Form> residual;
+  for (const core::LinearRow& row : statics_->equations) {
+    Sum sum;
+    add_step(sum, 1, row.free[load]);
+    for (const core::LinearRow::Term& term : row.terms)
+      add_step(sum, -w[static_cast<std::size_t>(term.unknown)], term.step);
+    residual.push_back(sum.result());
+  }
+  std::vector<Form>& moved = moved_[load];
+  std::vector<double>& rest = rest_[load];
+  double largest = 0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    Sum sum;
+    for (std::size_t j = 0; j < n_; ++j) sum.add(inverse_at(i, j), residual[j]);
+    moved[i] = sum.result();
+    largest = std::max(largest, moved[i].magnitude() / weights_[i]);
+  }
+  largest = rounded_up(largest / (1 - contraction_), 8);
+  for (std::size_t i = 0; i < n_; ++i) {
+    double farther = 0;
+    for (std::size_t j = 0; j < n_; ++j) farther += error_[i * n_ + j] * weights_[j] * largest;
+    rest[i] = rounded_up(farther, n_);
+  }
+}
+
+template <class Form>
+std::vector<double> PoseCellOf<Form>::component_values(const core::PoseDemand& demand, std::size_t load) const {
+  std::vector<double> values;
+  for (const core::LinearRow& row : demand.components) {
+    double value = registers_[static_cast<std::size_t>(row.free[load])].c;
+    for (const core::LinearRow::Term& term : row.terms)
+      value +=
+          registers_[static_cast<std::size_t>(term.step)].c * solution_[load][static_cast<std::size_t>(term.unknown)];
+    values.push_back(value);
+  }
+  return values;
+}
+
+template <class Form>
+bool PoseCellOf<Form>::keeps(int index) {
+  const core::PoseDemand& demand = statics_->demands[static_cast<std::size_t>(index)];
+  const std::vector<double> first = component_values(demand, 0), last = component_values(demand, statics_->loads - 1);
+  std::vector<double> n = nearest_to_origin(first, last);
+  const double size = length_of(n);
+  // Without a direction of its own any one does.
+  for (std::size_t k = 0; k < n.size(); ++k) n[k] = size > 0 ? n[k] / size : (k == 0 ? 1.0 : 0.0);
+  std::vector<Sum> sums(n_);
+  std::vector<double> at_middle(n_, 0.0), multipliers(n_, 0.0);
+  for (std::size_t k = 0; k < n.size(); ++k)
+    for (const core::LinearRow::Term& term : demand.components[k].terms) {
+      const auto j = static_cast<std::size_t>(term.unknown);
+      add_step(sums[j], n[k], term.step);
+      at_middle[j] += n[k] * step(term.step).c;
+    }
+  for (std::size_t j = 0; j < n_; ++j)
+    if (at_middle[j] != 0)
+      for (std::size_t i = 0; i < n_; ++i) multipliers[i] += inverse_at(j, i) * at_middle[j];
+  std::vector<Form> left;
+  for (std::size_t j = 0; j < n_; ++j) {
+    for (const Entry& entry : columns_[j])
+      if (const double own = multipliers[static_cast<std::size_t>(entry.row)]; own != 0)
+        add_step(sums[j], -own, entry.step);
+    left.push_back(sums[j].result());
+  }
+  double& kept = least_[static_cast<std::size_t>(index)];
+  kept = std::numeric_limits<double>::infinity();
+  const double least = leasts_[static_cast<std::size_t>(index)];
+  bool enough = true;
+  for (std::size_t load = 0; load < statics_->loads; ++load) {
+    Sum sum;
+    for (std::size_t k = 0; k < n.size(); ++k) add_step(sum, n[k], demand.components[k].free[load]);
+    for (std::size_t i = 0; i < n_; ++i)
+      if (multipliers[i] != 0) add_step(sum, multipliers[i], statics_->equations[i].free[load]);
+    double beyond = 0;
+    for (std::size_t j = 0; j < n_; ++j) {
+      sum.add(solution_[load][j], left[j]);
+      beyond += left[j].magnitude() * rest_[load][j];
+    }
+    for (std::size_t j = 0; j < n_; ++j) sum.add(1, left[j] * moved_[load][j]);
+    const Form value = sum.result();
+    // n is a unit vector to some roundings.
+    const double low = Form::down(value.lower() - rounded_up(beyond, n_)) * (1 - 0x1p-48);
+    kept = std::min(kept, low);
+    Open& own = kept_[static_cast<std::size_t>(index)];
+    own = {value, least, index, n.size() != 1 ? 0 : n[0] > 0 ? 1 : -1};
+    own.form.r = (own.form.r + rounded_up(beyond, n_)) * (1 + 0x1p-40) + Form::slack(std::abs(value.c));
+    if (low > least) {
+      const double usual = std::abs(value.c) + 0x1p-1000;
+      for (std::size_t p = 0; enough && p < Form::noises; ++p) spreads_[p] += std::abs(value.a[p]) / usual;
+      continue;
+    }
+    if (enough) in_doubt(Doubt::demand, value, index);
+    enough = false;
+    for (std::size_t j = 0; j < n_; ++j)
+      for (std::size_t p = 0; p < Form::noises; ++p)
+        spreads_[p] += 2 * std::abs(left[j].a[p]) * (moved_[load][j].magnitude() + rest_[load][j]);
+  }
+  return enough;
+}
+
+template <class Form>
+CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox& box) {
+  core::ensure(box.size() < Form::noises, "a cell has seven parameters at most");
+  chart_ = &chart;
+  box_ = &box;
+  doubt_ = Doubt::none;
+  spreads_.fill(0);
+  if (const State state = run(chart, box); state != State::proven) return state;
+  if (!invert()) {
+    doubt_ = Doubt::singularity;
+    for (std::size_t p = 0; p < box.size(); ++p) spreads_[p] = 1;
+    return State::in_doubt;
+  }
+  if (!is_regular()) return State::in_doubt;
+  for (std::size_t load = 0; load < statics_->loads; ++load) solve(load);
+  // The demand that failed last fails again, mostly.
+  const auto count = static_cast<int>(statics_->demands.size());
+  for (int k = 0; k < count; ++k)
+    if (const int own = (first_ + k) % count; !keeps(own)) {
+      first_ = own;
+      return State::in_doubt;
+    }
+  return State::proven;
+}
+
+double CellAnswers::size_of(const std::vector<std::vector<double>>& by_load) {
+  return length_of(nearest_to_origin(by_load.front(), by_load.back()));
+}
+
+template class PoseCellOf<Affine>;
+template class PoseCellOf<FlatAffine>;
+
+}  // namespace clearloci::loci::pose

@@ -1,0 +1,157 @@
+// Whether every pose of a cell is good for a task: it can be assembled, |A| does not vanish, and no reaction does or is
+// too small. With A_m the matrix at the cell's middle, C = A_m^-1 to rounding and w_m = C b_m:
+//     E = I - C A,                |E| s <= beta s < s for some s > 0:  A is regular in every pose of the cell
+//     r = b - A w_m,              w - w_m = C r + E (w - w_m),  |E (w - w_m)| <= |E| |C r|_s / (1 - beta)
+//     g = c w + d, lambda = C^T c_m:   g = d + lambda b + (c - A^T lambda) w_m + (c - A^T lambda) (w - w_m)
+// The last product is one of two small things, so that what is known of g shrinks with the square of the cell; with C r
+// in the place of w - w_m its terms are added up before they are bounded, and what is left shrinks with the cube. A
+// vector f is kept from zero by n . f for one direction n, under all loads between two that it is kept under. Entries
+// are enclosed by affine forms (affine.hpp).
+//
+// Where |A| may vanish, X A Y = [I + E, p; q, m] at no pose far from [I, 0; 0, m], with X, Y regular, splits off what
+// makes it vanish: with z = Y^-1 w, y = X b
+//     |A| = 0  exactly where  s = m - q (I + E)^-1 p  does,   s z_n = N = y_n - q (I + E)^-1 y_1
+//     s g = s d + (c Y)_n N + (c Y)_1 (I + E)^-1 (s y_1 - p N)
+// so that signs of reactions are known on both sides of s = 0 where s g does not vanish (pose_sides.cpp).
+//
+// Where the workspace boundary Q = 0 passes, the root of Q is any number from 0 to that of Q's largest value: what
+// holds for all of them holds in every pose of the cell with Q >= 0, and where Q < 0 for certain there is none.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/pose_statics.hpp"
+#include "loci/numbers/affine.hpp"
+#include "loci/sheet/half_space.hpp"
+#include "loci/sheet/pose_chart.hpp"
+#include "loci/sheet/pose_point.hpp"
+
+namespace clearloci::loci::pose {
+
+/// What keeps a pose from being good: `demand` is that of core::PoseStatics, with `Doubt::demand`.
+enum class Doubt { none, workspace, singularity, demand };
+
+/// What a cell says of itself, whatever its forms.
+struct CellAnswers {
+  enum class State { proven, in_doubt, outside };
+  /// Signs, +1 or -1, of every demand of one component and, last, of |A|; 0 where they are not known, and of others.
+  using Signs = std::vector<int>;
+  /// What is known of a cell in doubt, under one load.
+  struct Known {
+    bool free = false;                        ///< it is proven after all
+    bool outside = false;                     ///< no pose of it can be assembled
+    bool beyond = false;                      ///< the second part is one of which no pose can be assembled
+    Signs signs;                              ///< in all of the cell
+    std::vector<std::pair<Doubt, int>> open;  ///< all that may vanish in it
+    /// Parts of the cell that are proven, on the two sides of what may vanish: either may be empty.
+    std::array<HalfSpace, 2> parts;
+    std::array<Signs, 2> of_parts;
+  };
+  /// A single pose in floating point.
+  using At = PosePoint::At;
+  /// The smallest size under loads between the first and the last.
+  static double size_of(const std::vector<std::vector<double>>& by_load);
+};
+
+/// `Form`: of second order where products of coordinates are worth their price, else of first (affine.hpp).
+template <class Form>
+class PoseCellOf : public CellAnswers {
+ public:
+  /// `statics` must outlive the cell. One a thread.
+  explicit PoseCellOf(const core::PoseStatics& statics);
+
+  /// `outside`: no pose of the cell can be assembled.
+  State enter(const PoseChart& chart, const PoseBox& box);
+
+  /// Of a cell in doubt.
+  /// Tries no demand first because it failed last: where the same cells follow, the same is found on every thread.
+  void forget() { first_ = 0; }
+  Doubt doubt() const { return doubt_; }
+  int demand() const { return demand_; }
+  /// How far each parameter of the box moves what is in doubt: a cut helps most along the largest.
+  const std::array<double, Form::noises>& spreads() const { return spreads_; }
+  /// Of a proven cell: what every reaction has at least, N or N m, one a demand.
+  const std::vector<double>& least_sizes() const { return least_; }
+
+  /// Of a cell in doubt; of forms of second order only. The chart and the box that it was entered with must still be.
+  Known known();
+
+  /// Nothing where it cannot be assembled or A cannot be inverted.
+  std::optional<At> at(const std::vector<double>& pose) { return point_.at(pose); }
+  const core::PoseStatics& statics() const { return *statics_; }
+
+ private:
+  using Sum = SumOf<Form>;
+  struct Entry {
+    int row = 0, step = 0;
+  };
+  /// `boundaries`: takes the squares and limits that may vanish in the cell; without it the first of them ends the run.
+  State run(const PoseChart& chart, const PoseBox& box, std::vector<Form>* boundaries = nullptr);
+  State in_doubt(Doubt doubt, const Form& form, int demand = -1);
+  bool invert();
+  bool is_regular();
+  void solve(std::size_t load);
+  bool keeps(int demand);
+  /// Most entries of A are numbers, which move with no coordinate.
+  void add_step(Sum& sum, double factor, int index) const {
+    const auto i = static_cast<std::size_t>(index);
+    if (varies_[i] != 0)
+      sum.add(factor, registers_[i]);
+    else
+      sum.add_number(factor, registers_[i]);
+  }
+  Form& step(int index) { return registers_[static_cast<std::size_t>(index)]; }
+  std::vector<double> component_values(const core::PoseDemand& demand, std::size_t load) const;
+  /// Something that may vanish in the cell, as it is kept: where |form| > least. `demand` < 0: |A|, by s.
+  struct Open {
+    Form form;
+    double least = 0;
+    int demand = -1;
+    int sign = 0;  ///< of a demand of one component where the form is positive; 0: of others
+  };
+  void sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
+  void know_near_singularity(Known& known);
+  void know_at_boundary(Known& known);
+  double& inverse_at(std::size_t i, std::size_t j) { return inverse_[i * n_ + j]; }
+
+  const core::PoseStatics* statics_;
+  PosePoint point_;
+  const PoseChart* chart_ = nullptr;  ///< of the cell entered last, and its box
+  const PoseBox* box_ = nullptr;
+  std::size_t n_;
+  std::vector<std::vector<Entry>> columns_;  ///< of A
+  std::vector<double> leasts_;               ///< asked of every demand, rounded up
+  std::vector<Form> registers_;
+  std::vector<char> varies_;                   ///< registers that do with the pose; the others are numbers
+  std::vector<double> inverse_;                ///< C
+  std::vector<double> error_;                  ///< |E|
+  std::vector<double> weights_;                ///< s
+  double contraction_ = 0;                     ///< beta
+  int determinant_ = 0;                        ///< the sign of |A| at the cell's middle
+  std::vector<int> closures_;                  ///< steps whose roots vary with the pose, and limits
+  std::vector<std::vector<double>> solution_;  ///< load by load: w_m
+  std::vector<std::vector<Form>> moved_;       ///< C r
+  std::vector<std::vector<double>> rest_;      ///< what w - w_m differs from that at most
+  std::vector<double> least_;
+  std::vector<Open> kept_;  ///< a demand each, as it was kept from zero last
+  Doubt doubt_ = Doubt::none;
+  int demand_ = -1, first_ = 0;
+  std::array<double, Form::noises> spreads_{};
+};
+
+using PoseCell = PoseCellOf<Affine>;
+template <>
+CellAnswers::Known PoseCell::known();
+template <>
+void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
+template <>
+void PoseCell::know_near_singularity(Known& known);
+template <>
+void PoseCell::know_at_boundary(Known& known);
+extern template class PoseCellOf<Affine>;
+extern template class PoseCellOf<FlatAffine>;
+
+}  // namespace clearloci::loci::pose

@@ -1,0 +1,132 @@
+#include "loci/sheet/pose_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace clearloci::loci::pose {
+
+PosePoint::PosePoint(const core::PoseStatics& statics)
+    : statics_(&statics),
+      n_(static_cast<std::size_t>(statics.unknowns)),
+      registers_(statics.program.steps.size(), 0.0),
+      matrix_(n_ * n_),
+      solution_(statics.loads, std::vector<double>(n_)) {
+  using Operation = core::PoseProgram::Operation;
+  for (std::size_t i = 0; i < registers_.size(); ++i) {
+    const core::PoseProgram::Step& own = statics.program.steps[i];
+    if (own.operation == Operation::constant) registers_[i] = core::to_double(own.value);
+    if (own.operation == Operation::pi) registers_[i] = std::numbers::pi;
+    if (own.operation == Operation::square_root && own.varies) closures_.push_back(own.first);
+  }
+  closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
+}
+
+bool PosePoint::run(const std::vector<double>& pose) {
+  using Operation = core::PoseProgram::Operation;
+  for (std::size_t i = 0; i < registers_.size(); ++i) {
+    const core::PoseProgram::Step& own = statics_->program.steps[i];
+    const double x = step(own.first), y = step(own.second);
+    double& result = registers_[i];
+    switch (own.operation) {
+      case Operation::constant:
+      case Operation::pi:
+        break;
+      case Operation::coordinate:
+        result = pose[static_cast<std::size_t>(own.first)];
+        break;
+      case Operation::add:
+        result = x + y;
+        break;
+      case Operation::subtract:
+        result = x - y;
+        break;
+      case Operation::multiply:
+        result = x * y;
+        break;
+      case Operation::square:
+        result = x * x;
+        break;
+      case Operation::inverse:
+        if (x == 0) return false;
+        result = 1 / x;
+        break;
+      case Operation::square_root:
+        if (!(x > 0)) return false;
+        result = std::sqrt(x);
+        break;
+      case Operation::cosine:
+        result = std::cos(x);
+        break;
+      case Operation::sine:
+        result = std::sin(x);
+        break;
+      case Operation::angle:
+        result = std::atan2(x, y);
+        if (!(std::abs(result) < std::numbers::pi)) return false;
+        break;
+    }
+  }
+  return std::all_of(statics_->positive.begin(), statics_->positive.end(), [&](int own) { return step(own) > 0; });
+}
+
+/// Gauss with partial pivoting, of A and of all loads together.
+bool PosePoint::solve(At& result) {
+  std::fill(matrix_.begin(), matrix_.end(), 0.0);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const core::LinearRow& row = statics_->equations[i];
+    for (const core::LinearRow::Term& term : row.terms)
+      matrix_[i * n_ + static_cast<std::size_t>(term.unknown)] = step(term.step);
+    for (std::size_t load = 0; load < statics_->loads; ++load) solution_[load][i] = step(row.free[load]);
+  }
+  result.determinant = 1;
+  for (std::size_t k = 0; k < n_; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n_; ++i)
+      if (std::abs(matrix_[i * n_ + k]) > std::abs(matrix_[pivot * n_ + k])) pivot = i;
+    const double value = matrix_[pivot * n_ + k];
+    if (value == 0 || !std::isfinite(value)) return false;
+    if (value < 0) result.determinant = -result.determinant;
+    result.logarithm += std::log(std::abs(value));
+    if (pivot != k) {
+      result.determinant = -result.determinant;
+      std::swap_ranges(matrix_.begin() + static_cast<std::ptrdiff_t>(pivot * n_),
+                       matrix_.begin() + static_cast<std::ptrdiff_t>((pivot + 1) * n_),
+                       matrix_.begin() + static_cast<std::ptrdiff_t>(k * n_));
+      for (std::vector<double>& own : solution_) std::swap(own[pivot], own[k]);
+    }
+    for (std::size_t i = k + 1; i < n_; ++i) {
+      const double factor = matrix_[i * n_ + k] / value;
+      if (factor == 0) continue;
+      for (std::size_t j = k + 1; j < n_; ++j) matrix_[i * n_ + j] -= factor * matrix_[k * n_ + j];
+      for (std::vector<double>& own : solution_) own[i] -= factor * own[k];
+    }
+  }
+  for (std::vector<double>& own : solution_)
+    for (std::size_t i = n_; i-- > 0;) {
+      for (std::size_t j = i + 1; j < n_; ++j) own[i] -= matrix_[i * n_ + j] * own[j];
+      own[i] /= matrix_[i * n_ + i];
+      if (!std::isfinite(own[i])) return false;
+    }
+  return true;
+}
+
+std::optional<PosePoint::At> PosePoint::at(const std::vector<double>& pose) {
+  At result;
+  if (!run(pose) || !solve(result)) return std::nullopt;
+  for (const int own : closures_) result.closures.push_back(step(own));
+  for (const core::PoseDemand& demand : statics_->demands) {
+    auto& by_load = result.components.emplace_back(statics_->loads);
+    for (std::size_t load = 0; load < statics_->loads; ++load)
+      for (const core::LinearRow& row : demand.components) {
+        double value = step(row.free[load]);
+        for (const core::LinearRow::Term& term : row.terms)
+          value += step(term.step) * solution_[load][static_cast<std::size_t>(term.unknown)];
+        by_load[load].push_back(value);
+      }
+  }
+  return result;
+}
+
+}  // namespace clearloci::loci::pose

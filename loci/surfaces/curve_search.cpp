@@ -1,0 +1,676 @@
+#include "loci/surfaces/curve_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <utility>
+
+#include "core/angle_chart.hpp"
+#include "core/errors.hpp"
+
+namespace clearloci::loci::space {
+namespace {
+
+/// Cells are cut beside their middles, of each coordinate in another ratio, so that designs in round numbers have no
+/// curve along a cut or through an edge of cells.
+constexpr std::array<double, 3> cut_at = {0.4931, 0.5077, 0.4883};
+/// Two enclosures of one zero, as a part of the box: far above their width and below the distance of two.
+constexpr double one_zero = 1e-9;
+/// Of what is known of a box, beyond its sides: zeros beside them are then as good as others.
+constexpr double margin = 0.1;
+/// Instructions times cells that a search may take: some ten seconds.
+constexpr double most_work = 8e7;
+/// Pieces of a face looked at before the cell is cut instead.
+constexpr int most_pieces = 400;
+constexpr int asked_every = 64;
+
+struct OpenCell {
+  Cell cell;
+  int depth = 0;
+  std::shared_ptr<const LiftedLook> look = {};  ///< once it was looked at
+  bool empty = false;                           ///< then: there is no zero in it
+  bool singular = false;                        ///< and: |A| may vanish in it
+};
+
+Interval widened(const Interval& range) {
+  const double by = margin * range.width();
+  return {range.lower() - by, range.upper() + by};
+}
+
+/// Whether a narrow enclosure lies in a range: nothing where its ends do not tell.
+std::optional<bool> lies_in(const Interval& at, const Interval& range) {
+  if (disjoint(at, range)) return false;
+  if (range.lower() <= at.lower() && at.upper() <= range.upper()) return true;
+  return std::nullopt;
+}
+
+/// At every point looked at one of the rows is zero, to rounding and to first order.
+bool one_vanishes_along(LiftedCell& lifted, std::size_t first_row, std::size_t end_row, const Cell& box,
+                        const std::vector<Place>& points) {
+  constexpr double vanishes_within = 1e-8;  // of the box
+  constexpr std::size_t looked_at = 24;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / looked_at);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    Cell cell;
+    for (std::size_t c = 0; c < 3; ++c) cell[c] = Interval(points[i][c]);
+    const std::optional<LiftedBox> at = lifted.lift(cell);
+    if (!at || !lifted.enter(*at)) continue;
+    lifted.differentiate();
+    bool vanishes = false;
+    for (std::size_t row = first_row; row < end_row; ++row) {
+      double slope = 0;
+      for (std::size_t c = 0; c < 3; ++c) slope += lifted.slope(row, c).magnitude() * box[c].width();
+      vanishes = vanishes || lifted.value(row).mignitude() <= vanishes_within * slope;
+    }
+    if (!vanishes) return false;
+  }
+  return true;
+}
+
+/// What touches a cell in which |A| may vanish, over a few others, is open for that reason; a curve that stays open
+/// farther on is for another. `settled`: such cells that are known but for |A|.
+void spread_singularity(std::vector<UndecidedCell>& cells, const std::vector<Cell>& settled) {
+  constexpr int most_between = 4;
+  const auto touch = [](const Cell& a, const Cell& b) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (disjoint(a[i], b[i])) return false;
+    return true;
+  };
+  std::vector<std::pair<std::size_t, int>> reached;  // and over how many others
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    UndecidedCell& own = cells[c];
+    own.near_singularity = own.near_singularity || std::any_of(settled.begin(), settled.end(), [&](const Cell& other) {
+                             return touch(own.cell, other);
+                           });
+    if (own.near_singularity) reached.emplace_back(c, 0);
+  }
+  for (std::size_t next = 0; next < reached.size(); ++next)
+    for (std::size_t c = 0; c < cells.size() && reached[next].second < most_between; ++c)
+      if (!cells[c].near_singularity && touch(cells[reached[next].first].cell, cells[c].cell)) {
+        cells[c].near_singularity = true;
+        reached.emplace_back(c, reached[next].second + 1);
+      }
+}
+
+Cell box_of(const core::LocusProblem& problem) {
+  Cell box;
+  for (std::size_t i = 0; i < 3; ++i)
+    box[i] = Interval(core::to_double(problem.lower[i]), core::to_double(problem.upper[i]));
+  return box;
+}
+
+/// What the searches for curves and for points have in common.
+class Search {
+ public:
+  Search(const core::LocusProblem& problem, const core::WorkingMode& mode, const Equations& equations,
+         const SearchLimits& limits)
+      : problem_(problem), limits_(limits), lifted_(problem, mode, functions_of(equations)) {
+    for (std::size_t i = 0; i < equations.system.size(); ++i) system_.push_back(i);
+    first_determinant_ = equations.system.size() + equations.also.size();
+    box_ = box_of(problem);
+    limits_.most_cells = std::min(limits_.most_cells, std::lround(most_work / (1 + lifted_.instructions())));
+  }
+
+ protected:
+  static std::vector<sheet::SheetFunction> functions_of(const Equations& equations) {
+    std::vector<sheet::SheetFunction> all = equations.system;
+    all.insert(all.end(), equations.also.begin(), equations.also.end());
+    all.insert(all.end(), equations.determinant.begin(), equations.determinant.end());
+    return all;
+  }
+
+  /// Looks at the first cells of a queue, side by side.
+  void look_at(std::deque<OpenCell>& queue) {
+    std::vector<Cell> cells;
+    for (std::size_t i = 0; i < std::min(queue.size(), sheet::IntervalBatch::size); ++i) cells.push_back(queue[i].cell);
+    const auto excludes = [&](const std::vector<Interval>& values) {
+      for (std::size_t row = 0; row < values.size(); ++row)
+        if (!is_determinant(row) && values[row].sign() != 0) return true;
+      return false;
+    };
+    std::vector<LiftedLook> looks =
+        lifted_.look_at(cells, [&](const std::vector<Interval>& values) { return !excludes(values); });
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (++cells_ % asked_every == 0 && limits_.stop && limits_.stop())
+        throw core::LimitReached("the time limit was reached");
+      OpenCell& own = queue[i];
+      own.empty = looks[i].slopes.empty();
+      if (!own.empty) judge(looks[i], own);
+      own.look = std::make_shared<const LiftedLook>(std::move(looks[i]));
+    }
+  }
+
+  /// Whether there is no zero in a cell, and whether |A| may vanish in it.
+  void judge(const LiftedLook& look, OpenCell& own) {
+    lifted_.take(look);
+    own.empty = true;
+    bool any = false;
+    for (std::size_t row = 0; row < lifted_.rows(); ++row) {
+      const bool excluded = look.values[row].sign() != 0 || excludes_zero(lifted_, row, look.box, look.at_middle);
+      if (is_determinant(row))
+        any = any || !excluded;
+      else if (excluded)
+        return;
+    }
+    const std::vector<std::size_t> all = equations();
+    for (const std::size_t row : all) {
+      std::vector<std::size_t> others = all;
+      std::erase(others, row);
+      if (excludes_zero_with(lifted_, row, others, look.box, look.at_middle)) return;
+    }
+    own.empty = false;
+    own.singular = any && !excludes_singularity(look, all);
+  }
+
+  /// No factor of |A| vanishes where the equations do.
+  bool excludes_singularity(const LiftedLook& look, const std::vector<std::size_t>& all) {
+    for (std::size_t row = first_determinant_; row < static_cast<std::size_t>(lifted_.functions()); ++row)
+      if (look.values[row].sign() == 0 && !excludes_zero_with(lifted_, row, all, look.box, look.at_middle))
+        return false;
+    return true;
+  }
+
+  /// Cuts the box until `settle` says of every cell that is left, with its box and whether |A| may vanish in it, that
+  /// it is known. Cells in which |A| may vanish come last: they may be many.
+  template <class Result, class Settle>
+  void search(Result& result, const Settle& settle) {
+    std::deque<OpenCell> regular = {{box_, 0}}, singular;
+    long looked_at[2] = {0, 0};
+    while (!regular.empty() || !singular.empty()) {
+      const bool late = regular.empty();
+      std::deque<OpenCell>& from = late ? singular : regular;
+      if (!from.front().look) look_at(from);
+      OpenCell own = std::move(from.front());
+      from.pop_front();
+      if (own.empty) continue;
+      if (own.singular && !late && own.depth >= limits_.least_depth) {
+        singular.push_back(std::move(own));
+        continue;
+      }
+      lifted_.take(*own.look);
+      if (settle(own, own.look->box, own.singular)) continue;
+      const bool spent = ++looked_at[late ? 1 : 0] > (late ? limits_.most_cells / 2 : limits_.most_cells);
+      if (own.depth >= limits_.most_depth || spent) {
+        result.undecided.push_back({own.cell, own.singular});
+        result.gave_up = result.gave_up || (spent && !late);
+        continue;
+      }
+      cut(own, late && own.singular ? singular : regular);
+    }
+    if (!result.gave_up) spread_singularity(result.undecided, settled_singular_);
+  }
+
+  bool is_determinant(std::size_t row) const {
+    return row >= first_determinant_ && row < static_cast<std::size_t>(lifted_.functions());
+  }
+
+  /// The system's rows and those of the lifted roots.
+  std::vector<std::size_t> equations() const {
+    std::vector<std::size_t> rows = system_;
+    for (auto row = static_cast<std::size_t>(lifted_.functions()); row < lifted_.rows(); ++row) rows.push_back(row);
+    return rows;
+  }
+
+  void cut(const OpenCell& open, std::deque<OpenCell>& to) const {
+    std::array<double, 3> at{};
+    for (std::size_t i = 0; i < 3; ++i) at[i] = open.cell[i].lower() + cut_at[i] * open.cell[i].width();
+    for (int child = 0; child < 8; ++child) {
+      OpenCell own{open.cell, open.depth + 1};
+      for (std::size_t i = 0; i < 3; ++i)
+        own.cell[i] =
+            (child >> i & 1) == 0 ? Interval(open.cell[i].lower(), at[i]) : Interval(at[i], open.cell[i].upper());
+      to.push_back(own);
+    }
+  }
+
+  /// Zeros of a square system over a part of the cell lifted last; empty where that stays open. `range`: what they have
+  /// to lie in.
+  std::optional<std::vector<LiftedBox>> zeros(const Square& system, const LiftedBox& range) {
+    std::vector<LiftedBox> found, open = {range};
+    for (int pieces = 0; !open.empty(); ++pieces) {
+      if (pieces > most_pieces) return std::nullopt;
+      LiftedBox box = std::move(open.back());
+      open.pop_back();
+      if (has_none(system, box)) continue;
+      LiftedBox wide = box, image;
+      for (const std::size_t d : system.free) wide[d] = widened(box[d]);
+      Zeros count = krawczyk(lifted_, system, wide, image);
+      if (count == Zeros::none) continue;
+      if (count == Zeros::unique) {
+        const LiftedBox zero = narrowed(lifted_, system, image);
+        const std::optional<bool> is_in = lies_within(zero, range, system.free);
+        if (!is_in) return std::nullopt;
+        if (*is_in && std::none_of(found.begin(), found.end(), [&](const auto& own) { return same(own, zero); }))
+          found.push_back(zero);
+        continue;
+      }
+      // The widest in comparison with the range.
+      std::size_t widest = system.free.front();
+      double most = 0;
+      for (const std::size_t d : system.free)
+        if (const double part = box[d].width() / range[d].width(); part > most) most = part, widest = d;
+      LiftedBox other = box;
+      const double at = box[widest].lower() + cut_at[0] * box[widest].width();
+      box[widest] = Interval(box[widest].lower(), at);
+      other[widest] = Interval(at, other[widest].upper());
+      open.push_back(std::move(other));
+      open.push_back(std::move(box));
+    }
+    return found;
+  }
+
+  bool has_none(const Square& system, const LiftedBox& box) {
+    if (!lifted_.enter(box)) return false;
+    for (const std::size_t row : system.rows)
+      if (lifted_.value(row).sign() != 0) return true;
+    const std::vector<Interval> at_middle = values_at(lifted_, middle_of(box));
+    if (at_middle.empty()) return false;
+    lifted_.enter(box);
+    lifted_.differentiate();
+    return std::any_of(system.rows.begin(), system.rows.end(),
+                       [&](std::size_t row) { return excludes_zero(lifted_, row, box, at_middle); });
+  }
+
+  /// On a side of the box itself, to rounding, counts as inside.
+  std::optional<bool> lies_within(const LiftedBox& zero, const LiftedBox& range,
+                                  const std::vector<std::size_t>& free) const {
+    bool open = false;
+    for (const std::size_t d : free) {
+      const std::optional<bool> own = lies_in(zero[d], range[d]);
+      if (own && !*own) return false;
+      const bool on_side = d < 3 && (zero[d].contains(box_[d].lower()) || zero[d].contains(box_[d].upper()));
+      open = open || (!own && !on_side);
+    }
+    if (open) return std::nullopt;
+    return true;
+  }
+
+  bool same(const LiftedBox& a, const LiftedBox& b) const {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (std::abs(a[i].middle() - b[i].middle()) > one_zero * box_[i].width()) return false;
+    return true;
+  }
+
+  const core::LocusProblem& problem_;
+  SearchLimits limits_;
+  LiftedCell lifted_;
+  std::vector<std::size_t> system_;
+  std::size_t first_determinant_ = 0;
+  Cell box_;
+  long cells_ = 0;
+  std::vector<Cell> settled_singular_;
+};
+
+class PointSearch : public Search {
+ public:
+  using Search::Search;
+
+  FoundPoints run() {
+    FoundPoints result;
+    search(result, [&](const OpenCell& open, const LiftedBox& box, bool singular) {
+      if (singular || open.depth == 0) return false;
+      Square system{equations(), {}};
+      for (std::size_t d = 0; d < box.size(); ++d) system.free.push_back(d);
+      LiftedBox wide, image;
+      for (const Interval& range : box) wide.push_back(widened(range));
+      const Zeros count = krawczyk(lifted_, system, wide, image);
+      if (count == Zeros::unique) add(narrowed(lifted_, system, image), box, result);
+      return count != Zeros::unknown;
+    });
+    return result;
+  }
+
+ private:
+  void add(const LiftedBox& zero, const LiftedBox& box, FoundPoints& result) {
+    for (std::size_t d = 0; d < box.size(); ++d)
+      if (disjoint(zero[d], box[d])) return;
+    // Of two cells that share a side either may have it; on a side of the box, to rounding, it counts as inside.
+    ChartPoint point;
+    for (std::size_t i = 0; i < 3; ++i) {
+      point.at[i] = zero[i].middle();
+      if (disjoint(zero[i], box_[i])) return;
+    }
+    for (const ChartPoint& known : result.points) {
+      bool equal = true;
+      for (std::size_t i = 0; i < 3; ++i)
+        equal = equal && std::abs(known.at[i] - point.at[i]) <= one_zero * box_[i].width();
+      if (equal) return;
+    }
+    result.points.push_back(point);
+  }
+};
+
+/// A cell in which the curve is known.
+struct CurveCell {
+  Cell cell;
+  std::size_t parameter = 0;
+  bool singular = false;
+  std::vector<Crossing> crossings;  ///< by the parameter; two and two bound a stretch
+};
+
+class CurveSearch : public Search {
+ public:
+  using Search::Search;
+
+  FoundCurves run() {
+    search(result_, [&](const OpenCell& open, const LiftedBox& box, bool singular) {
+      // Where |A| vanishes too, cells are small before that is left open.
+      constexpr int singular_depth = 8;
+      if (open.depth < (singular ? singular_depth : limits_.least_depth)) return false;
+      std::optional<CurveCell> cell = solved(open.cell, box);
+      if (!cell) return false;
+      cell->singular = singular;
+      if (singular) settled_singular_.push_back(open.cell);
+      if (!cell->crossings.empty()) found_.push_back(std::move(*cell));
+      return true;
+    });
+    string_together();
+    return std::move(result_);
+  }
+
+ private:
+  /// The curve in a cell that was examined last; nothing where it is not told.
+  std::optional<CurveCell> solved(const Cell& cell, const LiftedBox& box) {
+    CurveCell result{cell, 0, false, {}};
+    const std::vector<std::size_t> rows = equations();
+    const std::optional<std::size_t> parameter = parameter_of(lifted_, rows, box);
+    if (!parameter) return std::nullopt;
+    result.parameter = *parameter;
+    for (std::size_t face = 0; face < box.size(); ++face)
+      for (const bool upper : {false, true}) {
+        double at = upper ? box[face].upper() : box[face].lower();
+        if (face >= 3) {
+          // Of a root the side at 0 is the workspace boundary; at the other the square is at its largest.
+          if (at != 0) continue;
+          at = 0;
+        }
+        LiftedBox range = box;
+        range[face] = Interval(at);
+        Square system{rows, {}};
+        for (std::size_t d = 0; d < box.size(); ++d)
+          if (d != face) system.free.push_back(d);
+        const auto own = zeros(system, range);
+        if (!own) return std::nullopt;
+        for (const LiftedBox& zero : *own) {
+          Crossing crossing;
+          for (const Interval& d : zero) crossing.at.push_back(d.middle());
+          if (face >= 3)
+            crossing.end = core::ArcEnd::boundary;
+          else if (at == (upper ? box_[face].upper() : box_[face].lower()))
+            crossing.end = core::ArcEnd::box;
+          result.crossings.push_back(std::move(crossing));
+        }
+      }
+    std::sort(result.crossings.begin(), result.crossings.end(),
+              [&](const Crossing& a, const Crossing& b) { return a.at[*parameter] < b.at[*parameter]; });
+    // On an edge of the box both of its faces have the crossing.
+    const auto same_place = [&](const Crossing& a, const Crossing& b) {
+      for (std::size_t i = 0; i < 3; ++i)
+        if (std::abs(a.at[i] - b.at[i]) > one_zero * box_[i].width()) return false;
+      return a.end == core::ArcEnd::box && b.end == core::ArcEnd::box;
+    };
+    result.crossings.erase(std::unique(result.crossings.begin(), result.crossings.end(), same_place),
+                           result.crossings.end());
+    if (result.crossings.size() % 2 != 0) return std::nullopt;
+    return result;
+  }
+
+  // ---- Pieces strung together
+
+  struct Node {
+    Place at{};
+    core::ArcEnd end = core::ArcEnd::none;
+    std::vector<std::size_t> stretches;
+  };
+  struct Stretch {
+    std::size_t cell = 0, crossing = 0;  ///< and the next
+    std::array<std::size_t, 2> nodes{};
+  };
+
+  std::size_t node_at(const Crossing& crossing) {
+    const Place at = {crossing.at[0], crossing.at[1], crossing.at[2]};
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      bool equal = true;
+      for (std::size_t i = 0; i < 3; ++i)
+        equal = equal && std::abs(nodes_[n].at[i] - at[i]) <= one_zero * box_[i].width();
+      if (equal) return n;
+    }
+    nodes_.push_back({at, crossing.end, {}});
+    return nodes_.size() - 1;
+  }
+
+  void string_together() {
+    for (std::size_t c = 0; c < found_.size(); ++c)
+      for (std::size_t p = 0; p + 1 < found_[c].crossings.size(); p += 2) {
+        Stretch stretch{c, p, {node_at(found_[c].crossings[p]), node_at(found_[c].crossings[p + 1])}};
+        for (const std::size_t node : stretch.nodes) nodes_[node].stretches.push_back(stretches_.size());
+        stretches_.push_back(stretch);
+      }
+    used_.assign(stretches_.size(), false);
+    // Open ones from their ends, then what is left closes.
+    for (std::size_t n = 0; n < nodes_.size(); ++n)
+      if (nodes_[n].stretches.size() != 2)
+        for (const std::size_t stretch : nodes_[n].stretches)
+          if (!used_[stretch]) follow(stretch, n);
+    for (std::size_t p = 0; p < stretches_.size(); ++p)
+      if (!used_[p]) follow(p, stretches_[p].nodes[0]);
+  }
+
+  void follow(std::size_t stretch, std::size_t from) {
+    ChartArc arc;
+    arc.certified = true;
+    arc.points = {nodes_[from].at};
+    std::size_t node = from;
+    while (true) {
+      used_[stretch] = true;
+      const Stretch& own = stretches_[stretch];
+      const CurveCell& cell = found_[own.cell];
+      const bool forwards = own.nodes[0] == node;
+      const Crossing &first = cell.crossings[own.crossing + (forwards ? 0 : 1)],
+                     &last = cell.crossings[own.crossing + (forwards ? 1 : 0)];
+      add_vertices(cell, first.at, last.at, 0, arc.points);
+      arc.certified = arc.certified && !cell.singular;
+      node = own.nodes[forwards ? 1 : 0];
+      arc.points.push_back(nodes_[node].at);
+      const std::vector<std::size_t>& here = nodes_[node].stretches;
+      if (node == from || here.size() != 2) break;
+      const std::size_t next = here[0] == stretch ? here[1] : here[0];
+      if (used_[next]) break;
+      stretch = next;
+    }
+    arc.closed = node == from && nodes_[from].stretches.size() == 2;
+    if (!arc.closed) {
+      arc.ends = {end_at(from), end_at(node)};
+      for (const std::size_t n : {from, node})
+        arc.certified = arc.certified && nodes_[n].end != core::ArcEnd::none && nodes_[n].stretches.size() == 1;
+    }
+    if (!is_singular(arc)) cut_at_singularity(std::move(arc));
+  }
+
+  std::vector<double> determinants_at(const Place& at) {
+    std::vector<double> values;
+    const std::optional<LiftedBox> box = lifted_.lift({Interval(at[0]), Interval(at[1]), Interval(at[2])});
+    if (!box || !lifted_.enter(*box)) return values;
+    for (std::size_t row = first_determinant_; row < static_cast<std::size_t>(lifted_.functions()); ++row)
+      values.push_back(lifted_.value(row).middle());
+    return values;
+  }
+
+  /// Between two points where a factor of |A| has opposite signs: where it vanishes, by Newton's method from between.
+  Place where_singular(std::size_t factor, const Place& from, double before, const Place& to, double behind) {
+    Place at{};
+    const double part = before / (before - behind);
+    for (std::size_t i = 0; i < 3; ++i) at[i] = from[i] + part * (to[i] - from[i]);
+    const std::optional<LiftedBox> start = lifted_.lift({Interval(at[0]), Interval(at[1]), Interval(at[2])});
+    if (!start) return at;
+    LiftedBox box = *start;
+    Square system{equations(), {}};
+    system.rows.push_back(first_determinant_ + factor);
+    for (std::size_t d = 0; d < box.size(); ++d) system.free.push_back(d);
+    constexpr int steps = 6;
+    for (int step = 0; step < steps; ++step) {
+      const std::optional<std::vector<double>> moved = newton(lifted_, system, box);
+      if (!moved) return at;
+      for (std::size_t d = 0; d < box.size(); ++d) box[d] = Interval((*moved)[d]);
+    }
+    Place found{};
+    double apart = 0, way = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      found[i] = box[i].middle();
+      apart += std::abs(found[i] - at[i]);
+      way += std::abs(to[i] - from[i]);
+    }
+    return apart <= way ? found : at;
+  }
+
+  /// Where |A| changes its sign the force has no limit: arcs end there.
+  void cut_at_singularity(ChartArc arc) {
+    std::vector<ChartArc> parts = {arc};
+    parts.back().points = {arc.points.front()};
+    std::vector<double> before = determinants_at(arc.points.front());
+    for (std::size_t p = 1; p < arc.points.size(); ++p) {
+      const std::vector<double> behind = determinants_at(arc.points[p]);
+      for (std::size_t f = 0; f < before.size() && f < behind.size(); ++f) {
+        if (!(before[f] * behind[f] < 0)) continue;
+        const Place at = where_singular(f, arc.points[p - 1], before[f], arc.points[p], behind[f]);
+        parts.back().points.push_back(at);
+        parts.back().ends[1] = core::ArcEnd::direct_singularity;
+        parts.push_back({false, {core::ArcEnd::direct_singularity, arc.ends[1]}, arc.certified, {at}});
+        break;
+      }
+      parts.back().points.push_back(arc.points[p]);
+      before = behind;
+    }
+    if (arc.closed && parts.size() > 1) {
+      // The last goes on where the first began.
+      ChartArc& last = parts.back();
+      last.points.insert(last.points.end(), parts.front().points.begin() + 1, parts.front().points.end());
+      last.ends[1] = parts.front().ends[1];
+      parts.erase(parts.begin());
+    }
+    for (ChartArc& part : parts) {
+      part.closed = arc.closed && parts.size() == 1 && part.ends[0] == core::ArcEnd::none;
+      result_.arcs.push_back(std::move(part));
+    }
+  }
+
+  core::ArcEnd end_at(std::size_t node) const {
+    if (nodes_[node].end != core::ArcEnd::none) return nodes_[node].end;
+    const Place& at = nodes_[node].at;
+    for (const UndecidedCell& own : result_.undecided) {
+      bool touches = own.near_singularity;
+      for (std::size_t i = 0; i < 3; ++i)
+        touches = touches && !disjoint(own.cell[i], Interval(at[i] - one_zero * box_[i].width(),
+                                                             at[i] + one_zero * box_[i].width()));
+      if (touches) return core::ArcEnd::direct_singularity;
+    }
+    return core::ArcEnd::none;
+  }
+
+  /// |A| vanishes all along: the reactions have no limit there.
+  bool is_singular(const ChartArc& arc) {
+    return one_vanishes_along(lifted_, first_determinant_, static_cast<std::size_t>(lifted_.functions()), box_,
+                              arc.points);
+  }
+
+  /// Between two points of one stretch: halved along its parameter until the chords are close enough.
+  void add_vertices(const CurveCell& cell, const std::vector<double>& from, const std::vector<double>& to, int depth,
+                    std::vector<Place>& points) {
+    constexpr int most_halvings = 10;
+    if (depth >= most_halvings) return;
+    const std::optional<std::vector<double>> middle = between(cell, from, to);
+    if (!middle) return;
+    const Place a = placed(problem_, {from[0], from[1], from[2]}), b = placed(problem_, {to[0], to[1], to[2]}),
+                own = placed(problem_, {(*middle)[0], (*middle)[1], (*middle)[2]});
+    double along = 0, length = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      along += (own[i] - a[i]) * (b[i] - a[i]);
+      length += (b[i] - a[i]) * (b[i] - a[i]);
+    }
+    double off = 0;
+    const double t = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double d = own[i] - a[i] - t * (b[i] - a[i]);
+      off += d * d;
+    }
+    if (std::sqrt(off) <= limits_.tolerance) return;
+    add_vertices(cell, from, *middle, depth + 1, points);
+    points.push_back({(*middle)[0], (*middle)[1], (*middle)[2]});
+    add_vertices(cell, *middle, to, depth + 1, points);
+  }
+
+  /// The point half way along the parameter, by Newton's method in the cell.
+  std::optional<std::vector<double>> between(const CurveCell& cell, const std::vector<double>& from,
+                                             const std::vector<double>& to) {
+    const std::optional<LiftedBox> range = lifted_.lift(cell.cell);
+    if (!range) return std::nullopt;
+    LiftedBox at;
+    for (std::size_t d = 0; d < from.size(); ++d) at.emplace_back(0.5 * (from[d] + to[d]));
+    Square system{equations(), {}};
+    for (std::size_t d = 0; d < at.size(); ++d)
+      if (d != cell.parameter) system.free.push_back(d);
+    constexpr int most_steps = 20;
+    for (int step = 0; step < most_steps; ++step) {
+      LiftedBox image;
+      if (!newton_step(system, at, image)) return std::nullopt;
+      double moved = 0;
+      for (const std::size_t d : system.free) {
+        moved = std::max(moved, std::abs(image[d].middle() - at[d].middle()) / (*range)[d].width());
+        if (!widened((*range)[d]).contains(image[d].middle())) return std::nullopt;
+      }
+      at = image;
+      constexpr double settled = 1e-11;
+      if (moved < settled) {
+        std::vector<double> result;
+        for (const Interval& d : at) result.push_back(d.middle());
+        return result;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Krawczyk's operator on a point is Newton's step.
+  bool newton_step(const Square& system, const LiftedBox& at, LiftedBox& next) {
+    const std::optional<std::vector<double>> moved = newton(lifted_, system, at);
+    if (!moved) return false;
+    next = at;
+    for (std::size_t i = 0; i < system.free.size(); ++i) next[system.free[i]] = Interval((*moved)[i]);
+    return true;
+  }
+
+  std::vector<CurveCell> found_;
+  std::vector<Node> nodes_;
+  std::vector<Stretch> stretches_;
+  std::vector<bool> used_;
+  FoundCurves result_;
+};
+
+}  // namespace
+
+Place placed(const core::LocusProblem& problem, const Place& variables) {
+  Place place = variables;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (i < problem.charts.size() && problem.charts[i]) place[i] = core::angle_at(*problem.charts[i], variables[i]);
+  return place;
+}
+
+FoundCurves find_curves(const core::LocusProblem& problem, const core::WorkingMode& mode, const Equations& equations,
+                        const SearchLimits& limits) {
+  core::ensure(equations.system.size() == 2, "a curve of two equations");
+  return CurveSearch(problem, mode, equations, limits).run();
+}
+
+bool vanishes_along(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                    const sheet::SheetFunction& function, const ChartArc& arc) {
+  LiftedCell lifted(problem, mode, {function});
+  return one_vanishes_along(lifted, 0, 1, box_of(problem), arc.points);
+}
+
+FoundPoints find_points(const core::LocusProblem& problem, const core::WorkingMode& mode, const Equations& equations,
+                        const SearchLimits& limits) {
+  core::ensure(equations.system.size() == 3, "points of three equations");
+  return PointSearch(problem, mode, equations, limits).run();
+}
+
+}  // namespace clearloci::loci::space

@@ -1,0 +1,429 @@
+#include "loci/tasks/design_proof.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <queue>
+
+namespace clearloci::loci {
+namespace {
+
+using core::Interval;
+using core::Point2;
+
+/// The finest cells, as a part of the task and of the designs: some hundred spacings of doubles.
+constexpr double finest = 0x1p-44;
+/// What rounding makes of places and distances, as a part of coordinates: a few operations of 2^-53 each, many times
+/// over.
+constexpr double rounding_of_places = 0x1p-46;
+
+double size_of(const TaskRegion& region, double margin) {
+  return std::max({region.upper()[0] - region.lower()[0], region.upper()[1] - region.lower()[1], margin});
+}
+
+/// Doubles place the task and its margin to rounding; a hair more covers it.
+double hair_of(const TaskRegion& region, double margin) {
+  return rounding_of_places *
+         (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
+}
+
+bool out_of_time(const DesignEffort& effort, int cells) {
+  constexpr int between_looks = 64;
+  return effort.deadline && cells % between_looks == 0 && std::chrono::steady_clock::now() >= *effort.deadline;
+}
+
+/// One design of a box. A parameter whose range is but the rounding of one number keeps that range.
+std::vector<Interval> one_of(const std::vector<Interval>& box) {
+  constexpr double roundings = 0x1p-49;
+  std::vector<Interval> one;
+  for (const Interval& range : box) {
+    const bool number = range.width() <= roundings * range.magnitude();
+    one.push_back(number ? range : Interval(std::clamp(range.middle(), range.lower(), range.upper())));
+  }
+  return one;
+}
+
+std::vector<double> middle_of(const std::vector<Interval>& box) {
+  std::vector<double> middle;
+  for (const Interval& range : box) middle.push_back(std::clamp(range.middle(), range.lower(), range.upper()));
+  return middle;
+}
+
+Interval half_of(const Interval& range, bool low) {
+  return low ? Interval(range.lower(), range.middle()) : Interval(range.middle(), range.upper());
+}
+
+}  // namespace
+
+DesignJudge::DesignJudge(const core::TaskConditions& conditions, const core::WorkingMode& mode,
+                         const TaskRegion& region, DesignVariables variables, std::vector<core::LoadBall> balls,
+                         DesignClearances clearances)
+    : cell_(conditions, mode, std::move(balls), clearances.most_displaced),
+      region_(region),
+      variables_(std::move(variables)),
+      clearances_(std::move(clearances)),
+      samples_(region.samples()) {
+  // Corners and middles are where engineers put zeros, and far apart: most designs that fail do so at one of a few.
+  constexpr std::size_t most_samples = 24;
+  if (samples_.size() > most_samples) {
+    core::Polyline some;
+    for (std::size_t i = 0; i < most_samples; ++i) some.push_back(samples_[i * samples_.size() / most_samples]);
+    samples_ = std::move(some);
+  }
+}
+
+DesignCell::State DesignJudge::enter(const Box& box) {
+  in_tower_.assign({box[0], box[1]});
+  const DesignBox parameters(box.begin() + 2, box.end());
+  for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
+    in_tower_.push_back(variables_.enclosure(v, parameters));
+  return cell_.enter(in_tower_, clearances_of(parameters));
+}
+
+std::vector<Interval> DesignJudge::clearances_of(const DesignBox& parameters) const {
+  std::vector<Interval> own;
+  for (std::size_t k = 0; k < clearances_.parameters.size(); ++k) own.push_back(clearances_.enclosure(k, parameters));
+  return own;
+}
+
+int DesignJudge::cut(const Box& box) {
+  const std::vector<double>& spreads = cell_.spreads();
+  std::vector<double> own(box.size(), 0.0);
+  own[0] = spreads[0];
+  own[1] = spreads[1];
+  for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
+    for (const std::size_t p : variables_.parameters[v]) own[2 + p] += spreads[2 + v];
+  const std::vector<double>& of_clearances = cell_.clearance_spreads();
+  for (std::size_t k = 0; k < of_clearances.size(); ++k)
+    for (const std::size_t p : clearances_.parameters[k]) own[2 + p] += of_clearances[k];
+  int best = -1;
+  for (std::size_t c = 0; c < box.size(); ++c)
+    if (box[c].width() > 0 && (best < 0 || own[c] > own[static_cast<std::size_t>(best)])) best = static_cast<int>(c);
+  return best;
+}
+
+std::vector<Interval> DesignJudge::coordinates(const Point2& pose, const std::vector<double>& parameters) const {
+  const DesignBox thin(parameters.begin(), parameters.end());
+  Box own = {Interval(pose[0]), Interval(pose[1])};
+  for (std::size_t v = 0; v < variables_.parameters.size(); ++v) own.push_back(variables_.enclosure(v, thin));
+  return own;
+}
+
+int DesignJudge::sign_at(std::size_t watched, const Point2& pose, const std::vector<double>& parameters) {
+  const DesignCell::State state = cell_.enter(coordinates(pose, parameters));
+  if (state == DesignCell::State::outside || state == DesignCell::State::boundary) return 0;
+  return cell_.sign(watched);
+}
+
+std::optional<DesignFailure> DesignJudge::at(const Point2& pose, const DesignBox& designs, bool one) {
+  if (!one) return looked_at(pose, designs, {});
+  const DesignBox middle = one_of(designs);
+  if (auto found = looked_at(pose, middle, middle_of(designs))) return found;
+  const DesignBox corner = corner_of(pose, designs);
+  return corner.empty() ? std::nullopt : looked_at(pose, corner, middle_of(corner));
+}
+
+/// The corner of the designs towards which, at this pose, what is in doubt gets worse. Empty: nothing is in doubt.
+DesignBox DesignJudge::corner_of(const Point2& pose, const DesignBox& designs) {
+  box_.assign({Interval(pose[0]), Interval(pose[1])});
+  box_.insert(box_.end(), designs.begin(), designs.end());
+  const DesignCell::State state = enter(box_);
+  if (state == DesignCell::State::proven || state == DesignCell::State::outside) return {};
+  const std::vector<int> ways = cell_.downhill();
+  std::vector<int> own(designs.size(), 0);
+  for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
+    for (const std::size_t p : variables_.parameters[v])
+      if (own[p] == 0) own[p] = ways[2 + v];
+  const std::vector<int> of_clearances = cell_.clearances_downhill();
+  for (std::size_t k = 0; k < of_clearances.size(); ++k)
+    for (const std::size_t p : clearances_.parameters[k])
+      if (own[p] == 0) own[p] = of_clearances[k];
+  DesignBox corner = one_of(designs);
+  for (std::size_t p = 0; p < own.size(); ++p)
+    if (corner[p].width() == 0 && own[p] != 0)
+      corner[p] = Interval(own[p] < 0 ? designs[p].lower() : designs[p].upper());
+  return corner;
+}
+
+std::optional<DesignFailure> DesignJudge::looked_at(const Point2& pose, const DesignBox& designs,
+                                                    std::vector<double> middle) {
+  box_.assign({Interval(pose[0]), Interval(pose[1])});
+  box_.insert(box_.end(), designs.begin(), designs.end());
+  using Kind = DesignFailure::Kind;
+  using State = DesignCell::State;
+  const State state = enter(box_);
+  if (state == State::outside) return DesignFailure{Kind::unreachable, -1, pose, middle};
+  if (state == State::boundary) return std::nullopt;
+  if (state != State::proven)
+    if (const int condition = cell_.failed(); condition >= 0)
+      return DesignFailure{Kind::too_small, condition, pose, middle};
+  if (state == State::unmet && cell_.unmet() < 0)
+    if (const auto loads = cell_.displaced_too_far()) {
+      DesignFailure found{Kind::displaced, -1, pose, middle};
+      found.load = loads->t.middle();
+      for (const Interval& own : loads->factors) found.load_factors.push_back(own.middle());
+      return found;
+    }
+  for (std::size_t w = 0; w < cell_.watched(); ++w) {
+    const int sign = cell_.sign(w);
+    if (sign == 0) continue;
+    Seen& own = seen_[static_cast<std::size_t>(cell_.group_of(w))];
+    if (own.sign == 0) own = {pose, middle, sign};
+    if (own.sign == sign) continue;
+    const int condition = cell_.condition_of(w);
+    return DesignFailure{
+        condition < 0 ? Kind::singular : Kind::vanishing, condition, pose, middle, w, own.at, own.parameters};
+  }
+  return std::nullopt;
+}
+
+/// A pose of the box that belongs to the task or its margin.
+std::optional<Point2> DesignJudge::pose_of(const Box& box, double margin) const {
+  const Point2 middle = {box[0].middle(), box[1].middle()}, base = region_.closest(middle);
+  const double far = std::hypot(middle[0] - base[0], middle[1] - base[1]);
+  if (far <= margin * (1 - 1e-9)) return middle;
+  const double part = far > 0 ? (1 - 1e-6) * margin / far : 0.0;  // the very edge of the margin says nothing
+  const Point2 at = {base[0] + part * (middle[0] - base[0]), base[1] + part * (middle[1] - base[1])};
+  if (!box[0].contains(at[0]) || !box[1].contains(at[1])) return std::nullopt;
+  return at;
+}
+
+DesignProof DesignJudge::judge(const DesignBox& designs, double margin, Refuting refuting, const DesignEffort& effort) {
+  DesignProof proof;
+  const bool one = refuting == Refuting::one;
+  seen_.assign(static_cast<std::size_t>(cell_.groups()), Seen{});
+  const auto fails = [&](std::optional<DesignFailure> found) {
+    if (!found) return false;
+    proof.verdict = core::Verdict::refuted;
+    proof.failure = std::move(found);
+    return true;
+  };
+  for (const Point2& pose : samples_)
+    if (fails(at(pose, designs, one))) return proof;
+  const double reach = margin + hair_of(region_, margin);
+  Box whole = {Interval(region_.lower()[0] - reach, region_.upper()[0] + reach),
+               Interval(region_.lower()[1] - reach, region_.upper()[1] + reach)};
+  whole.insert(whole.end(), designs.begin(), designs.end());
+  std::vector<double> least;
+  for (const Interval& range : whole) least.push_back(std::max(finest * range.width(), 0x1p-50 * range.magnitude()));
+  const auto left_open = [&](const Box& box) {
+    const bool first = proof.open++ == 0;
+    for (std::size_t c = 0; c < 2; ++c) {
+      proof.lower[c] = first ? box[c].lower() : std::min(proof.lower[c], box[c].lower());
+      proof.upper[c] = first ? box[c].upper() : std::max(proof.upper[c], box[c].upper());
+    }
+  };
+  int proven = 0, looks = 0;
+  std::deque<Box> open = {whole};
+  while (!open.empty()) {
+    const Box box = std::move(open.front());
+    open.pop_front();
+    if (region_.distance(box[0], box[1]) > reach) continue;
+    proof.out_of_cells = proof.cells >= (proven == 0 ? effort.most_cells_in_vain : effort.most_cells);
+    proof.out_of_time = out_of_time(effort, looks++);
+    if (proof.out_of_cells || proof.out_of_time) {
+      open.push_front(box);
+      break;
+    }
+    ++proof.cells;
+    const DesignCell::State state = enter(box);
+    proof.cells += cell_.parts_of_loads();
+    if (state == DesignCell::State::proven) {
+      ++proven;
+      continue;
+    }
+    int along = cut(box);
+    if (const auto pose = pose_of(box, margin)) {
+      const DesignBox own(box.begin() + 2, box.end());
+      if (fails(at(*pose, one ? own : designs, one))) return proof;
+    }
+    if (along >= 0 && box[static_cast<std::size_t>(along)].width() <= least[static_cast<std::size_t>(along)])
+      along = -1;
+    for (std::size_t c = 0; along < 0 && c < box.size(); ++c)
+      if (box[c].width() > least[c]) along = static_cast<int>(c);
+    if (along < 0) {
+      left_open(box);
+      continue;
+    }
+    const auto c = static_cast<std::size_t>(along);
+    for (const bool low : {true, false}) {
+      Box part = box;
+      part[c] = half_of(box[c], low);
+      open.push_back(std::move(part));
+    }
+  }
+  for (const Box& box : open)
+    if (region_.distance(box[0], box[1]) <= reach) left_open(box);
+  if (proof.open == 0) proof.verdict = core::Verdict::verified;
+  return proof;
+}
+
+double DesignJudge::violation(const DesignBox& designs) {
+  constexpr int along = 8;
+  core::Polyline poses = samples_;
+  for (int i = 0; i <= along; ++i)
+    for (int j = 0; j <= along; ++j)
+      poses.push_back(region_.closest({region_.lower()[0] + (region_.upper()[0] - region_.lower()[0]) * i / along,
+                                       region_.lower()[1] + (region_.upper()[1] - region_.lower()[1]) * j / along}));
+  std::vector<std::array<int, 2>> signs(static_cast<std::size_t>(cell_.groups()), {0, 0});
+  int failed = 0;
+  const DesignBox one = one_of(designs);
+  for (const Point2& pose : poses) {
+    box_.assign({Interval(pose[0]), Interval(pose[1])});
+    box_.insert(box_.end(), one.begin(), one.end());
+    const DesignCell::State state = enter(box_);
+    if (state != DesignCell::State::proven) ++failed;
+    if (state == DesignCell::State::outside || state == DesignCell::State::boundary) continue;
+    for (std::size_t w = 0; w < cell_.watched(); ++w)
+      if (const int sign = cell_.sign(w); sign != 0)
+        ++signs[static_cast<std::size_t>(cell_.group_of(w))][sign > 0 ? 1 : 0];
+  }
+  int minority = 0;
+  for (const auto& own : signs) minority = std::max(minority, std::min(own[0], own[1]));
+  return std::min(1.0, static_cast<double>(failed + minority) / static_cast<double>(poses.size()));
+}
+
+double DesignJudge::clearance(const DesignBox& designs, double from, double limit, double accuracy,
+                              const DesignEffort& effort) {
+  struct Cell {
+    Box box;
+    double distance = 0;
+  };
+  const double size = size_of(region_, 0);
+  const auto farther = [](const Cell& a, const Cell& b) { return a.distance > b.distance; };
+  std::priority_queue<Cell, std::vector<Cell>, decltype(farther)> open(farther);
+  Cell whole{{Interval(region_.lower()[0] - limit, region_.upper()[0] + limit),
+              Interval(region_.lower()[1] - limit, region_.upper()[1] + limit)}};
+  whole.box.insert(whole.box.end(), designs.begin(), designs.end());
+  open.push(std::move(whole));
+  double margin = limit;
+  for (int cells = 0; !open.empty(); ++cells) {
+    Cell cell = open.top();
+    open.pop();
+    if (cell.distance >= limit) break;
+    const double middle = region_.signed_distance({cell.box[0].middle(), cell.box[1].middle()});
+    const double half = 0.5 * std::hypot(cell.box[0].width(), cell.box[1].width());
+    if (middle + half <= from) continue;  // the task's proof has covered it
+    if (enter(cell.box) == DesignCell::State::proven) continue;
+    const int along = cut(cell.box);
+    // Cells differ in how far they are by their extent along x and y alone.
+    if (cells >= effort.most_cells || out_of_time(effort, cells) || along < 0 ||
+        2 * half <= accuracy * std::max(cell.distance, size)) {
+      margin = cell.distance;
+      break;
+    }
+    const auto c = static_cast<std::size_t>(along);
+    for (const bool low : {true, false}) {
+      Cell part = cell;
+      part.box[c] = half_of(cell.box[c], low);
+      part.distance = std::max(cell.distance, region_.distance(part.box[0], part.box[1]));
+      open.push(std::move(part));
+    }
+  }
+  return std::max(from, margin - hair_of(region_, limit));
+}
+
+Interval DesignJudge::least_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
+                                 const DesignEffort& effort) {
+  const auto size = [&] {
+    Interval all = cell_.size_of(conditions.front(), true);
+    for (const int condition : conditions) {
+      const Interval own = cell_.size_of(condition, true);
+      all = Interval(std::min(all.lower(), own.lower()), std::min(all.upper(), own.upper()));
+    }
+    return all;
+  };
+  return extreme(designs, size, accuracy, effort, true);
+}
+
+Interval DesignJudge::greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
+                                    const DesignEffort& effort) {
+  const auto size = [&] {
+    Interval all = 0.0;
+    for (const int condition : conditions) {
+      const Interval own = cell_.size_of(condition, false);
+      all = Interval(std::max(all.lower(), own.lower()), std::max(all.upper(), own.upper()));
+    }
+    return all;
+  };
+  return extreme(designs, size, accuracy, effort, false);
+}
+
+Interval DesignJudge::greatest_displacement(const DesignBox& designs, double accuracy, const DesignEffort& effort) {
+  const auto size = [&] {
+    const Interval own = cell_.displacement();
+    cell_.doubt_displacement();
+    return own;
+  };
+  // Loads that differ are looked at part by part in every cell.
+  DesignEffort own = effort;
+  if (cell_.has_many_loads()) own.most_cells /= 20;
+  return extreme(designs, size, accuracy, own, false);
+}
+
+/// Best first: the bound of the best cell against the best value at a pose.
+Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Interval()>& size, double accuracy,
+                              const DesignEffort& effort, bool least) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  struct Cell {
+    Box box;
+    double bound = 0;  ///< of what is to be made least: the size, or what it is short of nothing
+    int along = -1;    ///< the coordinate to cut, where that is known
+  };
+  const double sign = least ? 1.0 : -1.0;
+  double known = infinity;  // some pose's
+  const auto over = [&](const Box& box) -> std::optional<Interval> {
+    const DesignCell::State state = enter(box);
+    if (state == DesignCell::State::boundary || state == DesignCell::State::singular) return std::nullopt;
+    if (state == DesignCell::State::outside) return std::nullopt;
+    return size();
+  };
+  const auto look = [&](const Point2& pose, const DesignBox& some) {
+    Box box = {Interval(pose[0]), Interval(pose[1])};
+    const DesignBox one = one_of(some);
+    box.insert(box.end(), one.begin(), one.end());
+    if (const auto here = over(box)) known = std::min(known, sign * (least ? here->upper() : here->lower()));
+  };
+  for (const Point2& pose : samples_) look(pose, designs);
+  const auto worse = [](const Cell& a, const Cell& b) { return a.bound > b.bound; };
+  std::priority_queue<Cell, std::vector<Cell>, decltype(worse)> open(worse);
+  Cell whole{{Interval(region_.lower()[0], region_.upper()[0]), Interval(region_.lower()[1], region_.upper()[1])},
+             -infinity};
+  whole.box.insert(whole.box.end(), designs.begin(), designs.end());
+  open.push(std::move(whole));
+  double bound = known;
+  for (int cells = 0; !open.empty(); ++cells) {
+    const Cell cell = open.top();
+    bound = std::min(cell.bound, known);
+    if (cells >= effort.most_cells || out_of_time(effort, cells) || known - cell.bound <= accuracy * std::abs(known))
+      break;
+    open.pop();
+    bound = known;
+    // Where nothing says better, what is widest as a part of the whole.
+    const bool along_x = cell.box[0].width() >= cell.box[1].width();
+    std::size_t c = along_x ? 0 : 1;
+    double widest = cell.box[c].width() / std::max(region_.upper()[c] - region_.lower()[c], 1e-300);
+    for (std::size_t k = 2; k < cell.box.size(); ++k) {
+      const double part = designs[k - 2].width() > 1e-12 * designs[k - 2].magnitude()
+                              ? cell.box[k].width() / designs[k - 2].width()
+                              : 0.0;
+      if (part > widest) widest = part, c = k;
+    }
+    if (cell.along >= 0) c = static_cast<std::size_t>(cell.along);
+    for (const bool low : {true, false}) {
+      Cell part = cell;
+      part.box[c] = half_of(cell.box[c], low);
+      if (region_.distance(part.box[0], part.box[1]) > 0) continue;
+      const auto own = over(part.box);
+      part.along = own && cell_.doubts_displacement() ? cut(part.box) : -1;
+      part.bound = std::max(cell.bound, own ? sign * (least ? own->lower() : own->upper()) : -infinity);
+      if (const auto pose = pose_of(part.box, 0)) look(*pose, DesignBox(part.box.begin() + 2, part.box.end()));
+      if (part.bound < known) open.push(std::move(part));
+    }
+  }
+  return least ? Interval(std::max(0.0, bound), known) : Interval(-known, -bound);
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,330 @@
+#include "loci/tasks/pose_region.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace clearloci::loci::pose {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Doubles place the task to rounding; a hair more covers it. As a part of its size.
+constexpr double hair_of_size = 1e-12;
+/// Sums and roots of distances are known to this part.
+constexpr double below = 1 - 1e-12;
+constexpr std::size_t most_corners = 64, more_samples = 96;
+
+Pose rounded(const core::RationalPose& pose) {
+  Pose own;
+  for (const core::Rational& value : pose) own.push_back(core::to_double(value));
+  return own;
+}
+
+/// From an interval to another, 0 where they meet.
+double gap(double low, double high, double from, double to) { return std::max({0.0, from - high, low - to}); }
+
+/// The i-th number of the sequence of van der Corput in a base.
+double spread(std::size_t i, std::size_t base) {
+  double value = 0, part = 1;
+  for (; i > 0; i /= base) {
+    part /= static_cast<double>(base);
+    value += part * static_cast<double>(i % base);
+  }
+  return value;
+}
+
+Solid::Point point_of(const Pose& pose) { return {pose[0], pose[1], pose[2]}; }
+Pose pose_of(const Solid::Point& point) { return {point.begin(), point.end()}; }
+
+/// Poses in a solid, the one nearest to its middle first, and corners of its surface.
+std::vector<Pose> samples_in(const Solid& solid) {
+  constexpr std::size_t most_tried = 2048;
+  constexpr std::array<std::size_t, 3> bases = {2, 3, 5};
+  const auto& [low, high] = solid.bounds();
+  std::vector<Pose> inside;
+  std::vector<double> off;
+  for (std::size_t i = 1; i <= most_tried && inside.size() < more_samples; ++i) {
+    Solid::Point at{};
+    double from_middle = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double part = spread(i, bases[c]);
+      at[c] = low[c] + part * (high[c] - low[c]);
+      from_middle += (part - 0.5) * (part - 0.5);
+    }
+    if (!solid.holds(at)) continue;
+    inside.push_back(pose_of(at));
+    off.push_back(from_middle);
+  }
+  if (!inside.empty())
+    std::swap(inside.front(), inside[static_cast<std::size_t>(std::min_element(off.begin(), off.end()) - off.begin())]);
+  const std::size_t corners = solid.corners().size(), stride = (corners + most_corners - 1) / most_corners;
+  for (std::size_t i = 0; i < corners; i += stride) inside.push_back(pose_of(solid.corners()[i]));
+  return inside;
+}
+
+}  // namespace
+
+PoseRegion::PoseRegion(const core::PoseShape& shape, PoseMetric metric) : metric_(std::move(metric)) {
+  if (const auto* box = std::get_if<core::PoseBoxShape>(&shape)) {
+    lower_ = rounded(box->lower);
+    upper_ = rounded(box->upper);
+  } else if (const auto* ball = std::get_if<core::PoseBallShape>(&shape)) {
+    kind_ = Kind::ball;
+    centre_ = rounded(ball->centre);
+    radius_ = core::to_double(ball->radius);
+    for (std::size_t c = 0; c < centre_.size(); ++c) {
+      lower_.push_back(centre_[c] - radius_ / metric_.weights[c]);
+      upper_.push_back(centre_[c] + radius_ / metric_.weights[c]);
+    }
+  } else if (const auto* mesh = std::get_if<core::PoseMeshShape>(&shape)) {
+    kind_ = Kind::mesh;
+    solid_ = std::make_shared<const Solid>(*mesh);
+    lower_.assign(solid_->bounds().lower.begin(), solid_->bounds().lower.end());
+    upper_.assign(solid_->bounds().upper.begin(), solid_->bounds().upper.end());
+    points_ = samples_in(*solid_);
+  } else {
+    kind_ = Kind::path;
+    for (const core::RationalPose& point : std::get<core::PosePathShape>(shape).points)
+      points_.push_back(rounded(point));
+    lower_ = upper_ = points_.front();
+    for (const Pose& point : points_)
+      for (std::size_t c = 0; c < point.size(); ++c) {
+        lower_[c] = std::min(lower_[c], point[c]);
+        upper_[c] = std::max(upper_[c], point[c]);
+      }
+  }
+  for (std::size_t c = 0; c < lower_.size(); ++c)
+    hair_ = std::max(hair_, hair_of_size * (std::abs(lower_[c]) + std::abs(upper_[c])));
+}
+
+std::vector<PosePiece> PoseRegion::pieces(double margin) const {
+  const std::size_t n = coordinates();
+  const auto reach = [&](std::size_t c) { return hair_ + (metric_.grows[c] ? margin / metric_.weights[c] : 0.0); };
+  std::vector<PosePiece> all;
+  if (kind_ != Kind::path) {
+    PosePiece& piece = all.emplace_back();
+    piece.chart.base.assign(n, 0.0);
+    for (std::size_t c = 0; c < n; ++c) {
+      Pose way(n, 0.0);
+      way[c] = 1;
+      piece.chart.ways.push_back(std::move(way));
+      piece.box.push_back({lower_[c] - reach(c), upper_[c] + reach(c)});
+    }
+    return all;
+  }
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    PosePiece& piece = all.emplace_back();
+    piece.segment = static_cast<int>(i);
+    piece.chart.base = points_[i];
+    Pose along(n);
+    for (std::size_t c = 0; c < n; ++c) along[c] = points_[i + 1][c] - points_[i][c];
+    piece.chart.ways.push_back(std::move(along));
+    piece.box.push_back({0, 1});
+    // The hair is of the path's own rounding: it has no thickness where nothing is asked around it.
+    for (std::size_t c = 0; c < n && margin > 0; ++c) {
+      if (!metric_.grows[c]) continue;
+      Pose way(n, 0.0);
+      way[c] = 1;
+      piece.chart.ways.push_back(std::move(way));
+      piece.box.push_back({-reach(c), reach(c)});
+    }
+  }
+  return all;
+}
+
+double PoseRegion::distance(const PosePiece& piece, const PoseBox& box) const {
+  double square = 0;
+  if (kind_ == Kind::path) {
+    for (std::size_t j = 1; j < box.size(); ++j) {
+      const Pose& way = piece.chart.ways[j];
+      const auto c = static_cast<std::size_t>(std::find(way.begin(), way.end(), 1.0) - way.begin());
+      const double off = metric_.weights[c] * gap(box[j][0], box[j][1], 0, 0);
+      square += off * off;
+    }
+    return below * std::sqrt(square);
+  }
+  if (kind_ == Kind::mesh)
+    return below * solid_->distance({{box[0][0], box[1][0], box[2][0]}, {box[0][1], box[1][1], box[2][1]}});
+  for (std::size_t c = 0; c < box.size(); ++c) {
+    const double off = metric_.weights[c] * (kind_ == Kind::box ? gap(box[c][0], box[c][1], lower_[c], upper_[c])
+                                                                : gap(box[c][0], box[c][1], centre_[c], centre_[c]));
+    if (kind_ == Kind::box && !metric_.grows[c]) continue;
+    square += off * off;
+  }
+  return std::max(0.0, below * std::sqrt(square) - radius_);
+}
+
+double PoseRegion::apart(const Pose& a, const Pose& b) const {
+  double square = 0;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    const double off = metric_.weights[c] * (a[c] - b[c]);
+    // Off a held coordinate there is nothing but the hair.
+    if (!metric_.grows[c] && kind_ != Kind::ball && std::abs(a[c] - b[c]) > 2 * hair_) return infinite;
+    if (metric_.grows[c] || kind_ == Kind::ball) square += off * off;
+  }
+  return std::sqrt(square);
+}
+
+Pose PoseRegion::on_segment(std::size_t segment, double t) const {
+  Pose pose = points_[segment];
+  for (std::size_t c = 0; c < pose.size(); ++c) pose[c] += t * (points_[segment + 1][c] - points_[segment][c]);
+  return pose;
+}
+
+std::pair<std::size_t, double> PoseRegion::foot(const Pose& pose) const {
+  std::pair<std::size_t, double> best{0, 0.0};
+  double least = infinite;
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    double along = 0, length2 = 0;
+    for (std::size_t c = 0; c < pose.size(); ++c) {
+      const double w2 = metric_.weights[c] * metric_.weights[c], way = points_[i + 1][c] - points_[i][c];
+      along += w2 * way * (pose[c] - points_[i][c]);
+      length2 += w2 * way * way;
+    }
+    const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+    const Pose at = on_segment(i, t);
+    double square = 0;
+    for (std::size_t c = 0; c < pose.size(); ++c) square += std::pow(metric_.weights[c] * (pose[c] - at[c]), 2);
+    if (square < least) {
+      least = square;
+      best = {i, t};
+    }
+  }
+  return best;
+}
+
+Pose PoseRegion::closest(const Pose& pose) const {
+  if (kind_ == Kind::path) {
+    const auto [segment, t] = foot(pose);
+    return on_segment(segment, t);
+  }
+  if (kind_ == Kind::mesh) return nearest_in_solid(pose);
+  Pose own = pose;
+  if (kind_ == Kind::box) {
+    for (std::size_t c = 0; c < own.size(); ++c) own[c] = std::clamp(own[c], lower_[c], upper_[c]);
+    return own;
+  }
+  double square = 0;
+  for (std::size_t c = 0; c < own.size(); ++c) square += std::pow(metric_.weights[c] * (own[c] - centre_[c]), 2);
+  const double far = std::sqrt(square);
+  if (far > radius_)
+    for (std::size_t c = 0; c < own.size(); ++c) own[c] = centre_[c] + (own[c] - centre_[c]) * (radius_ / far);
+  return own;
+}
+
+Pose PoseRegion::farthest_along(std::size_t coordinate, double way) const {
+  if (points_.empty()) {
+    Pose own = kind_ == Kind::ball ? centre_ : lower_;
+    for (std::size_t c = 0; c < own.size(); ++c) own[c] += 0.5 * (kind_ == Kind::ball ? 0 : upper_[c] - lower_[c]);
+    own[coordinate] = way > 0 ? upper_[coordinate] : lower_[coordinate];
+    return own;
+  }
+  return *std::max_element(points_.begin(), points_.end(),
+                           [&](const Pose& a, const Pose& b) { return way * a[coordinate] < way * b[coordinate]; });
+}
+
+double PoseRegion::distance(const Pose& pose) const { return apart(pose, closest(pose)); }
+
+Pose PoseRegion::nearest_in_solid(const Pose& pose) const {
+  return solid_->holds(point_of(pose)) ? pose : pose_of(solid_->nearest_of_surface(point_of(pose)));
+}
+
+bool PoseRegion::seems_inside(const Pose& from, const Pose& to) const {
+  constexpr int looks = 24;
+  for (int i = 1; i < looks; ++i) {
+    Pose at = from;
+    for (std::size_t c = 0; c < at.size(); ++c) at[c] += (to[c] - from[c]) * i / looks;
+    if (!solid_->holds(point_of(at))) return false;
+  }
+  return true;
+}
+
+bool PoseRegion::holds_way(const Pose& from, const Pose& to, double margin) const {
+  if (kind_ != Kind::mesh) return true;  // the others are convex, or a way of theirs is
+  double square = 0;
+  for (std::size_t c = 0; c < from.size(); ++c) square += (to[c] - from[c]) * (to[c] - from[c]);
+  const double length = std::sqrt(square), off = distance(from);
+  if (off + length <= margin + hair_) return true;
+  // A ball around `from` that no triangle meets lies in the solid as a whole.
+  if (off > 0) return false;
+  const Pose rim = pose_of(solid_->nearest_of_surface(point_of(from)));
+  return length <= below * apart(from, rim);
+}
+
+std::vector<Pose> PoseRegion::way(const Pose& from, const Pose& to) const {
+  if (kind_ == Kind::mesh) return way_in_solid(from, to);
+  if (kind_ != Kind::path) return {from, to};
+  const auto [first, s] = foot(from);
+  const auto [last, t] = foot(to);
+  std::vector<Pose> way = {from, on_segment(first, s)};
+  for (std::size_t i = first; i < last; ++i) way.push_back(points_[i + 1]);
+  for (std::size_t i = first; i > last; --i) way.push_back(points_[i]);
+  way.push_back(on_segment(last, t));
+  way.push_back(to);
+  return way;
+}
+
+/// From sample to sample that see one another, by as few as can be.
+std::vector<Pose> PoseRegion::way_in_solid(const Pose& from, const Pose& to) const {
+  const Pose first = nearest_in_solid(from), last = nearest_in_solid(to);
+  if (seems_inside(first, last)) return {from, first, last, to};
+  const std::size_t none = points_.size();
+  std::vector<std::size_t> before(points_.size(), none + 1), met;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (seems_inside(first, points_[i])) {
+      before[i] = none;
+      met.push_back(i);
+    }
+  for (std::size_t next = 0; next < met.size(); ++next) {
+    const std::size_t at = met[next];
+    if (seems_inside(points_[at], last)) {
+      std::vector<Pose> way = {to, last};
+      for (std::size_t i = at; i != none; i = before[i]) way.push_back(points_[i]);
+      way.push_back(first);
+      way.push_back(from);
+      std::reverse(way.begin(), way.end());
+      return way;
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (before[i] > none && seems_inside(points_[at], points_[i])) {
+        before[i] = at;
+        met.push_back(i);
+      }
+  }
+  return {};
+}
+
+std::vector<Pose> PoseRegion::samples() const {
+  if (kind_ == Kind::mesh) return points_;
+  std::vector<Pose> all;
+  const std::size_t n = coordinates();
+  if (kind_ == Kind::path) {
+    constexpr std::size_t looks = 16;
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i)
+      for (std::size_t k = 0; k < looks; ++k) all.push_back(on_segment(i, static_cast<double>(k) / looks));
+    all.push_back(points_.back());
+    return all;
+  }
+  const auto inside = [&](const std::vector<double>& part) {
+    Pose pose(n);
+    for (std::size_t c = 0; c < n; ++c) pose[c] = lower_[c] + part[c] * (upper_[c] - lower_[c]);
+    return kind_ == Kind::ball ? closest(pose) : pose;
+  };
+  all.push_back(inside(std::vector<double>(n, 0.5)));
+  for (std::size_t corner = 0; corner < std::min(std::size_t{1} << n, most_corners); ++corner) {
+    std::vector<double> part(n);
+    for (std::size_t c = 0; c < n; ++c) part[c] = static_cast<double>(corner >> c & 1);
+    all.push_back(inside(part));
+  }
+  constexpr std::array<std::size_t, 6> bases = {2, 3, 5, 7, 11, 13};
+  for (std::size_t i = 1; i <= more_samples; ++i) {
+    std::vector<double> part(n);
+    for (std::size_t c = 0; c < n; ++c) part[c] = spread(i, bases[c]);
+    all.push_back(inside(part));
+  }
+  return all;
+}
+
+}  // namespace clearloci::loci::pose

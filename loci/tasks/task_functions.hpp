@@ -1,0 +1,18 @@
+// What proofs over cells of poses (task_cell.hpp) and over boxes of poses and designs (design_cell.hpp) make of a
+// task's conditions.
+#pragma once
+
+#include <vector>
+
+#include "core/task_conditions.hpp"
+#include "loci/numbers/sheet_program.hpp"
+
+namespace clearloci::loci {
+
+/// The functions of the conditions, by their numbers there.
+sheet::SheetProgram program_of(const core::TaskConditions& conditions);
+
+/// Where on the way from a to b the origin is nearest, 0 to 1.
+double nearest_part(const std::vector<double>& a, const std::vector<double>& b);
+
+}  // namespace clearloci::loci

@@ -1,0 +1,428 @@
+#include "loci/tasks/task_proof.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numbers>
+
+#include "loci/tasks/task_cell.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::Interval;
+using core::Point2;
+
+/// How far what is not proven over a cell is from the task.
+struct Reach {
+  double least = 0;                                       ///< at least
+  double most = std::numeric_limits<double>::infinity();  ///< at most, where that is known: at `at`
+  Point2 at{};
+  TaskCell::Judgement what{};
+};
+
+struct Cell {
+  Interval x, y;
+  int depth = 0;
+  double distance = 0;                                ///< at least so far from the task
+  std::optional<TaskCell::Judgement> judgement = {};  ///< where it has been judged ahead of its turn
+  Reach reach = {};                                   ///< then: of what is not proven
+
+  Point2 middle() const { return {x.middle(), y.middle()}; }
+  double width() const { return std::max(x.width(), y.width()); }
+  /// The half nearer to square.
+  std::array<Cell, 2> halves() const {
+    std::array<Cell, 2> parts = {*this, *this};
+    const bool along_x = x.width() >= y.width();
+    const double middle = along_x ? x.middle() : y.middle();
+    (along_x ? parts[0].x : parts[0].y) = Interval((along_x ? x : y).lower(), middle);
+    (along_x ? parts[1].x : parts[1].y) = Interval(middle, (along_x ? x : y).upper());
+    for (Cell& part : parts) {
+      part.depth = depth + 1;
+      part.judgement.reset();
+    }
+    return parts;
+  }
+};
+
+double apart(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+double size_of(const TaskRegion& region, double margin) {
+  return std::max({region.upper()[0] - region.lower()[0], region.upper()[1] - region.lower()[1], margin});
+}
+
+/// Doubles place the task and its margin to rounding; a hair more covers it.
+double hair_of(const TaskRegion& region, double margin) {
+  return 1e-12 * (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
+}
+
+/// The finest cells, as a part of the task: some thousand spacings of doubles.
+constexpr double finest = 1e-11;
+
+bool out_of_time(const TaskEffort& effort, int cells) {
+  constexpr int between_looks = 64;
+  return effort.deadline && cells % between_looks == 0 && std::chrono::steady_clock::now() >= *effort.deadline;
+}
+
+/// Looks for a pose of the task that the witness refutes: poses of cells that were not proven, and places between two
+/// of them where something changes its sign.
+class Refutation {
+ public:
+  Refutation(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+             double margin, const RefutedAt& refuted_at)
+      : point_(conditions, mode),
+        region_(region),
+        margin_(margin),
+        hair_(hair_of(region, margin)),
+        witness_(refuted_at),
+        seen_(point_.watched()),
+        tried_(point_.watched(), std::numeric_limits<double>::infinity()) {}
+
+  /// Of the task itself, before any cell: its corners and the like are where engineers put zeros.
+  bool by_samples() {
+    for (const Point2& at : region_.samples())
+      if (refuted_at(at, true) || crossed(at)) return true;
+    return false;
+  }
+
+  bool by_suspect(const Point2& at) {
+    if (refuted_at(at, true)) return true;
+    // Close enough to be on either side of one curve, far enough for signs to be decided.
+    const double step = 1e-7 * (size_of(region_, margin_) + margin_);
+    for (int i = 0; i < 8; ++i) {
+      const double angle = i * std::numbers::pi / 4;
+      const Point2 near = {at[0] + step * std::cos(angle), at[1] + step * std::sin(angle)};
+      if (crossed(region_.signed_distance(near) <= margin_ ? near : region_.closest(near))) return true;
+    }
+    return false;
+  }
+
+  bool by_cell(const Cell& cell, TaskCell::State state, int condition) {
+    const std::optional<Point2> at = pose_of(cell);
+    if (at && (refuted_at(*at, false) || crossed(*at))) return true;
+    return state == TaskCell::State::unmet && cell.depth % between_steps == 0 && stepped(cell.middle(), condition);
+  }
+
+ private:
+  static constexpr int between_steps = 4, most_steps = 12, most_starts = 400;
+  static constexpr std::size_t remembered = 48;
+
+  /// Only poses of the task, to rounding, or of its margin: one that is as far away as the margin demands is far
+  /// enough.
+  bool refuted_at(const Point2& at, bool closely) const {
+    const double distance = region_.signed_distance(at);
+    const double rounding =
+        0x1p-50 * std::max({std::abs(at[0]), std::abs(at[1]), std::abs(region_.lower()[0]),
+                            std::abs(region_.lower()[1]), std::abs(region_.upper()[0]), std::abs(region_.upper()[1])});
+    return (distance <= rounding || distance < margin_ - hair_) && witness_(at, closely);
+  }
+
+  /// A pose of the cell that belongs to the task or its margin.
+  std::optional<Point2> pose_of(const Cell& cell) const {
+    const Point2 middle = cell.middle(), base = region_.closest(middle);
+    const double far = apart(middle, base);
+    if (far <= margin_) return middle;
+    const double part = (1 - 1e-6) * margin_ / far;  // the very edge of the margin says nothing
+    const Point2 at = {base[0] + part * (middle[0] - base[0]), base[1] + part * (middle[1] - base[1])};
+    if (!cell.x.contains(at[0]) || !cell.y.contains(at[1])) return std::nullopt;
+    return at;
+  }
+
+  /// Whether something has another sign here than at a pose seen before, and the witness refutes a pose between.
+  bool crossed(const Point2& at) {
+    if (!point_.enter(at)) return refuted_at(at, true);
+    std::vector<int> signs;
+    for (std::size_t w = 0; w < seen_.size(); ++w) signs.push_back(point_.sign(w));
+    for (std::size_t w = 0; w < seen_.size(); ++w) {
+      if (signs[w] == 0) {
+        if (refuted_at(at, true)) return true;
+        continue;
+      }
+      std::deque<Point2>& same = seen_[w][signs[w] > 0 ? 1 : 0];
+      const std::deque<Point2>& other = seen_[w][signs[w] > 0 ? 0 : 1];
+      const Point2* nearest = nullptr;
+      for (const Point2& p : other)
+        if (nearest == nullptr || apart(at, p) < apart(at, *nearest)) nearest = &p;
+      // Closer and closer pairs: between them the straight way stays within the task.
+      if (nearest != nullptr && apart(at, *nearest) < 0.5 * tried_[w]) {
+        tried_[w] = apart(at, *nearest);
+        if (between(w, at, *nearest, signs[w])) return true;
+      }
+      same.push_back(at);
+      if (same.size() > remembered) same.pop_front();
+    }
+    return false;
+  }
+
+  bool between(std::size_t watched, Point2 a, Point2 b, int sign_at_a) {
+    for (int i = 0; i < 80; ++i) {
+      const Point2 middle = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+      if (middle == a || middle == b) break;
+      if (!point_.enter(middle)) return refuted_at(middle, true);
+      const int sign = point_.sign(watched);
+      if (sign == 0) return refuted_at(middle, true);
+      (sign == sign_at_a ? a : b) = middle;
+    }
+    return refuted_at(a, true) || refuted_at(b, true);
+  }
+
+  bool stepped(Point2 at, int condition) {
+    if (++starts_ > most_starts) return false;
+    double load = 0.5;
+    const double size = size_of(region_, margin_);
+    for (int i = 0; i < most_steps; ++i) {
+      const Point2 before = at;
+      if (!point_.step(condition, at, load) || region_.signed_distance(at) > margin_ + size) return false;
+      if (apart(at, before) <= 1e-15 * (size + std::abs(at[0]) + std::abs(at[1]))) break;
+    }
+    return refuted_at(at, true);
+  }
+
+  TaskPoint point_;
+  const TaskRegion& region_;
+  double margin_;
+  double hair_;
+  const RefutedAt& witness_;
+  std::vector<std::array<std::deque<Point2>, 2>> seen_;  ///< by sign
+  std::vector<double> tried_;                            ///< how close the closest pair was
+  int starts_ = 0;
+};
+
+}  // namespace
+
+TaskProof prove_task(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+                     double margin, const RefutedAt& refuted_at, const TaskEffort& effort) {
+  TaskProof proof;
+  Refutation refutation(conditions, mode, region, margin, refuted_at);
+  if (refutation.by_samples()) {
+    proof.verdict = core::Verdict::refuted;
+    return proof;
+  }
+  TaskCell judge(conditions, mode);
+  const double size = size_of(region, margin), reach = margin + hair_of(region, margin);
+  // The largest first: a part of the task that fails is met on large cells, before doubtful places are looked at
+  // closely.
+  std::deque<Cell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
+                            Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
+  const auto left_open = [&](const Cell& cell) {
+    const bool first = proof.open++ == 0;
+    const Point2 lower = {cell.x.lower(), cell.y.lower()}, upper = {cell.x.upper(), cell.y.upper()};
+    for (std::size_t c = 0; c < 2; ++c) {
+      proof.lower[c] = first ? lower[c] : std::min(proof.lower[c], lower[c]);
+      proof.upper[c] = first ? upper[c] : std::max(proof.upper[c], upper[c]);
+    }
+  };
+  // Several at a time, as they stand in the queue.
+  constexpr std::size_t cells_at_a_time = 32;
+  const auto judge_ahead = [&] {
+    std::vector<Cell*> next;
+    std::vector<std::array<Interval, 2>> places;
+    for (std::size_t i = 0; i < open.size() && next.size() < cells_at_a_time; ++i) {
+      if (region.distance(open[i].x, open[i].y) > reach) continue;
+      next.push_back(&open[i]);
+      places.push_back({open[i].x, open[i].y});
+    }
+    const std::vector<TaskCell::Judgement> judgements = judge.judge(places);
+    for (std::size_t i = 0; i < next.size(); ++i) next[i]->judgement = judgements[i];
+  };
+  int proven = 0;
+  while (!open.empty()) {
+    if (!open.front().judgement && region.distance(open.front().x, open.front().y) <= reach) judge_ahead();
+    const Cell cell = open.front();
+    if (region.distance(cell.x, cell.y) > reach) {
+      open.pop_front();
+      continue;
+    }
+    proof.out_of_cells = proof.cells >= (proven == 0 ? effort.most_cells_in_vain : effort.most_cells);
+    proof.out_of_time = out_of_time(effort, proof.cells);
+    if (proof.out_of_cells || proof.out_of_time) break;
+    open.pop_front();
+    ++proof.cells;
+    const TaskCell::Judgement judgement = *cell.judgement;
+    if (judgement.state == TaskCell::State::proven) {
+      ++proven;
+      continue;
+    }
+    if (refutation.by_cell(cell, judgement.state, judgement.unmet)) {
+      proof.verdict = core::Verdict::refuted;
+      return proof;
+    }
+    if (cell.width() < finest * size)
+      left_open(cell);
+    else
+      for (const Cell& half : cell.halves()) open.push_back(half);
+  }
+  for (const Cell& cell : open)
+    if (region.distance(cell.x, cell.y) <= reach) left_open(cell);
+  if (proof.open == 0) proof.verdict = core::Verdict::verified;
+  return proof;
+}
+
+bool refuted_near(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+                  double margin, const RefutedAt& refuted_at, const core::Polyline& suspects) {
+  Refutation refutation(conditions, mode, region, margin, refuted_at);
+  return std::any_of(suspects.begin(), suspects.end(), [&](const Point2& at) { return refutation.by_suspect(at); });
+}
+
+namespace {
+
+/// How far from the task what cells leave in doubt may fail.
+class Reaches {
+ public:
+  explicit Reaches(const TaskRegion& region) : region_(region) {}
+
+  /// `closely`: also where it does fail.
+  Reach of(const TaskCell::Doubt& doubt, const Cell& cell, bool closely) {
+    Reach reach;
+    if (doubt.anywhere) return reach;
+    reach.least = std::numeric_limits<double>::infinity();
+    for (const TaskCell::Unproven& own : doubt.unproven) {
+      if (reach.least <= cell.distance) return reach;
+      const double least = nearest(own.any.data(), own.any.size(), false, doubt.middle, cell).distance;
+      reach.least = std::min(reach.least, least);
+      if (!closely || !own.sharp || !(least < reach.most)) continue;
+      TaskRegion::Nearest most = nearest(own.any.data(), 1, true, doubt.middle, cell);
+      if (own.either_side)
+        if (const auto other = nearest(&own.any[1], 1, true, doubt.middle, cell); other.distance > most.distance)
+          most = other;
+      if (most.distance < reach.most) reach = {reach.least, most.distance, most.at, own.what};
+    }
+    return reach;
+  }
+
+ private:
+  /// The nearest place at which none of some bounds over a cell is positive, by what they are at least, or at most; an
+  /// infinite distance where one always is. To rounding.
+  TaskRegion::Nearest nearest(const TaskCell::Bound* first, std::size_t count, bool at_most, const Point2& middle,
+                              const Cell& cell) {
+    part_ = {{cell.x.lower(), cell.y.lower()},
+             {cell.x.upper(), cell.y.lower()},
+             {cell.x.upper(), cell.y.upper()},
+             {cell.x.lower(), cell.y.upper()}};
+    const Point2 half = {std::max(cell.x.upper() - middle[0], middle[0] - cell.x.lower()),
+                         std::max(cell.y.upper() - middle[1], middle[1] - cell.y.lower())};
+    for (std::size_t i = 0; i < count; ++i) {
+      // A slope of its middle, and what the others make of the cell's extent.
+      double value = at_most ? first[i].value.upper() : first[i].value.lower(), doubt = 0, size = std::abs(value);
+      Point2 slope{};
+      for (std::size_t c = 0; c < 2; ++c) {
+        const Interval& own = first[i].slopes[c];
+        slope[c] = own.middle();
+        doubt += std::max(own.upper() - slope[c], slope[c] - own.lower()) * half[c];
+        size += own.magnitude() * half[c];
+      }
+      constexpr double roundings = 1e-14;
+      value += (at_most ? doubt : -doubt) - roundings * size;
+      cut(value, slope, middle);
+    }
+    if (part_.empty()) return {std::numeric_limits<double>::infinity()};
+    return region_.nearest(part_);
+  }
+
+  /// Keeps the part on which value + slope . (p - middle) <= 0.
+  void cut(double value, const Point2& slope, const Point2& middle) {
+    whole_.swap(part_);
+    part_.clear();
+    const auto height = [&](const Point2& p) {
+      return value + slope[0] * (p[0] - middle[0]) + slope[1] * (p[1] - middle[1]);
+    };
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      const Point2 &p = whole_[i], &q = whole_[(i + 1) % whole_.size()];
+      const double at_p = height(p), at_q = height(q);
+      if (at_p <= 0) part_.push_back(p);
+      if ((at_p < 0) == (at_q < 0) || at_p == 0 || at_q == 0) continue;
+      const double t = at_p / (at_p - at_q);
+      part_.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+    }
+  }
+
+  const TaskRegion& region_;
+  core::Polyline part_, whole_;
+};
+
+}  // namespace
+
+TaskClearance proven_clearance(const core::TaskConditions& conditions, const core::WorkingMode& mode,
+                               const TaskRegion& region, double from, double limit, const TaskEffort& effort) {
+  // What ends the margin is told apart to this part of it; where bounds tell what does, they tell it to that part.
+  constexpr double resolution = 1e-4, known = 1e-5;
+  // Cells this wide, as a part of their distance, may tell it so well.
+  constexpr double close = 0.02;
+  TaskCell judge(conditions, mode);
+  Reaches reaches(region);
+  const double hair = hair_of(region, limit), size = size_of(region, 0);
+  const auto at_hand = [&](const Cell& cell) { return std::max(cell.distance, resolution * size); };
+  const auto farther = [](const Cell& a, const Cell& b) { return a.distance > b.distance; };
+  std::vector<Cell> open;  // a heap, the nearest in front
+  const auto push = [&](const Cell& cell) {
+    open.push_back(cell);
+    std::push_heap(open.begin(), open.end(), farther);
+  };
+  push({Interval(region.lower()[0] - limit, region.upper()[0] + limit),
+        Interval(region.lower()[1] - limit, region.upper()[1] + limit)});
+  TaskClearance result;
+  result.margin = from;
+  const auto proven_to = [&](double distance) { result.margin = std::max(result.margin, distance - hair); };
+  // What the task's proof has covered.
+  const auto is_covered = [&](const Cell& cell) {
+    return region.signed_distance(cell.middle()) + 0.5 * std::hypot(cell.x.width(), cell.y.width()) <= from;
+  };
+  // The nearest, with some that are likely to come soon after it.
+  const auto judge_ahead = [&] {
+    std::vector<Cell*> next;
+    std::vector<std::array<Interval, 2>> places;
+    for (std::size_t i = 0; i < std::min<std::size_t>(open.size(), 2 * sheet::SheetCells::size); ++i) {
+      Cell& cell = open[i];
+      if (next.size() == sheet::SheetCells::size || cell.judgement || cell.distance >= limit || is_covered(cell))
+        continue;
+      next.push_back(&cell);
+      places.push_back({cell.x, cell.y});
+    }
+    std::vector<TaskCell::Doubt> doubts;
+    const std::vector<TaskCell::Judgement> judgements = judge.judge(places, &doubts);
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      next[i]->judgement = judgements[i];
+      next[i]->reach = reaches.of(doubts[i], *next[i], next[i]->width() <= close * at_hand(*next[i]));
+    }
+  };
+  for (int cells = 0; !open.empty(); ++cells) {
+    if (Cell& nearest = open.front(); !nearest.judgement && nearest.distance < limit && !is_covered(nearest))
+      judge_ahead();
+    std::pop_heap(open.begin(), open.end(), farther);
+    const Cell cell = open.back();
+    open.pop_back();
+    if (cell.distance >= limit) break;
+    if (cells >= effort.most_cells || out_of_time(effort, cells)) {
+      proven_to(cell.distance);
+      return result;
+    }
+    if (!cell.judgement) continue;  // the task's proof has covered it
+    if (cell.judgement->state == TaskCell::State::proven) continue;
+    if (cell.reach.least > cell.distance) {  // its turn comes later
+      Cell later = cell;
+      later.distance = cell.reach.least;
+      push(later);
+      continue;
+    }
+    const bool is_known = cell.reach.most <= cell.distance + known * at_hand(cell);
+    if (is_known || cell.width() <= resolution * at_hand(cell)) {
+      proven_to(cell.distance);
+      const auto [what, which] = is_known ? cell.reach.what : *cell.judgement;
+      result.at = is_known ? cell.reach.at : cell.middle();
+      result.kind = what == TaskCell::State::singular ? core::LocusKind::direct_singularity
+                    : what == TaskCell::State::unmet  ? core::LocusKind::contact_loss
+                                                      : core::LocusKind::workspace_boundary;
+      result.condition = which;
+      return result;
+    }
+    for (Cell part : cell.halves()) {
+      part.distance = std::max(cell.distance, region.distance(part.x, part.y));
+      push(part);
+    }
+  }
+  proven_to(limit);
+  return result;
+}
+
+}  // namespace clearloci::loci

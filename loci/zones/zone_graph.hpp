@@ -1,0 +1,32 @@
+// What cuts the workspace of one mode, as a planar graph: arcs split wherever they meet. That the arcs are all of the
+// curves is the tracing engine's proof (LocusCurve::certified); that they meet where the graph says and nowhere else is
+// proven here, by the isolated common zeros of their factors on the mode's sheet.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/locus_factor.hpp"
+#include "core/locus_map.hpp"
+#include "loci/curves/curve_projection.hpp"
+#include "loci/zones/plane_graph.hpp"
+
+namespace clearloci::loci {
+
+inline constexpr int box_owner = -1;  ///< in GraphEdge::owners: a side of the box; others index LocusMap::curves
+
+struct ZoneGraph {
+  PlaneGraph graph;
+  bool certified = true;
+  std::vector<std::string> notes;  ///< why it is not
+  bool finer_may_tell = true;      ///< finer polylines may certify it
+};
+
+/// Whether curves of a kind cut the workspace: component loci do not.
+bool cuts_workspace(core::LocusKind kind);
+
+/// `sketch`: for a picture; curves cross where their polylines do, and nothing is certified.
+ZoneGraph zone_graph(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
+                     CurveProjections& projections, bool sketch = false);
+
+}  // namespace clearloci::loci

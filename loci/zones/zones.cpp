@@ -1,0 +1,397 @@
+#include "loci/zones/zones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <map>
+
+#include "core/errors.hpp"
+#include "loci/curves/curve_projection.hpp"
+#include "loci/sheet/sheet_cell.hpp"
+#include "loci/zones/edge_area.hpp"
+#include "loci/zones/inscribed_circle.hpp"
+#include "loci/zones/largest_circle.hpp"
+#include "loci/zones/workspace_area.hpp"
+#include "loci/zones/workspace_rings.hpp"
+#include "loci/zones/zone_graph.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::Circle;
+using core::LocusMap;
+using core::Point2;
+using core::Polyline;
+using core::Zone;
+
+class ModeZones {
+ public:
+  ModeZones(const core::LocusProblem& problem, const LocusMap& map, const core::WorkingMode& mode, bool sketch)
+      : problem_(problem),
+        map_(map),
+        mode_(mode),
+        sketch_(sketch),
+        workspace_(problem.tower, mode),
+        singularities_(problem.tower, determinants(problem)),
+        sign_(singularities_, mode),
+        projections_(problem, map),
+        cut_(zone_graph(problem, map, mode, projections_, sketch)) {
+    for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
+      if (map.isolated_points[i].mode == mode) points_.push_back(static_cast<int>(i));
+    }
+  }
+
+  bool finer_may_tell() const { return cut_.finer_may_tell; }
+  bool is_cut_certified() const { return cut_.certified; }
+
+  /// The mode's zones go to `map`, which holds the loci that this was made from.
+  void find(core::ZoneMap& map) {
+    PlaneGraph& graph = cut_.graph;
+    for (const GraphEdge& edge : graph.edges) beside_.push_back(area_beside_chords(edge.points, form_of(edge)));
+    std::vector<Face> faces;
+    for (GraphFace& walks : faces_of(graph)) {
+      if (walks.outer.empty()) continue;
+      if (Face face = measured(std::move(walks)); face.area > 0) faces.push_back(std::move(face));
+    }
+    for (Face& face : faces)
+      if (!sketch_) refine(face);
+    for (const GraphEdge& edge : graph.edges)
+      obstacles_.push_back({&edge.points, curve_of(edge) == nullptr ? nullptr : &projections_.of(edge.owners.front())});
+
+    std::vector<Zone> found;
+    for (const Face& face : faces) {
+      if (auto zone = describe(measured(face.walks))) found.push_back(std::move(*zone));
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Zone& a, const Zone& b) { return a.area > b.area; });
+    account_for(found, map);
+    for (Zone& zone : found) map.zones.push_back(std::move(zone));
+    if (sketch_) return;
+    for (const std::string& note : cut_.notes) map.loci.notes.push_back("zones: " + note);
+  }
+
+ private:
+  static std::vector<sheet::SheetFunction> determinants(const core::LocusProblem& problem) {
+    std::vector<sheet::SheetFunction> list;
+    for (const core::LocusFactor& factor : problem.factors)
+      if (factor.role == core::FactorRole::direct_singularity) list.push_back({factor.sheet, factor.line});
+    return list;
+  }
+
+  struct Face {
+    GraphFace walks;
+    Polyline outer;
+    std::vector<Polyline> holes;
+    double area = 0, error = 0;  // m^2
+  };
+
+  /// Holds the zones against the workspace, found without them and without any locus: what they do not cover, or cover
+  /// twice, and what is not certified is in doubt.
+  void account_for(std::vector<Zone>& found, core::ZoneMap& map) {
+    core::ModeArea account;
+    account.mode = mode_;
+    account.workspace = workspace_faces(problem_, mode_, map_).area;
+    if (!sketch_) {
+      const AreaBounds bounds = workspace_area(problem_, mode_);
+      if (account.workspace < (1 - area_slack) * bounds.least || account.workspace > (1 + area_slack) * bounds.most)
+        account.workspace = bounds.most;  // the boundary has gaps: what is certain is only what enclosures tell
+    }
+    double covered = 0;
+    for (const Zone& zone : found) covered += zone.area;
+    const double amiss = std::abs(account.workspace - covered);
+    if (amiss > area_slack * account.workspace) {
+      account.in_doubt = amiss;
+      cut_.certified = false;
+      cut_.notes.push_back("the zones found have " + std::to_string(covered) + " m^2 of a workspace of " +
+                           std::to_string(account.workspace) + " m^2");
+      for (Zone& zone : found) zone.certified = false;
+    }
+    for (const Zone& zone : found) account.in_doubt += zone.certified ? 0 : zone.area;
+    account.in_doubt = std::min(account.in_doubt, std::max(account.workspace, covered));
+    map.areas.push_back(std::move(account));
+  }
+
+  Polyline isolated() const {
+    Polyline list;
+    for (const int i : points_) list.push_back(place(i));
+    return list;
+  }
+  Point2 place(int point) const {
+    const auto& at = map_.isolated_points[static_cast<std::size_t>(point)].at;
+    return {at[0], at[1]};
+  }
+
+  const core::LocusCurve* curve_of(const GraphEdge& edge) const {
+    const int owner = edge.owners.front();
+    return owner == box_owner ? nullptr : &map_.curves[static_cast<std::size_t>(owner)];
+  }
+
+  core::ClosedForm form_of(const GraphEdge& edge) const {
+    const core::LocusCurve* const curve = curve_of(edge);
+    return curve == nullptr ? core::ClosedForm(core::LineForm{}) : curve->closed_form;
+  }
+
+  Face measured(GraphFace walks) const {
+    Face face;
+    const auto add = [&](const std::vector<HalfEdge>& walk) {
+      Polyline ring = ring_of(cut_.graph, walk);
+      face.area += signed_area(ring);
+      for (const HalfEdge half : walk) {
+        const EdgeArea& beside = beside_[static_cast<std::size_t>(half.edge)];
+        face.area += half.reversed ? -beside.area : beside.area;
+        face.error += beside.error;
+      }
+      return ring;
+    };
+    face.outer = add(walks.outer);
+    for (const auto& walk : walks.inner) face.holes.push_back(add(walk));
+    face.walks = std::move(walks);
+    return face;
+  }
+
+  /// More vertices where the area of a small face wants them.
+  void refine(Face& face) {
+    const auto walks = [&](const auto& visit) {
+      for (const HalfEdge half : face.walks.outer) visit(static_cast<std::size_t>(half.edge));
+      for (const auto& walk : face.walks.inner)
+        for (const HalfEdge half : walk) visit(static_cast<std::size_t>(half.edge));
+    };
+    std::size_t edges = 0;
+    walks([&](std::size_t) { ++edges; });
+    for (int round = 0; round < most_refinements && face.error > area_accuracy * face.area; ++round) {
+      const double share = area_accuracy * face.area / static_cast<double>(edges);
+      bool finer = false;
+      walks([&](std::size_t e) {
+        GraphEdge& edge = cut_.graph.edges[e];
+        if (beside_[e].error <= share || !halve_chords(edge)) return;
+        beside_[e] = area_beside_chords(edge.points, form_of(edge));
+        finer = true;
+      });
+      if (!finer) return;
+      face = measured(std::move(face.walks));
+    }
+  }
+
+  /// A vertex of the curve amid every chord. False: the curve is not found there.
+  bool halve_chords(GraphEdge& edge) {
+    if (curve_of(edge) == nullptr) return false;
+    const CurveProjection& curve = projections_.of(edge.owners.front());
+    Polyline finer = {edge.points.front()};
+    for (std::size_t i = 1; i < edge.points.size(); ++i) {
+      const Point2 &a = edge.points[i - 1], &b = edge.points[i];
+      const Point2 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}, on = curve(middle).at;
+      if (std::hypot(on[0] - middle[0], on[1] - middle[1]) > 2 * map_.tolerance) return false;
+      finer.push_back(on);
+      finer.push_back(b);
+    }
+    edge.points = std::move(finer);
+    return true;
+  }
+
+  std::optional<Zone> describe(Face face) {
+    Zone zone;
+    zone.mode = mode_;
+    zone.area = face.area;
+    zone.outer = std::move(face.outer);
+    zone.holes = std::move(face.holes);
+    const auto inside = [&](const Point2& at) {
+      return inside_ring(zone.outer, at) && std::none_of(zone.holes.begin(), zone.holes.end(),
+                                                         [&](const Polyline& hole) { return inside_ring(hole, at); });
+    };
+    std::vector<Polyline> rings = zone.holes;
+    rings.push_back(zone.outer);
+    const Polyline inner = points_in_face(rings);
+    if (!workspace_.holds_one_of(inner)) return std::nullopt;
+    const std::optional<Circle> circle = largest_circle(face.walks, zone, inside);
+    zone.inscribed = circle ? *circle : Circle{inner.front(), 0};
+    zone.sample = zone.inscribed.centre;
+    // The ends of a leg may meet amid the circle, where the mechanism is not defined.
+    if (!workspace_.holds(zone.sample).value_or(false)) zone.sample = inner.front();
+    zone.borders = borders(face.walks);
+    for (const int i : points_) {
+      if (inside(place(i))) zone.isolated_points.push_back(i);
+    }
+    zone.certified = cut_.certified && !holds_open_point(inside) && is_one(rings, zone.area);
+    return zone;
+  }
+
+  /// Whether isolated points of a contact loss may be inside that nothing was proven of. Their boxes are tiny.
+  template <typename Inside>
+  bool holds_open_point(const Inside& inside) const {
+    return std::any_of(map_.open.begin(), map_.open.end(), [&](const core::OpenRegion& region) {
+      if (!region.point || region.mode != mode_) return false;
+      const auto [x0, y0] = std::pair(region.lower[0], region.lower[1]);
+      const auto [x1, y1] = std::pair(region.upper[0], region.upper[1]);
+      return inside({x0, y0}) || inside({x1, y0}) || inside({x0, y1}) || inside({x1, y1});
+    });
+  }
+
+  /// A check by other means than those that made the face: all over it poses can be reached, and no factor of |A| has
+  /// both signs.
+  bool is_one(const std::vector<Polyline>& rings, double area) {
+    const double wide = clear_of_chords * map_.tolerance;
+    const Polyline points = points_all_over_face(rings, wide);
+    if (!amiss_among(points)) return true;
+    // In a sliver at an angle to a wide span its middle is near a chord all the same, where it tells nothing.
+    const std::optional<Point2> at = amiss_among(clear_of(rings, points, wide / 2));
+    if (!at) return true;
+    cut_.notes.push_back("a zone of " + std::to_string(area) + " m^2 is not one at (" + std::to_string((*at)[0]) +
+                         ", " + std::to_string((*at)[1]) + ")");
+    return false;
+  }
+
+  /// The first of the points that is not of one zone with those before it.
+  std::optional<Point2> amiss_among(const Polyline& points) {
+    std::vector<int> signs(static_cast<std::size_t>(singularities_.functions()), 0);
+    for (const Point2& at : points) {
+      if (workspace_.holds(at) == std::optional<bool>(false)) return at;
+      for (std::size_t f = 0; f < signs.size(); ++f) {
+        const int sign = sign_(at[0], at[1], static_cast<int>(f)).value_or(0);
+        if (sign * signs[f] < 0) return at;
+        if (sign != 0) signs[f] = sign;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::vector<core::ZoneBorder> borders(const GraphFace& face) const {
+    std::map<std::string, double> lengths;
+    const auto add = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge half : walk) {
+        const GraphEdge& edge = cut_.graph.edges[static_cast<std::size_t>(half.edge)];
+        for (const int owner : edge.owners)
+          lengths[owner == box_owner ? "box" : map_.curves[static_cast<std::size_t>(owner)].id] +=
+              length_of(edge.points);
+      }
+    };
+    add(face.outer);
+    for (const auto& walk : face.inner) add(walk);
+    std::vector<core::ZoneBorder> list;
+    for (const auto& [curve, length] : lengths) list.push_back({curve, length});
+    std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.length > b.length; });
+    return list;
+  }
+
+  /// None where the face is too thin for one.
+  template <typename Inside>
+  std::optional<Circle> largest_circle(const GraphFace& face, const Zone& zone, const Inside& inside) {
+    std::vector<Obstacle> borders;
+    double length = 0;
+    const auto add = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge half : walk) {
+        borders.push_back(obstacles_[static_cast<std::size_t>(half.edge)]);
+        length += length_of(*borders.back().line);
+      }
+    };
+    add(face.outer);
+    for (const auto& walk : face.inner) add(walk);
+    const Polyline points = isolated();
+    const double width = 2 * zone.area / length;
+    const double step =
+        sketch_ ? std::max(width / 4, length / most_sites_of_a_sketch) : std::max(width / 8, length / most_sites);
+    Polyline sites = points;
+    for (const Obstacle& border : borders) sample(*border.line, step, sites);
+
+    std::vector<Circle> candidates;
+    for (const Circle& circle : voronoi_circles(sites)) {
+      const bool another = std::none_of(candidates.begin(), candidates.end(), [&](const Circle& other) {
+        return std::hypot(other.centre[0] - circle.centre[0], other.centre[1] - circle.centre[1]) < 0.2 * other.radius;
+      });
+      if (!another || !inside(circle.centre)) continue;
+      candidates.push_back(circle);
+      if (candidates.size() == most_candidates) break;
+    }
+    std::optional<Circle> best;
+    for (const Circle& candidate : candidates) {
+      // No circle about a place grows by more than one moves it.
+      if (best && (1 + farthest_polished) * candidate.radius < best->radius) continue;
+      const Circle circle =
+          sketch_ ? free_of(borders, points, candidate.centre) : polished(candidate, borders, points, map_.tolerance);
+      if (inside(circle.centre) && (!best || circle.radius > best->radius)) best = circle;
+    }
+    return best;
+  }
+
+  /// As large as chords and points let it be about this place.
+  static Circle free_of(const std::vector<Obstacle>& borders, const Polyline& points, const Point2& centre) {
+    double squared = std::numeric_limits<double>::infinity();
+    const auto meet = [&](const Point2& a, const Point2& b) {
+      const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+      const double along = (centre[0] - a[0]) * dx + (centre[1] - a[1]) * dy;
+      const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+      const double x = a[0] + t * dx - centre[0], y = a[1] + t * dy - centre[1];
+      squared = std::min(squared, x * x + y * y);
+    };
+    for (const Obstacle& border : borders)
+      for (std::size_t i = 1; i < border.line->size(); ++i) meet((*border.line)[i - 1], (*border.line)[i]);
+    for (const Point2& point : points) meet(point, point);
+    return {centre, std::sqrt(squared)};
+  }
+
+  static double length_of(const Polyline& points) {
+    double length = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      length += std::hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
+    return length;
+  }
+
+  /// Points along a polyline no further apart than `step`, its vertices apart from those that stand closer.
+  static void sample(const Polyline& line, double step, Polyline& sites) {
+    sites.push_back(line.front());
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const Point2 from = sites.back(), to = line[i];
+      const double gap = std::hypot(to[0] - from[0], to[1] - from[1]);
+      if (gap < step / 2 && i + 1 < line.size()) continue;
+      const int pieces = std::max(1, static_cast<int>(std::ceil(gap / step)));
+      for (int k = 1; k <= pieces; ++k) {
+        const double t = static_cast<double>(k) / pieces;
+        sites.push_back({from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])});
+      }
+    }
+  }
+
+  static constexpr double area_accuracy = 1e-7;  ///< relative; a tenth of what is promised, since it is an estimate
+  /// Tolerances, so that a point amid a span this wide is on the side of every curve that its chords tell.
+  static constexpr double clear_of_chords = 8;
+  static constexpr double area_slack = 1e-5;  ///< relative: what the boundary's curved sides may hide of an area
+  static constexpr int most_refinements = 8;
+  static constexpr double most_sites = 4000, most_sites_of_a_sketch = 250;  ///< on a zone's border
+  static constexpr std::size_t most_candidates = 3;
+
+  const core::LocusProblem& problem_;
+  const LocusMap& map_;
+  core::WorkingMode mode_;
+  bool sketch_;
+  ModeWorkspace workspace_;
+  sheet::SheetProgram singularities_;
+  sheet::PointSign sign_;
+  CurveProjections projections_;
+  ZoneGraph cut_;
+  std::vector<int> points_;
+  std::vector<EdgeArea> beside_;
+  std::vector<Obstacle> obstacles_;
+};
+
+}  // namespace
+
+CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch, bool may_leave) {
+  core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
+  CutZones cut;
+  core::ZoneMap& map = cut.map;
+  map.loci = std::move(traced);
+  std::deque<ModeZones> modes;
+  bool is_certified = true;
+  for (const core::WorkingMode& mode : problem.modes) {
+    const ModeZones& own = modes.emplace_back(problem, map.loci, mode, sketch);
+    cut.finer_may_tell = cut.finer_may_tell && own.finer_may_tell();
+    is_certified = is_certified && own.is_cut_certified();
+  }
+  cut.left = may_leave && cut.finer_may_tell && !is_certified;
+  if (cut.left) return cut;
+  for (ModeZones& own : modes) own.find(map);
+  int number = 0;
+  for (Zone& zone : map.zones) zone.id = "z" + std::to_string(++number);
+  return cut;
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,179 @@
+// Intervals and cells side by side: each lane is what it would be alone, to the bit.
+#include "loci/numbers/interval_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "loci/numbers/jet_batch.hpp"
+#include "loci/sheet/sheet_cell.hpp"
+#include "tests/loci/sheet_cases.hpp"
+
+namespace clearloci::loci::sheet {
+namespace {
+
+using interval_batch::Instruction;
+using Operation = SheetCode::Operation;
+
+bool same(const Interval& a, const Interval& b) { return a.lower() == b.lower() && a.upper() == b.upper(); }
+
+/// Of either sign, across zero, thin, tiny and large.
+Interval drawn(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> number(-2, 2), exponent(-40, 40);
+  std::uniform_int_distribution<int> kind(0, 4);
+  const double a = number(random), b = number(random), scale = std::exp2(exponent(random));
+  switch (kind(random)) {
+    case 0:
+      return scale * a;
+    case 1:
+      return {0.0, scale * std::abs(a)};
+    case 2:
+      return {-scale * std::abs(a), 0.0};
+    case 3:
+      return {scale * a, scale * a + std::abs(b)};
+    default:
+      return {std::min(a, b), std::max(a, b)};
+  }
+}
+
+using RunIntervals = void (*)(const Instruction*, const Instruction*, const IntervalBatch*, IntervalBatch*,
+                              std::size_t);
+using RunJets = void (*)(const Instruction*, const Instruction*, const JetBatch*, JetBatch*, std::size_t);
+
+struct Way {
+  const char* name;
+  bool (*is_had)();
+  RunIntervals run_intervals;
+  RunJets run_jets;
+};
+
+class Lanes : public ::testing::TestWithParam<Way> {
+ protected:
+  void SetUp() override {
+    if (!GetParam().is_had()) GTEST_SKIP() << "this processor does not have it";
+  }
+  static void run(const std::vector<Instruction>& code, const IntervalBatch* values, IntervalBatch* results) {
+    GetParam().run_intervals(code.data(), code.data() + code.size(), values, results, IntervalBatch::size);
+  }
+};
+
+TEST_P(Lanes, AreWhatIntervalsAreAlone) {
+  std::mt19937_64 random(3);
+  const std::vector<Instruction> code = {
+      {Operation::add, 0, 1},     {Operation::subtract, 0, 1}, {Operation::multiply, 0, 1},   {Operation::square, 0, 0},
+      {Operation::inverse, 0, 0}, {Operation::angle, 0, 1},    {Operation::angle_slope, 0, 1}};
+  for (int i = 0; i < 20000; ++i) {
+    std::array<IntervalBatch, 9> values;
+    for (std::size_t l = 0; l < IntervalBatch::size; ++l)
+      for (const std::size_t v : {0, 1}) values[v].lanes[l] = drawn(random);
+    run(code, values.data(), values.data() + 2);
+    for (std::size_t l = 0; l < IntervalBatch::size; ++l) {
+      const Interval &a = values[0].lanes[l], &b = values[1].lanes[l];
+      const std::array<Interval, 7> alone = {
+          a + b, a - b, a * b, squared(a), inverse(a), angle_of(a, b), angle_slope(a, b)};
+      for (std::size_t k = 0; k < alone.size(); ++k)
+        ASSERT_TRUE(same(values[2 + k].lanes[l], alone[k]))
+            << k << ": [" << a.lower() << ", " << a.upper() << "], [" << b.lower() << ", " << b.upper() << "]";
+    }
+  }
+}
+
+/// A function's value, its value at the middle and its slopes, as jets carry them, or not bounded.
+TEST_P(Lanes, AreWhatJetsAreAlone) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> number(-2, 2), width(0, 0.3);
+  const std::vector<Instruction> code = {{Operation::add, 0, 1},      {Operation::subtract, 0, 1},
+                                         {Operation::multiply, 0, 1}, {Operation::square, 0, 0},
+                                         {Operation::inverse, 0, 0},  {Operation::multiply, 4, 6},
+                                         {Operation::angle, 0, 1},    {Operation::subtract, 7, 4}};
+  int unbounded = 0;
+  for (int i = 0; i < 5000; ++i) {
+    std::array<JetBatch, 10> values;
+    for (std::size_t l = 0; l < JetBatch::size; ++l)
+      for (const int v : {0, 1}) {
+        const double at = number(random);
+        values[static_cast<std::size_t>(v)].set_lane(l, Jet(Interval(at, at + width(random)), v));
+      }
+    GetParam().run_jets(code.data(), code.data() + code.size(), values.data(), values.data() + 2, JetBatch::size);
+    for (std::size_t l = 0; l < JetBatch::size; ++l) {
+      const Jet a = values[0].lane(l), b = values[1].lane(l), product = a * b, reciprocal = inverse(a);
+      const std::array<Jet, 8> alone = {a + b,          a - b,
+                                        product,        squared(a),
+                                        reciprocal,     product * reciprocal,
+                                        angle_of(a, b), product * reciprocal - product};
+      for (std::size_t k = 0; k < alone.size(); ++k) {
+        const Jet own = values[2 + k].lane(l);
+        ASSERT_EQ(own.bounded, alone[k].bounded) << k;
+        unbounded += own.bounded ? 0 : 1;
+        ASSERT_TRUE(same(own.value, alone[k].value) && same(own.middle, alone[k].middle)) << k;
+        for (const std::size_t c : {0, 1}) ASSERT_TRUE(same(own.slope[c], alone[k].slope[c])) << k;
+      }
+    }
+  }
+  EXPECT_GT(unbounded, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Lanes,
+    ::testing::Values(Way{"OneByOne", [] { return true; }, interval_batch::run_by_lanes, interval_batch::run_by_lanes},
+                      Way{"ByAvx2", interval_batch::has_avx2, interval_batch::run_by_avx2, interval_batch::run_by_avx2},
+                      Way{"ByAvx512", interval_batch::has_avx512, interval_batch::run_by_avx512,
+                          interval_batch::run_by_avx512}),
+    [](const auto& own) { return std::string(own.param.name); });
+
+/// Cells all over the workspace and its boundary, in batches of every size.
+TEST(SheetCells, AreWhatCellsAreAlone) {
+  const testing::FiveBar design{.a1 = {3, 5}, .b1 = {2, 5}, .a2 = {1, 2}, .b2 = {7, 10}, .weight = {981, 100}};
+  const testing::FiveBarSheet sheet = testing::five_bar_sheet(design);
+  const SheetProgram program(sheet.tower, {sheet.moment_A1, sheet.determinant});
+  const core::WorkingMode mode = {1, -1};
+  SheetCell alone(program, mode);
+  SheetCells cells(program, mode);
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int lifted = 0, outside = 0;
+  for (int i = 0; i < 600; ++i) {
+    std::array<SheetCells::Place, SheetCells::size> places;
+    for (auto& place : places) {
+      const double x = -0.5 + 1.5 * unit(random), y = -1 + 2 * unit(random), w = std::exp2(-12 * unit(random)) / 8;
+      place = {Interval(x, x + w), Interval(y, y + w)};
+    }
+    const std::size_t count = 1 + static_cast<std::size_t>(i) % SheetCells::size;
+    cells.enter(places, count);
+    cells.differentiate();
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      ASSERT_EQ(cells.inside(lane), alone.enter(places[lane].x, places[lane].y));
+      if (!cells.inside(lane)) {
+        ++outside;
+        continue;
+      }
+      alone.differentiate();
+      SheetCell& own = cells[lane];
+      ASSERT_EQ(own.lifted(), alone.lifted());
+      lifted += own.lifted().empty() ? 0 : 1;
+      for (int j = 0; j < program.roots(); ++j) {
+        EXPECT_TRUE(same(own.square(j), alone.square(j)));
+        EXPECT_TRUE(same(own.root(j), alone.root(j)));
+      }
+      for (const int f : {0, 1}) {
+        EXPECT_TRUE(same(own.value(f), alone.value(f)));
+        EXPECT_TRUE(same(own.middle_value(f), alone.middle_value(f)));
+        EXPECT_TRUE(same(own.centred(f), alone.centred(f)));
+        for (int c = 0; c < own.dimension(); ++c) {
+          EXPECT_TRUE(same(own.slope(f, c), alone.slope(f, c)));
+          EXPECT_TRUE(same(own.tangent(f, c), alone.tangent(f, c)));
+        }
+      }
+      EXPECT_EQ(own.is_beyond_a_rim(), alone.is_beyond_a_rim());
+    }
+  }
+  EXPECT_GT(lifted, 50);
+  EXPECT_GT(outside, 50);
+}
+
+}  // namespace
+}  // namespace clearloci::loci::sheet
