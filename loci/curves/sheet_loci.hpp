@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "loci/curves/arc_orders.hpp"
+#include "loci/curves/engine.hpp"
 #include "loci/curves/trace_sheet.hpp"
-#include "loci/trace.hpp"
 
 namespace clearloci::loci {
 

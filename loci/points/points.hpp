@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/locus_map.hpp"
-#include "loci/trace.hpp"
+#include "loci/curves/engine.hpp"
 
 namespace clearloci::loci {
 

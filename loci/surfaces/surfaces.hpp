@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
-#include "loci/trace.hpp"
+#include "loci/curves/engine.hpp"
 
 namespace clearloci::loci {
 
