@@ -11,6 +11,7 @@
 #include "loci/curves/sheet_maps.hpp"
 #include "loci/points/points.hpp"
 #include "loci/search/isolated_zeros.hpp"
+#include "loci/zones/workspace_rings.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -31,6 +32,11 @@ FindLoci finder_of(Engine engine) {
       std::find_if(engines.begin(), engines.end(), [&](const EngineEntry& known) { return known.engine == engine; });
   core::ensure(entry != engines.end(), "an engine that is known");
   return entry->find;
+}
+
+void add_workspace(const LocusProblem& problem, LocusMap& map) {
+  for (const core::WorkingMode& mode : problem.modes)
+    map.workspace.push_back({mode, workspace_faces(problem, mode, map).rings});
 }
 
 /// Where reactions vanish and boundaries touch in points alone. `withheld`: as Found's.
@@ -64,6 +70,7 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
                                "leave --engine exact out");
       Found found = finder_of(options.sketch ? Engine::adaptive : options.engine)(problem, options);
       map = std::move(found.map);
+      if (found.leaves_workspace) add_workspace(problem, map);
       add_points(problem, options, found.withheld, map);
     }
   } catch (const core::LimitReached&) {

@@ -8,8 +8,6 @@
 #include "loci/curves/edge_labels.hpp"
 #include "loci/curves/exact_engine.hpp"
 #include "loci/curves/sheet_loci.hpp"
-#include "loci/curves/sheet_maps.hpp"
-#include "loci/zones/workspace_rings.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -318,9 +316,7 @@ Found find_adaptively(const LocusProblem& problem, const TraceOptions& options) 
     withheld = withhold_wrong_arcs(problem, map);
   }
   if (options.certificate != nullptr) certify(problem, shares, *options.certificate);
-  for (const core::WorkingMode& mode : problem.modes)
-    map.workspace.push_back({mode, workspace_faces(problem, mode, map).rings});
-  return {std::move(map), withheld};
+  return {.map = std::move(map), .withheld = withheld, .leaves_workspace = true};
 }
 
 }  // namespace clearloci::loci

@@ -339,7 +339,7 @@ LocusMap trace_exactly(const LocusProblem& problem, const TraceOptions& options,
 Found find_exactly(const LocusProblem& problem, const TraceOptions& options) {
   LocusMap map = trace_exactly(problem, options);
   const bool withheld = withhold_wrong_arcs(problem, map);
-  return {std::move(map), withheld};
+  return {.map = std::move(map), .withheld = withheld};
 }
 
 }  // namespace clearloci::loci
