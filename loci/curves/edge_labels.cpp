@@ -47,6 +47,8 @@ LocusKind gravest_kind(const std::vector<Vanishing>& vanishing) {
   return kind;
 }
 
+bool cuts_workspace(LocusKind kind) { return kind != LocusKind::component; }
+
 std::vector<Vanishing> wanted_vanishing(const LocusProblem& problem, const std::vector<Vanishing>& components) {
   const auto multiplicity = [&](const std::string& joint, Quantity quantity) {
     for (const Vanishing& v : components) {

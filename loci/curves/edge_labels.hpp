@@ -40,6 +40,9 @@ std::vector<core::Vanishing> wanted_vanishing(const core::LocusProblem& problem,
 /// The kind a curve takes from what vanishes on it: the gravest.
 core::LocusKind gravest_kind(const std::vector<core::Vanishing>& vanishing);
 
+/// Whether curves of a kind cut the workspace: component loci do not.
+bool cuts_workspace(core::LocusKind kind);
+
 /// What vanishes where all of the given reaction factors do; nothing is vanishing where none of it is wanted.
 EdgeLabel reaction_label(const core::LocusProblem& problem, const std::vector<const core::LocusFactor*>& factors);
 

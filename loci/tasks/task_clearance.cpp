@@ -6,7 +6,7 @@
 #include <queue>
 
 #include "loci/curves/curve_projection.hpp"
-#include "loci/zones/zone_graph.hpp"
+#include "loci/curves/edge_labels.hpp"
 
 namespace clearloci::loci {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "loci/curves/curve_arrangement.hpp"
 #include "loci/curves/curve_projection.hpp"
+#include "loci/curves/edge_labels.hpp"
 #include "loci/curves/margin_nodes.hpp"
 #include "loci/search/isolated_zeros.hpp"
 #include "loci/sheet/apex.hpp"
@@ -669,8 +670,6 @@ class Builder {
 };
 
 }  // namespace
-
-bool cuts_workspace(LocusKind kind) { return kind != LocusKind::component; }
 
 ZoneGraph zone_graph(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
                      CurveProjections& projections, bool sketch) {

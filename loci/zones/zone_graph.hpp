@@ -22,9 +22,6 @@ struct ZoneGraph {
   bool finer_may_tell = true;      ///< finer polylines may certify it
 };
 
-/// Whether curves of a kind cut the workspace: component loci do not.
-bool cuts_workspace(core::LocusKind kind);
-
 /// `sketch`: for a picture; curves cross where their polylines do, and nothing is certified.
 ZoneGraph zone_graph(const core::LocusProblem& problem, const core::LocusMap& map, const core::WorkingMode& mode,
                      CurveProjections& projections, bool sketch = false);
