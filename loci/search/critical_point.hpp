@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/locus_map.hpp"
-#include "loci/search/zero_search.hpp"
+#include "loci/sheet/plane_cell.hpp"
 #include "loci/sheet/sheet_cell.hpp"
 
 namespace clearloci::loci::sheet {

@@ -10,15 +10,11 @@
 
 #include "loci/search/touch_search.hpp"
 #include "loci/sheet/krawczyk.hpp"
+#include "loci/sheet/plane_cell.hpp"
 #include "loci/sheet/sheet_cell.hpp"
 #include "loci/sheet/smooth_cell.hpp"
 
 namespace clearloci::loci::sheet {
-
-/// A cell of the plane.
-struct Cell {
-  Interval x, y;
-};
 
 /// Cells that touch, merged into the hulls of their clusters.
 std::vector<Cell> clusters(std::vector<Cell> cells);

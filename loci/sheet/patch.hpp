@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
-#include "loci/search/zero_search.hpp"
+#include "loci/sheet/plane_cell.hpp"
 #include "loci/sheet/star.hpp"
 
 namespace clearloci::loci::sheet {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "loci/search/zero_search.hpp"
+
 namespace clearloci::loci {
 namespace {
 

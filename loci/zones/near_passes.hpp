@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
-#include "loci/search/zero_search.hpp"
+#include "loci/sheet/plane_cell.hpp"
 
 namespace clearloci::loci {
 

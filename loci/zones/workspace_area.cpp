@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "loci/search/zero_search.hpp"
+#include "loci/sheet/plane_cell.hpp"
 
 namespace clearloci::loci {
 namespace {

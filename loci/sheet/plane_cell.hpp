@@ -1,0 +1,12 @@
+// A rectangle of the plane or of a patch, enclosed by its sides.
+#pragma once
+
+#include "core/interval.hpp"
+
+namespace clearloci::loci::sheet {
+
+struct Cell {
+  Interval x, y;
+};
+
+}  // namespace clearloci::loci::sheet
