@@ -12,9 +12,9 @@
 #include "loci/curves/place_words.hpp"
 #include "loci/curves/trace_sheet.hpp"
 #include "loci/numbers/multi_interval.hpp"
+#include "loci/search/enclosed_stars.hpp"
 #include "loci/search/isolated_zeros.hpp"
 #include "loci/search/work_queue.hpp"
-#include "loci/sheet/apex.hpp"
 
 namespace clearloci::loci {
 namespace {

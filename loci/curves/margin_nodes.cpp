@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "loci/search/enclosed_stars.hpp"
 #include "loci/sheet/apex.hpp"
 
 namespace clearloci::loci {

@@ -17,8 +17,8 @@
 #include "loci/curves/plane_curve.hpp"
 #include "loci/curves/vertex_placement.hpp"
 #include "loci/numbers/sheet_program.hpp"
+#include "loci/search/enclosed_stars.hpp"
 #include "loci/search/work_queue.hpp"
-#include "loci/sheet/apex.hpp"
 #include "loci/sheet/patch.hpp"
 #include "loci/sheet/subtower.hpp"
 

@@ -1,17 +1,13 @@
 #include "loci/sheet/apex.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <tuple>
 
 #include "core/errors.hpp"
 #include "loci/numbers/double_double.hpp"
-#include "loci/search/isolated_zeros.hpp"
-#include "loci/sheet/fine_zero.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -215,8 +211,9 @@ class AroundApex {
   std::map<int, Expansion> roots_;
 };
 
-/// Which roots vanish at the apex, and with which power: those whose squares do.
-void find_roots(Star& star, const core::RootTower& tower) {
+}  // namespace
+
+void find_roots_of(Star& star, const core::RootTower& tower) {
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
     if (tower.roots[j].is_angle()) continue;  // in every direction it has a value
     AroundApex around_apex(star, tower);
@@ -224,190 +221,6 @@ void find_roots(Star& star, const core::RootTower& tower) {
     if (square && square->power > 0)
       star.roots.insert(star.roots.end(), static_cast<std::size_t>(square->power / 2), static_cast<int>(j));
   }
-}
-
-/// A star at the zero of functions 0 and 1 of the program, as an enclosure; what vanishes there is left open.
-std::optional<Star> enclosed_star(const SheetZero& zero, const core::RootTower& tower, const Subtower& part,
-                                  const SheetProgram& program) {
-  constexpr double slack = 4;
-  const double radius = slack * std::max(zero.radius, 0x1p-50 * std::max(std::abs(zero.x), std::abs(zero.y)));
-  const std::optional<FineZero> fine =
-      fine_zero(program, part.mode, {zero.x - radius, zero.x + radius}, {zero.y - radius, zero.y + radius});
-  if (!fine) return std::nullopt;
-  Star star;
-  star.x = fine->x;
-  star.y = fine->y;
-  Apex apex;
-  apex.radius = fine->radius;
-  apex.roots.resize(tower.roots.size());
-  for (std::size_t j = 0; j < fine->roots.size(); ++j) {
-    const Rational lower = fine->roots[j].lower_end(), upper = fine->roots[j].upper_end();
-    apex.roots[static_cast<std::size_t>(part.kept[j])] = {(lower + upper) / 2, (upper - lower) / 2, true};
-  }
-  star.apex = std::move(apex);
-  return star;
-}
-
-/// The box and a little around it: a star next to the box reaches into it.
-struct Surroundings {
-  std::vector<Rational> lower, upper;
-
-  Surroundings(const std::vector<Rational>& from, const std::vector<Rational>& to) : lower(from), upper(to) {
-    const Rational around(1, 50);
-    for (std::size_t c = 0; c < 2; ++c) {
-      const Rational margin = around * (to[c] - from[c]);
-      lower[c] -= margin;
-      upper[c] += margin;
-    }
-  }
-};
-
-/// The nodes that forms have in common, where part `first` of one of them and the last part vanish.
-class Nodes {
- public:
-  Nodes(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<const core::NodeForm*>& forms,
-        const core::NodeForm& form, std::size_t first)
-      : tower_(tower), forms_(forms), part_(part_of(tower, mode, forms)) {
-    const auto add = [&](const core::NodeForm::Part& own) {
-      functions_.push_back({narrowed(own.sheet, part_), narrowed(own.line, part_)});
-    };
-    add(form.parts[first]);
-    add(form.parts.back());
-    for (const core::NodeForm* other : forms) std::for_each(other->parts.begin(), other->parts.end(), add);
-    functions_.push_back({core::Polynomial{part_.tower.variables(), {}}, narrowed(form.probes[first], part_)});
-  }
-
-  void add_to(std::vector<Star>& stars, const Surroundings& box, ZeroOptions options) const {
-    if (std::any_of(functions_.begin(), functions_.end(), [](const SheetFunction& f) { return f.line.empty(); }))
-      return;
-    options.special = narrowed(options.special, part_);
-    const ZeroSet found =
-        isolated_zeros(part_.tower, part_.mode, functions_[0], functions_[1], box.lower, box.upper, options);
-    if (found.zeros.empty()) return;
-    const SheetProgram program(part_.tower, functions_);
-    for (const SheetZero& zero : found.zeros) {
-      if (!zero.inside_workspace || is_known(stars, zero)) continue;
-      std::optional<Star> star = enclosed_star(zero, tower_, part_, program);
-      if (!star || !all_vanish(program, *star)) continue;
-      star->singular = true;
-      star->room = room_around(program, zero, box);
-      for (const core::NodeForm* form : forms_)
-        for (const core::NodeForm::Part& own : form->parts) star->apex->vanishing.push_back(own.line);
-      stars.push_back(std::move(*star));
-    }
-  }
-
- private:
-  static Subtower part_of(const core::RootTower& tower, const core::WorkingMode& mode,
-                          const std::vector<const core::NodeForm*>& forms) {
-    std::vector<core::Polynomial> all;
-    for (const core::NodeForm* form : forms)
-      for (const core::NodeForm::Part& own : form->parts) all.push_back(own.sheet);
-    return subtower(tower, mode, all);
-  }
-
-  /// How far no root gets near zero, to all appearance: next to a workspace boundary what is written around the node is
-  /// enclosed badly.
-  static double room_around(const SheetProgram& program, const SheetZero& zero, const Surroundings& box) {
-    constexpr int directions = 16, most_halvings = 24;
-    constexpr double widest = 0.06, least_square = 0.3;
-    auto registers = program.registers<double>();
-    const auto squares_at = [&](double x, double y) {
-      std::vector<double> squares;
-      registers.set(0, x);
-      registers.set(1, y);
-      for (int j = 0; j < program.roots(); ++j) {
-        registers.run_square(j);
-        squares.push_back(registers.square(j));
-        const double root = std::sqrt(std::max(0.0, squares.back()));
-        registers.set(2 + j, zero.roots[static_cast<std::size_t>(j)] < 0 ? -root : root);
-      }
-      return squares;
-    };
-    const std::vector<double> middle = squares_at(zero.x, zero.y);
-    const auto is_clear = [&](double reach) {
-      for (int k = 0; k < directions; ++k) {
-        const double angle = 2 * std::numbers::pi * k / directions;
-        const std::vector<double> own = squares_at(zero.x + reach * std::cos(angle), zero.y + reach * std::sin(angle));
-        for (std::size_t j = 0; j < own.size(); ++j)
-          if (!(own[j] > least_square * middle[j])) return false;
-      }
-      return true;
-    };
-    double reach =
-        widest * std::max(core::to_double(box.upper[0] - box.lower[0]), core::to_double(box.upper[1] - box.lower[1]));
-    for (int k = 0; k < most_halvings && !is_clear(std::numbers::sqrt2 * reach); ++k) reach /= 2;
-    return reach;
-  }
-
-  static bool is_known(const std::vector<Star>& stars, const SheetZero& zero) {
-    return std::any_of(stars.begin(), stars.end(), [&](const Star& other) {
-      return std::max(std::abs(core::to_double(other.x) - zero.x), std::abs(core::to_double(other.y) - zero.y)) <=
-             2 * zero.radius;
-    });
-  }
-
-  /// By the probe, which does not vanish there.
-  bool all_vanish(const SheetProgram& program, const Star& star) const {
-    auto registers = program.registers<MultiInterval>();
-    const auto enclosure = [](const Rational& value, const Rational& radius) {
-      return MultiInterval(value - radius, value + radius);
-    };
-    registers.set(0, enclosure(star.x, star.apex->radius));
-    registers.set(1, enclosure(star.y, star.apex->radius));
-    for (int j = 0; j < program.roots(); ++j) {
-      registers.run_square(j);
-      const Apex::Value& root = star.apex->roots[static_cast<std::size_t>(part_.kept[static_cast<std::size_t>(j)])];
-      registers.set(2 + j, enclosure(root.middle, root.radius));
-    }
-    registers.run_values();
-    const int probe = program.functions() - 1;
-    for (int f = 0; f < probe; ++f)
-      if (registers.value(f).sign() != 0) return false;
-    return registers.value(probe).sign() != 0;
-  }
-
-  const core::RootTower& tower_;
-  const std::vector<const core::NodeForm*>& forms_;
-  Subtower part_;
-  std::vector<SheetFunction> functions_;  ///< the two that are looked for, all parts, the probe
-};
-
-}  // namespace
-
-std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::WorkingMode& mode,
-                                 const std::vector<Rational>& lower, const std::vector<Rational>& upper) {
-  const Surroundings box(lower, upper);
-  std::vector<Star> stars;
-  for (const core::DyadBase& base : tower.bases) {
-    const Subtower part = subtower(tower, mode, {base.x, base.y});
-    if (part.kept.empty()) continue;  // at a rational point, or nowhere
-    const SheetFunction x = {narrowed(base.x, part), narrowed(base.x_line, part)};
-    const SheetFunction y = {narrowed(base.y, part), narrowed(base.y_line, part)};
-    const ZeroSet found = isolated_zeros(part.tower, part.mode, x, y, box.lower, box.upper);
-    if (found.zeros.empty()) continue;
-    const SheetProgram program(part.tower, {x, y});
-    for (const SheetZero& zero : found.zeros) {
-      if (!zero.inside_workspace) continue;
-      std::optional<Star> star = enclosed_star(zero, tower, part, program);
-      if (!star) continue;
-      star->apex->vanishing = {base.x_line, base.y_line};
-      find_roots(*star, tower);
-      if (!star->roots.empty()) stars.push_back(std::move(*star));
-    }
-  }
-  return stars;
-}
-
-std::vector<Star> enclosed_nodes(const core::RootTower& tower, const core::WorkingMode& mode,
-                                 const std::vector<const core::NodeForm*>& forms, const std::vector<Rational>& lower,
-                                 const std::vector<Rational>& upper, const ZeroOptions& options) {
-  const Surroundings box(lower, upper);
-  std::vector<Star> stars;
-  for (const core::NodeForm* form : forms)
-    for (std::size_t first = 0; first < form->probes.size(); ++first)
-      Nodes(tower, mode, forms, *form, first).add_to(stars, box, options);
-  return stars;
 }
 
 int power_at(const Star& star, const core::RootTower& tower, const StraightLine& function) {

@@ -1,28 +1,18 @@
-// Stars at points with irrational coordinates: cones, where the ends of a dyad meet that stands on another dyad, and
-// nodes of functions that are quadratic forms. The apex is proven to exist and enclosed; what vanishes there does so
-// because the way from end to end does, or the parts of the form do, which are recognised in the straight lines, so
-// that powers of the distance are taken out exactly though no number there is.
+// The sheet around stars at points with irrational coordinates (loci/search/enclosed_stars.hpp): what vanishes there
+// does so because the way from end to end does, or the parts of the form do, which are recognised in the straight
+// lines, so that powers of the distance are taken out exactly though no number there is.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "core/locus_factor.hpp"
-#include "loci/search/isolated_zeros.hpp"
 #include "loci/sheet/star.hpp"
 
 namespace clearloci::loci::sheet {
 
-/// The cones of the tower's dyads on dyads on the mode's sheet, in the box and a little around it.
-std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::WorkingMode& mode,
-                                 const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper);
-
-/// The nodes that forms of one problem with the same last part have in common, in the box and a little around it, each
-/// proven to be one. Those at which roots vanish or are angles, or of which no proof is had, are left out.
-std::vector<Star> enclosed_nodes(const core::RootTower& tower, const core::WorkingMode& mode,
-                                 const std::vector<const core::NodeForm*>& forms,
-                                 const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
-                                 const ZeroOptions& options);
+/// Which of the tower's roots vanish at the apex, and with which powers: those whose squares do. Required: star.apex.
+void find_roots_of(Star& star, const core::RootTower& tower);
 
 /// The power of u that is seen in a function; required: star.apex.
 int power_at(const Star& star, const core::RootTower& tower, const core::StraightLine& function);
