@@ -281,7 +281,7 @@ class ModeSurfaces {
   std::vector<std::optional<Meshed>> meshed_;  ///< nothing: not wanted, or not done in time
 };
 
-void sort_and_name(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
+void sort_and_name_surfaces(LocusMap& map, const std::vector<core::WorkingMode>& modes) {
   const auto key = [&](const LocusSurface& one) {
     return std::tuple(std::find(modes.begin(), modes.end(), one.mode) - modes.begin(), one.kind);
   };
@@ -355,7 +355,7 @@ LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const Su
   map.tolerance = problem.tolerance;
   const surface::Frame frame = surface::frame_of(charts);
   map.angles = {frame.angle[0], frame.angle[1], frame.angle[2]};
-  sort_and_name(map, problem.modes);
+  sort_and_name_surfaces(map, problem.modes);
   return map;
 }
 

@@ -7,19 +7,10 @@
 #include "loci/tasks/task_functions.hpp"
 
 namespace clearloci::loci {
-namespace {
 
 using core::Interval;
 using core::TaskCondition;
 using core::TaskConditions;
-
-Interval size_of_vector(const std::vector<Interval>& parts) {
-  Interval square = 0;
-  for (const Interval& part : parts) square = square + squared(part);
-  return square_root(square);
-}
-
-}  // namespace
 
 DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode& mode,
                        std::vector<core::LoadBall> balls, double most_displaced)

@@ -19,12 +19,6 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
-Interval size_of_vector(const std::vector<Interval>& parts) {
-  Interval square = 0;
-  for (const Interval& part : parts) square = square + squared(part);
-  return square_root(square);
-}
-
 }  // namespace
 
 /// By the method of Frank and Wolfe: towards the load that takes most off the reaction, as far as that helps.

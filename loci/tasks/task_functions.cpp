@@ -19,4 +19,10 @@ double nearest_part(const std::vector<double>& a, const std::vector<double>& b) 
   return length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
 }
 
+core::Interval size_of_vector(const std::vector<core::Interval>& parts) {
+  core::Interval square = 0;
+  for (const core::Interval& part : parts) square = square + squared(part);
+  return square_root(square);
+}
+
 }  // namespace clearloci::loci

@@ -15,4 +15,7 @@ sheet::SheetProgram program_of(const core::TaskConditions& conditions);
 /// Where on the way from a to b the origin is nearest, 0 to 1.
 double nearest_part(const std::vector<double>& a, const std::vector<double>& b);
 
+/// The length of a vector with these components.
+core::Interval size_of_vector(const std::vector<core::Interval>& parts);
+
 }  // namespace clearloci::loci
