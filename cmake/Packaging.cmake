@@ -3,7 +3,9 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/clearloci")
-set(folders core mechanism symbolic loci numeric check analysis studies report)
+set(rooms numbers sheet search curves points surfaces zones tasks)
+list(TRANSFORM rooms PREPEND loci_)
+set(folders core mechanism symbolic ${rooms} loci numeric check analysis studies report)
 list(TRANSFORM folders PREPEND clearloci_ OUTPUT_VARIABLE folder_targets)
 
 install(TARGETS ${folder_targets} clearloci_library EXPORT clearlociTargets
