@@ -1,9 +1,10 @@
-// From factors to arcs, with a guarantee (method.md section 8).
+// From factors to arcs and points, with a guarantee (method.md section 8): by the engine that is asked for, over one
+// coordinate by exact roots.
 #pragma once
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
-#include "loci/curves/engine.hpp"
+#include "loci/curves/curves.hpp"
 
 namespace clearloci::loci {
 

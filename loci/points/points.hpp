@@ -1,9 +1,9 @@
-// Loci over one free coordinate: the real roots of every factor, isolated exactly and given to the modes on whose sheet
-// the factor itself vanishes (method.md section 4, step 4), with exact signs throughout.
+// The door of points/: loci over one free coordinate. The real roots of every factor, isolated exactly and given to the
+// modes on whose sheet the factor itself vanishes (method.md section 4, step 4), with exact signs throughout.
 #pragma once
 
 #include "core/locus_map.hpp"
-#include "loci/curves/engine.hpp"
+#include "loci/curves/curves.hpp"
 
 namespace clearloci::loci {
 

@@ -2,7 +2,7 @@
 // may vanish in a cell is a coordinate of its own there, bound by one more equation, so that all is smooth up to the
 // workspace boundary:
 //     f_i(x, s) = 0,   G_l(x, s) = s_l^2 - Q_l(x, s) = 0   for the lifted roots l;   the others are functions of these.
-// Of an angle the coordinate is the variable of its chart. Private to loci/sheet.
+// Of an angle the coordinate is the variable of its chart.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/locus_factor.hpp"
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::space {
 

@@ -1,11 +1,11 @@
-// Loci over three free coordinates: the zero surfaces of every factor in every mode, as triangles, inside the box and
-// the mode's workspace.
+// The door of surfaces/: loci over three free coordinates. The zero surfaces of every factor in every mode, as
+// triangles, inside the box and the mode's workspace.
 #pragma once
 
 #include <vector>
 
 #include "core/locus_map.hpp"
-#include "loci/curves/engine.hpp"
+#include "loci/curves/curves.hpp"
 
 namespace clearloci::loci {
 

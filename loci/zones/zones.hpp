@@ -1,8 +1,14 @@
-// The discontinuity-free zones of every mode of a traced map (method.md section 9).
+// The door of zones/: the parts of the workspace that are free of discontinuities. Over two coordinates faces of the
+// graph of curves that were traced, of every mode of a map (method.md section 9); over one to three, cells that are
+// proven free (pose_zones.hpp, method.md section 13).
 #pragma once
 
 #include "clearloci/zones.hpp"
 #include "core/locus_factor.hpp"
+#include "loci/zones/largest_ball.hpp"
+#include "loci/zones/plane_graph.hpp"
+#include "loci/zones/pose_zones.hpp"
+#include "loci/zones/workspace_rings.hpp"
 
 namespace clearloci::loci {
 
