@@ -12,7 +12,7 @@
 
 #include "analysis/loci.hpp"
 #include "core/task.hpp"
-#include "loci/tasks/design_proof.hpp"
+#include "loci/tasks/tasks.hpp"
 #include "mechanism/open_design.hpp"
 
 namespace clearloci {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/task_conditions.hpp"
-#include "loci/tasks/design_proof.hpp"
+#include "loci/tasks/tasks.hpp"
 #include "mechanism/open_design.hpp"
 
 namespace clearloci {

@@ -4,14 +4,10 @@
 #include <array>
 
 #include "core/errors.hpp"
-#include "loci/curves/adaptive_engine.hpp"
-#include "loci/curves/exact_engine.hpp"
-#include "loci/curves/isolated_points.hpp"
-#include "loci/curves/open_regions.hpp"
-#include "loci/curves/sheet_maps.hpp"
+#include "loci/curves/curves.hpp"
 #include "loci/points/points.hpp"
-#include "loci/search/isolated_zeros.hpp"
-#include "loci/zones/workspace_rings.hpp"
+#include "loci/search/search.hpp"
+#include "loci/zones/zones.hpp"
 
 namespace clearloci::loci {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci {
 

@@ -8,9 +8,8 @@
 #include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "core/interval.hpp"
-#include "loci/numbers/tower_algebra.hpp"
-#include "loci/numbers/univariate.hpp"
-#include "loci/sheet/star.hpp"
+#include "loci/numbers/numbers.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "loci/curves/arc_orders.hpp"
 #include "loci/curves/reaction_orders.hpp"
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci {
 namespace {

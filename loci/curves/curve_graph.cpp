@@ -7,8 +7,8 @@
 #include <span>
 
 #include "core/errors.hpp"
-#include "loci/search/open_places.hpp"
-#include "loci/sheet/subtower.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

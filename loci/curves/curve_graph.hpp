@@ -7,9 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "loci/search/cell_tree.hpp"
-#include "loci/sheet/patch.hpp"
-#include "loci/sheet/sheet_follower.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

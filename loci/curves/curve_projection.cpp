@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "loci/curves/plane_curve.hpp"
-#include "loci/sheet/sheet_follower.hpp"
-#include "loci/sheet/subtower.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 namespace {

@@ -13,7 +13,7 @@
 #include "loci/curves/open_regions.hpp"
 #include "loci/curves/plane_curve.hpp"
 #include "loci/curves/vertex_placement.hpp"
-#include "loci/sheet/star.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 namespace {

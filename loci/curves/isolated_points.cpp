@@ -11,10 +11,8 @@
 #include "loci/curves/open_regions.hpp"
 #include "loci/curves/place_words.hpp"
 #include "loci/curves/trace_sheet.hpp"
-#include "loci/numbers/multi_interval.hpp"
-#include "loci/search/enclosed_stars.hpp"
-#include "loci/search/isolated_zeros.hpp"
-#include "loci/search/work_queue.hpp"
+#include "loci/numbers/numbers.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci::loci {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "core/locus_map.hpp"
 #include "loci/curves/curve_arrangement.hpp"
-#include "loci/search/known_searches.hpp"
-#include "loci/sheet/star.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 

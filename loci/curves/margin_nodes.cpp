@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "loci/search/enclosed_stars.hpp"
-#include "loci/sheet/apex.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/locus_factor.hpp"
-#include "loci/search/isolated_zeros.hpp"
-#include "loci/sheet/star.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 

@@ -8,7 +8,7 @@
 #include "core/interval.hpp"
 #include "core/locus_map.hpp"
 #include "core/polynomial.hpp"
-#include "loci/numbers/double_double.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci {
 

@@ -16,11 +16,9 @@
 #include "loci/curves/open_regions.hpp"
 #include "loci/curves/plane_curve.hpp"
 #include "loci/curves/vertex_placement.hpp"
-#include "loci/numbers/sheet_program.hpp"
-#include "loci/search/enclosed_stars.hpp"
-#include "loci/search/work_queue.hpp"
-#include "loci/sheet/patch.hpp"
-#include "loci/sheet/subtower.hpp"
+#include "loci/numbers/numbers.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 namespace {

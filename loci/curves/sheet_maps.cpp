@@ -9,7 +9,7 @@
 #include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
-#include "loci/sheet/star.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "loci/numbers/tower_algebra.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci {
 namespace {

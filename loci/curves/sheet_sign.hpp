@@ -15,7 +15,7 @@
 #include "core/interval.hpp"
 #include "core/root_tower.hpp"
 #include "loci/curves/curve_arrangement.hpp"
-#include "loci/numbers/multi_interval.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci {
 

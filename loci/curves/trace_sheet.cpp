@@ -10,10 +10,8 @@
 #include "loci/curves/chains.hpp"
 #include "loci/curves/curve_graph.hpp"
 #include "loci/curves/vertices.hpp"
-#include "loci/search/critical_point.hpp"
-#include "loci/search/exact_zero.hpp"
-#include "loci/search/open_places.hpp"
-#include "loci/sheet/subtower.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

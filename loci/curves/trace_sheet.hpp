@@ -11,9 +11,9 @@
 #include "core/certificate.hpp"
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
-#include "loci/numbers/sheet_program.hpp"
-#include "loci/search/known_searches.hpp"
-#include "loci/sheet/star.hpp"
+#include "loci/numbers/numbers.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -4,10 +4,8 @@
 #include <optional>
 
 #include "core/errors.hpp"
-#include "loci/curves/edge_labels.hpp"
-#include "loci/numbers/multi_interval.hpp"
-#include "loci/numbers/tower_algebra.hpp"
-#include "loci/numbers/univariate.hpp"
+#include "loci/curves/curves.hpp"
+#include "loci/numbers/numbers.hpp"
 #include "loci/points/sheet_roots.hpp"
 
 namespace clearloci::loci {

@@ -6,8 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "loci/sheet/rim_cell.hpp"
-#include "loci/sheet/smooth_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "core/locus_map.hpp"
-#include "loci/sheet/plane_cell.hpp"
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "loci/sheet/apex.hpp"
-#include "loci/sheet/fine_zero.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/locus_factor.hpp"
 #include "loci/search/isolated_zeros.hpp"
-#include "loci/sheet/star.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/root_tower.hpp"
-#include "loci/sheet/plane_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

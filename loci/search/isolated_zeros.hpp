@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "loci/search/known_searches.hpp"
-#include "loci/sheet/patch.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

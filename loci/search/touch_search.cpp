@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loci/sheet/krawczyk.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

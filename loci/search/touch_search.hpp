@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -9,10 +9,7 @@
 #include <vector>
 
 #include "loci/search/touch_search.hpp"
-#include "loci/sheet/krawczyk.hpp"
-#include "loci/sheet/plane_cell.hpp"
-#include "loci/sheet/sheet_cell.hpp"
-#include "loci/sheet/smooth_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
 

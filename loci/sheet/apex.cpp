@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "core/errors.hpp"
-#include "loci/numbers/double_double.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::sheet {
 

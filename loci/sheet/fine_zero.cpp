@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "loci/numbers/inverse.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "loci/numbers/multi_interval.hpp"
+#include "loci/numbers/numbers.hpp"
 #include "loci/sheet/sheet_cell.hpp"
 
 namespace clearloci::loci::sheet {

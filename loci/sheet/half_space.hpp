@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "loci/numbers/affine.hpp"
+#include "loci/numbers/numbers.hpp"
 #include "loci/sheet/pose_chart.hpp"
 
 namespace clearloci::loci::pose {

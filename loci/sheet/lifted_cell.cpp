@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "loci/numbers/inverse.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::space {
 namespace {

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "core/pose_statics.hpp"
-#include "loci/numbers/affine.hpp"
+#include "loci/numbers/numbers.hpp"
 #include "loci/sheet/half_space.hpp"
 #include "loci/sheet/pose_chart.hpp"
 #include "loci/sheet/pose_point.hpp"

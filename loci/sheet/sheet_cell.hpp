@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::sheet {
 

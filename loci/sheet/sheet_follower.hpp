@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::sheet {
 

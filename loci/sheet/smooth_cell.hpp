@@ -7,9 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "loci/numbers/jet.hpp"
-#include "loci/numbers/jet_batch.hpp"
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::sheet {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
-#include "loci/sheet/lifted_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::space {
 

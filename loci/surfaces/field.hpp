@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/locus_factor.hpp"
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::surface {
 

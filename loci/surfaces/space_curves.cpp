@@ -8,9 +8,8 @@
 #include <sstream>
 #include <utility>
 
-#include "loci/curves/edge_labels.hpp"
-#include "loci/curves/isolated_points.hpp"
-#include "loci/search/work_queue.hpp"
+#include "loci/curves/curves.hpp"
+#include "loci/search/search.hpp"
 #include "loci/surfaces/curve_search.hpp"
 
 namespace clearloci::loci {

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "loci/curves/edge_labels.hpp"
-#include "loci/search/work_queue.hpp"
+#include "loci/curves/curves.hpp"
+#include "loci/search/search.hpp"
 #include "loci/surfaces/measure.hpp"
 #include "loci/surfaces/meshed.hpp"
 #include "loci/surfaces/space_curves.hpp"

@@ -14,8 +14,7 @@
 
 #include "core/locus_map.hpp"
 #include "core/task_conditions.hpp"
-#include "loci/numbers/centred.hpp"
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci {
 

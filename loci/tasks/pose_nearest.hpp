@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "loci/sheet/pose_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 #include "loci/tasks/pose_region.hpp"
 
 namespace clearloci::loci::pose {

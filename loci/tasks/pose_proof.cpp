@@ -10,7 +10,7 @@
 #include <queue>
 #include <utility>
 
-#include "loci/search/work_queue.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci::loci::pose {
 namespace {

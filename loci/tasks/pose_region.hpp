@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "clearloci/pose_tasks.hpp"
-#include "loci/sheet/pose_chart.hpp"
+#include "loci/sheet/sheet.hpp"
 #include "loci/tasks/solid.hpp"
 
 namespace clearloci::loci::pose {

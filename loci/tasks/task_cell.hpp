@@ -8,7 +8,7 @@
 
 #include "core/locus_map.hpp"
 #include "core/task_conditions.hpp"
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 

@@ -5,8 +5,7 @@
 #include <limits>
 #include <queue>
 
-#include "loci/curves/curve_projection.hpp"
-#include "loci/curves/edge_labels.hpp"
+#include "loci/curves/curves.hpp"
 
 namespace clearloci::loci {
 namespace {

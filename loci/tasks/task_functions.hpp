@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/task_conditions.hpp"
-#include "loci/numbers/sheet_program.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci {
 

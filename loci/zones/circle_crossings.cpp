@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/rational.hpp"
-#include "loci/sheet/boundary_curves.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 namespace {

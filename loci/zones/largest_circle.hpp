@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
-#include "loci/curves/curve_projection.hpp"
+#include "loci/curves/curves.hpp"
 
 namespace clearloci::loci {
 

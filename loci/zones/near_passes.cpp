@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "loci/search/zero_search.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci::loci {
 namespace {

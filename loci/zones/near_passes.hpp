@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/locus_map.hpp"
-#include "loci/sheet/plane_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 

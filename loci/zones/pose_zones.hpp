@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "loci/sheet/pose_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::pose {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "loci/sheet/plane_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 namespace {

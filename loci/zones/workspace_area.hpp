@@ -6,7 +6,7 @@
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
 

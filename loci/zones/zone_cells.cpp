@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "loci/search/work_queue.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci::loci::pose {
 namespace {

@@ -8,13 +8,9 @@
 #include <numbers>
 #include <optional>
 
-#include "loci/curves/curve_arrangement.hpp"
-#include "loci/curves/curve_projection.hpp"
-#include "loci/curves/edge_labels.hpp"
-#include "loci/curves/margin_nodes.hpp"
-#include "loci/search/enclosed_stars.hpp"
-#include "loci/search/isolated_zeros.hpp"
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/curves/curves.hpp"
+#include "loci/search/search.hpp"
+#include "loci/sheet/sheet.hpp"
 #include "loci/zones/circle_crossings.hpp"
 #include "loci/zones/near_passes.hpp"
 #include "loci/zones/segment_crossings.hpp"

@@ -8,7 +8,7 @@
 
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
-#include "loci/curves/curve_projection.hpp"
+#include "loci/curves/curves.hpp"
 #include "loci/zones/plane_graph.hpp"
 
 namespace clearloci::loci {

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "core/errors.hpp"
-#include "loci/curves/curve_projection.hpp"
-#include "loci/sheet/sheet_cell.hpp"
+#include "loci/curves/curves.hpp"
+#include "loci/sheet/sheet.hpp"
 #include "loci/zones/edge_area.hpp"
 #include "loci/zones/inscribed_circle.hpp"
 #include "loci/zones/largest_circle.hpp"
