@@ -25,20 +25,36 @@ MAY_INCLUDE = {
     "cli": FOLDERS,
 }
 
+# Rooms of a folder: which of its rooms each may include. What stands in the folder itself may include them all, and is
+# included by none. From outside a room, in the folder or elsewhere, its door alone is seen: <folder>/<room>/<room>.hpp.
+# Benchmarks and tests may look inside.
+ROOMS = {
+    "loci": {
+        "numbers": set(),
+        "sheet": {"numbers"},
+        "search": {"numbers", "sheet"},
+        "curves": {"numbers", "sheet", "search"},
+        "points": {"numbers", "sheet", "search", "curves"},
+        "surfaces": {"numbers", "sheet", "search", "curves"},
+        "zones": {"numbers", "sheet", "search", "curves"},
+        "tasks": {"numbers", "sheet", "search", "curves"},
+    },
+}
+
 # Third party: (the beginning of its headers' names, folders whose headers and sources may include it, folders whose
-# sources alone may).
+# sources alone may). Of a folder with rooms these are its rooms.
 THIRD_PARTIES = {
     "GMP": (("gmp.h", "gmpxx.h"), FOLDERS, set()),
-    "MPFR": (("mpfr.h",), set(), {"symbolic", "loci", "mechanism"}),
+    "MPFR": (("mpfr.h",), set(), {"symbolic", "mechanism"}),
     "MPFI": (("mpfi.h", "mpfi_io.h"), set(), {"check"}),
     "yaml-cpp": (("yaml-cpp/",), set(), {"mechanism"}),
     "GiNaC": (("ginac/",), set(), {"symbolic", "mechanism"}),
     "CLN": (("cln/",), set(), {"symbolic", "mechanism"}),
-    "FLINT": (("flint/",), set(), {"symbolic", "loci"}),
-    "CGAL": (("CGAL/",), set(), {"loci"}),
+    "FLINT": (("flint/",), set(), {"symbolic", "loci/numbers"}),
+    "CGAL": (("CGAL/",), set(), {"loci/curves", "loci/zones"}),
     "Boost": (("boost/",), set(), {"workbench"}),
     "Eigen": (("Eigen/",), {"numeric"}, set()),
-    "TBB": (("tbb/", "oneapi/tbb"), {"numeric"}, {"loci"}),
+    "TBB": (("tbb/", "oneapi/tbb"), {"numeric"}, {"loci/search", "loci/zones", "loci/tasks"}),
     "MPI": (("mpi.h",), set(), {"studies"}),
     "NLopt": (("nlopt.h",), set(), {"studies"}),
     "cairomm": (("cairomm/", "cairo"), set(), {"report"}),
@@ -68,13 +84,45 @@ def public_offences_of(path, text):
     ]
 
 
+def room_of(path):
+    """The room that a file is in; None where it is in none."""
+    parts = path.split("/")
+    rooms = ROOMS.get(parts[0], {})
+    return parts[1] if len(parts) > 2 and parts[1] in rooms else None
+
+
+def is_misplaced(path):
+    """Whether a file is in a folder below one with rooms that is no room."""
+    parts = path.split("/")
+    return parts[0] in ROOMS and len(parts) > 2 and parts[1] not in ROOMS[parts[0]]
+
+
+def room_offences(path, included):
+    """What an include says against the order of rooms, or against their doors."""
+    folder, target = path.split("/")[0], included.split("/")[0]
+    if target not in ROOMS:
+        return []
+    own, other = room_of(path) if folder == target else None, room_of(included)
+    if own is not None and other is None:
+        return [f"{path}: {target}/{own}/ must not include {included}, which is above it"]
+    door = f"{target}/{other}/{other}.hpp"
+    if own is not None and own == other:
+        return [f"{path}: a header must not include its own room's door"] if path.endswith(".hpp") and included == door else []
+    if own is not None and other not in ROOMS[target][own]:
+        return [f"{path}: {target}/{own}/ must not include {included}"]
+    if other is not None and included != door:
+        return [f"{path}: {included} is behind the door {door}"]
+    return []
+
+
 def offences_of(path, text, private_headers=frozenset()):
     """Lines that say what `path` (relative, with /) must not include."""
     folder = path.split("/")[0]
+    place = f"{folder}/{room_of(path)}" if room_of(path) else folder
     if folder == "include":
         return public_offences_of(path, text)
     is_public_header = path.endswith(".hpp") and not is_private(text)
-    found = []
+    found = [f"{path}: in none of the rooms of {folder}/"] if is_misplaced(path) else []
     for included in INCLUDE.findall(text):
         target = included.split("/")[0]
         if "/" in included and target in FOLDERS:
@@ -84,15 +132,17 @@ def offences_of(path, text, private_headers=frozenset()):
                 found.append(f"{path}: {included} is private to {target}/")
             if included in private_headers and is_public_header:
                 found.append(f"{path}: a public header includes the private {included}")
+            found += room_offences(path, included)
             continue
         if ".." in included.split("/"):
             found.append(f"{path}: {included}: includes are written from the root of the repository")
         for name, (prefixes, everywhere, sources_only) in THIRD_PARTIES.items():
             if not included.startswith(prefixes):
                 continue
-            if folder not in everywhere and not (folder in sources_only and not is_public_header):
-                place = "a public header" if is_public_header else "a source"
-                found.append(f"{path}: {name} must not show in {place} of {folder}/")
+            in_headers = folder in everywhere or place in everywhere
+            if not in_headers and not (place in sources_only and not is_public_header):
+                kind = "a public header" if is_public_header else "a source"
+                found.append(f"{path}: {name} must not show in {kind} of {place}/")
     return found
 
 

@@ -15,12 +15,34 @@ class IncludeRules(unittest.TestCase):
         self.assertTrue(offences_of("core/a.hpp", '#include "mechanism/mechanism.hpp"\n'))
         self.assertTrue(offences_of("report/a.cpp", '#  include "cli/program.hpp"\n'))
         self.assertFalse(offences_of("cli/a.cpp", '#include "report/files.hpp"\n#include "numeric/a.hpp"\n'))
-        self.assertFalse(offences_of("loci/sheet/a.cpp", '#include "loci/trace.hpp"\n#include "core/polynomial.hpp"\n'))
+        self.assertFalse(offences_of("loci/sheet/a.cpp", '#include "loci/sheet/b.hpp"\n#include "core/polynomial.hpp"\n'))
+
+    def test_rooms_are_entered_one_way(self):
+        rooms = ["numbers", "sheet", "search", "curves", "zones"]
+        for k, lower in enumerate(rooms):
+            for upper in rooms[k + 1 :]:
+                down, up = f'#include "loci/{lower}/{lower}.hpp"\n', f'#include "loci/{upper}/{upper}.hpp"\n'
+                self.assertFalse(offences_of(f"loci/{upper}/a.cpp", down), (lower, upper))
+                self.assertEqual(len(offences_of(f"loci/{lower}/a.cpp", up)), 1, (lower, upper))
+        for one, other in [("zones", "tasks"), ("tasks", "zones"), ("points", "surfaces"), ("surfaces", "points")]:
+            self.assertTrue(offences_of(f"loci/{one}/a.hpp", f'#include "loci/{other}/{other}.hpp"\n'), (one, other))
+        self.assertTrue(offences_of("loci/curves/a.cpp", '#include "loci/trace.hpp"\n'))
+        self.assertFalse(offences_of("loci/trace.cpp", '#include "loci/trace.hpp"\n#include "loci/zones/zones.hpp"\n'))
+
+    def test_rooms_are_entered_by_their_doors(self):
+        for place in ["loci/curves/a.cpp", "loci/trace.cpp", "analysis/a.cpp"]:
+            self.assertEqual(len(offences_of(place, '#include "loci/sheet/star.hpp"\n')), 1, place)
+            self.assertFalse(offences_of(place, '#include "loci/sheet/sheet.hpp"\n'), place)
+        self.assertFalse(offences_of("loci/sheet/a.hpp", '#include "loci/sheet/star.hpp"\n'))
+        self.assertTrue(offences_of("loci/sheet/a.hpp", '#include "loci/sheet/sheet.hpp"\n'))
+        self.assertFalse(offences_of("analysis/a.hpp", '#include "loci/trace.hpp"\n'))
+        self.assertTrue(offences_of("loci/attic/a.hpp", ""))
 
     def test_third_parties_keep_their_place(self):
         self.assertTrue(offences_of("core/a.cpp", "#include <fmt/format.h>\n"))
-        self.assertTrue(offences_of("loci/a.hpp", "#include <CGAL/Gmpz.h>\n"))
-        self.assertFalse(offences_of("loci/a.cpp", "#include <CGAL/Gmpz.h>\n"))
+        self.assertTrue(offences_of("loci/zones/a.hpp", "#include <CGAL/Gmpz.h>\n"))
+        self.assertFalse(offences_of("loci/zones/a.cpp", "#include <CGAL/Gmpz.h>\n"))
+        self.assertTrue(offences_of("loci/sheet/a.cpp", "#include <CGAL/Gmpz.h>\n"))
         self.assertTrue(offences_of("numeric/a.cpp", "#include <ginac/ginac.h>\n"))
         self.assertTrue(offences_of("symbolic/a.hpp", "#include <flint/fmpz.h>\n"))
 
