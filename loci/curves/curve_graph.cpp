@@ -121,13 +121,13 @@ class GraphBuilder {
   }
 
   ZeroSearch::Limits limits_on_edge(int patch, std::size_t most_cells) const {
-    const Cell& domain = graph_.patches[patch].domain;
+    const PlaneCell& domain = graph_.patches[patch].domain;
     const double size = std::max(domain.x.width(), domain.y.width());
     return {smallest_on_edge * size, most_cells, accuracy * size, options_.stop};
   }
 
-  static Cell segment_of(int axis, double at, double from, double to) {
-    return axis == 0 ? Cell{at, {from, to}} : Cell{{from, to}, at};
+  static PlaneCell segment_of(int axis, double at, double from, double to) {
+    return axis == 0 ? PlaneCell{at, {from, to}} : PlaneCell{{from, to}, at};
   }
 
   /// Zeros of the curve on a segment; nothing if they cannot be told apart or lie at its ends.
@@ -196,7 +196,7 @@ class GraphBuilder {
       trouble.at_end[1] = trouble.at_end[1] || range.upper() >= to - ends;
       return range.lower() > from + ends && range.upper() < to - ends;
     };
-    for (const Cell& cell : found.undecided)
+    for (const PlaneCell& cell : found.undecided)
       if (look(axis == 0 ? cell.y : cell.x) && !found.gave_up) trouble.inside = true;
     for (const std::vector<Interval>& zero : found.enclosures) look(zero[1 - axis]);
     return told_apart(std::move(found), axis, {from, to}, at_star ? patch : -1);
@@ -210,7 +210,7 @@ class GraphBuilder {
 
   /// Of many edges, the longest first. Where the curve cannot be told on most of many, the others are left: next to a
   /// place where it is hard to tell from itself.
-  std::vector<FoundZeros> zeros_on_each(int patch, int axis, const std::vector<std::vector<Cell>>& edges) {
+  std::vector<FoundZeros> zeros_on_each(int patch, int axis, const std::vector<std::vector<PlaneCell>>& edges) {
     ZeroSearch search = search_along(patch, axis);
     FoundZeros left;
     left.gave_up = true;
@@ -235,19 +235,19 @@ class GraphBuilder {
     return std::span(order).subspan(first, std::min(count, order.size() - first));
   }
 
-  static void put_longest_first(int axis, const std::vector<std::vector<Cell>>& edges,
+  static void put_longest_first(int axis, const std::vector<std::vector<PlaneCell>>& edges,
                                 std::vector<std::size_t>& order) {
     const auto length = [&](std::size_t i) {
-      const Cell& edge = edges[i].front();
+      const PlaneCell& edge = edges[i].front();
       return (axis == 0 ? edge.y : edge.x).width();
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
   }
 
   static void search_some(ZeroSearch& search, const ZeroSearch::Limits& limits,
-                          const std::vector<std::vector<Cell>>& edges, std::span<const std::size_t> those,
+                          const std::vector<std::vector<PlaneCell>>& edges, std::span<const std::size_t> those,
                           std::vector<FoundZeros>& found) {
-    std::vector<std::vector<Cell>> seeds;
+    std::vector<std::vector<PlaneCell>> seeds;
     for (const std::size_t i : those) seeds.push_back(edges[i]);
     std::vector<FoundZeros> own = search.run_each(seeds, limits);
     for (std::size_t i = 0; i < those.size(); ++i) found[those[i]] = std::move(own[i]);
@@ -255,7 +255,7 @@ class GraphBuilder {
 
   /// Edges on which the curve was not told by few cells, by more of them. Where it is not told so either on many of
   /// them the others are left: other cuts do not change what is hard to tell there.
-  void search_again(int patch, ZeroSearch& search, const std::vector<std::vector<Cell>>& edges,
+  void search_again(int patch, ZeroSearch& search, const std::vector<std::vector<PlaneCell>>& edges,
                     const std::vector<std::size_t>& hard, std::vector<FoundZeros>& found) {
     const ZeroSearch::Limits many = limits_on_edge(patch, cells_on_edge());
     std::ptrdiff_t given_up = 0;
@@ -269,7 +269,7 @@ class GraphBuilder {
 
   void meet_seams(int patch) {
     std::vector<Seam> searched;
-    std::vector<std::vector<Cell>> segments[2];  // by axis
+    std::vector<std::vector<PlaneCell>> segments[2];  // by axis
     for (const Seam& seam : graph_.patches[patch].tree->seams()) {
       if (!has_curve(patch, seam.lower) || !has_curve(patch, seam.upper)) continue;
       if (leaf(patch, seam.lower).kind == LeafKind::undecided && leaf(patch, seam.upper).kind == LeafKind::undecided) {
@@ -299,7 +299,7 @@ class GraphBuilder {
 
   /// The patch's own border: the box, a star, or the seam with another patch, to which what is found is handed over.
   void meet_border(int patch) {
-    const Cell& domain = graph_.patches[patch].domain;
+    const PlaneCell& domain = graph_.patches[patch].domain;
     const Side side = graph_.patches[patch].chart.side;
     for (int axis = 0; axis < 2; ++axis) {
       ZeroSearch search = search_along(patch, axis);
@@ -311,7 +311,7 @@ class GraphBuilder {
         bool runs_along = false;
         for (std::size_t l = 0; l < at_leaf_[patch].size(); ++l) {
           const int index = static_cast<int>(l);
-          const Cell& cell = leaf(patch, index).cell;
+          const PlaneCell& cell = leaf(patch, index).cell;
           const Interval& own = axis == 0 ? cell.x : cell.y;
           if ((end < 0 ? own.lower() : own.upper()) != at || !has_curve(patch, index)) continue;
           const Interval& other = axis == 0 ? cell.y : cell.x;
@@ -365,7 +365,7 @@ class GraphBuilder {
     std::vector<Interval> there = zero;
     bool box = false;
     if (axis == 0) {  // the outer side, towards the plane
-      const Cell place = chart.to_plane(Cell{zero[0], zero[1]});
+      const PlaneCell place = chart.to_plane(PlaneCell{zero[0], zero[1]});
       const auto& hole = parts_.holes[chart.star];
       const bool vertical = chart.side == Side::right || chart.side == Side::left;
       const int direction = chart.side == Side::right || chart.side == Side::top ? 1 : -1;
@@ -406,12 +406,12 @@ class GraphBuilder {
   void meet_rims(int patch) {
     const SheetProgram& program = *graph_.patches[patch].program;
     for (int j = 0; j < program.roots(); ++j) {
-      std::vector<Cell> seeds;
+      std::vector<PlaneCell> seeds;
       for (const Leaf& candidate : graph_.patches[patch].tree->leaves())
         if (candidate.rim >> j & 1u) seeds.push_back(candidate.cell);
       if (seeds.empty()) continue;
       if (!options_.extended && seeds.size() > most_rim_cells_of_a_sketch) {
-        for (const Cell& cell : seeds) graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));
+        for (const PlaneCell& cell : seeds) graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));
         continue;
       }
       const core::Root& root = program.tower().roots[j];
@@ -420,13 +420,13 @@ class GraphBuilder {
                                                         without_variable({root.square, root.line}, 2 + j)});
       core::WorkingMode mode = mode_;
       mode.erase(mode.begin() + j);
-      const Cell& domain = graph_.patches[patch].domain;
+      const PlaneCell& domain = graph_.patches[patch].domain;
       const double size = std::max(domain.x.width(), domain.y.width());
       const std::size_t most_cells = options_.extended ? most_rim_cells : most_rim_cells_of_a_sketch;
       FoundZeros found =
           ZeroSearch(rim, mode, {}).run(seeds, {1e-12 * size, most_cells, accuracy * size, options_.stop});
       if (!found.undecided.empty() && !found.gave_up) leave_open_for_good();
-      for (const Cell& cell : found.undecided) {
+      for (const PlaneCell& cell : found.undecided) {
         unlucky_ = true;
         graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(cell));
       }
@@ -437,7 +437,7 @@ class GraphBuilder {
         zero.insert(zero.begin() + 2 + j, Interval(0.0));
         if (index < 0 || corner) {
           unlucky_ = true;
-          graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(Cell{zero[0], zero[1]}));
+          graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(PlaneCell{zero[0], zero[1]}));
           continue;
         }
         if (!has_curve(patch, index)) {
@@ -493,14 +493,14 @@ class GraphBuilder {
       if (leaves[l].kind == LeafKind::undecided) members[find(static_cast<int>(l))].push_back(static_cast<int>(l));
     for (const auto& [root, cells] : members) {
       std::vector<Seen> branches;
-      Cell place = leaves[root].cell;
+      PlaneCell place = leaves[root].cell;
       for (const int l : cells) {
         branches.insert(branches.end(), at_leaf_[patch][l].begin(), at_leaf_[patch][l].end());
         place = {hull(place.x, leaves[l].cell.x), hull(place.y, leaves[l].cell.y)};
       }
       for (const int l : cells) graph_.undecided.push_back(chart.to_plane(leaves[l].cell));
       graph_.clusters.push_back({patch, place, -1, branches.empty()});
-      const Cell& domain = graph_.patches[patch].domain;
+      const PlaneCell& domain = graph_.patches[patch].domain;
       if (std::max(place.x.width(), place.y.width()) > widest_place * std::max(domain.x.width(), domain.y.width()))
         continue;
       if (branches.size() == 2) {
@@ -576,7 +576,7 @@ std::vector<Patch> make_patches(const core::RootTower& tower, const SheetFunctio
     Patch patch;
     patch.chart = chart;
     const auto& d = parts.domain;
-    patch.domain = chart.side == Side::plane ? Cell{{d[0], d[1]}, {d[2], d[3]}} : Cell{{0, 1}, {-1, 1}};
+    patch.domain = chart.side == Side::plane ? PlaneCell{{d[0], d[1]}, {d[2], d[3]}} : PlaneCell{{0, 1}, {-1, 1}};
     const ChartedSheet sheet = charting.in(chart);
     patch.program = std::make_unique<SheetProgram>(sheet.tower, sheet.functions);
     patches.push_back(std::move(patch));

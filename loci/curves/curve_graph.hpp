@@ -15,7 +15,7 @@ namespace clearloci::loci::sheet {
 /// A chart with the program of the curve in its coordinates (function 0), and its subdivision.
 struct Patch {
   Chart chart;
-  Cell domain;
+  PlaneCell domain;
   std::unique_ptr<SheetProgram> program;
   std::unique_ptr<CellTree> tree;
 };
@@ -52,7 +52,7 @@ inline constexpr double widest_place = 1e-6;
 /// An undecided cluster: of size rounding, or what a spent budget left.
 struct Cluster {
   int patch = 0;
-  Cell cell;            ///< in the patch's coordinates
+  PlaneCell cell;       ///< in the patch's coordinates
   int node = -1;        ///< crossing at which more than two branches meet in it
   bool lonely = false;  ///< no branch reaches it
 };
@@ -62,8 +62,8 @@ struct CurveGraph {
   std::vector<Crossing> crossings;
   std::vector<Stretch> stretches;
   std::vector<Cluster> clusters;
-  std::vector<Cell> undecided;  ///< in the plane, clusters included
-  bool stopped = false;         ///< by TreeOptions::stop or the budget
+  std::vector<PlaneCell> undecided;  ///< in the plane, clusters included
+  bool stopped = false;              ///< by TreeOptions::stop or the budget
   bool open_at_corner = false;  ///< all that is open may be so because a branch leaves a star towards a corner of it
 };
 

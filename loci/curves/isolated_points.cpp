@@ -176,9 +176,9 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
   return std::nullopt;
 }
 
-core::Point2 middle_of(const sheet::Cell& cell) { return {cell.x.middle(), cell.y.middle()}; }
+core::Point2 middle_of(const sheet::PlaneCell& cell) { return {cell.x.middle(), cell.y.middle()}; }
 
-std::array<double, 4> box_of(const sheet::Cell& cell) {
+std::array<double, 4> box_of(const sheet::PlaneCell& cell) {
   return {cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()};
 }
 
@@ -278,8 +278,8 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       }
       // What no proof was had for is a point where Newton finds one, and else an open place.
       std::size_t open = 0;
-      sheet::Cell hull;
-      for (const sheet::Cell& cell : found.undecided) {
+      sheet::PlaneCell hull;
+      for (const sheet::PlaneCell& cell : found.undecided) {
         const core::Point2 centre = middle_of(cell);
         const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
         const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
@@ -288,7 +288,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
           continue;
         }
         leave_point_open(joint, mode, box_of(cell), map);
-        hull = open == 0 ? cell : sheet::Cell{core::hull(hull.x, cell.x), core::hull(hull.y, cell.y)};
+        hull = open == 0 ? cell : sheet::PlaneCell{core::hull(hull.x, cell.x), core::hull(hull.y, cell.y)};
         ++open;
       }
       if (open > 0) doubts.add(joint, open, place_words(problem, box_of(hull)));

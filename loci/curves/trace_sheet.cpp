@@ -156,9 +156,9 @@ class Tracer {
     if (graph_.stopped && options_.whole_or_nothing) return left_open();
     SheetTrace trace;
     trace.isolated_points = isolated_points_;
-    std::vector<Cell> undecided = graph_.undecided;
+    std::vector<PlaneCell> undecided = graph_.undecided;
     for (const Chain& chain : pieces_) trace.arcs.push_back(place(chain, tolerance, undecided));
-    for (const Cell& cell : open_places(undecided, size_))
+    for (const PlaneCell& cell : open_places(undecided, size_))
       if (meets_box(cell)) trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
     trace.certified = trace.undecided.empty();
     // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
@@ -171,7 +171,7 @@ class Tracer {
   SheetTrace left_open() const {
     SheetTrace trace;
     trace.certified = false;
-    for (const Cell& cell : graph_.undecided)
+    for (const PlaneCell& cell : graph_.undecided)
       trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
     return trace;
   }
@@ -202,7 +202,7 @@ class Tracer {
     return claim;
   }
 
-  TracedArc place(const Chain& chain, double tolerance, std::vector<Cell>& undecided) const {
+  TracedArc place(const Chain& chain, double tolerance, std::vector<PlaneCell>& undecided) const {
     TracedArc traced;
     traced.colour = chain.colour;
     traced.inner = point_inside(graph_, chain.legs, size_);
@@ -231,7 +231,7 @@ class Tracer {
     }
   }
 
-  bool meets_box(const Cell& cell) const {
+  bool meets_box(const PlaneCell& cell) const {
     return !disjoint(cell.x, {box_[0], box_[1]}) && !disjoint(cell.y, {box_[2], box_[3]});
   }
 
@@ -247,7 +247,7 @@ class Tracer {
     const Leaf& candidate = own.tree->leaves()[static_cast<std::size_t>(leaf)];
     if (candidate.kind != LeafKind::graph) return false;
     if (cut.side < 0) return true;
-    const Cell place = own.chart.to_plane(candidate.cell);
+    const PlaneCell place = own.chart.to_plane(candidate.cell);
     const auto side = static_cast<std::size_t>(cut.side);
     if (!(cut.side < 2 ? place.x : place.y).contains(box_[side])) return false;
     if (std::find(options_.along_side.begin(), options_.along_side.end(), cut.side) == options_.along_side.end())
@@ -274,7 +274,7 @@ class Tracer {
     Charting charting(own_.tower, {curve_, cutter}, parts.stars);
     for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
       const Patch& patch = graph_.patches[p];
-      std::vector<Cell> seeds;
+      std::vector<PlaneCell> seeds;
       for (std::size_t l = 0; l < patch.tree->leaves().size(); ++l)
         if (is_searched(static_cast<int>(p), static_cast<int>(l), cut)) seeds.push_back(patch.tree->leaves()[l].cell);
       if (seeds.empty()) continue;
@@ -285,11 +285,11 @@ class Tracer {
       const FoundZeros found =
           ZeroSearch(program, own_.mode, {})
               .run(seeds, {smallest_cut * size, cut_cells(), 1e-13 * size, options_.stop, &touches});
-      std::vector<Cell> open = found.undecided;
+      std::vector<PlaneCell> open = found.undecided;
       for (const std::vector<Interval>& place : found.touches) open.push_back({place[0], place[1]});
       for (const std::vector<Interval>& zero : found.enclosures)
         if (!cut_stretch(graph_, static_cast<int>(p), zero, crossing_of(cut))) open.push_back({zero[0], zero[1]});
-      for (const Cell& cell : clusters(std::move(open)))
+      for (const PlaneCell& cell : clusters(std::move(open)))
         if (!at_star(patch.chart, cell) && !at_end(patch.chart.to_plane(cell), cut) &&
             !touch(static_cast<int>(p), cell, cut))
           graph_.undecided.push_back(patch.chart.to_plane(cell));
@@ -306,14 +306,14 @@ class Tracer {
   }
 
   /// Small enough for a touch.
-  static bool is_one_point(const Cell& place, const Cut& cut, double size) {
+  static bool is_one_point(const PlaneCell& place, const Cut& cut, double size) {
     const double thin = std::min(place.x.width(), place.y.width()), wide = std::max(place.x.width(), place.y.width());
     return thin <= widest_touch * size && wide <= (cut.side < 0 ? widest_touch : longest_touch) * size;
   }
 
   /// At a place that is one point to rounding. What the curve does at a region's edge is seen from its pieces on either
   /// side, which are joined again where both belong to the region; what else vanishes there has to be proven.
-  bool may_cut_at(const Cell& place, const Cut& cut) const {
+  bool may_cut_at(const PlaneCell& place, const Cut& cut) const {
     if (cut.keep) return true;
     const Subtower both = subtower(tower_, mode_, {sheet_.polynomial, cut.sheet.polynomial});
     return vanish_exactly(both.tower, both.mode,
@@ -321,7 +321,7 @@ class Tracer {
   }
 
   /// The curve meets a region's edge, or a cutter, in a place that is one point to rounding: where they touch.
-  bool touch(int patch, const Cell& place, const Cut& cut) {
+  bool touch(int patch, const PlaneCell& place, const Cut& cut) {
     const Patch& own = graph_.patches[static_cast<std::size_t>(patch)];
     const double size = std::max(own.domain.x.width(), own.domain.y.width());
     if (!is_one_point(place, cut, size) || !may_cut_at(own.chart.to_plane(place), cut)) return false;
@@ -333,7 +333,7 @@ class Tracer {
   }
 
   /// The cutter reaches a star in the direction of a branch: cut_at_stars has seen to it.
-  static bool at_star(const Chart& chart, const Cell& cell) {
+  static bool at_star(const Chart& chart, const PlaneCell& cell) {
     return chart.side != Chart::Side::plane && cell.x.lower() <= 0 && cell.x.upper() <= same_place;
   }
 
@@ -369,7 +369,7 @@ class Tracer {
 
   /// The place is, to rounding, an end of the curve anyway: cutting there again would say nothing. Where a branch that
   /// reaches the boundary meets a cutter, it ends at both, and the graver one names the end.
-  bool at_end(const Cell& place, const Cut& cut) {
+  bool at_end(const PlaneCell& place, const Cut& cut) {
     const double width = same_place * size_;
     if (!is_one_point(place, cut, size_)) return false;
     bool found = false;
@@ -396,10 +396,10 @@ class Tracer {
   /// The cutter has roots that the curve does not: search the curve's cells on the sheet of both.
   void cut_on_both(const Subtower& both, const Cut& cut) {
     const Partition parts = parts_of(both);
-    std::vector<Cell> open;
+    std::vector<PlaneCell> open;
     Charting charting(both.tower, {narrowed(sheet_, both), narrowed(cut.sheet, both)}, parts.stars);
     for (const Chart& chart : parts.charts) {
-      const std::vector<Cell> seeds = seeds_in(chart, parts);
+      const std::vector<PlaneCell> seeds = seeds_in(chart, parts);
       if (seeds.empty()) continue;
       const ChartedSheet sheet = charting.in(chart);
       const SheetProgram program(sheet.tower, sheet.functions);
@@ -409,17 +409,17 @@ class Tracer {
           ZeroSearch(program, both.mode, {})
               .run(seeds, {smallest_cut * size, cut_cells(), 1e-13 * size, options_.stop, &touches});
       for (const std::vector<Interval>& place : found.touches) {
-        const Cell cell = {place[0], place[1]};
+        const PlaneCell cell = {place[0], place[1]};
         if (!at_star(chart, cell)) open.push_back(chart.to_plane(cell));
       }
-      for (const Cell& cell : found.undecided)
+      for (const PlaneCell& cell : found.undecided)
         if (!at_star(chart, cell)) open.push_back(chart.to_plane(cell));
       for (const std::vector<Interval>& zero : found.enclosures) {
-        const Cell place = chart.to_plane(Cell{zero[0], zero[1]});
+        const PlaneCell place = chart.to_plane(PlaneCell{zero[0], zero[1]});
         if (!at_star(chart, {zero[0], zero[1]}) && !cut_at(place, crossing_of(cut))) open.push_back(place);
       }
     }
-    for (const Cell& cell : clusters(std::move(open))) {
+    for (const PlaneCell& cell : clusters(std::move(open))) {
       if (!at_end(cell, cut) &&
           !(is_one_point(cell, cut, size_) && may_cut_at(cell, cut) && cut_at(cell, crossing_of(cut))))
         graph_.undecided.push_back(cell);
@@ -427,8 +427,8 @@ class Tracer {
   }
 
   /// The curve's cells in a chart of another partition.
-  std::vector<Cell> seeds_in(const Chart& chart, const Partition& parts) const {
-    std::vector<Cell> seeds;
+  std::vector<PlaneCell> seeds_in(const Chart& chart, const Partition& parts) const {
+    std::vector<PlaneCell> seeds;
     for (const Patch& patch : graph_.patches) {
       const bool plane = patch.chart.side == Chart::Side::plane;
       const bool same = patch.chart.side == chart.side &&
@@ -439,23 +439,23 @@ class Tracer {
         if (same && !(plane && in_hole(leaf.cell, parts)))
           seeds.push_back(leaf.cell);
         else if (!same)
-          if (const std::optional<Cell> share = chart.share_of(leaf.cell)) seeds.push_back(*share);
+          if (const std::optional<PlaneCell> share = chart.share_of(leaf.cell)) seeds.push_back(*share);
       }
     }
     return seeds;
   }
 
-  static bool in_hole(const Cell& cell, const Partition& parts) {
+  static bool in_hole(const PlaneCell& cell, const Partition& parts) {
     return std::any_of(parts.holes.begin(), parts.holes.end(), [&](const auto& hole) {
       return hole[0] <= cell.x.lower() && cell.x.upper() <= hole[1] && hole[2] <= cell.y.lower() &&
              cell.y.upper() <= hole[3];
     });
   }
 
-  bool cut_at(const Cell& place, const Crossing& crossing) {
+  bool cut_at(const PlaneCell& place, const Crossing& crossing) {
     for (std::size_t p = 0; p < graph_.patches.size(); ++p) {
       const Patch& patch = graph_.patches[p];
-      const std::optional<Cell> local = patch.chart.from_plane(place);
+      const std::optional<PlaneCell> local = patch.chart.from_plane(place);
       if (!local) continue;
       const int leaf = patch.tree->locate(local->x, local->y);
       if (leaf < 0 || patch.tree->leaves()[leaf].kind == LeafKind::hole) continue;

@@ -78,7 +78,7 @@ class Run {
   bool on_leg(const LiftedPoint& p, std::size_t leg) const {
     const Stretch& stretch = *(*legs_)[leg].stretch;
     if (stretch.leaf < 0) return false;
-    const Cell& cell = tree_->leaves()[stretch.leaf].cell;
+    const PlaneCell& cell = tree_->leaves()[stretch.leaf].cell;
     if (!cell.x.contains(p[0]) || !cell.y.contains(p[1])) return false;
     for (std::size_t j = 0; j < mode_.size(); ++j)
       if (mode_[j] * p[2 + j] <= 0) return false;

@@ -17,7 +17,8 @@ struct Leg {
 struct PlacedArc {
   core::Polyline points;
   double length = 0;
-  std::vector<Cell> open = {};  ///< around chords longer than the tolerance of which it is not known how near they are
+  std::vector<PlaneCell> open =
+      {};  ///< around chords longer than the tolerance of which it is not known how near they are
 };
 
 /// A point of the curve between the ends of consecutive legs.

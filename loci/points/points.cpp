@@ -34,17 +34,17 @@ constexpr double heavy_degree = 48;
 struct NotTold {};
 
 /// The configurations of one mode at one value of the coordinate.
-class Place {
+class RootPlace {
  public:
-  Place(const core::RootTower& tower, const core::WorkingMode& mode, RealRoot& root)
-      : Place(tower, mode, root.lower, root.upper, &root) {}
+  RootPlace(const core::RootTower& tower, const core::WorkingMode& mode, RealRoot& root)
+      : RootPlace(tower, mode, root.lower, root.upper, &root) {}
   /// Where no polynomial is known: signs are told by intervals, or throw NotTold.
-  Place(const core::RootTower& tower, const core::WorkingMode& mode, const SheetRoot& root)
-      : Place(tower, mode, root.lower, root.upper, nullptr) {}
+  RootPlace(const core::RootTower& tower, const core::WorkingMode& mode, const SheetRoot& root)
+      : RootPlace(tower, mode, root.lower, root.upper, nullptr) {}
 
  private:
-  Place(const core::RootTower& tower, const core::WorkingMode& mode, const Rational& lower, const Rational& upper,
-        RealRoot* root)
+  RootPlace(const core::RootTower& tower, const core::WorkingMode& mode, const Rational& lower, const Rational& upper,
+            RealRoot* root)
       : tower_(tower), root_(root) {
     values_.emplace_back(lower, upper);
     for (std::size_t j = 0; j < tower.roots.size(); ++j) {
@@ -203,7 +203,7 @@ std::vector<EdgeLabel> labels_from(const LocusProblem& problem, const ReactionOr
 
 /// What vanishes at one point of a mode.
 std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::WorkingMode& mode, RealRoot& root,
-                                 Place& place) {
+                                 RootPlace& place) {
   std::vector<int> compared;
   std::vector<const LocusFactor*> untold;
   std::vector<bool> vanishing(problem.factors.size()), margins(problem.factors.size());
@@ -241,7 +241,7 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::Workin
 
 /// The same at a simple zero of one factor where nothing else vanishes. Where something else may, throws NotTold; with
 /// an angle, which polynomials would tell nothing of, it is not proven.
-std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor, Place& place) {
+std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor, RootPlace& place) {
   std::vector<bool> vanishing(problem.factors.size()), margins(problem.factors.size());
   const bool own_angle = has_angle(problem.factors[factor].sheet, problem.tower);
   bool proven = true;
@@ -269,7 +269,7 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor
 bool reaches(const LocusProblem& problem, const core::WorkingMode& mode, const Rational& from, const Rational& to) {
   const Rational at = (from + to) / 2;
   RealRoot sample = {{-at.get_num(), at.get_den()}, at, at};
-  return Place(problem.tower, mode, sample).reachable();
+  return RootPlace(problem.tower, mode, sample).reachable();
 }
 
 /// A point of a mode before it is one of the map's: an exact one, or a zero of one factor on the sheet.
@@ -290,7 +290,7 @@ std::optional<std::vector<Event>> zeros_on_sheet(const LocusProblem& problem, co
   if (std::find(searches.begin(), searches.end(), Search::on_sheet) == searches.end()) return events;
   struct End {
     StretchEnd place;
-    std::optional<Place> at;
+    std::optional<RootPlace> at;
   };
   std::vector<RealRoot> box;
   for (const Rational& side : {problem.lower[0], problem.upper[0]})
@@ -301,7 +301,7 @@ std::optional<std::vector<Event>> zeros_on_sheet(const LocusProblem& problem, co
   sides.push_back(&box[1]);
   std::vector<End> ends;
   for (RealRoot* side : sides) {
-    End& end = ends.emplace_back(End{{side->lower, side->upper, {}, false}, Place(problem.tower, mode, *side)});
+    End& end = ends.emplace_back(End{{side->lower, side->upper, {}, false}, RootPlace(problem.tower, mode, *side)});
     if (end.at->reachable()) end.place.vanishing = end.at->vanishing_roots();
   }
   const Rational range = problem.upper[0] - problem.lower[0];
@@ -363,8 +363,8 @@ bool add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::v
     const double at = core::to_double((event.lower() + event.upper()) / 2);
     std::vector<EdgeLabel> labels;
     try {
-      Place place =
-          event.exact != nullptr ? Place(problem.tower, mode, *event.exact) : Place(problem.tower, mode, event.zero);
+      RootPlace place = event.exact != nullptr ? RootPlace(problem.tower, mode, *event.exact)
+                                               : RootPlace(problem.tower, mode, event.zero);
       cell(event.lower(), at, place.reachable());
       from = event.upper();
       if (!place.reachable()) continue;

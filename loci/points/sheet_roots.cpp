@@ -42,7 +42,7 @@ SheetRoots::SheetRoots(const core::RootTower& tower, const core::WorkingMode& mo
   core::ensure(program_.coordinates() == 1, "one free coordinate");
 }
 
-bool SheetRoots::excluded(const Cell& cell) {
+bool SheetRoots::excluded(const StretchCell& cell) {
   jets_.set(0, Jet(Interval(cell.lower, cell.upper), 0));
   for (int j = 0; j < program_.roots(); ++j) {
     jets_.run_square(j);
@@ -56,7 +56,7 @@ bool SheetRoots::excluded(const Cell& cell) {
   return jets_.value(0).bounded && jets_.value(0).value.sign() != 0;
 }
 
-int SheetRoots::slope_sign(const Cell& cell, const Search& search) {
+int SheetRoots::slope_sign(const StretchCell& cell, const Search& search) {
   const auto roots = static_cast<std::size_t>(program_.roots());
   const auto is_rooted = [](const StretchEnd& end) {
     return std::find(end.vanishing.begin(), end.vanishing.end(), true) != end.vanishing.end();
@@ -172,9 +172,9 @@ std::optional<std::vector<SheetRoot>> SheetRoots::between(const StretchEnd& from
   };
   std::vector<SheetRoot> found;
   const double whole = core::to_double(to.upper - from.lower);
-  std::vector<Cell> pending = {{below(from.lower), above(to.upper), true, true}};
+  std::vector<StretchCell> pending = {{below(from.lower), above(to.upper), true, true}};
   for (int cells = 0; !pending.empty(); ++cells) {
-    const Cell cell = pending.back();
+    const StretchCell cell = pending.back();
     pending.pop_back();
     if (cells > most_cells) return std::nullopt;
     if (excluded(cell)) continue;

@@ -35,15 +35,15 @@ class SheetRoots {
                                                 const core::Rational& width, const core::Rational& enough);
 
  private:
-  struct Cell {
+  struct StretchCell {
     double lower, upper;
     bool first, last;  ///< its ends are those of the stretch
   };
   struct Search;
 
-  bool excluded(const Cell& cell);
+  bool excluded(const StretchCell& cell);
   /// Sign of the function's derivative all over the cell; 0: not told.
-  int slope_sign(const Cell& cell, const Search& search);
+  int slope_sign(const StretchCell& cell, const Search& search);
   /// Of the function; 0: not told.
   int sign_at(const core::Rational& lower, const core::Rational& upper, const std::vector<bool>& vanishing);
   bool narrow(SheetRoot& root, int sign_below, const core::Rational& width, const core::Rational& enough);

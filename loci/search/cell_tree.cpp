@@ -92,11 +92,11 @@ int steeper_axis(const SheetCell& cell) {
 
 /// What second-order enclosures tell of a cell. False: plain ones may tell more.
 bool judge_smoothly(const SmoothCells& cells, std::size_t lane, Judgement& judgement) {
-  if (cells.place(lane) == SmoothCell::Place::outside || cells.excludes(lane, 0)) {
+  if (cells.place(lane) == SmoothCell::Standing::outside || cells.excludes(lane, 0)) {
     judgement.kind = LeafKind::empty;
     return true;
   }
-  if (cells.place(lane) == SmoothCell::Place::unknown) return false;
+  if (cells.place(lane) == SmoothCell::Standing::unknown) return false;
   judgement.cut_axis = cells.slope(lane, 0).magnitude() >= cells.slope(lane, 1).magnitude() ? 0 : 1;
   double best = 0;
   for (const int along : {0, 1}) {
@@ -120,7 +120,7 @@ class Judge {
     rim_.emplace(program);
   }
 
-  std::vector<Judgement> operator()(const std::vector<Cell>& cells) {
+  std::vector<Judgement> operator()(const std::vector<PlaneCell>& cells) {
     cells_ = &cells;
     judgements_.assign(cells.size(), {});
     std::vector<std::size_t> all(cells.size()), rest;
@@ -143,11 +143,11 @@ class Judge {
  private:
   template <class Use>
   void for_each_batch(const std::vector<std::size_t>& cells, const Use& use) {
-    std::array<SheetCells::Place, SheetCells::size> places;
+    std::array<SheetCells::Target, SheetCells::size> places;
     for (std::size_t first = 0; first < cells.size(); first += SheetCells::size) {
       const std::size_t count = std::min(SheetCells::size, cells.size() - first);
       for (std::size_t lane = 0; lane < count; ++lane) {
-        const Cell& cell = (*cells_)[cells[first + lane]];
+        const PlaneCell& cell = (*cells_)[cells[first + lane]];
         places[lane] = {cell.x, cell.y};
       }
       side_by_side_.enter(places, count);
@@ -156,7 +156,7 @@ class Judge {
     }
   }
 
-  bool is_tiny(const Cell& cell) const {
+  bool is_tiny(const PlaneCell& cell) const {
     return std::max(cell.x.width(), cell.y.width()) < worth_precision * patch_size_;
   }
 
@@ -167,7 +167,7 @@ class Judge {
     for (std::size_t first = 0; first < cells.size(); first += SmoothCells::size) {
       const std::size_t count = std::min(SmoothCells::size, cells.size() - first);
       for (std::size_t lane = 0; lane < count; ++lane) {
-        const Cell& cell = (*cells_)[cells[first + lane]];
+        const PlaneCell& cell = (*cells_)[cells[first + lane]];
         ranges[lane] = {cell.x, cell.y};
       }
       smooth_->enter(ranges, count);
@@ -201,9 +201,9 @@ class Judge {
   }
 
   void judge_at_rim(const SheetCell& cell, Judgement& judgement) {
-    const RimCell::Place place = rim_->enter(cell);
-    if (place == RimCell::Place::unknown) return;
-    if (place == RimCell::Place::outside || rim_->excludes())
+    const RimCell::Standing place = rim_->enter(cell);
+    if (place == RimCell::Standing::unknown) return;
+    if (place == RimCell::Standing::outside || rim_->excludes())
       judgement.kind = LeafKind::empty;
     else
       take_steadiest([&](int c) { return rim_->tangent(c); }, {rim_->lifted()}, judgement);
@@ -245,11 +245,11 @@ class Judge {
   std::optional<SmoothCells> smooth_;
   std::optional<RimCell> rim_;
   double patch_size_;
-  const std::vector<Cell>* cells_ = nullptr;
+  const std::vector<PlaneCell>* cells_ = nullptr;
   std::vector<Judgement> judgements_;
 };
 
-bool is_in_hole(const Cell& cell, const TreeOptions& options) {
+bool is_in_hole(const PlaneCell& cell, const TreeOptions& options) {
   return std::any_of(options.holes.begin(), options.holes.end(), [&](const auto& hole) {
     return hole[0] <= cell.x.lower() && cell.x.upper() <= hole[1] && hole[2] <= cell.y.lower() &&
            cell.y.upper() <= hole[3];
@@ -258,7 +258,7 @@ bool is_in_hole(const Cell& cell, const TreeOptions& options) {
 
 }  // namespace
 
-CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, const Cell& domain,
+CellTree::CellTree(const SheetProgram& program, const core::WorkingMode& mode, const PlaneCell& domain,
                    TreeOptions options) {
   nodes_.push_back({domain});
   smallest_ = options.smallest * std::max(domain.x.width(), domain.y.width());
@@ -272,7 +272,7 @@ void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode,
   std::vector<Judgement> ahead;  // of the next cells that are to be judged, in reverse
   const auto judgement_of = [&](std::size_t index) {
     if (ahead.empty()) {
-      std::vector<Cell> cells;
+      std::vector<PlaneCell> cells;
       for (std::size_t k = index; k < nodes_.size() && cells.size() < cells_at_a_time; ++k)
         if (Node node = nodes_[k]; !is_in_hole(node.cell, options) && !cut_at_hole(node, options))
           cells.push_back(node.cell);
@@ -316,7 +316,7 @@ void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode,
       if (!split && leaf.kind != LeafKind::empty) leaf.rim = judgement.rim;
     }
     if (split) {
-      Cell halves[2] = {node.cell, node.cell};
+      PlaneCell halves[2] = {node.cell, node.cell};
       if (node.axis == 0) {
         halves[0].x = {node.cell.x.lower(), node.cut};
         halves[1].x = {node.cut, node.cell.x.upper()};

@@ -20,7 +20,7 @@ enum class LeafKind : std::uint8_t {
 };
 
 struct Leaf {
-  Cell cell;
+  PlaneCell cell;
   LeafKind kind = LeafKind::empty;
   int along = 0;          ///< variable: 0, 1, or 2 + j for root j
   std::uint32_t rim = 0;  ///< bit j: Q_j = 0 may pass through the cell
@@ -46,9 +46,9 @@ struct TreeOptions {
 class CellTree {
  public:
   /// Function 0 of the program is the curve.
-  CellTree(const SheetProgram& program, const core::WorkingMode& mode, const Cell& domain, TreeOptions options);
+  CellTree(const SheetProgram& program, const core::WorkingMode& mode, const PlaneCell& domain, TreeOptions options);
 
-  const Cell& domain() const { return nodes_.front().cell; }
+  const PlaneCell& domain() const { return nodes_.front().cell; }
   const std::vector<Leaf>& leaves() const { return leaves_; }
   std::vector<Seam> seams() const;
   /// The budget or TreeOptions::stop left cells undecided that could be subdivided.
@@ -63,7 +63,7 @@ class CellTree {
 
  private:
   struct Node {
-    Cell cell;
+    PlaneCell cell;
     int axis = -1;  // -1: a leaf
     double cut = 0;
     int child[2] = {-1, -1};

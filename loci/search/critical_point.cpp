@@ -12,8 +12,8 @@ constexpr double zero_value = 1e-13;    // of N, relative to its second derivati
 
 }  // namespace
 
-std::optional<core::Point2> critical_point(const SheetProgram& program, const core::WorkingMode& mode, const Cell& cell,
-                                           double size) {
+std::optional<core::Point2> critical_point(const SheetProgram& program, const core::WorkingMode& mode,
+                                           const PlaneCell& cell, double size) {
   SheetCell here(program, mode);
   const auto gradient = [&](double x, double y, double(&g)[2]) {
     if (!here.enter(x, y) || !here.lifted().empty()) return false;

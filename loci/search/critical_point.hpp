@@ -11,7 +11,7 @@ namespace clearloci::loci::sheet {
 
 /// Of function 0, in the program's coordinates; none: no convergence near the cell, or N is not 0 there to rounding.
 /// `size`: of the region.
-std::optional<core::Point2> critical_point(const SheetProgram& program, const core::WorkingMode& mode, const Cell& cell,
-                                           double size);
+std::optional<core::Point2> critical_point(const SheetProgram& program, const core::WorkingMode& mode,
+                                           const PlaneCell& cell, double size);
 
 }  // namespace clearloci::loci::sheet

@@ -21,7 +21,7 @@ Rational shortest_in(const Interval& range) {
 }  // namespace
 
 bool vanish_exactly(const core::RootTower& tower, const core::WorkingMode& mode,
-                    const std::vector<core::Polynomial>& functions, const Cell& place) {
+                    const std::vector<core::Polynomial>& functions, const PlaneCell& place) {
   std::vector<Rational> point(static_cast<std::size_t>(tower.variables()));
   point[0] = shortest_in(place.x);
   point[1] = shortest_in(place.y);

@@ -13,6 +13,6 @@ namespace clearloci::loci::sheet {
 /// around it, on the mode's sheet. False also where it is on a workspace boundary, a root of it is not rational or an
 /// angle, or the tower is undefined there.
 bool vanish_exactly(const core::RootTower& tower, const core::WorkingMode& mode,
-                    const std::vector<core::Polynomial>& functions, const Cell& place);
+                    const std::vector<core::Polynomial>& functions, const PlaneCell& place);
 
 }  // namespace clearloci::loci::sheet

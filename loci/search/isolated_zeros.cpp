@@ -16,7 +16,7 @@ constexpr int share_after_giving_up = 8;
 /// The zero in plane coordinates. `enclosure`: of the chart's coordinates and roots.
 SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, const std::vector<Star>& stars) {
   SheetZero zero;
-  const Cell place = chart.to_plane(Cell{enclosure[0], enclosure[1]});
+  const PlaneCell place = chart.to_plane(PlaneCell{enclosure[0], enclosure[1]});
   zero.x = place.x.middle();
   zero.y = place.y.middle();
   zero.radius = 0.5 * std::max(place.x.width(), place.y.width());
@@ -53,16 +53,16 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
     const ChartedSheet sheet = charting.in(chart);
     SheetProgram program(sheet.tower, sheet.functions);
     ZeroSearch search(program, mode, {});
-    const std::vector<Cell> seeds = plane ? outside_holes(parts) : std::vector<Cell>{{{0, 1}, {-1, 1}}};
+    const std::vector<PlaneCell> seeds = plane ? outside_holes(parts) : std::vector<PlaneCell>{{{0, 1}, {-1, 1}}};
     const FoundZeros found = search.run(
         seeds,
         {options.smallest * (plane ? size : 1.0),
          static_cast<std::size_t>(result.gave_up ? options.most_cells / share_after_giving_up : options.most_cells),
          2e-15 * size, options.stop});
     result.gave_up = result.gave_up || found.gave_up;
-    for (const Cell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
+    for (const PlaneCell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
     for (const std::vector<Interval>& enclosure : found.enclosures) {
-      const Cell place = chart.to_plane(Cell{enclosure[0], enclosure[1]});
+      const PlaneCell place = chart.to_plane(PlaneCell{enclosure[0], enclosure[1]});
       if (disjoint(place.x, box_x) || disjoint(place.y, box_y)) continue;
       const SheetZero zero = describe(enclosure, chart, parts.stars);
       if (!plane && enclosure[0].contains_zero()) {

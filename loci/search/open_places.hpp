@@ -9,6 +9,6 @@
 namespace clearloci::loci::sheet {
 
 /// `size`: of the region.
-std::vector<Cell> open_places(const std::vector<Cell>& cells, double size);
+std::vector<PlaneCell> open_places(const std::vector<PlaneCell>& cells, double size);
 
 }  // namespace clearloci::loci::sheet

@@ -54,11 +54,11 @@ ZeroSearch::ZeroSearch(const SheetProgram& program, const core::WorkingMode& mod
   core::ensure(system_.functions.size() == system_.free.size(), "as many functions as unknowns");
 }
 
-FoundZeros ZeroSearch::run(const std::vector<Cell>& seeds, const Limits& limits) {
+FoundZeros ZeroSearch::run(const std::vector<PlaneCell>& seeds, const Limits& limits) {
   return std::move(run_each({seeds}, limits).front());
 }
 
-std::vector<FoundZeros> ZeroSearch::run_each(const std::vector<std::vector<Cell>>& seeds, const Limits& limits) {
+std::vector<FoundZeros> ZeroSearch::run_each(const std::vector<std::vector<PlaneCell>>& seeds, const Limits& limits) {
   limits_ = limits;
   std::vector<FoundZeros> result;
   for (std::size_t first = 0; first < seeds.size(); first += searches_at_a_time)
@@ -66,12 +66,12 @@ std::vector<FoundZeros> ZeroSearch::run_each(const std::vector<std::vector<Cell>
   return result;
 }
 
-void ZeroSearch::run_some(std::span<const std::vector<Cell>> seeds, std::vector<FoundZeros>& result) {
+void ZeroSearch::run_some(std::span<const std::vector<PlaneCell>> seeds, std::vector<FoundZeros>& result) {
   states_.assign(seeds.size(), {});
   std::vector<Box> live, next;
   for (std::size_t search = 0; search < seeds.size(); ++search) {
     states_[search].seeds = seeds[search].size();
-    for (const Cell& seed : seeds[search]) live.push_back({seed, {}, search});
+    for (const PlaneCell& seed : seeds[search]) live.push_back({seed, {}, search});
   }
   bool stopped = false;
   while (!stopped) {
@@ -138,7 +138,7 @@ void ZeroSearch::enclose(const Group& group, Extent extent, bool with_slopes, co
   if (!side_by_side_) side_by_side_.emplace(*program_, mode());
   for (std::size_t first = 0; first < group.size(); first += size) {
     const std::size_t count = std::min(size, group.size() - first);
-    std::array<SheetCells::Place, size> places;
+    std::array<SheetCells::Target, size> places;
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Candidate& candidate = candidates_[group[first + lane]];
       if (extent == Extent::cell)
@@ -162,7 +162,7 @@ bool ZeroSearch::excludes_zero(const Function& enclosure) const {
 void ZeroSearch::exclude_by_values(Candidate& candidate, const SheetCell& cell, bool inside) {
   candidate.excluded = !inside || excludes_zero([&](int f) { return cell.value(f); });
   if (candidate.excluded) return;
-  const Cell& place = candidate.own->cell;
+  const PlaneCell& place = candidate.own->cell;
   candidate.all.assign({place.x, place.y});
   for (int j = 0; j < program_->roots(); ++j) candidate.all.push_back(cell.root(j));
   candidate.lifted = cell.lifted();
@@ -249,7 +249,7 @@ void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& ne
 
 void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
   const Box& own = *candidate.own;
-  const Cell& cell = own.cell;
+  const PlaneCell& cell = own.cell;
   if (known(candidate)) return;  // since those before it were settled
   if (candidate.count == ZeroCount::unique && accept(candidate)) return;
   if (settle_touch(own, candidate.roots, candidate.lifted) && known(candidate)) return;
@@ -260,7 +260,7 @@ void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
 }
 
 bool ZeroSearch::settle_touch(const Box& own, const std::vector<Interval>& roots, const std::vector<int>& lifted) {
-  const Cell& cell = own.cell;
+  const PlaneCell& cell = own.cell;
   State& state = states_[own.search];
   if (limits_.touches == nullptr || width(cell) > worth_a_touch * limits_.smallest) return false;
   if (state.touch_trials++ >= most_touch_trials) return false;
@@ -278,14 +278,14 @@ bool ZeroSearch::settle_touch(const Box& own, const std::vector<Interval>& roots
 
 void ZeroSearch::exclude_smoothly(const Group& group) {
   if (!is_smooth_worthwhile_ || group.empty()) return;
-  const auto exclude = [&](Candidate& own, SmoothCell::Place place, const auto& excludes) {
-    own.excluded = place == SmoothCell::Place::outside ||
+  const auto exclude = [&](Candidate& own, SmoothCell::Standing place, const auto& excludes) {
+    own.excluded = place == SmoothCell::Standing::outside ||
                    std::any_of(system_.functions.begin(), system_.functions.end(), excludes);
   };
   if (group.size() < few_candidates) {
     if (!smooth_) smooth_.emplace(*program_, mode());
     for (const std::size_t i : group) {
-      const Cell& cell = candidates_[i].own->cell;
+      const PlaneCell& cell = candidates_[i].own->cell;
       exclude(candidates_[i], smooth_->enter(cell.x, cell.y), [this](int f) { return smooth_->excludes(f); });
     }
     return;
@@ -296,7 +296,7 @@ void ZeroSearch::exclude_smoothly(const Group& group) {
   for (std::size_t first = 0; first < group.size(); first += size) {
     const std::size_t count = std::min(size, group.size() - first);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      const Cell& cell = candidates_[group[first + lane]].own->cell;
+      const PlaneCell& cell = candidates_[group[first + lane]].own->cell;
       ranges[lane] = {cell.x, cell.y};
     }
     smooth_side_by_side_->enter(ranges, count);
@@ -307,7 +307,7 @@ void ZeroSearch::exclude_smoothly(const Group& group) {
 }
 
 /// A root whose range makes a function vary more than the cell's extent does is cut before the cell.
-int ZeroSearch::axis_to_cut(const SheetCell& cell, const Cell& place) const {
+int ZeroSearch::axis_to_cut(const SheetCell& cell, const PlaneCell& place) const {
   for (std::size_t l = 0; l < cell.lifted().size(); ++l) {
     if (cell.local(2 + static_cast<int>(l)).width() < thinnest_root * width(place)) continue;
     for (const int f : system_.functions) {
@@ -353,7 +353,7 @@ bool ZeroSearch::known(const Candidate& candidate) const {
          std::any_of(state.settled.begin(), state.settled.end(), owns_all);
 }
 
-double ZeroSearch::width(const Cell& cell) const { return std::max(cell.x.width(), cell.y.width()); }
+double ZeroSearch::width(const PlaneCell& cell) const { return std::max(cell.x.width(), cell.y.width()); }
 
 void ZeroSearch::split(const Box& box, int axis, std::vector<Box>& next) {
   Box halves[2] = {box, box};
@@ -384,7 +384,7 @@ void ZeroSearch::narrow_all(const Group& group) {
   while (!active.empty()) {
     for (std::size_t first = 0; first < active.size(); first += size) {
       const std::size_t count = std::min(size, active.size() - first);
-      std::array<SheetCells::Place, size> places;
+      std::array<SheetCells::Target, size> places;
       for (std::size_t lane = 0; lane < count; ++lane) {
         const Narrowing& own = active[first + lane];
         places[lane] = {{}, {}, nullptr, &own.place(), &own.lifted()};
@@ -403,7 +403,7 @@ void ZeroSearch::narrow_all(const Group& group) {
 bool ZeroSearch::accept(const Candidate& candidate) {
   const std::vector<int>& lifted = candidate.lifted;
   const std::vector<Interval>& enclosure = candidate.image;
-  const Cell& cell = candidate.own->cell;
+  const PlaneCell& cell = candidate.own->cell;
   State& state = states_[candidate.own->search];
   if (disjoint(enclosure[0], cell.x) || disjoint(enclosure[1], cell.y)) return true;
   for (std::size_t l = 0; l < lifted.size(); ++l)
@@ -425,30 +425,30 @@ bool ZeroSearch::accept(const Candidate& candidate) {
 namespace {
 
 /// Thousands of cells are merged on a raster first, so that comparing them stays cheap.
-std::vector<Cell> rastered(const std::vector<Cell>& cells) {
+std::vector<PlaneCell> rastered(const std::vector<PlaneCell>& cells) {
   constexpr std::size_t few = 2000;
   constexpr double raster = 64;
   if (cells.size() <= few) return cells;
-  Cell all = cells.front();
-  for (const Cell& cell : cells) all = {hull(all.x, cell.x), hull(all.y, cell.y)};
+  PlaneCell all = cells.front();
+  for (const PlaneCell& cell : cells) all = {hull(all.x, cell.x), hull(all.y, cell.y)};
   const double step = std::max(all.x.width(), all.y.width()) / raster;
-  std::map<std::pair<int, int>, Cell> merged;
-  for (const Cell& cell : cells) {
+  std::map<std::pair<int, int>, PlaneCell> merged;
+  for (const PlaneCell& cell : cells) {
     const std::pair<int, int> place = {static_cast<int>((cell.x.middle() - all.x.lower()) / step),
                                        static_cast<int>((cell.y.middle() - all.y.lower()) / step)};
     const auto [it, added] = merged.try_emplace(place, cell);
     if (!added) it->second = {hull(it->second.x, cell.x), hull(it->second.y, cell.y)};
   }
-  std::vector<Cell> result;
+  std::vector<PlaneCell> result;
   for (const auto& [place, cell] : merged) result.push_back(cell);
   return result;
 }
 
 }  // namespace
 
-std::vector<Cell> clusters(std::vector<Cell> cells) {
+std::vector<PlaneCell> clusters(std::vector<PlaneCell> cells) {
   cells = rastered(cells);
-  std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
+  std::sort(cells.begin(), cells.end(), [](const PlaneCell& a, const PlaneCell& b) {
     return a.x.lower() != b.x.lower() ? a.x.lower() < b.x.lower() : a.y.lower() < b.y.lower();
   });
   std::vector<std::size_t> parent(cells.size());
@@ -463,7 +463,7 @@ std::vector<Cell> clusters(std::vector<Cell> cells) {
         const std::size_t a = find(i), b = find(k);
         parent[std::max(a, b)] = std::min(a, b);
       }
-  std::vector<Cell> result;
+  std::vector<PlaneCell> result;
   std::vector<std::size_t> index(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::size_t root = find(i);
@@ -471,7 +471,7 @@ std::vector<Cell> clusters(std::vector<Cell> cells) {
       index[i] = result.size();
       result.push_back(cells[i]);
     } else {
-      Cell& cluster = result[index[root]];
+      PlaneCell& cluster = result[index[root]];
       cluster = {hull(cluster.x, cells[i].x), hull(cluster.y, cells[i].y)};
     }
   }

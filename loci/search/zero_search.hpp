@@ -14,13 +14,13 @@
 namespace clearloci::loci::sheet {
 
 /// Cells that touch, merged into the hulls of their clusters.
-std::vector<Cell> clusters(std::vector<Cell> cells);
+std::vector<PlaneCell> clusters(std::vector<PlaneCell> cells);
 
 struct FoundZeros {
   std::vector<std::vector<Interval>> enclosures;  ///< of (x, y, s1...sm), one a zero, in the order found
   /// Where the two curves touch, or come so near to touching that they cross twice in what counts as one point.
   std::vector<std::vector<Interval>> touches;
-  std::vector<Cell> undecided;
+  std::vector<PlaneCell> undecided;
   bool gave_up = false;
 };
 
@@ -40,10 +40,10 @@ class ZeroSearch {
   };
 
   /// All zeros in the seeds, which are thin in the coordinates that are not free.
-  FoundZeros run(const std::vector<Cell>& seeds, const Limits& limits);
+  FoundZeros run(const std::vector<PlaneCell>& seeds, const Limits& limits);
   /// The same of many searches, each with seeds of its own: what one finds does not depend on the others, but their
   /// cells are enclosed side by side.
-  std::vector<FoundZeros> run_each(const std::vector<std::vector<Cell>>& seeds, const Limits& limits);
+  std::vector<FoundZeros> run_each(const std::vector<std::vector<PlaneCell>>& seeds, const Limits& limits);
 
   const core::WorkingMode& mode() const { return cell_.mode(); }
 
@@ -57,7 +57,7 @@ class ZeroSearch {
   /// A cell, and ranges of its roots (none: all that the cell allows). Next to Q_j = 0 a cell of width h has s_j up to
   /// the root of h; halving that range too keeps boxes of good proportions.
   struct Box {
-    Cell cell;
+    PlaneCell cell;
     std::vector<Interval> roots;
     std::size_t search = 0;
   };
@@ -67,7 +67,7 @@ class ZeroSearch {
     std::vector<CertifiedZero> zeros;
     std::vector<CertifiedZero> settled;  ///< boxes in which there is nothing else
     std::size_t touch_trials = 0;
-    std::vector<Cell> undecided;
+    std::vector<PlaneCell> undecided;
     std::size_t seeds = 0, live = 0;  ///< how many there were, and cells there are now
     std::size_t before = 0;           ///< cells there were when these were twice as large
     bool gave_up = false;
@@ -88,7 +88,7 @@ class ZeroSearch {
   /// Candidates by their place among those under examination.
   using Group = std::vector<std::size_t>;
 
-  void run_some(std::span<const std::vector<Cell>> seeds, std::vector<FoundZeros>& result);
+  void run_some(std::span<const std::vector<PlaneCell>> seeds, std::vector<FoundZeros>& result);
   /// Boxes [first, last): what enclosures tell of each, which does not depend on the others; then, in turn, what is to
   /// be done with it.
   void examine(const Box* first, const Box* last, std::vector<Box>& next);
@@ -107,7 +107,7 @@ class ZeroSearch {
   bool settle_touch(const Box& own, const std::vector<Interval>& roots, const std::vector<int>& lifted);
   /// By second-order enclosures.
   void exclude_smoothly(const Group& group);
-  int axis_to_cut(const SheetCell& cell, const Cell& place) const;
+  int axis_to_cut(const SheetCell& cell, const PlaneCell& place) const;
   /// Makes the box hold its image. False: that is no use.
   static bool widen(Candidate& candidate);
   bool owns(const CertifiedZero& zero, const std::vector<Interval>& all) const;
@@ -116,7 +116,7 @@ class ZeroSearch {
   void give_up(std::vector<Box>& live);
   static FoundZeros found(State& state);
   static void split(const Box& box, int axis, std::vector<Box>& next);
-  double width(const Cell& cell) const;
+  double width(const PlaneCell& cell) const;
   /// Narrows the enclosures of the zeros that candidates have, side by side.
   void narrow_all(const Group& group);
   bool accept(const Candidate& candidate);

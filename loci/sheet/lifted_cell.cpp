@@ -56,7 +56,7 @@ LiftedCell::LiftedCell(const core::LocusProblem& problem, core::WorkingMode mode
   core::ensure(program_.coordinates() == 3, "three free coordinates");
 }
 
-std::optional<LiftedBox> LiftedCell::lift(const Cell& cell) {
+std::optional<LiftedBox> LiftedCell::lift(const SpaceCell& cell) {
   lifted_.clear();
   LiftedBox box(cell.begin(), cell.end());
   for (int c = 0; c < 3; ++c) at_.set(c, cell[static_cast<std::size_t>(c)]);
@@ -148,14 +148,14 @@ void LiftedCell::differentiate() {
       [&](int root, int v) { return at_.square_partial(root, v); });
 }
 
-void LiftedCell::lift(const std::vector<Cell>& cells, std::vector<LiftedLook>& looks) {
+void LiftedCell::lift(const std::vector<SpaceCell>& cells, std::vector<LiftedLook>& looks) {
   beside_.use_lanes(cells.size());
   for (std::size_t c = 0; c < 3; ++c) {
     sheet::IntervalBatch own;
     for (std::size_t l = 0; l < cells.size(); ++l) own.lanes[l] = cells[l][c];
     beside_.set(static_cast<int>(c), own);
   }
-  for (const Cell& cell : cells) {
+  for (const SpaceCell& cell : cells) {
     LiftedLook& look = looks.emplace_back();
     look.box.assign(cell.begin(), cell.end());
     look.place.assign(mode_.size(), -1);
@@ -218,7 +218,7 @@ void LiftedCell::enter_middles(std::vector<LiftedLook>& looks, std::vector<bool>
   }
 }
 
-std::vector<LiftedLook> LiftedCell::look_at(const std::vector<Cell>& cells,
+std::vector<LiftedLook> LiftedCell::look_at(const std::vector<SpaceCell>& cells,
                                             const std::function<bool(const std::vector<Interval>&)>& wanted) {
   core::ensure(cells.size() <= sheet::IntervalBatch::size, "cells that go side by side");
   std::vector<LiftedLook> looks;

@@ -16,8 +16,8 @@
 namespace clearloci::loci::space {
 
 using core::Interval;
-using Place = std::array<double, 3>;
-using Cell = std::array<Interval, 3>;
+using SpacePoint = std::array<double, 3>;
+using SpaceCell = std::array<Interval, 3>;
 using LiftedBox = std::vector<Interval>;  ///< the three coordinates, then the lifted roots
 
 /// What is known of a cell: of all rows, over the cell lifted.
@@ -37,13 +37,13 @@ class LiftedCell {
 
   /// Side by side, each as lift, enter, differentiate and values_at its middle tell it. `wanted`: by the values,
   /// whether more has to be known of a cell.
-  std::vector<LiftedLook> look_at(const std::vector<Cell>& cells,
+  std::vector<LiftedLook> look_at(const std::vector<SpaceCell>& cells,
                                   const std::function<bool(const std::vector<Interval>&)>& wanted);
   /// As if the cell had been lifted, entered and differentiated, but for its values. Required: its slopes are known.
   void take(const LiftedLook& look);
 
   /// Chooses the lifted roots of a cell and encloses them; nothing where no pose of it can be assembled.
-  std::optional<LiftedBox> lift(const Cell& cell);
+  std::optional<LiftedBox> lift(const SpaceCell& cell);
   std::size_t dimension() const { return 3 + lifted_.size(); }
   int functions() const { return program_.functions(); }
   int instructions() const { return program_.instructions(); }
@@ -62,7 +62,7 @@ class LiftedCell {
   using Batches = sheet::SheetProgram::Registers<sheet::IntervalBatch>;
 
   /// Sets coordinates and roots of at most IntervalBatch::size cells.
-  void lift(const std::vector<Cell>& cells, std::vector<LiftedLook>& looks);
+  void lift(const std::vector<SpaceCell>& cells, std::vector<LiftedLook>& looks);
   void enter_middles(std::vector<LiftedLook>& looks, std::vector<bool>& real,
                      std::vector<std::vector<Interval>>& roots);
   /// Of the lane's rows.

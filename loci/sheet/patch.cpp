@@ -71,11 +71,11 @@ core::Point2 Chart::to_plane(double p, double q) const {
   return along_x() ? core::Point2{deep, wide} : core::Point2{wide, deep};
 }
 
-Cell Chart::to_plane(const Cell& cell) const {
+PlaneCell Chart::to_plane(const PlaneCell& cell) const {
   if (side == Side::plane) return cell;
   const auto [depth, width] = from_star(interval_, cell.x, cell.y);
   const Interval deep = interval_.a + depth, wide = interval_.b + width;
-  return along_x() ? Cell{deep, wide} : Cell{wide, deep};
+  return along_x() ? PlaneCell{deep, wide} : PlaneCell{wide, deep};
 }
 
 Interval Chart::distance(const Interval& deep, const Interval& wide) const {
@@ -97,20 +97,20 @@ Interval Chart::on_side(const Interval& u, const Interval& deep, const Interval&
   return interval_.slope * interval_.depth + (wide - interval_.slope * deep) * far * far;
 }
 
-std::optional<Cell> Chart::share_of(const Cell& place) const {
+std::optional<PlaneCell> Chart::share_of(const PlaneCell& place) const {
   if (side == Side::plane) return place;
   const Interval deep = (along_x() ? place.x : place.y) - interval_.a;
   const Interval wide = (along_x() ? place.y : place.x) - interval_.b;
   const std::optional<Interval> u = clipped(distance(deep, wide), 0, 1);
   if (!u) return std::nullopt;
-  if (u->lower() <= 0) return Cell{*u, {-1, 1}};
+  if (u->lower() <= 0) return PlaneCell{*u, {-1, 1}};
   const Interval local = (on_side(*u, deep, wide) - interval_.middle) * inverse(interval_.half);
   const std::optional<Interval> t = clipped(local, -1, 1);
   if (!t) return std::nullopt;
-  return Cell{*u, *t};
+  return PlaneCell{*u, *t};
 }
 
-std::optional<Cell> Chart::from_plane(const Cell& place) const {
+std::optional<PlaneCell> Chart::from_plane(const PlaneCell& place) const {
   if (side == Side::plane) return place;
   const Interval deep = (along_x() ? place.x : place.y) - interval_.a;
   const Interval wide = (along_x() ? place.y : place.x) - interval_.b;
@@ -118,7 +118,7 @@ std::optional<Cell> Chart::from_plane(const Cell& place) const {
   if (u.lower() <= 0 || u.upper() > 1) return std::nullopt;
   const Interval t = (on_side(u, deep, wide) - interval_.middle) * inverse(interval_.half);
   if (t.lower() < -1 || t.upper() > 1) return std::nullopt;
-  return Cell{u, t};
+  return PlaneCell{u, t};
 }
 
 core::Polynomial without_denominators(core::Polynomial function, const core::RootTower& tower) {
@@ -322,7 +322,7 @@ Partition partition(const core::RootTower& tower, const std::array<double, 4>& b
   return result;
 }
 
-std::vector<Cell> outside_holes(const Partition& partition) {
+std::vector<PlaneCell> outside_holes(const Partition& partition) {
   std::vector<double> xs = {partition.domain[0], partition.domain[1]}, ys = {partition.domain[2], partition.domain[3]};
   for (const auto& hole : partition.holes) {
     xs.insert(xs.end(), {hole[0], hole[1]});
@@ -332,7 +332,7 @@ std::vector<Cell> outside_holes(const Partition& partition) {
     std::sort(cuts->begin(), cuts->end());
     cuts->erase(std::unique(cuts->begin(), cuts->end()), cuts->end());
   }
-  std::vector<Cell> result;
+  std::vector<PlaneCell> result;
   for (std::size_t i = 0; i + 1 < xs.size(); ++i)
     for (std::size_t k = 0; k + 1 < ys.size(); ++k) {
       const bool in_hole = std::any_of(partition.holes.begin(), partition.holes.end(), [&](const auto& hole) {

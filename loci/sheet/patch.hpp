@@ -28,11 +28,11 @@ struct Chart {
   Chart(Side side, int star, const Star& at, const std::array<core::Rational, 4>& rectangle);
 
   core::Point2 to_plane(double p, double q) const;
-  Cell to_plane(const Cell& cell) const;
+  PlaneCell to_plane(const PlaneCell& cell) const;
   /// The place in this chart's coordinates, if it surely lies in the chart.
-  std::optional<Cell> from_plane(const Cell& place) const;
+  std::optional<PlaneCell> from_plane(const PlaneCell& place) const;
   /// A cell that holds the part of the place that lies in the chart; none: there is no such part.
-  std::optional<Cell> share_of(const Cell& place) const;
+  std::optional<PlaneCell> share_of(const PlaneCell& place) const;
 
   /// A straight line in (u, X', Y', roots...) (star.hpp) in the chart's coordinates (u, t, roots...).
   core::StraightLine in_chart(const core::StraightLine& polar) const;
@@ -113,6 +113,6 @@ inline Partition partition(const core::RootTower& tower, const std::array<double
 }
 
 /// The part of the domain outside the holes, as rectangles.
-std::vector<Cell> outside_holes(const Partition& partition);
+std::vector<PlaneCell> outside_holes(const Partition& partition);
 
 }  // namespace clearloci::loci::sheet

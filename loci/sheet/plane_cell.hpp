@@ -5,7 +5,7 @@
 
 namespace clearloci::loci::sheet {
 
-struct Cell {
+struct PlaneCell {
   Interval x, y;
 };
 

@@ -2,14 +2,14 @@
 
 namespace clearloci::loci::sheet {
 
-RimCell::Place RimCell::enter(const SheetCell& cell) {
+RimCell::Standing RimCell::enter(const SheetCell& cell) {
   lifted_ = -1;
   for (const int c : {0, 1}) registers_.set(c, Jet3(cell.local(c), c));
   for (int j = 0; j < program_->roots(); ++j) {
     registers_.run_square(j);
     const Jet3& square = registers_.square(j);
-    if (!is_known(square)) return Place::unknown;
-    if (square.value.upper() < 0) return Place::outside;
+    if (!is_known(square)) return Standing::unknown;
+    if (square.value.upper() < 0) return Standing::outside;
     if (lifted_ < 0 && !varies_little(square.value)) {
       lifted_ = j;
       const Jet3 root(cell.root(j), 2);
@@ -17,12 +17,12 @@ RimCell::Place RimCell::enter(const SheetCell& cell) {
       registers_.set(2 + j, root);
       continue;
     }
-    if (square.value.lower() <= 0) return Place::unknown;
+    if (square.value.lower() <= 0) return Standing::unknown;
     const Jet3 root = square_root(square);
     registers_.set(2 + j, cell.mode()[static_cast<std::size_t>(j)] > 0 ? root : -root);
   }
   registers_.run_values();
-  return lifted_ >= 0 && is_known(registers_.value(0)) && is_known(bond_) ? Place::inside : Place::unknown;
+  return lifted_ >= 0 && is_known(registers_.value(0)) && is_known(bond_) ? Standing::inside : Standing::unknown;
 }
 
 bool RimCell::excludes() const { return !registers_.value(0).value.contains_zero() || !bond_.value.contains_zero(); }

@@ -15,12 +15,12 @@ class RimCell {
  public:
   explicit RimCell(const SheetProgram& program) : program_(&program), registers_(program.registers<Jet3>()) {}
 
-  using Place = SmoothCell::Place;
+  using Standing = SmoothCell::Standing;
 
-  /// Moves to a cell that the other has entered. Place::inside: one root is lifted, the first that varies much by what
-  /// is known to second order, and all others are proven to be away from 0.
-  Place enter(const SheetCell& cell);
-  /// After Place::inside.
+  /// Moves to a cell that the other has entered. Standing::inside: one root is lifted, the first that varies much by
+  /// what is known to second order, and all others are proven to be away from 0.
+  Standing enter(const SheetCell& cell);
+  /// After Standing::inside.
   int lifted() const { return lifted_; }
 
   /// Function 0 is proven to vanish nowhere on the sheet in the cell.

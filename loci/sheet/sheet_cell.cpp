@@ -319,7 +319,7 @@ SheetCells::SheetCells(const SheetProgram& program, const core::WorkingMode& mod
       at_middle_(program.registers<IntervalBatch>()),
       cells_(size, SheetCell(program, mode)) {}
 
-void SheetCells::enter(const std::array<Place, size>& places, std::size_t count) {
+void SheetCells::enter(const std::array<Target, size>& places, std::size_t count) {
   static const std::vector<Interval> all;
   over_.use_lanes(count);
   at_middle_.use_lanes(count);
@@ -328,7 +328,7 @@ void SheetCells::enter(const std::array<Place, size>& places, std::size_t count)
   for (std::size_t lane = 0; lane < size; ++lane) {
     inside_[lane] = lane < count;
     if (!inside_[lane]) continue;
-    const Place& place = places[lane];
+    const Target& place = places[lane];
     if (place.local != nullptr)
       cells_[lane].begin_local(*place.local, *place.lifted);
     else
@@ -343,7 +343,7 @@ void SheetCells::enter(const std::array<Place, size>& places, std::size_t count)
     IntervalBatch roots;
     for (std::size_t lane = 0; lane < count; ++lane) {
       if (!inside_[lane]) continue;
-      const Place& place = places[lane];
+      const Target& place = places[lane];
       SheetCell& cell = cells_[lane];
       cell.over_.take_square(over_, lane, j);
       inside_[lane] = place.local != nullptr ? cell.enter_local_root(j, lifted[lane])

@@ -116,7 +116,7 @@ class SheetCells {
 
   /// What a cell moves to: its ranges of x and y and of roots, null where they are all that the cell allows; or else a
   /// box in local coordinates.
-  struct Place {
+  struct Target {
     Interval x, y;
     const std::vector<Interval>* ranges = nullptr;
     const std::vector<Interval>* local = nullptr;
@@ -124,7 +124,7 @@ class SheetCells {
   };
   /// Moves to places [0, count), count <= size. What operator[] gives then is as after SheetCell::enter() or
   /// enter_local(), where `inside` says so.
-  void enter(const std::array<Place, size>& places, std::size_t count);
+  void enter(const std::array<Target, size>& places, std::size_t count);
   bool inside(std::size_t lane) const { return inside_[lane]; }
   /// Of those inside.
   void differentiate();

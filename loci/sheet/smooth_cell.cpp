@@ -27,20 +27,20 @@ bool varies_little(const Interval& square) {
 SmoothCell::SmoothCell(const SheetProgram& program, core::WorkingMode mode)
     : program_(&program), mode_(std::move(mode)), registers_(program.registers<Jet>()) {}
 
-SmoothCell::Place SmoothCell::enter(const Interval& x, const Interval& y) {
+SmoothCell::Standing SmoothCell::enter(const Interval& x, const Interval& y) {
   registers_.set(0, Jet(x, 0));
   registers_.set(1, Jet(y, 1));
   bool known = true;
   for (int j = 0; j < program_->roots(); ++j) {
     registers_.run_square(j);
     const Jet& square = registers_.square(j);
-    if (square.bounded && square.value.upper() < 0) return Place::outside;
+    if (square.bounded && square.value.upper() < 0) return Standing::outside;
     const Jet root = root_of(square);
     known = known && is_known(root);
     registers_.set(2 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
   }
   registers_.run_values();
-  return known && is_known(registers_.value(0)) ? Place::inside : Place::unknown;
+  return known && is_known(registers_.value(0)) ? Standing::inside : Standing::unknown;
 }
 
 bool SmoothCell::excludes(int function) const { return excludes_zero(registers_.value(function)); }
@@ -62,22 +62,23 @@ void SmoothCells::enter(const std::array<std::array<Interval, 2>, size>& ranges,
       own.set_lane(lane, Jet(ranges[lane][static_cast<std::size_t>(c)], c));
     registers_.set(c, own);
   }
-  places_.fill(Place::inside);
+  places_.fill(Standing::inside);
   for (int j = 0; j < program_->roots(); ++j) {
     registers_.run_square(j);
     JetBatch roots;
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Jet square = registers_.square(j).lane(lane);
-      if (square.bounded && square.value.upper() < 0) places_[lane] = Place::outside;
+      if (square.bounded && square.value.upper() < 0) places_[lane] = Standing::outside;
       const Jet root = root_of(square);
-      if (places_[lane] == Place::inside && !is_known(root)) places_[lane] = Place::unknown;
+      if (places_[lane] == Standing::inside && !is_known(root)) places_[lane] = Standing::unknown;
       roots.set_lane(lane, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
     }
     registers_.set(2 + j, roots);
   }
   registers_.run_values();
   for (std::size_t lane = 0; lane < count; ++lane)
-    if (places_[lane] == Place::inside && !is_known(registers_.value(0).lane(lane))) places_[lane] = Place::unknown;
+    if (places_[lane] == Standing::inside && !is_known(registers_.value(0).lane(lane)))
+      places_[lane] = Standing::unknown;
 }
 
 bool SmoothCells::excludes(std::size_t lane, int function) const {

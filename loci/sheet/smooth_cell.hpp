@@ -18,19 +18,19 @@ class SmoothCell {
  public:
   SmoothCell(const SheetProgram& program, core::WorkingMode mode);
 
-  enum class Place {
+  enum class Standing {
     inside,   ///< every root is proven to be away from 0, and function 0 is enclosed
     outside,  ///< proven to lie outside the workspace
     unknown,
   };
-  Place enter(const Interval& x, const Interval& y);
+  Standing enter(const Interval& x, const Interval& y);
 
-  /// After Place::inside.
+  /// After Standing::inside.
   const Interval& value() const { return registers_.value(0).value; }
-  /// After Place::inside or Place::unknown: the function is proven to vanish nowhere on the cell. It may be although a
-  /// root is not known, as one that it does not hold.
+  /// After Standing::inside or Standing::unknown: the function is proven to vanish nowhere on the cell. It may be
+  /// although a root is not known, as one that it does not hold.
   bool excludes(int function) const;
-  /// After Place::inside: the square of no root varies much over the cell.
+  /// After Standing::inside: the square of no root varies much over the cell.
   bool is_far_from_rims() const;
   /// d/d(coordinate c) of the function on the sheet, times the half width of the cell.
   const Interval& slope(int c) const { return registers_.value(0).slope[static_cast<std::size_t>(c)]; }
@@ -45,13 +45,13 @@ class SmoothCell {
 class SmoothCells {
  public:
   static constexpr std::size_t size = JetBatch::size;
-  using Place = SmoothCell::Place;
+  using Standing = SmoothCell::Standing;
 
   SmoothCells(const SheetProgram& program, core::WorkingMode mode);
 
   /// `ranges`: of x and y of cells [0, count), count <= size.
   void enter(const std::array<std::array<Interval, 2>, size>& ranges, std::size_t count);
-  Place place(std::size_t lane) const { return places_[lane]; }
+  Standing place(std::size_t lane) const { return places_[lane]; }
 
   bool excludes(std::size_t lane, int function) const;
   bool is_far_from_rims(std::size_t lane) const;
@@ -63,7 +63,7 @@ class SmoothCells {
   const SheetProgram* program_;
   core::WorkingMode mode_;
   SheetProgram::Registers<JetBatch> registers_;
-  std::array<Place, size> places_{};
+  std::array<Standing, size> places_{};
 };
 
 bool is_smooth_worthwhile(const SheetProgram& program);

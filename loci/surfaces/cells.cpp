@@ -48,7 +48,7 @@ bool Cells::halve(const std::vector<int>& leaves, int finest) {
 void Cells::cut(std::vector<int> front, const std::function<bool(OctreeCell&)>& wanted) {
   while (!front.empty()) {
     // What is looked at soon is looked at together.
-    std::vector<Place> places;
+    std::vector<LatticePlace> places;
     for (const int index : front)
       if (const OctreeCell& cell = cells_[static_cast<std::size_t>(index)];
           cell.active() && cell.level >= limits_.level)
@@ -86,12 +86,12 @@ bool Cells::worth_splitting(OctreeCell& cell) {
   return look == Look::bent && cell.level < limits_.level + bent_levels;
 }
 
-std::vector<Cells::Seen> Cells::seen_at(const std::vector<Place>& places) {
+std::vector<Cells::Seen> Cells::seen_at(const std::vector<LatticePlace>& places) {
   constexpr auto side = static_cast<std::uint64_t>(lattice) + 1;
   std::vector<Seen*> seen;  // of an unordered map: its elements stay where they are
   std::vector<Seen*> unknown;
   std::vector<Point> points;
-  for (const Place& place : places) {
+  for (const LatticePlace& place : places) {
     std::uint64_t key = 0;
     for (const std::int32_t own : place) key = key * side + static_cast<std::uint64_t>(own);
     const auto [known, fresh] = seen_.try_emplace(key);
@@ -107,10 +107,10 @@ std::vector<Cells::Seen> Cells::seen_at(const std::vector<Place>& places) {
   return result;
 }
 
-void Cells::add_places(const OctreeCell& cell, std::vector<Place>& places) {
+void Cells::add_places(const OctreeCell& cell, std::vector<LatticePlace>& places) {
   places.push_back(cell.middle());
   for (int which = 0; which < 8; ++which) {
-    Place& place = places.emplace_back(cell.corner);
+    LatticePlace& place = places.emplace_back(cell.corner);
     for (std::size_t i = 0; i < 3; ++i)
       if ((which >> i & 1) != 0) place[i] += cell.size();
   }
@@ -118,7 +118,7 @@ void Cells::add_places(const OctreeCell& cell, std::vector<Place>& places) {
 
 /// At the corners and in the middle. On the rim, where gradients are unbounded, they tell nothing.
 Cells::Look Cells::look_at(const OctreeCell& cell) {
-  std::vector<Place> places;
+  std::vector<LatticePlace> places;
   add_places(cell, places);
   const std::vector<Seen> seen = seen_at(places);
   const auto& [sign, normal] = seen.front();
@@ -158,11 +158,12 @@ void Cells::split(int index) {
 /// Cuts larger neighbours, so that the cell itself may be cut.
 void Cells::balance(int index) {
   const OctreeCell cell = cells_[static_cast<std::size_t>(index)];
-  const Place middle = cell.middle();
+  const LatticePlace middle = cell.middle();
   for (int dx = -1; dx <= 1; ++dx)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dz = -1; dz <= 1; ++dz) {
-        const Place beside = {middle[0] + dx * cell.size(), middle[1] + dy * cell.size(), middle[2] + dz * cell.size()};
+        const LatticePlace beside = {middle[0] + dx * cell.size(), middle[1] + dy * cell.size(),
+                                     middle[2] + dz * cell.size()};
         for (int neighbour = at(beside, cell.level);
              neighbour >= 0 && cells_[static_cast<std::size_t>(neighbour)].level < cell.level;
              neighbour = at(beside, cell.level)) {
@@ -172,14 +173,14 @@ void Cells::balance(int index) {
       }
 }
 
-int Cells::at(const Place& inner, int level) const {
+int Cells::at(const LatticePlace& inner, int level) const {
   for (std::size_t i = 0; i < 3; ++i)
     if (inner[i] < 0 || inner[i] >= lattice) return -1;
   int index = 0;
   while (true) {
     const OctreeCell& cell = cells_[static_cast<std::size_t>(index)];
     if (cell.leaf() || cell.level == level) return index;
-    const Place middle = cell.middle();
+    const LatticePlace middle = cell.middle();
     int child = 0;
     for (std::size_t i = 0; i < 3; ++i)
       if (inner[i] >= middle[i]) child |= 1 << i;
@@ -187,10 +188,10 @@ int Cells::at(const Place& inner, int level) const {
   }
 }
 
-void Cells::each_leaf_at(const Place& place, const std::function<void(int)>& visit) const {
+void Cells::each_leaf_at(const LatticePlace& place, const std::function<void(int)>& visit) const {
   std::vector<int> seen;
   for (int which = 0; which < 8; ++which) {
-    Place inner = place;
+    LatticePlace inner = place;
     for (std::size_t i = 0; i < 3; ++i)
       if ((which >> i & 1) != 0) --inner[i];
     const int leaf = at(inner, deepest);
@@ -207,7 +208,7 @@ void Cells::each_neighbour(int leaf, const std::function<void(int)>& visit) cons
   const std::array<std::int32_t, 4> steps = {-1, 0, cell.size() / 2, cell.size()};
   constexpr std::array<std::array<std::size_t, 2>, 3> halves = {{{0, 1}, {1, 3}, {3, 4}}};  // [first, last) of `steps`
   const auto place = [&](std::size_t x, std::size_t y, std::size_t z) {
-    return Place{cell.corner[0] + steps[x], cell.corner[1] + steps[y], cell.corner[2] + steps[z]};
+    return LatticePlace{cell.corner[0] + steps[x], cell.corner[1] + steps[y], cell.corner[2] + steps[z]};
   };
   for (const auto& x : halves)
     for (const auto& y : halves)
@@ -224,7 +225,7 @@ void Cells::each_neighbour(int leaf, const std::function<void(int)>& visit) cons
       }
 }
 
-bool Cells::finer_at(const Place& inner, int level) const {
+bool Cells::finer_at(const LatticePlace& inner, int level) const {
   const int index = at(inner, level);
   if (index < 0) return false;
   const OctreeCell& cell = cells_[static_cast<std::size_t>(index)];

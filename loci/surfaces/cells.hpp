@@ -17,29 +17,29 @@ namespace clearloci::loci::surface {
 inline constexpr int deepest = 11;
 inline constexpr std::int32_t lattice = 1 << (deepest + 1);
 
-using Place = std::array<std::int32_t, 3>;  ///< on the lattice
+using LatticePlace = std::array<std::int32_t, 3>;  ///< on the lattice
 
-inline Point unit_of(const Place& place) {
+inline Point unit_of(const LatticePlace& place) {
   constexpr double step = 1.0 / lattice;
   return {place[0] * step, place[1] * step, place[2] * step};
 }
 
 /// The place below a point of the unit cube, in every coordinate.
-inline Place place_below(const Point& unit) {
-  Place place;
+inline LatticePlace place_below(const Point& unit) {
+  LatticePlace place;
   for (std::size_t i = 0; i < 3; ++i)
     place[i] = std::clamp(static_cast<std::int32_t>(unit[i] * lattice), std::int32_t{0}, lattice - 1);
   return place;
 }
 
 struct OctreeCell {
-  Place corner{};  ///< the lowest
+  LatticePlace corner{};  ///< the lowest
   int level = 0;
   int children = -1;  ///< the first of eight; -1: a leaf
   Proof proof;
 
   std::int32_t size() const { return lattice >> level; }
-  Place middle() const { return {corner[0] + size() / 2, corner[1] + size() / 2, corner[2] + size() / 2}; }
+  LatticePlace middle() const { return {corner[0] + size() / 2, corner[1] + size() / 2, corner[2] + size() / 2}; }
   Box box() const {
     constexpr double step = 1.0 / lattice;  // a power of two: exact
     Box result;
@@ -70,11 +70,11 @@ class Cells {
 
   const std::vector<OctreeCell>& cells() const { return cells_; }
   /// The smallest cell of at most the given level that holds a place of the lattice's interior; -1: outside the cube.
-  int at(const Place& inner, int level) const;
+  int at(const LatticePlace& inner, int level) const;
   /// Whether the place lies inside a cell of the given level that is cut further.
-  bool finer_at(const Place& inner, int level) const;
+  bool finer_at(const LatticePlace& inner, int level) const;
   /// The leaves of which a place is a point, each once.
-  void each_leaf_at(const Place& place, const std::function<void(int)>& visit) const;
+  void each_leaf_at(const LatticePlace& place, const std::function<void(int)>& visit) const;
   /// The leaves that share a point with a leaf, itself among them, some more than once.
   void each_neighbour(int leaf, const std::function<void(int)>& visit) const;
 
@@ -88,14 +88,14 @@ class Cells {
   void balance(int cell);
   bool worth_splitting(OctreeCell& cell);
   /// The places by which a cell is looked at: its middle, then its corners.
-  static void add_places(const OctreeCell& cell, std::vector<Place>& places);
+  static void add_places(const OctreeCell& cell, std::vector<LatticePlace>& places);
   Look look_at(const OctreeCell& cell);
   struct Seen {
     bool negative = false;
     Point gradient{};
   };
   /// Corners belong to many cells, and middles are corners of smaller ones: each is looked at once.
-  std::vector<Seen> seen_at(const std::vector<Place>& places);
+  std::vector<Seen> seen_at(const std::vector<LatticePlace>& places);
 
   Field* field_;
   CellLimits limits_;

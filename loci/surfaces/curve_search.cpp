@@ -26,7 +26,7 @@ constexpr int most_pieces = 400;
 constexpr int asked_every = 64;
 
 struct OpenCell {
-  Cell cell;
+  SpaceCell cell;
   int depth = 0;
   std::shared_ptr<const LiftedLook> look = {};  ///< once it was looked at
   bool empty = false;                           ///< then: there is no zero in it
@@ -46,13 +46,13 @@ std::optional<bool> lies_in(const Interval& at, const Interval& range) {
 }
 
 /// At every point looked at one of the rows is zero, to rounding and to first order.
-bool one_vanishes_along(LiftedCell& lifted, std::size_t first_row, std::size_t end_row, const Cell& box,
-                        const std::vector<Place>& points) {
+bool one_vanishes_along(LiftedCell& lifted, std::size_t first_row, std::size_t end_row, const SpaceCell& box,
+                        const std::vector<SpacePoint>& points) {
   constexpr double vanishes_within = 1e-8;  // of the box
   constexpr std::size_t looked_at = 24;
   const std::size_t step = std::max<std::size_t>(1, points.size() / looked_at);
   for (std::size_t i = 0; i < points.size(); i += step) {
-    Cell cell;
+    SpaceCell cell;
     for (std::size_t c = 0; c < 3; ++c) cell[c] = Interval(points[i][c]);
     const std::optional<LiftedBox> at = lifted.lift(cell);
     if (!at || !lifted.enter(*at)) continue;
@@ -70,9 +70,9 @@ bool one_vanishes_along(LiftedCell& lifted, std::size_t first_row, std::size_t e
 
 /// What touches a cell in which |A| may vanish, over a few others, is open for that reason; a curve that stays open
 /// farther on is for another. `settled`: such cells that are known but for |A|.
-void spread_singularity(std::vector<UndecidedCell>& cells, const std::vector<Cell>& settled) {
+void spread_singularity(std::vector<UndecidedCell>& cells, const std::vector<SpaceCell>& settled) {
   constexpr int most_between = 4;
-  const auto touch = [](const Cell& a, const Cell& b) {
+  const auto touch = [](const SpaceCell& a, const SpaceCell& b) {
     for (std::size_t i = 0; i < 3; ++i)
       if (disjoint(a[i], b[i])) return false;
     return true;
@@ -80,9 +80,9 @@ void spread_singularity(std::vector<UndecidedCell>& cells, const std::vector<Cel
   std::vector<std::pair<std::size_t, int>> reached;  // and over how many others
   for (std::size_t c = 0; c < cells.size(); ++c) {
     UndecidedCell& own = cells[c];
-    own.near_singularity = own.near_singularity || std::any_of(settled.begin(), settled.end(), [&](const Cell& other) {
-                             return touch(own.cell, other);
-                           });
+    own.near_singularity =
+        own.near_singularity ||
+        std::any_of(settled.begin(), settled.end(), [&](const SpaceCell& other) { return touch(own.cell, other); });
     if (own.near_singularity) reached.emplace_back(c, 0);
   }
   for (std::size_t next = 0; next < reached.size(); ++next)
@@ -93,8 +93,8 @@ void spread_singularity(std::vector<UndecidedCell>& cells, const std::vector<Cel
       }
 }
 
-Cell box_of(const core::LocusProblem& problem) {
-  Cell box;
+SpaceCell box_of(const core::LocusProblem& problem) {
+  SpaceCell box;
   for (std::size_t i = 0; i < 3; ++i)
     box[i] = Interval(core::to_double(problem.lower[i]), core::to_double(problem.upper[i]));
   return box;
@@ -122,7 +122,7 @@ class Search {
 
   /// Looks at the first cells of a queue, side by side.
   void look_at(std::deque<OpenCell>& queue) {
-    std::vector<Cell> cells;
+    std::vector<SpaceCell> cells;
     for (std::size_t i = 0; i < std::min(queue.size(), sheet::IntervalBatch::size); ++i) cells.push_back(queue[i].cell);
     const auto excludes = [&](const std::vector<Interval>& values) {
       for (std::size_t row = 0; row < values.size(); ++row)
@@ -297,9 +297,9 @@ class Search {
   LiftedCell lifted_;
   std::vector<std::size_t> system_;
   std::size_t first_determinant_ = 0;
-  Cell box_;
+  SpaceCell box_;
   long cells_ = 0;
-  std::vector<Cell> settled_singular_;
+  std::vector<SpaceCell> settled_singular_;
 };
 
 class PointSearch : public Search {
@@ -343,7 +343,7 @@ class PointSearch : public Search {
 
 /// A cell in which the curve is known.
 struct CurveCell {
-  Cell cell;
+  SpaceCell cell;
   std::size_t parameter = 0;
   bool singular = false;
   std::vector<Crossing> crossings;  ///< by the parameter; two and two bound a stretch
@@ -371,7 +371,7 @@ class CurveSearch : public Search {
 
  private:
   /// The curve in a cell that was examined last; nothing where it is not told.
-  std::optional<CurveCell> solved(const Cell& cell, const LiftedBox& box) {
+  std::optional<CurveCell> solved(const SpaceCell& cell, const LiftedBox& box) {
     CurveCell result{cell, 0, false, {}};
     const std::vector<std::size_t> rows = equations();
     const std::optional<std::size_t> parameter = parameter_of(lifted_, rows, box);
@@ -419,7 +419,7 @@ class CurveSearch : public Search {
   // ---- Pieces strung together
 
   struct Node {
-    Place at{};
+    SpacePoint at{};
     core::ArcEnd end = core::ArcEnd::none;
     std::vector<std::size_t> stretches;
   };
@@ -429,7 +429,7 @@ class CurveSearch : public Search {
   };
 
   std::size_t node_at(const Crossing& crossing) {
-    const Place at = {crossing.at[0], crossing.at[1], crossing.at[2]};
+    const SpacePoint at = {crossing.at[0], crossing.at[1], crossing.at[2]};
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       bool equal = true;
       for (std::size_t i = 0; i < 3; ++i)
@@ -488,7 +488,7 @@ class CurveSearch : public Search {
     if (!is_singular(arc)) cut_at_singularity(std::move(arc));
   }
 
-  std::vector<double> determinants_at(const Place& at) {
+  std::vector<double> determinants_at(const SpacePoint& at) {
     std::vector<double> values;
     const std::optional<LiftedBox> box = lifted_.lift({Interval(at[0]), Interval(at[1]), Interval(at[2])});
     if (!box || !lifted_.enter(*box)) return values;
@@ -498,8 +498,9 @@ class CurveSearch : public Search {
   }
 
   /// Between two points where a factor of |A| has opposite signs: where it vanishes, by Newton's method from between.
-  Place where_singular(std::size_t factor, const Place& from, double before, const Place& to, double behind) {
-    Place at{};
+  SpacePoint where_singular(std::size_t factor, const SpacePoint& from, double before, const SpacePoint& to,
+                            double behind) {
+    SpacePoint at{};
     const double part = before / (before - behind);
     for (std::size_t i = 0; i < 3; ++i) at[i] = from[i] + part * (to[i] - from[i]);
     const std::optional<LiftedBox> start = lifted_.lift({Interval(at[0]), Interval(at[1]), Interval(at[2])});
@@ -514,7 +515,7 @@ class CurveSearch : public Search {
       if (!moved) return at;
       for (std::size_t d = 0; d < box.size(); ++d) box[d] = Interval((*moved)[d]);
     }
-    Place found{};
+    SpacePoint found{};
     double apart = 0, way = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       found[i] = box[i].middle();
@@ -533,7 +534,7 @@ class CurveSearch : public Search {
       const std::vector<double> behind = determinants_at(arc.points[p]);
       for (std::size_t f = 0; f < before.size() && f < behind.size(); ++f) {
         if (!(before[f] * behind[f] < 0)) continue;
-        const Place at = where_singular(f, arc.points[p - 1], before[f], arc.points[p], behind[f]);
+        const SpacePoint at = where_singular(f, arc.points[p - 1], before[f], arc.points[p], behind[f]);
         parts.back().points.push_back(at);
         parts.back().ends[1] = core::ArcEnd::direct_singularity;
         parts.push_back({false, {core::ArcEnd::direct_singularity, arc.ends[1]}, arc.certified, {at}});
@@ -557,7 +558,7 @@ class CurveSearch : public Search {
 
   core::ArcEnd end_at(std::size_t node) const {
     if (nodes_[node].end != core::ArcEnd::none) return nodes_[node].end;
-    const Place& at = nodes_[node].at;
+    const SpacePoint& at = nodes_[node].at;
     for (const UndecidedCell& own : result_.undecided) {
       bool touches = own.near_singularity;
       for (std::size_t i = 0; i < 3; ++i)
@@ -576,13 +577,13 @@ class CurveSearch : public Search {
 
   /// Between two points of one stretch: halved along its parameter until the chords are close enough.
   void add_vertices(const CurveCell& cell, const std::vector<double>& from, const std::vector<double>& to, int depth,
-                    std::vector<Place>& points) {
+                    std::vector<SpacePoint>& points) {
     constexpr int most_halvings = 10;
     if (depth >= most_halvings) return;
     const std::optional<std::vector<double>> middle = between(cell, from, to);
     if (!middle) return;
-    const Place a = placed(problem_, {from[0], from[1], from[2]}), b = placed(problem_, {to[0], to[1], to[2]}),
-                own = placed(problem_, {(*middle)[0], (*middle)[1], (*middle)[2]});
+    const SpacePoint a = placed(problem_, {from[0], from[1], from[2]}), b = placed(problem_, {to[0], to[1], to[2]}),
+                     own = placed(problem_, {(*middle)[0], (*middle)[1], (*middle)[2]});
     double along = 0, length = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       along += (own[i] - a[i]) * (b[i] - a[i]);
@@ -648,8 +649,8 @@ class CurveSearch : public Search {
 
 }  // namespace
 
-Place placed(const core::LocusProblem& problem, const Place& variables) {
-  Place place = variables;
+SpacePoint placed(const core::LocusProblem& problem, const SpacePoint& variables) {
+  SpacePoint place = variables;
   for (std::size_t i = 0; i < 3; ++i)
     if (i < problem.charts.size() && problem.charts[i]) place[i] = core::angle_at(*problem.charts[i], variables[i]);
   return place;

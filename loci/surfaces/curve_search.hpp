@@ -38,15 +38,15 @@ struct ChartArc {
   bool closed = false;
   std::array<core::ArcEnd, 2> ends = {core::ArcEnd::none, core::ArcEnd::none};
   bool certified = false;
-  std::vector<Place> points;  ///< a closed one repeats its first point
+  std::vector<SpacePoint> points;  ///< a closed one repeats its first point
 };
 
 struct ChartPoint {
-  Place at{};
+  SpacePoint at{};
 };
 
 struct UndecidedCell {
-  Cell cell;
+  SpaceCell cell;
   bool near_singularity = false;  ///< |A| may vanish in it, or in cells with which it hangs together
 };
 
@@ -73,6 +73,6 @@ bool vanishes_along(const core::LocusProblem& problem, const core::WorkingMode& 
                     const sheet::SheetFunction& function, const ChartArc& arc);
 
 /// The coordinates of a point of a chart: m, rad.
-Place placed(const core::LocusProblem& problem, const Place& variables);
+SpacePoint placed(const core::LocusProblem& problem, const SpacePoint& variables);
 
 }  // namespace clearloci::loci::space

@@ -112,7 +112,7 @@ std::optional<int> sign_across_seam(const LocusProblem& a, const sheet::SheetFun
   return std::nullopt;
 }
 
-Field::Chart::Chart(const Part& part, const core::WorkingMode& mode)
+Field::Chart::Chart(const ChartPart& part, const core::WorkingMode& mode)
     : problem(part.problem),
       program(part.problem->tower, std::vector<sheet::SheetFunction>{part.function}),
       at(program.registers<double>()),
@@ -138,9 +138,9 @@ Interval Field::Chart::variable_over(std::size_t i, const Interval& coordinate) 
               Interval(least[i] - angle_rounding, most[i] + angle_rounding));
 }
 
-Field::Field(const std::vector<Part>& parts, core::WorkingMode mode) : mode_(std::move(mode)) {
+Field::Field(const std::vector<ChartPart>& parts, core::WorkingMode mode) : mode_(std::move(mode)) {
   std::vector<const LocusProblem*> problems;
-  for (const Part& part : parts) {
+  for (const ChartPart& part : parts) {
     problems.push_back(part.problem);
     charts_.push_back(std::make_unique<Chart>(part, mode_));
   }

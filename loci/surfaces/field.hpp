@@ -63,13 +63,13 @@ bool are_neighbours(const core::LocusProblem& a, const core::LocusProblem& b);
 class Field {
  public:
   /// A function a chart, in its tower's variables, and the sign by which it is multiplied there.
-  struct Part {
+  struct ChartPart {
     const core::LocusProblem* problem = nullptr;
     sheet::SheetFunction function;
     int sign = 1;
   };
 
-  Field(const std::vector<Part>& parts, core::WorkingMode mode);
+  Field(const std::vector<ChartPart>& parts, core::WorkingMode mode);
 
   const Frame& frame() const { return frame_; }
   int roots() const { return static_cast<int>(mode_.size()); }
@@ -140,7 +140,7 @@ class Field {
 
  private:
   struct Chart {
-    Chart(const Part& part, const core::WorkingMode& mode);
+    Chart(const ChartPart& part, const core::WorkingMode& mode);
 
     /// Of a coordinate's range, cut to the chart.
     core::Interval variable_over(std::size_t i, const core::Interval& coordinate) const;

@@ -43,7 +43,7 @@ Slope slope_of(const Nodes& nodes) {
 }
 
 /// A part of a tetrahedron: itself, or what lies in some of the cube's sides.
-struct Part {
+struct TetrahedronPart {
   std::array<int, 3> sides{};  ///< along each axis: -1 below, +1 above, 0 not held
   std::vector<Node> nodes;
 };
@@ -55,17 +55,17 @@ bool lies_on(const Point& at, const std::array<int, 3>& sides) {
 }
 
 /// Those that are as large as the sides allow: a face of the tetrahedron in one, an edge in two, a corner in three.
-std::vector<Part> parts_of(const Nodes& nodes) {
+std::vector<TetrahedronPart> parts_of(const Nodes& nodes) {
   const auto beside_a_side = [](const Node& node) {
     return std::any_of(node.at.begin(), node.at.end(), [](double x) { return x == 0 || x == 1; });
   };
   if (std::none_of(nodes.begin(), nodes.end(), beside_a_side)) return {{{}, {nodes.begin(), nodes.end()}}};
-  std::vector<Part> result;
+  std::vector<TetrahedronPart> result;
   std::array<int, 3> sides{};
   for (sides[0] = -1; sides[0] <= 1; ++sides[0])
     for (sides[1] = -1; sides[1] <= 1; ++sides[1])
       for (sides[2] = -1; sides[2] <= 1; ++sides[2]) {
-        Part part{sides, {}};
+        TetrahedronPart part{sides, {}};
         std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(part.nodes),
                      [&](const Node& node) { return lies_on(node.at, sides); });
         const auto held = 3 - std::count(sides.begin(), sides.end(), 0);
@@ -117,7 +117,7 @@ bool is_beyond_the_boundary(const Field::Over& f) {
 
 /// Whether the homotopy has no zero on a part within the workspace, or is regular there. `over`: f on a box that holds
 /// it. `orientation`: of the tetrahedron.
-bool is_regular(const Part& part, const Slope& g, const std::vector<Field::Over>& over, int orientation) {
+bool is_regular(const TetrahedronPart& part, const Slope& g, const std::vector<Field::Over>& over, int orientation) {
   const int sign = sign_of(part.nodes);
   Vector way = within(part.sides, g.gradient);
   for (Interval& own : way) own = Interval(orientation) * own;
@@ -130,7 +130,7 @@ bool is_regular(const Part& part, const Slope& g, const std::vector<Field::Over>
 
 /// A part of which more has to be known than over its whole cell.
 struct Doubt {
-  Part part{};
+  TetrahedronPart part{};
   Slope g{};
   int orientation = 0;  ///< of the tetrahedron
 };
@@ -262,7 +262,7 @@ class Homotopy {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::int32_t at = place(1)[axis];
       if (place(2)[axis] != at || place(3)[axis] != at) continue;
-      Place beside;
+      LatticePlace beside;
       for (std::size_t k = 0; k < 3; ++k) beside[k] = (place(1)[k] + place(2)[k] + place(3)[k]) / 3;
       beside[axis] = at == cell.corner[axis] ? at - 1 : at;
       const int other = cells_.at(beside, deepest);
@@ -346,7 +346,7 @@ class Homotopy {
     for (const int crossing : *crossings) cut(pieces, complex_.crossings[static_cast<std::size_t>(crossing)]);
     for (const Nodes& piece : pieces) {
       const Slope g = slope_of(piece);
-      for (Part& part : parts_of(piece))
+      for (TetrahedronPart& part : parts_of(piece))
         if (!is_regular(part, g, over, orientation)) doubts.push_back({std::move(part), g, orientation});
     }
     return true;

@@ -67,7 +67,7 @@ class Marcher {
  public:
   Marcher(Field& field, const Cells& cells) : field_(field), cells_(cells), cut_(tetrahedra_of(cells)) {
     std::vector<Point> points;
-    for (const Place& place : cut_.corners) points.push_back(unit_of(place));
+    for (const LatticePlace& place : cut_.corners) points.push_back(unit_of(place));
     const std::vector<double> values = field_.values(points);
     for (std::size_t i = 0; i < points.size(); ++i) corners_.emplace_back(points[i], values[i]);
   }
@@ -134,7 +134,7 @@ class Marcher {
 
   /// Cells outside the workspace are not cut, though the surface goes on in them: a corner of theirs that moved would
   /// take a piece of the surface away.
-  bool touches_outside(const Place& place) const {
+  bool touches_outside(const LatticePlace& place) const {
     bool result = false;
     cells_.each_leaf_at(
         place, [&](int leaf) { result = result || cells_.cells()[static_cast<std::size_t>(leaf)].proof.outside; });

@@ -22,7 +22,7 @@ using core::LocusProblem;
 using core::Quantity;
 using core::SpaceArc;
 using core::SpaceCurve;
-using space::Place;
+using space::SpacePoint;
 
 /// Factors of one chart that vanish together, by their places among the problem's: two or three.
 using FactorSet = std::set<std::size_t>;
@@ -141,7 +141,7 @@ class Joining {
       upper_[i] = -lower_[i];
     }
     for (const LocusProblem* chart : charts) {
-      Place lower{}, upper{};
+      SpacePoint lower{}, upper{};
       for (std::size_t i = 0; i < 3; ++i) {
         lower[i] = core::to_double(chart->lower[i]);
         upper[i] = core::to_double(chart->upper[i]);
@@ -218,7 +218,7 @@ class Joining {
   }
 
   std::vector<SpaceArc>& arcs_;
-  Place lower_{}, upper_{};
+  SpacePoint lower_{}, upper_{};
 };
 
 double length_of(const std::vector<core::Point3>& points) {
@@ -248,7 +248,8 @@ void note_undecided(const LocusProblem& problem, const EdgeLabel& label, const s
       if (first == nullptr) first = &own;
     }
   if (count == 0) return;
-  const Place at = space::placed(problem, {first->cell[0].middle(), first->cell[1].middle(), first->cell[2].middle()});
+  const SpacePoint at =
+      space::placed(problem, {first->cell[0].middle(), first->cell[1].middle(), first->cell[2].middle()});
   std::ostringstream text;
   text.precision(4);
   text << "contact loss of " << names_of(label.vanishing) << ": in " << count << (count == 1 ? " cell" : " cells")
@@ -313,7 +314,7 @@ class ModeCurves {
       space::ChartArc here;
       here.points = {point.at};
       if (is_undirected(problem, mode_, label.vanishing, here)) continue;
-      const Place at = space::placed(problem, point.at);
+      const SpacePoint at = space::placed(problem, point.at);
       map.isolated_points.push_back({label.kind, label.vanishing, {at[0], at[1], at[2]}, mode_, true});
     }
     if (found.curves.arcs.empty()) return;
@@ -326,7 +327,7 @@ class ModeCurves {
       own.closed = arc.closed;
       own.ends = arc.ends;
       own.certified = arc.certified;
-      for (const Place& at : arc.points) own.points.push_back(space::placed(problem, at));
+      for (const SpacePoint& at : arc.points) own.points.push_back(space::placed(problem, at));
       group->arcs.push_back(std::move(own));
     }
   }

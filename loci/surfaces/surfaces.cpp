@@ -39,7 +39,7 @@ constexpr std::size_t samples = 24;
 
 /// A factor of the first chart that has it, with what continues it in the other charts.
 struct Whole {
-  std::vector<Field::Part> parts;
+  std::vector<Field::ChartPart> parts;
   const LocusFactor* factor = nullptr;  ///< of the first part
   std::optional<int> root;              ///< the factor is s_j itself: it vanishes on the boundary Q_j = 0
 };
@@ -68,9 +68,9 @@ std::vector<Whole> joined(const std::vector<const LocusProblem*>& charts, const 
                   root_dividing(factor.sheet, charts[first]->tower.roots.size())};
       for (std::size_t part = 0; part < whole.parts.size(); ++part)
         for (std::size_t next = 0; next < charts.size(); ++next) {
-          const Field::Part own = whole.parts[part];
+          const Field::ChartPart own = whole.parts[part];
           const bool has = std::any_of(whole.parts.begin(), whole.parts.end(),
-                                       [&](const Field::Part& other) { return other.problem == charts[next]; });
+                                       [&](const Field::ChartPart& other) { return other.problem == charts[next]; });
           if (has || !surface::are_neighbours(*own.problem, *charts[next])) continue;
           for (std::size_t g = 0; g < charts[next]->factors.size(); ++g) {
             const LocusFactor& other = charts[next]->factors[g];

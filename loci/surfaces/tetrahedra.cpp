@@ -14,7 +14,7 @@ class Cutter {
   }
 
  private:
-  int corner(const Place& place) {
+  int corner(const LatticePlace& place) {
     std::uint64_t key = 0;
     for (const std::int32_t coordinate : place) key = key << 20 | static_cast<std::uint64_t>(coordinate);
     const auto [known, fresh] = result_.corner_at.try_emplace(key, static_cast<int>(result_.corners.size()));
@@ -22,7 +22,7 @@ class Cutter {
     return known->second;
   }
 
-  static Place moved(Place place, int axis, std::int32_t by) {
+  static LatticePlace moved(LatticePlace place, int axis, std::int32_t by) {
     place[static_cast<std::size_t>(axis)] += by;
     return place;
   }
@@ -30,9 +30,9 @@ class Cutter {
   /// `axis`: across the face.
   void add_face(const OctreeCell& cell, int axis, int side) {
     const std::int32_t half = cell.size() / 2;
-    const Place middle = moved(cell.middle(), axis, side * half);
+    const LatticePlace middle = moved(cell.middle(), axis, side * half);
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const Place beyond = moved(cell.middle(), axis, side * cell.size());
+    const LatticePlace beyond = moved(cell.middle(), axis, side * cell.size());
     if (!cells_.finer_at(beyond, cell.level)) return add_fan(cell, middle, axis, side, half);
     for (const int du : {-1, 1})
       for (const int dv : {-1, 1})
@@ -40,7 +40,7 @@ class Cutter {
   }
 
   /// A square of the face, `half` an edge round its middle. `side` 0: edges have no middles to heed.
-  void add_fan(const OctreeCell& cell, const Place& middle, int axis, int side, std::int32_t half) {
+  void add_fan(const OctreeCell& cell, const LatticePlace& middle, int axis, int side, std::int32_t half) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     constexpr std::array<std::array<int, 2>, 4> outward = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     std::vector<int> rim;
@@ -59,7 +59,7 @@ class Cutter {
 
   /// Whether smaller cells meet an edge: the one between the face (axis, side) and the face (other, way).
   bool cut_beside(const OctreeCell& cell, int axis, int side, int other, int way) const {
-    const Place beside = moved(cell.middle(), other, way * cell.size());
+    const LatticePlace beside = moved(cell.middle(), other, way * cell.size());
     return cells_.finer_at(beside, cell.level) || cells_.finer_at(moved(beside, axis, side * cell.size()), cell.level);
   }
 

@@ -12,7 +12,7 @@
 namespace clearloci::loci::surface {
 
 struct Tetrahedra {
-  std::vector<Place> corners;
+  std::vector<LatticePlace> corners;
   std::vector<std::array<int, 4>> tetrahedra;        ///< those of one cell in a row
   std::vector<int> cell_of;                          ///< of each tetrahedron
   std::unordered_map<std::uint64_t, int> corner_at;  ///< by place

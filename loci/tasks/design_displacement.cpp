@@ -194,12 +194,12 @@ bool DesignCell::displaced_within(double most) {
 Interval DesignCell::displacement() {
   core::ensure(clearances_.size() == conditions_.take_ups.size(), "a clearance for every take-up");
   differentiate();
-  struct Part {
+  struct LoadsPart {
     Loads loads;
     Interval size;
   };
-  const auto less = [](const Part& a, const Part& b) { return a.size.upper() < b.size.upper(); };
-  std::priority_queue<Part, std::vector<Part>, decltype(less)> open(less);
+  const auto less = [](const LoadsPart& a, const LoadsPart& b) { return a.size.upper() < b.size.upper(); };
+  std::priority_queue<LoadsPart, std::vector<LoadsPart>, decltype(less)> open(less);
   const Loads all = all_loads();
   open.push({all, *displacement_under(all)});
   double lower = 0;

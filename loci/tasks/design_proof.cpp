@@ -287,20 +287,20 @@ double DesignJudge::violation(const DesignBox& designs) {
 
 double DesignJudge::clearance(const DesignBox& designs, double from, double limit, double accuracy,
                               const DesignEffort& effort) {
-  struct Cell {
+  struct BoxByDistance {
     Box box;
     double distance = 0;
   };
   const double size = size_of(region_, 0);
-  const auto farther = [](const Cell& a, const Cell& b) { return a.distance > b.distance; };
-  std::priority_queue<Cell, std::vector<Cell>, decltype(farther)> open(farther);
-  Cell whole{{Interval(region_.lower()[0] - limit, region_.upper()[0] + limit),
-              Interval(region_.lower()[1] - limit, region_.upper()[1] + limit)}};
+  const auto farther = [](const BoxByDistance& a, const BoxByDistance& b) { return a.distance > b.distance; };
+  std::priority_queue<BoxByDistance, std::vector<BoxByDistance>, decltype(farther)> open(farther);
+  BoxByDistance whole{{Interval(region_.lower()[0] - limit, region_.upper()[0] + limit),
+                       Interval(region_.lower()[1] - limit, region_.upper()[1] + limit)}};
   whole.box.insert(whole.box.end(), designs.begin(), designs.end());
   open.push(std::move(whole));
   double margin = limit;
   for (int cells = 0; !open.empty(); ++cells) {
-    Cell cell = open.top();
+    BoxByDistance cell = open.top();
     open.pop();
     if (cell.distance >= limit) break;
     const double middle = region_.signed_distance({cell.box[0].middle(), cell.box[1].middle()});
@@ -316,7 +316,7 @@ double DesignJudge::clearance(const DesignBox& designs, double from, double limi
     }
     const auto c = static_cast<std::size_t>(along);
     for (const bool low : {true, false}) {
-      Cell part = cell;
+      BoxByDistance part = cell;
       part.box[c] = half_of(cell.box[c], low);
       part.distance = std::max(cell.distance, region_.distance(part.box[0], part.box[1]));
       open.push(std::move(part));
@@ -367,7 +367,7 @@ Interval DesignJudge::greatest_displacement(const DesignBox& designs, double acc
 Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Interval()>& size, double accuracy,
                               const DesignEffort& effort, bool least) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  struct Cell {
+  struct BoxByBound {
     Box box;
     double bound = 0;  ///< of what is to be made least: the size, or what it is short of nothing
     int along = -1;    ///< the coordinate to cut, where that is known
@@ -387,15 +387,15 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
     if (const auto here = over(box)) known = std::min(known, sign * (least ? here->upper() : here->lower()));
   };
   for (const Point2& pose : samples_) look(pose, designs);
-  const auto worse = [](const Cell& a, const Cell& b) { return a.bound > b.bound; };
-  std::priority_queue<Cell, std::vector<Cell>, decltype(worse)> open(worse);
-  Cell whole{{Interval(region_.lower()[0], region_.upper()[0]), Interval(region_.lower()[1], region_.upper()[1])},
-             -infinity};
+  const auto worse = [](const BoxByBound& a, const BoxByBound& b) { return a.bound > b.bound; };
+  std::priority_queue<BoxByBound, std::vector<BoxByBound>, decltype(worse)> open(worse);
+  BoxByBound whole{{Interval(region_.lower()[0], region_.upper()[0]), Interval(region_.lower()[1], region_.upper()[1])},
+                   -infinity};
   whole.box.insert(whole.box.end(), designs.begin(), designs.end());
   open.push(std::move(whole));
   double bound = known;
   for (int cells = 0; !open.empty(); ++cells) {
-    const Cell cell = open.top();
+    const BoxByBound cell = open.top();
     bound = std::min(cell.bound, known);
     if (cells >= effort.most_cells || out_of_time(effort, cells) || known - cell.bound <= accuracy * std::abs(known))
       break;
@@ -413,7 +413,7 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
     }
     if (cell.along >= 0) c = static_cast<std::size_t>(cell.along);
     for (const bool low : {true, false}) {
-      Cell part = cell;
+      BoxByBound part = cell;
       part.box[c] = half_of(cell.box[c], low);
       if (region_.distance(part.box[0], part.box[1]) > 0) continue;
       const auto own = over(part.box);

@@ -26,17 +26,17 @@ constexpr int between_looks = 4;
 /// So little of what is usual is no direction.
 constexpr double no_direction = 1e-9;
 
-struct Part {
+struct PieceBox {
   const PosePiece* piece = nullptr;
   PoseBox box;
 };
 
-Pose pose_of(const Part& part) { return part.piece->chart.at(middle_of(part.box)); }
+Pose pose_of(const PieceBox& part) { return part.piece->chart.at(middle_of(part.box)); }
 
 /// The parameter along which a cut helps most; -1: all are too fine. One that is left far behind the others is cut
 /// sometimes, since what is in doubt may depend on it in another cell.
 template <class Cell>
-int chosen(const Cell& cell, const Part& part) {
+int chosen(const Cell& cell, const PieceBox& part) {
   constexpr double share_of_width = 1e-3;
   int best = -1;
   double most = -1, total = 0;
@@ -55,8 +55,8 @@ int chosen(const Cell& cell, const Part& part) {
   return best;
 }
 
-std::pair<Part, Part> halves(const Part& part, std::size_t along, double at) {
-  std::pair<Part, Part> two{part, part};
+std::pair<PieceBox, PieceBox> halves(const PieceBox& part, std::size_t along, double at) {
+  std::pair<PieceBox, PieceBox> two{part, part};
   two.first.box[along][1] = at;
   two.second.box[along][0] = at;
   return two;
@@ -128,22 +128,22 @@ class Search {
     Cell cell(statics_);
     for (const Pose& pose : region_.samples())
       if (look(cell, pose)) return finished();
-    std::deque<Part> parts;
+    std::deque<PieceBox> parts;
     for (const PosePiece& piece : pieces_) parts.push_back({&piece, piece.box});
     while (!parts.empty() && parts.size() < enough_parts && !stopped_) {
-      const Part part = std::move(parts.front());
+      const PieceBox part = std::move(parts.front());
       parts.pop_front();
-      std::vector<Part> left;
+      std::vector<PieceBox> left;
       visit(cell, part, left);
-      for (Part& own : left) parts.push_back(std::move(own));
+      for (PieceBox& own : left) parts.push_back(std::move(own));
     }
     tbb::enumerable_thread_specific<Cell> cells([&] { return Cell(statics_); });
     run_in_order(parts.size(), [&](std::size_t i) {
       Cell& own = cells.local();
       own.forget();
-      std::vector<Part> stack = {parts[i]};
+      std::vector<PieceBox> stack = {parts[i]};
       while (!stack.empty()) {
-        const Part part = std::move(stack.back());
+        const PieceBox part = std::move(stack.back());
         stack.pop_back();
         if (stopped_) {
           leave_open(part);
@@ -156,7 +156,7 @@ class Search {
   }
 
  private:
-  void visit(Cell& cell, const Part& part, std::vector<Part>& left) {
+  void visit(Cell& cell, const PieceBox& part, std::vector<PieceBox>& left) {
     if (region_.distance(*part.piece, part.box) > reach_) return;
     if (out_of_effort()) return leave_open(part);
     const CellAnswers::State state = cell.enter(part.piece->chart, part.box);
@@ -186,7 +186,7 @@ class Search {
     return stopped_;
   }
 
-  void leave_open(const Part& part) {
+  void leave_open(const PieceBox& part) {
     const std::lock_guard lock(mutex_);
     ++open_;
     const std::size_t n = region_.coordinates();
@@ -264,11 +264,11 @@ class BestFirst {
  public:
   struct Item {
     double key = 0;
-    Part part;
+    PieceBox part;
   };
   explicit BestFirst(const core::PoseStatics& statics) : cells_([&statics] { return Cell(statics); }) {}
 
-  void push(double key, Part part) { queue_.push({key, std::move(part)}); }
+  void push(double key, PieceBox part) { queue_.push({key, std::move(part)}); }
   bool empty() const { return queue_.empty(); }
   double least() const { return queue_.top().key; }
   long looked_at() const { return looked_at_; }
@@ -340,7 +340,7 @@ std::vector<double> least_by(const core::PoseStatics& statics, const PoseRegion&
   while (!queue.empty()) {
     const bool last = over(effort, queue.looked_at());
     queue.step([&](Cell& cell, const typename Queue::Item& item, std::vector<typename Queue::Item>& found) {
-      const Part& part = item.part;
+      const PieceBox& part = item.part;
       if (region.distance(*part.piece, part.box) > region.hair()) return;
       const bool good = cell.enter(part.piece->chart, part.box) == CellAnswers::State::proven;
       const std::vector<double> least = good ? cell.least_sizes() : std::vector<double>(demands, 0.0);

@@ -221,7 +221,7 @@ std::vector<TaskCell::Judgement> TaskCell::judge(const std::vector<std::array<In
   std::vector<Judgement> judgements(cells.size());
   std::vector<std::size_t> open;  // slopes are wanted
   const auto judge_batch = [&](const std::size_t* indices, std::size_t count, bool with_slopes) {
-    std::array<sheet::SheetCells::Place, size> places;
+    std::array<sheet::SheetCells::Target, size> places;
     for (std::size_t lane = 0; lane < count; ++lane) places[lane] = {cells[indices[lane]][0], cells[indices[lane]][1]};
     side_by_side_.enter(places, count);
     if (with_slopes) side_by_side_.differentiate();

@@ -170,11 +170,11 @@ class Clearance {
   const SignatureAt& signature_;
 };
 
-struct Cell {
+struct TranslationCell {
   Point2 middle{}, half{};
   double clearance = 0;  // at the middle
   double key = 0;        // the best that the cell can hold; the least comes first
-  bool operator<(const Cell& other) const { return key > other.key; }
+  bool operator<(const TranslationCell& other) const { return key > other.key; }
 };
 
 /// The same direction, less far: bisection between the fit and no move at all.
@@ -201,7 +201,7 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
                             const std::function<bool(const Fit&)>& accept, const std::function<void()>& pulse) {
   constexpr double resolution = 2e-4;  // of the box
   const auto [low, high] = core::bounds(shape);
-  Cell all;
+  TranslationCell all;
   double size = 0;
   for (std::size_t c = 0; c < 2; ++c) {
     const double least = core::to_double(maps.front()->lower[c] - low[c]);
@@ -220,7 +220,7 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
   const auto to_box = [&](const Point2& by) {
     return std::min({all.half[0] - std::abs(by[0] - all.middle[0]), all.half[1] - std::abs(by[1] - all.middle[1])});
   };
-  const auto finish = [&](Cell& cell) {
+  const auto finish = [&](TranslationCell& cell) {
     cell.clearance = clearance_at(cell.middle);
     if (goal == FitGoal::best) cell.clearance = std::min(cell.clearance, to_box(cell.middle));
     const double reach = std::hypot(cell.half[0], cell.half[1]);
@@ -229,15 +229,15 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
     cell.key = goal == FitGoal::nearest ? shortest : -(cell.clearance + reach);
     return cell.clearance + reach >= clearance;
   };
-  std::priority_queue<Cell> open;
+  std::priority_queue<TranslationCell> open;
   if (finish(all)) open.push(all);
   const double finest = resolution * size;
   // What the search has seen to be good enough, best first; asked when no open cell can hold better.
-  std::priority_queue<Cell> found;
+  std::priority_queue<TranslationCell> found;
   while (!open.empty() || !found.empty()) {
     pulse();
     if (!found.empty() && (open.empty() || found.top().key <= open.top().key)) {
-      const Cell best = found.top();
+      const TranslationCell best = found.top();
       found.pop();
       // The nearest point of a cell that is good enough all over; else the half widths are 0.
       Fit fit = {best.middle, best.clearance};
@@ -246,7 +246,7 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
       if (!accept(fit)) continue;
       return goal == FitGoal::nearest ? shortened(fit, clearance_at, clearance, accept) : fit;
     }
-    const Cell cell = open.top();
+    const TranslationCell cell = open.top();
     open.pop();
     const double reach = std::hypot(cell.half[0], cell.half[1]);
     if (goal == FitGoal::nearest && cell.clearance - slack(cell.clearance) - reach > clearance) {
@@ -256,7 +256,7 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
     // The largest clearance is often had along a whole line: it is not worth telling apart its last fifth of a percent.
     if (reach <= std::max(finest, goal == FitGoal::best ? 2e-3 * cell.clearance : 0.0)) {
       if (cell.clearance - slack(cell.clearance) <= clearance) continue;
-      Cell place = cell;
+      TranslationCell place = cell;
       place.half = {0, 0};
       place.key = goal == FitGoal::nearest ? std::hypot(cell.middle[0], cell.middle[1]) : -cell.clearance;
       found.push(place);
@@ -264,7 +264,7 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
     }
     const std::size_t along = cell.half[0] >= cell.half[1] ? 0 : 1;
     for (const double side : {-0.5, 0.5}) {
-      Cell part = cell;
+      TranslationCell part = cell;
       part.half[along] /= 2;
       part.middle[along] += side * cell.half[along];
       if (finish(part)) open.push(part);

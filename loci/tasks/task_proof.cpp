@@ -22,7 +22,7 @@ struct Reach {
   TaskCell::Judgement what{};
 };
 
-struct Cell {
+struct QueuedCell {
   Interval x, y;
   int depth = 0;
   double distance = 0;                                ///< at least so far from the task
@@ -32,13 +32,13 @@ struct Cell {
   Point2 middle() const { return {x.middle(), y.middle()}; }
   double width() const { return std::max(x.width(), y.width()); }
   /// The half nearer to square.
-  std::array<Cell, 2> halves() const {
-    std::array<Cell, 2> parts = {*this, *this};
+  std::array<QueuedCell, 2> halves() const {
+    std::array<QueuedCell, 2> parts = {*this, *this};
     const bool along_x = x.width() >= y.width();
     const double middle = along_x ? x.middle() : y.middle();
     (along_x ? parts[0].x : parts[0].y) = Interval((along_x ? x : y).lower(), middle);
     (along_x ? parts[1].x : parts[1].y) = Interval(middle, (along_x ? x : y).upper());
-    for (Cell& part : parts) {
+    for (QueuedCell& part : parts) {
       part.depth = depth + 1;
       part.judgement.reset();
     }
@@ -98,7 +98,7 @@ class Refutation {
     return false;
   }
 
-  bool by_cell(const Cell& cell, TaskCell::State state, int condition) {
+  bool by_cell(const QueuedCell& cell, TaskCell::State state, int condition) {
     const std::optional<Point2> at = pose_of(cell);
     if (at && (refuted_at(*at, false) || crossed(*at))) return true;
     return state == TaskCell::State::unmet && cell.depth % between_steps == 0 && stepped(cell.middle(), condition);
@@ -119,7 +119,7 @@ class Refutation {
   }
 
   /// A pose of the cell that belongs to the task or its margin.
-  std::optional<Point2> pose_of(const Cell& cell) const {
+  std::optional<Point2> pose_of(const QueuedCell& cell) const {
     const Point2 middle = cell.middle(), base = region_.closest(middle);
     const double far = apart(middle, base);
     if (far <= margin_) return middle;
@@ -203,9 +203,9 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   const double size = size_of(region, margin), reach = margin + hair_of(region, margin);
   // The largest first: a part of the task that fails is met on large cells, before doubtful places are looked at
   // closely.
-  std::deque<Cell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
-                            Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
-  const auto left_open = [&](const Cell& cell) {
+  std::deque<QueuedCell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
+                                  Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
+  const auto left_open = [&](const QueuedCell& cell) {
     const bool first = proof.open++ == 0;
     const Point2 lower = {cell.x.lower(), cell.y.lower()}, upper = {cell.x.upper(), cell.y.upper()};
     for (std::size_t c = 0; c < 2; ++c) {
@@ -216,7 +216,7 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   // Several at a time, as they stand in the queue.
   constexpr std::size_t cells_at_a_time = 32;
   const auto judge_ahead = [&] {
-    std::vector<Cell*> next;
+    std::vector<QueuedCell*> next;
     std::vector<std::array<Interval, 2>> places;
     for (std::size_t i = 0; i < open.size() && next.size() < cells_at_a_time; ++i) {
       if (region.distance(open[i].x, open[i].y) > reach) continue;
@@ -229,7 +229,7 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   int proven = 0;
   while (!open.empty()) {
     if (!open.front().judgement && region.distance(open.front().x, open.front().y) <= reach) judge_ahead();
-    const Cell cell = open.front();
+    const QueuedCell cell = open.front();
     if (region.distance(cell.x, cell.y) > reach) {
       open.pop_front();
       continue;
@@ -251,9 +251,9 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
     if (cell.width() < finest * size)
       left_open(cell);
     else
-      for (const Cell& half : cell.halves()) open.push_back(half);
+      for (const QueuedCell& half : cell.halves()) open.push_back(half);
   }
-  for (const Cell& cell : open)
+  for (const QueuedCell& cell : open)
     if (region.distance(cell.x, cell.y) <= reach) left_open(cell);
   if (proof.open == 0) proof.verdict = core::Verdict::verified;
   return proof;
@@ -273,7 +273,7 @@ class Reaches {
   explicit Reaches(const TaskRegion& region) : region_(region) {}
 
   /// `closely`: also where it does fail.
-  Reach of(const TaskCell::Doubt& doubt, const Cell& cell, bool closely) {
+  Reach of(const TaskCell::Doubt& doubt, const QueuedCell& cell, bool closely) {
     Reach reach;
     if (doubt.anywhere) return reach;
     reach.least = std::numeric_limits<double>::infinity();
@@ -295,7 +295,7 @@ class Reaches {
   /// The nearest place at which none of some bounds over a cell is positive, by what they are at least, or at most; an
   /// infinite distance where one always is. To rounding.
   TaskRegion::Nearest nearest(const TaskCell::Bound* first, std::size_t count, bool at_most, const Point2& middle,
-                              const Cell& cell) {
+                              const QueuedCell& cell) {
     part_ = {{cell.x.lower(), cell.y.lower()},
              {cell.x.upper(), cell.y.lower()},
              {cell.x.upper(), cell.y.upper()},
@@ -352,10 +352,10 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
   TaskCell judge(conditions, mode);
   Reaches reaches(region);
   const double hair = hair_of(region, limit), size = size_of(region, 0);
-  const auto at_hand = [&](const Cell& cell) { return std::max(cell.distance, resolution * size); };
-  const auto farther = [](const Cell& a, const Cell& b) { return a.distance > b.distance; };
-  std::vector<Cell> open;  // a heap, the nearest in front
-  const auto push = [&](const Cell& cell) {
+  const auto at_hand = [&](const QueuedCell& cell) { return std::max(cell.distance, resolution * size); };
+  const auto farther = [](const QueuedCell& a, const QueuedCell& b) { return a.distance > b.distance; };
+  std::vector<QueuedCell> open;  // a heap, the nearest in front
+  const auto push = [&](const QueuedCell& cell) {
     open.push_back(cell);
     std::push_heap(open.begin(), open.end(), farther);
   };
@@ -365,15 +365,15 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
   result.margin = from;
   const auto proven_to = [&](double distance) { result.margin = std::max(result.margin, distance - hair); };
   // What the task's proof has covered.
-  const auto is_covered = [&](const Cell& cell) {
+  const auto is_covered = [&](const QueuedCell& cell) {
     return region.signed_distance(cell.middle()) + 0.5 * std::hypot(cell.x.width(), cell.y.width()) <= from;
   };
   // The nearest, with some that are likely to come soon after it.
   const auto judge_ahead = [&] {
-    std::vector<Cell*> next;
+    std::vector<QueuedCell*> next;
     std::vector<std::array<Interval, 2>> places;
     for (std::size_t i = 0; i < std::min<std::size_t>(open.size(), 2 * sheet::SheetCells::size); ++i) {
-      Cell& cell = open[i];
+      QueuedCell& cell = open[i];
       if (next.size() == sheet::SheetCells::size || cell.judgement || cell.distance >= limit || is_covered(cell))
         continue;
       next.push_back(&cell);
@@ -387,10 +387,10 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
     }
   };
   for (int cells = 0; !open.empty(); ++cells) {
-    if (Cell& nearest = open.front(); !nearest.judgement && nearest.distance < limit && !is_covered(nearest))
+    if (QueuedCell& nearest = open.front(); !nearest.judgement && nearest.distance < limit && !is_covered(nearest))
       judge_ahead();
     std::pop_heap(open.begin(), open.end(), farther);
-    const Cell cell = open.back();
+    const QueuedCell cell = open.back();
     open.pop_back();
     if (cell.distance >= limit) break;
     if (cells >= effort.most_cells || out_of_time(effort, cells)) {
@@ -400,7 +400,7 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
     if (!cell.judgement) continue;  // the task's proof has covered it
     if (cell.judgement->state == TaskCell::State::proven) continue;
     if (cell.reach.least > cell.distance) {  // its turn comes later
-      Cell later = cell;
+      QueuedCell later = cell;
       later.distance = cell.reach.least;
       push(later);
       continue;
@@ -416,7 +416,7 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
       result.condition = which;
       return result;
     }
-    for (Cell part : cell.halves()) {
+    for (QueuedCell part : cell.halves()) {
       part.distance = std::max(cell.distance, region.distance(part.x, part.y));
       push(part);
     }

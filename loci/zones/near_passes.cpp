@@ -9,16 +9,16 @@ namespace clearloci::loci {
 namespace {
 
 using core::Interval;
-using sheet::Cell;
+using sheet::PlaneCell;
 
 /// Pairs of pieces near each other. Two arcs that cross have a few.
 constexpr std::size_t most_pairs = 512;
 
-Cell widened(const Cell& cell, double reach) {
+PlaneCell widened(const PlaneCell& cell, double reach) {
   return {{cell.x.lower() - reach, cell.x.upper() + reach}, {cell.y.lower() - reach, cell.y.upper() + reach}};
 }
 
-double size(const Cell& cell) { return std::max(cell.x.width(), cell.y.width()); }
+double size(const PlaneCell& cell) { return std::max(cell.x.width(), cell.y.width()); }
 
 }  // namespace
 
@@ -40,7 +40,7 @@ int BoxedPolyline::build(const core::Polyline& points, std::size_t from, std::si
   } else {
     const std::size_t middle = from + (to - from) / 2;
     const int first = build(points, from, middle), second = build(points, middle, to);
-    const Cell &a = nodes_[static_cast<std::size_t>(first)].box, &b = nodes_[static_cast<std::size_t>(second)].box;
+    const PlaneCell &a = nodes_[static_cast<std::size_t>(first)].box, &b = nodes_[static_cast<std::size_t>(second)].box;
     node.box = {hull(a.x, b.x), hull(a.y, b.y)};
     node.halves = first;  // the second stands right before the whole
   }
@@ -51,7 +51,7 @@ int BoxedPolyline::build(const core::Polyline& points, std::size_t from, std::si
 std::vector<std::size_t> BoxedPolyline::pieces_near(const core::Point2& at, double reach) const {
   std::vector<std::size_t> pieces;
   if (nodes_.empty()) return pieces;
-  const Cell near = widened({at[0], at[1]}, reach);
+  const PlaneCell near = widened({at[0], at[1]}, reach);
   std::vector<int> pending = {static_cast<int>(nodes_.size()) - 1};
   while (!pending.empty()) {
     const int i = pending.back();
@@ -68,8 +68,8 @@ std::vector<std::size_t> BoxedPolyline::pieces_near(const core::Point2& at, doub
   return pieces;
 }
 
-std::optional<std::vector<Cell>> near_passes(const BoxedPolyline& a, const BoxedPolyline& b, double reach) {
-  std::vector<Cell> places;
+std::optional<std::vector<PlaneCell>> near_passes(const BoxedPolyline& a, const BoxedPolyline& b, double reach) {
+  std::vector<PlaneCell> places;
   if (a.nodes_.empty() || b.nodes_.empty()) return places;
   std::vector<std::pair<int, int>> pending = {
       {static_cast<int>(a.nodes_.size()) - 1, static_cast<int>(b.nodes_.size()) - 1}};
@@ -78,11 +78,11 @@ std::optional<std::vector<Cell>> near_passes(const BoxedPolyline& a, const Boxed
     pending.pop_back();
     const BoxedPolyline::Node &own = a.nodes_[static_cast<std::size_t>(i)],
                               &other = b.nodes_[static_cast<std::size_t>(k)];
-    const Cell near = widened(own.box, reach);
+    const PlaneCell near = widened(own.box, reach);
     if (disjoint(near.x, other.box.x) || disjoint(near.y, other.box.y)) continue;
     if (own.halves < 0 && other.halves < 0) {
       if (places.size() == most_pairs) return std::nullopt;
-      const Cell there = widened(other.box, reach);
+      const PlaneCell there = widened(other.box, reach);
       places.push_back({meet(near.x, there.x), meet(near.y, there.y)});
     } else if (other.halves < 0 || (own.halves >= 0 && size(own.box) >= size(other.box))) {
       pending.emplace_back(own.halves, k);

@@ -16,8 +16,8 @@ class BoxedPolyline {
 
   /// Boxes that hold all places of either polyline within `reach` (along x and y) of the other one, apart from each
   /// other; nothing where there are more than is worth looking at one by one: the polylines run side by side.
-  friend std::optional<std::vector<sheet::Cell>> near_passes(const BoxedPolyline& a, const BoxedPolyline& b,
-                                                             double reach);
+  friend std::optional<std::vector<sheet::PlaneCell>> near_passes(const BoxedPolyline& a, const BoxedPolyline& b,
+                                                                  double reach);
 
   /// Pieces (by their first vertices, ascending) whose boxes are within `reach` (along x and y) of a point: all that
   /// may be so near.
@@ -25,7 +25,7 @@ class BoxedPolyline {
 
  private:
   struct Node {
-    sheet::Cell box;
+    sheet::PlaneCell box;
     std::size_t piece = 0;
     int halves = -1;  ///< the first of two, the second stands right before this; -1: a piece
   };

@@ -38,11 +38,11 @@ bool ModeWorkspace::holds_one_of(const core::Polyline& points) {
 }
 
 AreaBounds workspace_area(const core::LocusProblem& problem, const core::WorkingMode& mode) {
-  using sheet::Cell, core::Interval;
+  using sheet::PlaneCell, core::Interval;
   const sheet::SheetProgram program(problem.tower, std::vector<core::Polynomial>{});
   auto registers = program.registers<Interval>();
   // +1: all of the cell is reached, -1: none of it.
-  const auto judge = [&](const Cell& cell) {
+  const auto judge = [&](const PlaneCell& cell) {
     registers.set(0, cell.x);
     registers.set(1, cell.y);
     bool all = true;
@@ -56,13 +56,13 @@ AreaBounds workspace_area(const core::LocusProblem& problem, const core::Working
     }
     return all ? 1 : 0;
   };
-  const auto area = [](const Cell& cell) { return cell.x.width() * cell.y.width(); };
+  const auto area = [](const PlaneCell& cell) { return cell.x.width() * cell.y.width(); };
   AreaBounds bounds;
-  std::vector<Cell> open = {{{core::to_double(problem.lower[0]), core::to_double(problem.upper[0])},
-                             {core::to_double(problem.lower[1]), core::to_double(problem.upper[1])}}};
+  std::vector<PlaneCell> open = {{{core::to_double(problem.lower[0]), core::to_double(problem.upper[0])},
+                                  {core::to_double(problem.lower[1]), core::to_double(problem.upper[1])}}};
   for (std::size_t seen = 0; !open.empty() && seen + open.size() <= most_cells;) {
-    std::vector<Cell> next;
-    for (const Cell& cell : open) {
+    std::vector<PlaneCell> next;
+    for (const PlaneCell& cell : open) {
       ++seen;
       const int verdict = judge(cell);
       if (verdict > 0) bounds.least += area(cell);
@@ -75,7 +75,7 @@ AreaBounds workspace_area(const core::LocusProblem& problem, const core::Working
     open = std::move(next);
   }
   bounds.most = bounds.least;
-  for (const Cell& cell : open) bounds.most += area(cell);
+  for (const PlaneCell& cell : open) bounds.most += area(cell);
   return bounds;
 }
 

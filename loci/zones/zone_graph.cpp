@@ -236,7 +236,7 @@ class Builder {
         const bool one_singular =
             (a.kind == LocusKind::direct_singularity) != (b.kind == LocusKind::direct_singularity);
         if (one_singular || a.implicit == b.implicit || add_closed_crossings(owners[i], owners[k])) continue;
-        for (const sheet::Cell& place : meeting_places(owners[i], owners[k]))
+        for (const sheet::PlaneCell& place : meeting_places(owners[i], owners[k]))
           if (!add_crossings_in(place, owners[i], owners[k])) {
             add_plane_crossings(a, b);
             break;
@@ -245,8 +245,8 @@ class Builder {
   }
 
   /// Boxes outside which the curves stay apart: their arcs are next to their polylines.
-  std::vector<sheet::Cell> meeting_places(int first, int second) {
-    std::vector<sheet::Cell> places;
+  std::vector<sheet::PlaneCell> meeting_places(int first, int second) {
+    std::vector<sheet::PlaneCell> places;
     for (const Strand& one : strands_)
       for (const Strand& other : strands_) {
         if (one.owner != first || other.owner != second) continue;
@@ -254,7 +254,7 @@ class Builder {
         if (!own) return {{{low_[0], high_[0]}, {low_[1], high_[1]}}};
         places.insert(places.end(), own->begin(), own->end());
       }
-    for (sheet::Cell& place : places)
+    for (sheet::PlaneCell& place : places)
       for (const Point2& star : stars_)
         if (place.x.contains(star[0]) && place.y.contains(star[1])) {
           const double reach = around_a_star * size_;
@@ -270,7 +270,7 @@ class Builder {
   }
 
   /// False: there may be more than are found.
-  bool add_crossings_in(const sheet::Cell& place, int a, int b) {
+  bool add_crossings_in(const sheet::PlaneCell& place, int a, int b) {
     const std::vector<core::Rational> lower = {core::Rational(place.x.lower()), core::Rational(place.y.lower())},
                                       upper = {core::Rational(place.x.upper()), core::Rational(place.y.upper())};
     const core::LocusFactor *first = factor_of(problem_, curve(a)), *second = factor_of(problem_, curve(b));
@@ -343,13 +343,15 @@ class Builder {
   /// False: there may be more. An open cell where something ends anyway is no doubt.
   bool add_zeros(const sheet::ZeroSet& found) {
     for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
-    return !found.gave_up && std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::Cell& cell) {
-      const Point2 at = {cell.x.middle(), cell.y.middle()};
-      const double width = std::max(cell.x.width(), cell.y.width());
-      return width <= map_.tolerance &&
-             std::any_of(graph().nodes.begin(), graph().nodes.end(),
-                         [&](const Point2& node) { return distance(node, at) <= 2 * width + same_place * size_; });
-    });
+    return !found.gave_up &&
+           std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::PlaneCell& cell) {
+             const Point2 at = {cell.x.middle(), cell.y.middle()};
+             const double width = std::max(cell.x.width(), cell.y.width());
+             return width <= map_.tolerance &&
+                    std::any_of(graph().nodes.begin(), graph().nodes.end(), [&](const Point2& node) {
+                      return distance(node, at) <= 2 * width + same_place * size_;
+                    });
+           });
   }
 
   /// The rung above: the exact arrangement of the two curves, for all modes at once.

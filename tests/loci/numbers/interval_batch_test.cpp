@@ -137,7 +137,7 @@ TEST(SheetCells, AreWhatCellsAreAlone) {
   std::uniform_real_distribution<double> unit(0, 1);
   int lifted = 0, outside = 0;
   for (int i = 0; i < 600; ++i) {
-    std::array<SheetCells::Place, SheetCells::size> places;
+    std::array<SheetCells::Target, SheetCells::size> places;
     for (auto& place : places) {
       const double x = -0.5 + 1.5 * unit(random), y = -1 + 2 * unit(random), w = std::exp2(-12 * unit(random)) / 8;
       place = {Interval(x, x + w), Interval(y, y + w)};

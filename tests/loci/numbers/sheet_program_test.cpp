@@ -282,17 +282,17 @@ TEST(SmoothCell, EnclosesToSecondOrder) {
   int inside = 0, outside = 0, narrower = 0;
   for (int i = 0; i < 400; ++i) {
     const double x = -1.6 + 3.2 * unit(random), y = -1.6 + 3.2 * unit(random), w = 0.02 * unit(random);
-    const SmoothCell::Place place = cell.enter({x, x + w}, {y, y + w});
-    if (place == SmoothCell::Place::unknown) continue;
-    ++(place == SmoothCell::Place::inside ? inside : outside);
+    const SmoothCell::Standing place = cell.enter({x, x + w}, {y, y + w});
+    if (place == SmoothCell::Standing::unknown) continue;
+    ++(place == SmoothCell::Standing::inside ? inside : outside);
     for (int k = 0; k < 5; ++k) {
       const double px = x + w * unit(random), py = y + w * unit(random), h = 1e-6;
-      if (place == SmoothCell::Place::outside) {
-        EXPECT_EQ(point.enter(px, py), SmoothCell::Place::outside);
+      if (place == SmoothCell::Standing::outside) {
+        EXPECT_EQ(point.enter(px, py), SmoothCell::Standing::outside);
         continue;
       }
       const auto value = [&](double at_x, double at_y) {
-        EXPECT_EQ(point.enter(at_x, at_y), SmoothCell::Place::inside);
+        EXPECT_EQ(point.enter(at_x, at_y), SmoothCell::Standing::inside);
         return point.value().middle();
       };
       const double along_x = (value(px + h, py) - value(px - h, py)) / (2 * h) * w / 2;
@@ -301,7 +301,7 @@ TEST(SmoothCell, EnclosesToSecondOrder) {
       value(px, py);
       EXPECT_FALSE(disjoint(point.value(), cell.value()));
     }
-    if (place == SmoothCell::Place::outside) continue;
+    if (place == SmoothCell::Standing::outside) continue;
     ASSERT_TRUE(plain.enter({x, x + w}, {y, y + w}));
     narrower += cell.value().width() < 0.75 * plain.value(0).width() ? 1 : 0;
   }
@@ -316,8 +316,8 @@ TEST(SmoothCell, KnowsNothingWhereItDividesByZero) {
   const core::StraightLine line = builder.line(builder.inverse(builder.variable(0)));
   const SheetProgram program(testing::plane(), std::vector<SheetFunction>{{r.x(), line}});
   SmoothCell cell(program, {});
-  EXPECT_EQ(cell.enter({-1, 1}, {0, 1}), SmoothCell::Place::unknown);
-  EXPECT_EQ(cell.enter({1, 2}, {0, 1}), SmoothCell::Place::inside);
+  EXPECT_EQ(cell.enter({-1, 1}, {0, 1}), SmoothCell::Standing::unknown);
+  EXPECT_EQ(cell.enter({1, 2}, {0, 1}), SmoothCell::Standing::inside);
   EXPECT_TRUE(cell.value().contains(0.5) && cell.value().contains(1));
 }
 

@@ -13,17 +13,17 @@ namespace {
 
 using testing::Ring;
 
-const Cell square = {{-2, 2}, {-2, 2}};
+const PlaneCell square = {{-2, 2}, {-2, 2}};
 
 core::Polynomial circle() {
   const Ring r{2};
   return r.x() * r.x() + r.y() * r.y() - r(1);
 }
 
-double area(const Cell& cell) { return cell.x.width() * cell.y.width(); }
+double area(const PlaneCell& cell) { return cell.x.width() * cell.y.width(); }
 
 /// Whether the unit circle passes through the cell, by its nearest and farthest points from the origin.
-bool meets_circle(const Cell& cell) {
+bool meets_circle(const PlaneCell& cell) {
   const auto nearest = [](const Interval& side) { return side.contains_zero() ? 0 : side.mignitude(); };
   return std::hypot(nearest(cell.x), nearest(cell.y)) <= 1 && std::hypot(cell.x.magnitude(), cell.y.magnitude()) >= 1;
 }
@@ -59,7 +59,7 @@ TEST(CellTree, SeamsLieOnBothOfTheirLeaves) {
     const auto& upper = tree.leaves()[static_cast<std::size_t>(seam.upper)].cell;
     EXPECT_EQ((seam.axis == 0 ? lower.x : lower.y).upper(), seam.at);
     EXPECT_EQ((seam.axis == 0 ? upper.x : upper.y).lower(), seam.at);
-    for (const Cell* cell : {&lower, &upper}) {
+    for (const PlaneCell* cell : {&lower, &upper}) {
       const Interval& other = seam.axis == 0 ? cell->y : cell->x;
       EXPECT_LE(other.lower(), seam.from);
       EXPECT_GE(other.upper(), seam.to);
@@ -82,7 +82,7 @@ TEST(CellTree, FindsTheLeafOfAPlace) {
     const double x = coordinate(random), y = coordinate(random);
     const int leaf = tree.locate(Interval(x), Interval(y));
     ASSERT_GE(leaf, 0);
-    const Cell& cell = tree.leaves()[static_cast<std::size_t>(leaf)].cell;
+    const PlaneCell& cell = tree.leaves()[static_cast<std::size_t>(leaf)].cell;
     EXPECT_TRUE(cell.x.contains(x) && cell.y.contains(y));
   }
 }

@@ -204,7 +204,7 @@ TEST(ZeroSearch, FindsOnManySegmentsWhatItFindsOnEachAlone) {
   const Ring r{2};
   const auto x = r.x(), y = r.y();
   const SheetProgram program(testing::plane(), std::vector<core::Polynomial>{(x * x + y * y - r(1)) * (y - x * x * x)});
-  std::vector<std::vector<Cell>> segments;
+  std::vector<std::vector<PlaneCell>> segments;
   for (int i = -7; i <= 7; ++i)
     for (int k = -6; k < 6; ++k) segments.push_back({{Interval(i / 5.0), Interval(k / 4.0, (k + 1) / 4.0)}});
   const ZeroSearch::Limits limits{1e-14, 64, 1e-13};

@@ -22,7 +22,7 @@ FoundZeros search(const core::RootTower& tower, const core::WorkingMode& mode, c
   const SheetProgram program(tower, two);
   TouchSearch touches(tower, two, mode, size);
   // Off the places that the tests ask about, so that none lies on an edge of a cell.
-  const Cell all = {{-2.0371, 2.0113}, {-2.0239, 2.0457}};
+  const PlaneCell all = {{-2.0371, 2.0113}, {-2.0239, 2.0457}};
   return ZeroSearch(program, mode, {}).run({all}, {smallest, 8192, 1e-13 * size, {}, &touches});
 }
 

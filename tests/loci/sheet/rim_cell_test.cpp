@@ -71,17 +71,17 @@ TEST(RimCell, WhatIsSaidHoldsInSamples) {
     plain.differentiate();
     bool told = !plain.centred(0).contains_zero() || plain.is_beyond_a_rim();
     for (int c = 0; c < plain.dimension(); ++c) told = told || plain.tangent(0, c).sign() != 0;
-    const RimCell::Place place = rim.enter(plain);
-    if (place == RimCell::Place::unknown) continue;
+    const RimCell::Standing place = rim.enter(plain);
+    if (place == RimCell::Standing::unknown) continue;
     std::array<int, 3> signs{};
     for (int c = 0; c < 3; ++c)
-      signs[static_cast<std::size_t>(c)] = place == RimCell::Place::inside ? rim.tangent(c).sign() : 0;
-    const bool none = place == RimCell::Place::outside || rim.excludes();
+      signs[static_cast<std::size_t>(c)] = place == RimCell::Standing::inside ? rim.tangent(c).sign() : 0;
+    const bool none = place == RimCell::Standing::outside || rim.excludes();
     const bool graph = signs[0] != 0 || signs[1] != 0 || signs[2] != 0;
     by_rim_alone += !told && (none || graph) ? 1 : 0;
     excluded += none ? 1 : 0;
     graphs += !none && graph ? 1 : 0;
-    if (place == RimCell::Place::inside) {
+    if (place == RimCell::Standing::inside) {
       EXPECT_EQ(rim.lifted(), 0);
     }
     double least = HUGE_VAL, most = -HUGE_VAL;
@@ -89,7 +89,7 @@ TEST(RimCell, WhatIsSaidHoldsInSamples) {
       const double px = x + half * (2 * share(random) - 1), py = y + half * (2 * share(random) - 1);
       const double square = 1 - px * px - py * py;
       if (square < 0) continue;
-      EXPECT_NE(place, RimCell::Place::outside);
+      EXPECT_NE(place, RimCell::Standing::outside);
       const double s = std::sqrt(square), f = value(px, py, s);
       least = std::min(least, f);
       most = std::max(most, f);

@@ -23,7 +23,7 @@ TEST(NearPasses, AreWherePolylinesCross) {
   const auto places = near_passes(first, second, 1e-3);
   ASSERT_TRUE(places);
   ASSERT_EQ(places->size(), 2U);
-  for (const sheet::Cell& place : *places) {
+  for (const sheet::PlaneCell& place : *places) {
     EXPECT_TRUE(place.x.contains(3));
     EXPECT_TRUE(place.y.contains(4) || place.y.contains(-4));
     EXPECT_LT(place.x.width(), 0.1);

@@ -41,10 +41,10 @@ bool is_good(const PoseBox& box, double least) {
   return true;
 }
 
-template <class Cell>
+template <class PlaneCell>
 void expect_right(double least, int* proven) {
   const core::PoseStatics asked = statics(core::Rational(least));
-  Cell cell(asked);
+  PlaneCell cell(asked);
   const PoseChart chart = {{0, 0}, {{1, 0}, {0, 1}}};
   constexpr int cells = 60;
   constexpr double side = 5.0 / cells;
