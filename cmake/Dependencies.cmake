@@ -13,7 +13,6 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(ZLIB REQUIRED)
 
 # FLINT 2.9 ships neither a CMake package nor a pkg-config file.
 if(NOT TARGET flint)
