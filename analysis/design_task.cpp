@@ -8,6 +8,7 @@
 #include "analysis/task_demands.hpp"
 #include "core/enclosure.hpp"
 #include "core/errors.hpp"
+#include "mechanism/read_task.hpp"
 #include "symbolic/task_conditions.hpp"
 
 namespace clearloci {
@@ -78,9 +79,34 @@ bool is_effort(Quantity quantity) { return quantity == Quantity::M || quantity =
 
 }  // namespace
 
+void require_asked_of_designs(const Mechanism& mechanism, const core::Task& task) {
+  const auto refuse = [&](const std::string& what, const std::string& mend) {
+    throw core::InputError({task.file}, what, mend);
+  };
+  const bool spatial = mechanism.space == mechanism::Space::spatial;
+  if (!mechanism::is_plane(mechanism))
+    refuse("designs are judged for tasks in the plane of two lengths", "make the other coordinates parameters");
+  if (spatial && task.loads)
+    refuse("loads_from turns in space, and designs are judged under loads of the plane", "leave it out");
+  if (spatial && !task.loads_within.empty())
+    refuse("loads_within are loads of the plane, and " + mechanism.file + " is spatial",
+           "leave it out and verify the task once for every load");
+  if (spatial && task.pose_error)
+    refuse("pose_error is proven in the plane, and " + mechanism.file + " is spatial", "leave it out");
+}
+
+namespace {
+
+const Mechanism& checked(const Mechanism& mechanism, const core::Task& task) {
+  require_asked_of_designs(mechanism, task);
+  return mechanism;
+}
+
+}  // namespace
+
 DesignTask::DesignTask(const Mechanism& mechanism, const std::vector<ParameterRange>& vary, const core::Task& task,
                        const LociRequest& request)
-    : mechanism_(mechanism),
+    : mechanism_(checked(mechanism, task)),
       vary_(vary),
       task_(task),
       request_(request_of(task, request)),

@@ -20,6 +20,9 @@ namespace clearloci {
 /// From, to: the values of one varied parameter.
 using ExactRange = std::pair<core::Rational, core::Rational>;
 
+/// Throws core::InputError for a task of which many designs or loads are not judged at once.
+void require_asked_of_designs(const mechanism::Mechanism& mechanism, const core::Task& task);
+
 class DesignTask {
  public:
   /// `vary`: parameters that designs differ in. Those that the task gives a tolerance to may differ besides.

@@ -176,15 +176,7 @@ LociRequest in_frame(LociRequest request, const Frame& frame) {
 }
 
 core::Task in_frame(core::Task task, const Frame& frame) {
-  const auto place = [&](core::RationalPoint& at) {
-    for (std::size_t i = 0; i < 2; ++i) at[i] = (at[i] - frame.from[i]) / frame.scale;
-  };
-  if (auto* box = std::get_if<core::TaskBox>(&task.shape)) place(box->lower), place(box->upper);
-  if (auto* circle = std::get_if<core::TaskCircle>(&task.shape)) place(circle->centre), circle->radius /= frame.scale;
-  if (auto* polygon = std::get_if<core::TaskPolygon>(&task.shape))
-    std::for_each(polygon->corners.begin(), polygon->corners.end(), place);
-  if (auto* path = std::get_if<core::TaskPath>(&task.shape))
-    std::for_each(path->points.begin(), path->points.end(), place);
+  task.shape = core::placed(task.shape, frame.from, 1 / frame.scale, {});
   task.margin /= frame.scale;
   if (task.min_couple) *task.min_couple /= frame.scale;
   return task;
@@ -193,20 +185,6 @@ core::Task in_frame(core::Task task, const Frame& frame) {
 core::Task in_frame(core::Task task, const core::Certificate& certificate) {
   return in_frame(std::move(task),
                   Frame{.from = {certificate.from.begin(), certificate.from.end()}, .scale = certificate.scale});
-}
-
-core::PoseTask in_frame(core::PoseTask task, const Frame& frame) {
-  const auto move = [&](core::RationalPose& at) {
-    for (std::size_t i = 0; i < at.size(); ++i) at[i] -= frame.from[i];
-  };
-  if (auto* box = std::get_if<core::PoseBoxShape>(&task.shape)) move(box->lower), move(box->upper);
-  if (auto* ball = std::get_if<core::PoseBallShape>(&task.shape)) move(ball->centre);
-  if (auto* path = std::get_if<core::PosePathShape>(&task.shape))
-    std::for_each(path->points.begin(), path->points.end(), move);
-  if (auto* mesh = std::get_if<core::PoseMeshShape>(&task.shape))
-    for (core::Point3& at : mesh->corners)
-      for (std::size_t i = 0; i < 3; ++i) at[i] = core::to_double(Rational(at[i]) - frame.from[i]);
-  return task;
 }
 
 mechanism::Trajectory in_frame(mechanism::Trajectory trajectory, const Frame& frame) {
@@ -344,54 +322,26 @@ core::PoseZones from_frame(core::PoseZones map, const mechanism::Mechanism& mech
   return map;
 }
 
-core::PoseVerification from_frame(core::PoseVerification result, const core::PoseTask& task,
-                                  const mechanism::Mechanism& mechanism, const Frame& frame) {
-  const Outward outward(mechanism, frame);
-  core::PoseShape moved = std::exchange(result.task, task).shape;
-  if (result.by || result.scale) {
-    const auto move = [&](core::RationalPose& at) {
-      for (std::size_t i = 0; i < at.size(); ++i) at[i] += frame.from[i];
-    };
-    if (auto* box = std::get_if<core::PoseBoxShape>(&moved)) move(box->lower), move(box->upper);
-    if (auto* ball = std::get_if<core::PoseBallShape>(&moved)) move(ball->centre);
-    if (auto* path = std::get_if<core::PosePathShape>(&moved))
-      std::for_each(path->points.begin(), path->points.end(), move);
-    if (auto* mesh = std::get_if<core::PoseMeshShape>(&moved))
-      for (core::Point3& at : mesh->corners)
-        for (std::size_t i = 0; i < 3; ++i) at[i] = outward.value(at[i], i);
-    result.task.shape = std::move(moved);
-  }
-  if (result.nearest) outward.move(result.nearest->at);
-  if (result.witness) outward.move(result.witness->at);
-  if (result.open) outward.move(result.open->lower), outward.move(result.open->upper);
-  for (std::string& note : result.notes) note = outward.note(note);
-  return result;
-}
-
 void move_from_frame(std::optional<core::TaskWitness>& witness, std::optional<core::OpenTask>& open,
                      const mechanism::Mechanism& mechanism, const Frame& frame) {
   const Outward outward(mechanism, frame);
   if (witness) {
-    witness->at = outward.place(witness->at);
+    outward.move(witness->at);
     witness->distance = outward.size(witness->distance);
   }
-  if (open) {
-    open->lower = outward.place(open->lower);
-    open->upper = outward.place(open->upper);
-  }
+  if (open) outward.move(open->lower), outward.move(open->upper);
 }
 
 Verification from_frame(Verification result, const core::Task& task, const mechanism::Mechanism& mechanism,
                         const Frame& frame) {
   const Outward outward(mechanism, frame);
-  result.task = task;
-  if (result.by) {
-    for (Rational& way : *result.by) way *= frame.scale;
-    result.task.shape = core::translated(task.shape, *result.by);
-  }
-  result.margin = outward.size(result.margin);
+  core::TaskShape placed = std::exchange(result.task, task).shape;
+  if (result.moved_by || result.scaled_by) result.task.shape = core::placed(placed, {}, frame.scale, frame.from);
+  if (result.moved_by)
+    for (Rational& way : *result.moved_by) way *= frame.scale;
+  if (result.margin) result.margin = outward.size(*result.margin);
   if (result.nearest) {
-    result.nearest->at = outward.place(result.nearest->at);
+    outward.move(result.nearest->at);
     result.nearest->distance = outward.size(result.nearest->distance);
   }
   move_from_frame(result.witness, result.open, mechanism, frame);

@@ -5,12 +5,11 @@
 #include <optional>
 
 #include "analysis/loci.hpp"
-#include "analysis/verification.hpp"
 #include "clearloci/error.hpp"
 #include "clearloci/pose.hpp"
-#include "clearloci/pose_tasks.hpp"
 #include "clearloci/pose_zones.hpp"
 #include "clearloci/trajectory.hpp"
+#include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 #include "core/certificate.hpp"
 #include "core/task.hpp"
@@ -44,8 +43,6 @@ LociRequest in_frame(LociRequest request, const mechanism::Frame& frame);
 core::Task in_frame(core::Task task, const mechanism::Frame& frame);
 /// In that of the certificate.
 core::Task in_frame(core::Task task, const core::Certificate& certificate);
-/// Pose coordinates alone: for frames that are not scaled.
-core::PoseTask in_frame(core::PoseTask task, const mechanism::Frame& frame);
 mechanism::Trajectory in_frame(mechanism::Trajectory trajectory, const mechanism::Frame& frame);
 
 /// `mechanism`: the one of the file. Vertices are rounded to doubles once more: far from the origin they hold to the
@@ -60,8 +57,6 @@ CoordinateErrors from_frame(CoordinateErrors errors, const mechanism::Mechanism&
 TrajectoryResult from_frame(TrajectoryResult result, const mechanism::Mechanism& mechanism,
                             const mechanism::Frame& frame);
 core::PoseZones from_frame(core::PoseZones map, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
-core::PoseVerification from_frame(core::PoseVerification result, const core::PoseTask& task,
-                                  const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
 /// Where a task fails or stays open.
 void move_from_frame(std::optional<core::TaskWitness>& witness, std::optional<core::OpenTask>& open,
                      const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);

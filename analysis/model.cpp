@@ -33,6 +33,11 @@ Model Model::parse(std::string text, std::string file, const std::vector<Value>&
   return Model(std::make_shared<const Content>(Content{std::move(shared), values, std::move(own), false}));
 }
 
+Model Model::Content::of(mechanism::Mechanism own) {
+  auto shared = std::make_shared<const SharedDesign>(std::string(), own.file, own);
+  return Model(std::make_shared<const Content>(Content{std::move(shared), {}, std::move(own), false}));
+}
+
 Model Model::read(const std::string& path, const std::vector<Value>& values) {
   return parse(mechanism::read_text(path, "the mechanism file"), path, values);
 }

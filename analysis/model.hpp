@@ -3,6 +3,7 @@
 
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "clearloci/mechanism.hpp"
 #include "mechanism/mechanism.hpp"
@@ -34,6 +35,11 @@ struct Model::Content {
   /// One of several members: made by Model::with. What they share is worth deriving then; for a single design its own
   /// numbers are quicker.
   bool member = false;
+
+  static Model of(mechanism::Mechanism mechanism);
 };
+
+/// A mechanism that was made otherwise than from a file, as a model without a text.
+inline Model model_of(mechanism::Mechanism mechanism) { return Model::Content::of(std::move(mechanism)); }
 
 }  // namespace clearloci

@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "core/pose_shape.hpp"
+#include "core/task.hpp"
 
 namespace clearloci {
 namespace {
 
-using core::PoseShape;
 using core::Rational;
 using core::RationalPose;
+using core::TaskShape;
 
 /// Places that are looked at, for each of which a mesh has to be set up anew; those from which loci are searched, and
 /// proofs that may be tried.
@@ -25,7 +25,7 @@ constexpr int halvings = 10;
 
 class Placing {
  public:
-  Placing(const mechanism::Mechanism& mechanism, const core::PoseTask& task, const PoseJudge& judge)
+  Placing(const mechanism::Mechanism& mechanism, const core::Task& task, const PoseJudge& judge)
       : mechanism_(mechanism), task_(task), judge_(judge) {
     bool any_length = false;
     for (const mechanism::Coordinate& c : mechanism.coordinates) any_length = any_length || !c.angle;
@@ -91,7 +91,7 @@ class Placing {
     for (Place& place : places) climb(place);
     std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.room > b.room; });
     for (const Place& place : places) {
-      const PoseShape shape = core::moved(task_.shape, place.by);
+      const TaskShape shape = core::moved(task_.shape, place.by);
       if (judge_.verified(shape)) return PlacedShape{shape, place.by, {}};
     }
     return std::nullopt;
@@ -100,9 +100,9 @@ class Placing {
   std::optional<PlacedShape> largest() const {
     RationalPose middle;
     for (std::size_t c = 0; c < moves_.size(); ++c) middle.push_back((bounds_[0][c] + bounds_[1][c]) / 2);
-    const auto shape_of = [&](const Rational& factor) { return core::scaled(task_.shape, middle, factor); };
+    const auto shape_of = [&](const Rational& factor) { return core::placed(task_.shape, middle, factor, middle); };
     const auto good = [&](const Rational& factor) {
-      const PoseShape shape = shape_of(factor);
+      const TaskShape shape = shape_of(factor);
       return fits(core::bounds(shape, weights_)) && judge_.verified(shape);
     };
     // Between a scale that verifies and one that does not, or leaves the box.
@@ -162,7 +162,7 @@ class Placing {
   std::vector<Place> good_places() const {
     const auto dimensions = static_cast<double>(std::count(moves_.begin(), moves_.end(), true));
     double most = most_places;
-    if (const auto* mesh = std::get_if<core::PoseMeshShape>(&task_.shape))
+    if (const auto* mesh = std::get_if<core::TaskMesh>(&task_.shape))
       most = std::min(most, most_triangles / static_cast<double>(mesh->triangles.size()));
     const auto steps = std::max(1, static_cast<int>(std::floor(std::pow(most, 1 / dimensions))));
     std::vector<Place> places;
@@ -203,7 +203,7 @@ class Placing {
             Place other = place;
             other.by[c] += short_of(Rational(sign * part * size));
             if (!fits(other.by)) continue;
-            const PoseShape shape = core::moved(task_.shape, other.by);
+            const TaskShape shape = core::moved(task_.shape, other.by);
             if (!judge_.looks_good(shape)) continue;
             other.room = judge_.room(shape);
             if (!(other.room > place.room)) continue;
@@ -215,7 +215,7 @@ class Placing {
   }
 
   const mechanism::Mechanism& mechanism_;
-  const core::PoseTask& task_;
+  const core::Task& task_;
   const PoseJudge& judge_;
   std::vector<Rational> weights_;
   std::vector<bool> moves_;
@@ -224,18 +224,20 @@ class Placing {
 
 }  // namespace
 
-std::optional<PlacedShape> place_shape(const mechanism::Mechanism& mechanism, const core::PoseTask& task, PoseFit goal,
+std::optional<PlacedShape> place_shape(const mechanism::Mechanism& mechanism, const core::Task& task, TaskFit goal,
                                        const PoseJudge& judge) {
   const Placing placing(mechanism, task, judge);
   switch (goal) {
-    case PoseFit::nearest:
+    case TaskFit::nearest:
       return placing.nearest();
-    case PoseFit::best:
+    case TaskFit::best:
       return placing.best();
-    case PoseFit::largest:
+    case TaskFit::largest:
+      return placing.largest();
+    case TaskFit::none:
       break;
   }
-  return placing.largest();
+  return std::nullopt;
 }
 
 }  // namespace clearloci

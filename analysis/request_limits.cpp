@@ -46,21 +46,38 @@ void check_size(const mechanism::Mechanism& mechanism, std::size_t values) {
                                   std::to_string(mechanism.coordinates.size()) + " coordinates are free");
 }
 
-void check_poses(const mechanism::Mechanism& mechanism, const std::vector<core::RationalPose>& poses) {
-  if (poses.empty()) throw InputError({}, "the task has no pose", "give one at least");
-  for (const core::RationalPose& pose : poses) {
-    check_size(mechanism, pose.size());
-    for (std::size_t c = 0; c < pose.size(); ++c) check_inside(mechanism, c, pose[c], pose[c]);
-  }
-}
-
 void check_one_force(const mechanism::Mechanism& mechanism) {
   if (mechanism.loads.size() != 1 || mechanism.loads.front().force.empty())
     refuse_foreign(mechanism, "a range of loads takes the place of a single force");
 }
 
-bool over_two_lengths(const mechanism::Mechanism& mechanism) {
-  return mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
+/// Every pose that a shape is told by.
+std::vector<core::RationalPose> poses_of(const core::TaskShape& shape) {
+  if (const auto* box = std::get_if<core::TaskBox>(&shape)) return {box->lower, box->upper};
+  if (const auto* ball = std::get_if<core::TaskBall>(&shape)) return {ball->centre};
+  if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) return polygon->corners;
+  if (const auto* path = std::get_if<core::TaskPath>(&shape)) return path->points;
+  return {};
+}
+
+void check_shape(const mechanism::Mechanism& mechanism, const core::Task& task) {
+  const std::size_t count = mechanism.coordinates.size();
+  const std::vector<core::RationalPose> poses = poses_of(task.shape);
+  for (const core::RationalPose& pose : poses) check_size(mechanism, pose.size());
+  if (std::holds_alternative<core::TaskMesh>(task.shape)) {
+    if (count != 3) refuse_foreign(mechanism, "a mesh is one of three lengths");
+    return;
+  }
+  if (poses.empty()) throw InputError({}, "the task has no pose", "give one at least");
+  if (const auto* ball = std::get_if<core::TaskBall>(&task.shape)) check_positive(ball->radius, "the radius", "m");
+  if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape))
+    for (const std::size_t c : polygon->across)
+      if (c >= count || mechanism.coordinates[c].angle) refuse_foreign(mechanism, "a polygon lies in two lengths");
+  std::vector<Rational> weights;
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    weights.push_back(coordinate.angle ? task.angle_length.value_or(1) : Rational(1));
+  const auto [lower, upper] = core::bounds(task.shape, weights);
+  for (std::size_t c = 0; c < count; ++c) check_inside(mechanism, c, lower[c], upper[c]);
 }
 
 }  // namespace
@@ -109,9 +126,8 @@ void check_nodes(const std::vector<int>& nodes, int least) {
 }
 
 void check_task(const mechanism::Mechanism& mechanism, const core::Task& task) {
-  if (!over_two_lengths(mechanism)) refuse_foreign(mechanism, "it lies in the plane of two lengths");
-  const auto [lower, upper] = core::bounds(task.shape);
-  for (std::size_t c = 0; c < 2; ++c) check_inside(mechanism, c, lower[c], upper[c]);
+  check_positive(task.angle_length, "angle_length", "m");
+  check_shape(mechanism, task);
   check_margin(task.margin);
   check_positive(task.min_force, "min_force", "N");
   check_positive(task.min_couple, "min_couple", "N m");
@@ -124,38 +140,18 @@ void check_task(const mechanism::Mechanism& mechanism, const core::Task& task) {
       throw InputError({}, "the tolerance of " + tolerance.parameter + " leaves out its own value",
                        "give one below and one above 0");
   }
-  if (task.loads) check_one_force(mechanism);
+  if (task.loads) {
+    check_one_force(mechanism);
+    const auto dimension = static_cast<std::size_t>(mechanism::dimension(mechanism));
+    if (task.loads->first.size() != dimension || task.loads->second.size() != dimension)
+      refuse_foreign(mechanism, "its loads have other components");
+  }
   for (const core::LoadWithin& within : task.loads_within) {
     if (within.load >= mechanism.loads.size())
       refuse_foreign(mechanism, "there is no load " + std::to_string(within.load + 1));
     if (within.force < 0 || within.couple < 0)
       throw InputError({}, "what a load may differ by is negative", "give 0 or more");
   }
-}
-
-void check_task(const mechanism::Mechanism& mechanism, const core::PoseTask& task) {
-  const std::size_t count = mechanism.coordinates.size();
-  if (const auto* box = std::get_if<core::PoseBoxShape>(&task.shape)) {
-    check_size(mechanism, box->lower.size());
-    check_size(mechanism, box->upper.size());
-    for (std::size_t c = 0; c < count; ++c) check_inside(mechanism, c, box->lower[c], box->upper[c]);
-  } else if (const auto* ball = std::get_if<core::PoseBallShape>(&task.shape)) {
-    check_poses(mechanism, {ball->centre});
-    check_positive(ball->radius, "the radius", "m");
-  } else if (const auto* path = std::get_if<core::PosePathShape>(&task.shape)) {
-    check_poses(mechanism, path->points);
-  } else if (count != 3) {
-    refuse_foreign(mechanism, "a mesh is one of three lengths");
-  }
-  check_margin(task.margin);
-  check_positive(task.angle_length, "angle_length", "m");
-  check_positive(task.min_force, "min_force", "N");
-  check_positive(task.min_couple, "min_couple", "N m");
-  if (!task.loads) return;
-  check_one_force(mechanism);
-  const auto dimension = static_cast<std::size_t>(mechanism::dimension(mechanism));
-  if (task.loads->first.size() != dimension || task.loads->second.size() != dimension)
-    refuse_foreign(mechanism, "its loads have other components");
 }
 
 }  // namespace clearloci

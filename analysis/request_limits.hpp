@@ -4,7 +4,6 @@
 
 #include "clearloci/error.hpp"
 #include "clearloci/loci.hpp"
-#include "clearloci/pose_tasks.hpp"
 #include "clearloci/verify.hpp"
 #include "mechanism/mechanism.hpp"
 
@@ -18,7 +17,6 @@ double finest_tolerance(const mechanism::Mechanism& mechanism);
 void check_request(const mechanism::Mechanism& mechanism, const LociRequest& request);
 void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& request);
 void check_task(const mechanism::Mechanism& mechanism, const core::Task& task);
-void check_task(const mechanism::Mechanism& mechanism, const core::PoseTask& task);
 
 /// Nodes of a grid along each coordinate: two at least, and together no more than memory holds.
 void check_nodes(const std::vector<int>& nodes, int least);

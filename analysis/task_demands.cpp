@@ -10,15 +10,22 @@ namespace clearloci {
 using core::Quantity;
 using core::TaskDemand;
 
-mechanism::Mechanism under_load(mechanism::Mechanism mechanism, const core::RationalPoint& load) {
-  for (std::size_t c = 0; c < 2; ++c) mechanism.loads.front().force[c] = core::Expression::number(load[c]);
-  return mechanism;
+std::vector<double> load_between(const core::LoadRange& range, double t) {
+  std::vector<double> load;
+  for (std::size_t c = 0; c < range.first.size(); ++c)
+    load.push_back((1 - t) * core::to_double(range.first[c]) + t * core::to_double(range.second[c]));
+  return load;
 }
 
 std::vector<mechanism::Mechanism> under_loads_of(const core::Task& task, const mechanism::Mechanism& mechanism) {
   if (!task.loads) return {mechanism};
-  std::vector<mechanism::Mechanism> all = {under_load(mechanism, task.loads->first)};
-  if (task.loads->second != task.loads->first) all.push_back(under_load(mechanism, task.loads->second));
+  const auto under = [&](const core::RationalPose& load) {
+    mechanism::Mechanism loaded = mechanism;
+    for (std::size_t c = 0; c < load.size(); ++c) loaded.loads.front().force[c] = core::Expression::number(load[c]);
+    return loaded;
+  };
+  std::vector<mechanism::Mechanism> all = {under(task.loads->first)};
+  if (task.loads->second != task.loads->first) all.push_back(under(task.loads->second));
   return all;
 }
 

@@ -16,8 +16,8 @@ LociRequest request_of(const core::Task& task, LociRequest request);
 /// What the loci of a request are zeros of, and what its margins hold.
 std::vector<core::TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const LociRequest& request);
 
-/// The mechanism with another force as its one load.
-mechanism::Mechanism under_load(mechanism::Mechanism mechanism, const core::RationalPoint& load);
+/// (1 - t) first + t second, rounded.
+std::vector<double> load_between(const core::LoadRange& range, double t);
 
 /// Under the first and the last load of the task's range, or under the file's.
 std::vector<mechanism::Mechanism> under_loads_of(const core::Task& task, const mechanism::Mechanism& mechanism);

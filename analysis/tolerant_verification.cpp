@@ -1,10 +1,10 @@
-#include "analysis/tolerant_verification.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/design_task.hpp"
 #include "analysis/framed.hpp"
+#include "analysis/task_demands.hpp"
+#include "analysis/verification.hpp"
 #include "core/enclosure.hpp"
 #include "core/errors.hpp"
 #include "numeric/design_witness.hpp"
@@ -64,8 +64,12 @@ core::Polyline way_within(const DesignTask& task, const Point2& from, const Poin
 
 class Tolerant {
  public:
-  Tolerant(const mechanism::Mechanism& mechanism, const core::Task& task, const LociRequest& request)
-      : mechanism_(mechanism), request_(request), task_(mechanism, {}, task, request), judge_(task_.judge()) {
+  Tolerant(const mechanism::Mechanism& mechanism, const core::Task& task, const VerifyRequest& request)
+      : mechanism_(mechanism),
+        request_(request.loci),
+        depth_(request.depth),
+        task_(mechanism, {}, task, request.loci),
+        judge_(task_.judge()) {
     for (const mechanism::Mechanism& own : task_.loads()) loads_.push_back(numeric::compile(own));
     for (const mechanism::Mechanism& own : task_.directions()) directions_.push_back(numeric::compile(own));
   }
@@ -82,7 +86,9 @@ class Tolerant {
     result.verdict = proof.verdict;
     result.open.reset();
     result.witness.reset();
-    result.margin = 0;
+    result.margin.reset();
+    result.cells = proof.cells;
+    if (result.verified() && depth_ == VerifyDepth::verdict) return;
     if (result.verified()) {
       if (request_.progress) request_.progress(0, "margin");
       effort.most_cells = cells_of_a_margin;
@@ -94,11 +100,10 @@ class Tolerant {
     }
     using Reason = core::OpenTask::Reason;
     if (result.verdict == core::Verdict::undecided) {
-      result.open = core::OpenTask{proof.open, proof.lower, proof.upper,
+      result.open = core::OpenTask{proof.open, list_of(proof.lower), list_of(proof.upper),
                                    proof.out_of_time    ? Reason::time
                                    : proof.out_of_cells ? Reason::cells
-                                                        : Reason::doubles,
-                                   proof.cells};
+                                                        : Reason::doubles};
       return;
     }
     result.witness = witness_of(*proof.failure);
@@ -201,12 +206,8 @@ class Tolerant {
     const auto number = [](double value) { return core::Expression::number(core::Rational(value)); };
     core::TaskWitness told;
     if (const auto& range = task_.task().loads) {
-      Point2& load = told.load.emplace();
-      for (std::size_t c = 0; c < 2; ++c) {
-        load[c] =
-            (1 - failure.load) * core::to_double(range->first[c]) + failure.load * core::to_double(range->second[c]);
-        open.loads.front().force[c] = number(load[c]);
-      }
+      told.load = load_between(*range, failure.load);
+      for (std::size_t c = 0; c < 2; ++c) open.loads.front().force[c] = number(told.load[c]);
     }
     if (!changed_by_balls(open, failure.load_factors)) return std::nullopt;
     const numeric::NumericModel model = numeric::compile(open);
@@ -215,7 +216,7 @@ class Tolerant {
     const double size = numeric::pose_accuracy(model, posture).error.dp.norm();
     if (!(size > core::to_double(*task_.task().pose_error) * (1 + rounding_of_pose_errors))) return std::nullopt;
     told.kind = core::TaskWitness::Kind::displaced;
-    told.at = failure.at;
+    told.at = list_of(failure.at);
     told.distance = std::max(0.0, task_.region().signed_distance(failure.at));
     told.size = size;
     told.most = task_.task().pose_error;
@@ -223,8 +224,8 @@ class Tolerant {
       told.design.emplace_back(task_.design().varied[p], failure.parameters[p]);
     for (const core::LoadWithin& within : task_.task().loads_within)
       if (within.force > 0 || within.couple > 0)
-        told.loads.push_back(
-            {within.load, numeric::in_plane(posture.loads[within.load].force), posture.loads[within.load].couple[2]});
+        told.loads.push_back({within.load, list_of(numeric::in_plane(posture.loads[within.load].force)),
+                              posture.loads[within.load].couple[2]});
     return told;
   }
 
@@ -273,7 +274,7 @@ class Tolerant {
     using Kind = numeric::TaskFailure::Kind;
     using Told = core::TaskWitness::Kind;
     core::TaskWitness told;
-    told.at = pose;
+    told.at = list_of(pose);
     told.distance = std::max(0.0, task_.region().signed_distance(pose));
     for (std::size_t p = 0; p < parameters.size(); ++p)
       told.design.emplace_back(task_.design().varied[p], parameters[p]);
@@ -298,25 +299,20 @@ class Tolerant {
   void add_loads(core::TaskWitness& told, const numeric::DesignFailureAt& found,
                  const std::vector<double>& parameters) const {
     const double t = found.failure.load;
-    const auto& range = task_.task().loads;
-    if (range) {
-      Point2 load{};
-      for (std::size_t c = 0; c < 2; ++c)
-        load[c] = (1 - t) * core::to_double(range->first[c]) + t * core::to_double(range->second[c]);
-      told.load = load;
-    }
+    if (const auto& range = task_.task().loads) told.load = load_between(*range, t);
     // The file's loads at this design.
-    const numeric::Posture posture = numeric::posture(loads_.front(), values(told.at, parameters), task_.sides());
+    const numeric::Posture posture =
+        numeric::posture(loads_.front(), values({told.at[0], told.at[1]}, parameters), task_.sides());
     std::size_t ball = 0;
     for (const core::LoadWithin& within : task_.task().loads_within) {
       if (!(within.force > 0) && !(within.couple > 0)) continue;
       const numeric::LoadChange& change = found.changes[ball++];
-      core::WitnessLoad load{within.load};
+      core::WitnessLoad load{within.load, {0, 0}};
       if (posture.reachable()) {
-        load.force = numeric::in_plane(posture.loads[within.load].force);
+        load.force = list_of(numeric::in_plane(posture.loads[within.load].force));
         load.couple = posture.loads[within.load].couple[2];
       }
-      if (told.load && within.load == 0) load.force = *told.load;
+      if (!told.load.empty() && within.load == 0) load.force = told.load;
       load.force[0] += change.fx;
       load.force[1] += change.fy;
       load.couple += change.couple;
@@ -332,6 +328,7 @@ class Tolerant {
 
   const mechanism::Mechanism& mechanism_;
   const LociRequest& request_;
+  VerifyDepth depth_;
   DesignTask task_;
   std::unique_ptr<loci::DesignJudge> judge_;
   std::vector<numeric::NumericModel> loads_, directions_;
@@ -344,14 +341,7 @@ bool is_tolerant(const core::Task& task) {
   return !task.tolerances.empty() || !task.loads_within.empty() || task.pose_error;
 }
 
-core::Task nominal(core::Task task) {
-  task.tolerances.clear();
-  task.loads_within.clear();
-  task.pose_error.reset();
-  return task;
-}
-
-void decide_tolerant(const mechanism::Mechanism& mechanism, const core::Task& task, const LociRequest& request,
+void decide_tolerant(const mechanism::Mechanism& mechanism, const core::Task& task, const VerifyRequest& request,
                      Verification& result) {
   // What the file's own design fails, the task fails.
   result.task = task;

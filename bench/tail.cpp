@@ -80,7 +80,7 @@ const Question questions[] = {
     {"verify",
      [](const Drawn& drawn) {
        const Model model = Model::parse(drawn.model);
-       return to_string(clearloci::verify_task(model, clearloci::parse_task(drawn.task, model)).verdict);
+       return to_string(clearloci::verify(model, clearloci::parse_task(drawn.task, model)).verdict);
      }},
     {"loci",
      [](const Drawn& drawn) { return std::string(certified(clearloci::trace_loci(Model::parse(drawn.model)))); }},

@@ -38,7 +38,7 @@ std::size_t zones(const Model& model) { return clearloci::find_zones(model).zone
 /// A box inside a zone of either example for all these lengths.
 bool verdict(const Model& model) {
   const clearloci::Task task = clearloci::parse_task("format: 1\nbox: {x: [0.15, 0.2], y: [-0.62, -0.58]}\n", model);
-  return clearloci::decide_task(model, task).verified();
+  return clearloci::verify(model, task, {.depth = clearloci::VerifyDepth::margin}).verified();
 }
 
 BENCHMARK_CAPTURE(fresh_loci, five_bar, "five_bar.yaml", false)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -74,7 +74,7 @@ struct ZoneClaim {
 struct TaskClaim {
   int mode = 0;
   std::string shape;                        ///< "box", "circle", "polygon", "path"
-  std::vector<core::RationalPoint> points;  ///< opposite corners; the centre; corners
+  std::vector<core::RationalPose> points;  ///< opposite corners; the centre; corners
   core::Rational radius, margin;
   std::vector<std::string> unchecked;  ///< what else was asked for
 };

@@ -50,7 +50,7 @@ std::string words_of(const StudyProgress& progress) {
 std::vector<Verification> proofs_of(const Model& best, const Study& study, const TimeLimit& limit) {
   std::vector<Verification> proofs;
   for (const Task& task : required_tasks(study))
-    proofs.push_back(verify_task(best, task, {.deadline = limit.deadline()}));
+    proofs.push_back(verify(best, task, {.loci = {.deadline = limit.deadline()}}));
   return proofs;
 }
 
@@ -60,9 +60,9 @@ std::string words_of(const std::vector<Verification>& proofs) {
     return a.verified() != b.verified() ? !a.verified() : a.margin < b.margin;
   };
   const Verification& proof = *std::min_element(proofs.begin(), proofs.end(), worse);
-  return proof.verified()
-             ? fmt::format("verify: VERIFIED, margin at least {}", core::told(proof.margin, "m", proof.units))
-             : fmt::format("verify: {}", to_string(proof.verdict));
+  return proof.verified() ? fmt::format("verify: VERIFIED, margin at least {}",
+                                        core::told(proof.margin.value_or(0), "m", proof.units))
+                          : fmt::format("verify: {}", to_string(proof.verdict));
 }
 
 /// Of rank 0, or of the only process there is.

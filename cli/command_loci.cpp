@@ -17,7 +17,7 @@
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
-#include "mechanism/read_pose_task.hpp"
+#include "mechanism/read_task.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
@@ -45,7 +45,7 @@ void check_formats(const std::set<std::string>& formats, std::size_t coordinates
 
 /// What the page shows besides the loci, over two lengths and as far as there is time.
 std::optional<core::ZoneMap> zones_of_page(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  if (mechanism::has_pose_tasks(mechanism) || mechanism.coordinates.size() != 2) return std::nullopt;
+  if (!mechanism::is_plane(mechanism)) return std::nullopt;
   try {
     return find_zones(mechanism, request);
   } catch (const core::InputError&) {  // there are none, as where every pose is singular

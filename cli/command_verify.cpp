@@ -9,21 +9,18 @@
 #include <set>
 
 #include "analysis/framed.hpp"
-#include "analysis/pose_verification.hpp"
-#include "analysis/verification.hpp"
+#include "analysis/model.hpp"
+#include "clearloci/verify.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
 #include "cli/loci_arguments.hpp"
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
-#include "mechanism/read_pose_task.hpp"
-#include "mechanism/read_task.hpp"
 #include "mechanism/write_task.hpp"
 #include "report/files.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
-#include "report/pose_verification.hpp"
 #include "report/verification.hpp"
 
 namespace clearloci::cli {
@@ -52,21 +49,11 @@ int status_of(core::Verdict verdict) {
   return exit_limit_reached;
 }
 
-std::optional<FitGoal> parse_fit(const std::string& word) {
-  if (word.empty()) return std::nullopt;
-  if (word == "nearest") return FitGoal::nearest;
-  if (word == "best") return FitGoal::best;
-  if (word == "largest")
-    throw core::InputError({.file = "--fit"}, "the largest scale is looked for over other than two lengths",
-                           "choose from nearest, best");
-  throw core::InputError({.file = "--fit"}, fmt::format("unknown goal '{}'", word), "choose from nearest, best");
-}
-
-std::optional<PoseFit> parse_pose_fit(const std::string& word) {
-  if (word.empty()) return std::nullopt;
-  if (word == "nearest") return PoseFit::nearest;
-  if (word == "best") return PoseFit::best;
-  if (word == "largest") return PoseFit::largest;
+TaskFit parse_fit(const std::string& word) {
+  if (word.empty()) return TaskFit::none;
+  if (word == "nearest") return TaskFit::nearest;
+  if (word == "best") return TaskFit::best;
+  if (word == "largest") return TaskFit::largest;
   throw core::InputError({.file = "--fit"}, fmt::format("unknown goal '{}'", word),
                          "choose from nearest, best, largest");
 }
@@ -82,68 +69,40 @@ void certify(const VerifyCommand& arguments, const mechanism::Mechanism& mechani
   stage_certificate(staged, arguments.certificate, "verify", arguments.common, certificate, nominal ? &task : nullptr);
 }
 
-/// Over other than two lengths: a verdict without traced loci.
-int run_over_poses(const VerifyCommand& arguments, const std::set<std::string>& formats,
-                   const mechanism::Mechanism& mechanism, TimeLimit& limit) {
-  const std::optional<PoseFit> goal = parse_pose_fit(arguments.fit);
-  const core::PoseTask task = mechanism::read_pose_task(arguments.task, mechanism);
-  Progress progress(arguments.common.quiet);
-  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
-  if (request.all_working_modes || request.working_modes.size() > 1)
-    throw core::InputError({.file = "--working-mode"}, "a task is verified in one working mode",
-                           "give one side for each dyad");
-  const core::PoseVerification result =
-      goal ? fit_poses(mechanism, task, *goal, request) : verify_poses(mechanism, task, request);
-  progress.clear();
-  limit.writing();
-  const std::filesystem::path folder = output_folder(arguments.common);
-  const auto files = report::write_answer(result, folder, formats);
-  if (arguments.common.json)
-    fmt::print("{}", report::json_text(report::pose_verification_object(result)));
-  else if (!arguments.common.quiet)
-    fmt::print("{}\n{}", report::pose_verification_text(result), written_words(folder, files));
-  return status_of(result.verdict);
-}
-
 int run(const VerifyCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::Verification>());
   const std::future<void> letters = report::prepare_pictures(formats);
-  const mechanism::Mechanism mechanism = read_model(arguments.common);
+  const Model model = Model::read(arguments.common.model, parse_overrides(arguments.common.overrides));
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
   if (!arguments.certificate.empty()) require_certifiable(mechanism);
-  const bool over_poses = mechanism::is_pose_task(arguments.task, mechanism);
-  const std::optional<FitGoal> goal = over_poses ? std::nullopt : parse_fit(arguments.fit);
-  const core::Task task = over_poses ? core::Task{} : mechanism::read_task(arguments.task, mechanism);
+  VerifyRequest request{.fit = parse_fit(arguments.fit)};
+  const Task task = read_task(arguments.task, model);
   limit.known([common = arguments.common, name = mechanism.name] {
     nlohmann::ordered_json body = incomplete_body(name, "the verdict was");
     body["verdict"] = to_string(core::Verdict::undecided);
     body["verified"] = false;
     write_incomplete(common, "verify.json", body);
   });
-  if (over_poses) return run_over_poses(arguments, formats, mechanism, limit);
   Progress progress(arguments.common.quiet);
-  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
-  if (request.all_working_modes || request.working_modes.size() > 1)
-    throw core::InputError({.file = "--working-mode"}, "a task is verified in one working mode",
-                           "give one side for each dyad");
-  const Verification result = goal ? fit_task(mechanism, task, request, *goal) : verify_task(mechanism, task, request);
+  request.loci = loci_request(arguments.loci, mechanism, progress, limit);
+  const Verification result = verify(model, task, request);
   report::StagedFiles staged;
-  if (!arguments.certificate.empty()) certify(arguments, mechanism, result, request, staged);
+  if (!arguments.certificate.empty()) certify(arguments, mechanism, result, request.loci, staged);
   progress.clear();
   limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   std::vector<std::filesystem::path> files = report::stage_answer(staged, result, folder, formats);
-  if (result.by) {
+  const bool placed = result.moved_by || result.scaled_by;
+  if (placed && !std::holds_alternative<core::TaskMesh>(result.task.shape)) {
     files.push_back(folder / moved_task);
     staged.add(files.back(), mechanism::task_text(result.task, mechanism));
   }
   staged.commit();
-  if (arguments.common.json) {
+  if (arguments.common.json)
     fmt::print("{}", report::json_text(report::verification_object(result)));
-  } else if (!arguments.common.quiet) {
-    fmt::print("{}", report::verification_text(result, goal.has_value()));
-    fmt::print("\n{}", written_words(folder, files));
-  }
+  else if (!arguments.common.quiet)
+    fmt::print("{}\n{}", report::verification_text(result), written_words(folder, files));
   return status_of(result.verdict);
 }
 

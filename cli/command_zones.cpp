@@ -16,7 +16,7 @@
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
-#include "mechanism/read_pose_task.hpp"
+#include "mechanism/read_task.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/pose_zones.hpp"
@@ -53,7 +53,7 @@ int run_over_poses(const ZonesCommand& arguments, const mechanism::Mechanism& me
 
 int run(const ZonesCommand& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  const bool over_poses = mechanism::has_pose_tasks(mechanism);
+  const bool over_poses = !mechanism::is_plane(mechanism);
   const std::set<std::string> formats =
       over_poses ? std::set<std::string>{} : parse_formats(arguments.formats, report::format_names<core::ZoneMap>());
   const std::future<void> letters = report::prepare_pictures(formats);

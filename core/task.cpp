@@ -5,67 +5,89 @@
 #include <numbers>
 
 namespace clearloci::inline core {
-namespace {
-
-RationalPoint sum(const RationalPoint& a, const RationalPoint& b) { return {a[0] + b[0], a[1] + b[1]}; }
-
-struct Translate {
-  const RationalPoint& by;
-
-  TaskShape operator()(const TaskBox& box) const { return TaskBox{sum(box.lower, by), sum(box.upper, by)}; }
-  TaskShape operator()(const TaskCircle& circle) const { return TaskCircle{sum(circle.centre, by), circle.radius}; }
-  TaskShape operator()(const TaskPolygon& polygon) const { return TaskPolygon{all(polygon.corners)}; }
-  TaskShape operator()(const TaskPath& path) const { return TaskPath{all(path.points)}; }
-
-  std::vector<RationalPoint> all(std::vector<RationalPoint> points) const {
-    for (RationalPoint& p : points) p = sum(p, by);
-    return points;
-  }
-};
-
-struct Bounds {
-  using Result = std::array<RationalPoint, 2>;
-
-  Result operator()(const TaskBox& box) const { return {box.lower, box.upper}; }
-  Result operator()(const TaskCircle& circle) const {
-    const Rational& r = circle.radius;
-    return {sum(circle.centre, {-r, -r}), sum(circle.centre, {r, r})};
-  }
-  Result operator()(const TaskPolygon& polygon) const { return all(polygon.corners); }
-  Result operator()(const TaskPath& path) const { return all(path.points); }
-
-  static Result all(const std::vector<RationalPoint>& points) {
-    Result result = {points.front(), points.front()};
-    for (const RationalPoint& p : points)
-      for (std::size_t c = 0; c < 2; ++c) {
-        result[0][c] = std::min(result[0][c], p[c]);
-        result[1][c] = std::max(result[1][c], p[c]);
-      }
-    return result;
-  }
-};
-
-}  // namespace
 
 std::string kind_of(const TaskShape& shape) {
-  constexpr std::array<const char*, 4> names = {"box", "circle", "polygon", "path"};
+  if (const auto* ball = std::get_if<TaskBall>(&shape)) return ball->centre.size() == 2 ? "circle" : "ball";
+  constexpr std::array<const char*, 5> names = {"box", "ball", "polygon", "path", "mesh"};
   return names[shape.index()];
 }
 
-TaskShape translated(const TaskShape& shape, const RationalPoint& by) { return std::visit(Translate{by}, shape); }
+TaskShape placed(const TaskShape& shape, const RationalPose& from, const Rational& factor, const RationalPose& to) {
+  const auto value = [&](const Rational& v, std::size_t c) {
+    Rational own = from.empty() ? v : Rational(v - from[c]);
+    own *= factor;
+    return to.empty() ? own : Rational(own + to[c]);
+  };
+  const auto place = [&](RationalPose& pose) {
+    for (std::size_t c = 0; c < pose.size(); ++c) pose[c] = value(pose[c], c);
+  };
+  TaskShape result = shape;
+  if (auto* box = std::get_if<TaskBox>(&result)) {
+    place(box->lower);
+    place(box->upper);
+  } else if (auto* ball = std::get_if<TaskBall>(&result)) {
+    place(ball->centre);
+    ball->radius *= factor;
+  } else if (auto* polygon = std::get_if<TaskPolygon>(&result)) {
+    std::for_each(polygon->corners.begin(), polygon->corners.end(), place);
+    for (Rational& own : polygon->above) own *= factor;
+  } else if (auto* path = std::get_if<TaskPath>(&result)) {
+    std::for_each(path->points.begin(), path->points.end(), place);
+  } else {
+    for (std::array<double, 3>& corner : std::get<TaskMesh>(result).corners)
+      for (std::size_t c = 0; c < 3; ++c) corner[c] = to_double(value(Rational(corner[c]), c));
+  }
+  return result;
+}
 
-std::array<RationalPoint, 2> bounds(const TaskShape& shape) { return std::visit(Bounds{}, shape); }
+TaskShape moved(const TaskShape& shape, const RationalPose& by) { return placed(shape, {}, 1, by); }
+
+std::array<RationalPose, 2> bounds(const TaskShape& shape, const std::vector<Rational>& weights) {
+  if (const auto* box = std::get_if<TaskBox>(&shape)) return {box->lower, box->upper};
+  std::array<RationalPose, 2> result;
+  auto& [lower, upper] = result;
+  if (const auto* ball = std::get_if<TaskBall>(&shape)) {
+    for (std::size_t c = 0; c < ball->centre.size(); ++c) {
+      const Rational reach = weights.empty() ? ball->radius : Rational(ball->radius / weights[c]);
+      lower.push_back(ball->centre[c] - reach);
+      upper.push_back(ball->centre[c] + reach);
+    }
+    return result;
+  }
+  const auto include = [&](const RationalPose& pose) {
+    if (lower.empty()) lower = upper = pose;
+    for (std::size_t c = 0; c < pose.size(); ++c) {
+      lower[c] = std::min(lower[c], pose[c]);
+      upper[c] = std::max(upper[c], pose[c]);
+    }
+  };
+  if (const auto* polygon = std::get_if<TaskPolygon>(&shape)) {
+    std::for_each(polygon->corners.begin(), polygon->corners.end(), include);
+    for (std::size_t c = 0; c < polygon->above.size(); ++c) upper[c] += polygon->above[c];
+  } else if (const auto* path = std::get_if<TaskPath>(&shape)) {
+    std::for_each(path->points.begin(), path->points.end(), include);
+  } else {
+    for (const auto& [x, y, z] : std::get<TaskMesh>(shape).corners) include({Rational(x), Rational(y), Rational(z)});
+  }
+  return result;
+}
+
+std::vector<double> rounded(const RationalPose& pose) {
+  std::vector<double> values;
+  for (const Rational& value : pose) values.push_back(to_double(value));
+  return values;
+}
 
 Polyline outline(const TaskShape& shape) {
-  const auto rounded = [](const RationalPoint& p) { return Point2{to_double(p[0]), to_double(p[1])}; };
+  const auto point = [](const RationalPose& p) { return Point2{to_double(p[0]), to_double(p[1])}; };
   Polyline points;
   if (const auto* box = std::get_if<TaskBox>(&shape)) {
-    const Point2 low = rounded(box->lower), high = rounded(box->upper);
+    const Point2 low = point(box->lower), high = point(box->upper);
     return {low, {high[0], low[1]}, high, {low[0], high[1]}, low};
   }
-  if (const auto* circle = std::get_if<TaskCircle>(&shape)) {
+  if (const auto* circle = std::get_if<TaskBall>(&shape)) {
     constexpr int chords = 64;
-    const Point2 centre = rounded(circle->centre);
+    const Point2 centre = point(circle->centre);
     const double radius = to_double(circle->radius);
     for (int i = 0; i <= chords; ++i) {
       const double angle = 2 * std::numbers::pi * (i % chords) / chords;
@@ -74,11 +96,12 @@ Polyline outline(const TaskShape& shape) {
     return points;
   }
   if (const auto* polygon = std::get_if<TaskPolygon>(&shape)) {
-    for (const RationalPoint& p : polygon->corners) points.push_back(rounded(p));
+    const auto& [i, j] = polygon->across;
+    for (const RationalPose& p : polygon->corners) points.push_back({to_double(p[i]), to_double(p[j])});
     points.push_back(points.front());
     return points;
   }
-  for (const RationalPoint& p : std::get<TaskPath>(shape).points) points.push_back(rounded(p));
+  for (const RationalPose& p : std::get<TaskPath>(shape).points) points.push_back(point(p));
   return points;
 }
 

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 
-#include "clearloci/pose_tasks.hpp"
 #include "mechanism/mechanism.hpp"
 #include "mechanism/trajectory.hpp"
 
@@ -12,9 +11,7 @@ namespace clearloci::mechanism {
 
 using HandedFiles = std::map<std::string, std::string>;
 
-/// As those of read_pose_task.hpp and trajectory.hpp.
-core::PoseTask parse_pose_task(const std::string& text, const std::string& file, const Mechanism& mechanism,
-                               const HandedFiles& handed);
+/// As that of trajectory.hpp.
 Trajectory parse_trajectory(const std::string& text, const std::string& file, const Mechanism& mechanism,
                             const HandedFiles& handed);
 

@@ -130,8 +130,8 @@ struct CornerHash {
 };
 
 /// Corners at the same place are one; triangles of less than three are none.
-core::PoseMeshShape joined(const std::vector<Corner>& corners, const std::string& file, double unit) {
-  core::PoseMeshShape mesh;
+core::TaskMesh joined(const std::vector<Corner>& corners, const std::string& file, double unit) {
+  core::TaskMesh mesh;
   mesh.file = file;
   std::unordered_map<Corner, int, CornerHash> known;
   std::array<int, 3> triangle{};
@@ -153,7 +153,7 @@ core::PoseMeshShape joined(const std::vector<Corner>& corners, const std::string
 
 /// Closed where every edge is passed as often one way as the other: then every point off the surface has a number of
 /// times that the surface winds around it.
-void require_closed(const core::PoseMeshShape& mesh) {
+void require_closed(const core::TaskMesh& mesh) {
   std::map<std::pair<int, int>, int> passed;
   for (const std::array<int, 3>& triangle : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -176,16 +176,16 @@ void require_closed(const core::PoseMeshShape& mesh) {
 
 }  // namespace
 
-core::PoseMeshShape parse_stl(const std::string& bytes, const std::string& file, double unit) {
+core::TaskMesh parse_stl(const std::string& bytes, const std::string& file, double unit) {
   const std::vector<Corner> corners = is_binary(bytes) ? binary_corners(bytes) : text_corners(bytes, file);
-  core::PoseMeshShape mesh = joined(corners, file, unit);
+  core::TaskMesh mesh = joined(corners, file, unit);
   if (mesh.triangles.empty())
     throw InputError({file, 0, 0}, "the STL file has no triangles", "export a watertight solid");
   require_closed(mesh);
   return mesh;
 }
 
-core::PoseMeshShape read_stl(const std::string& path, double unit) {
+core::TaskMesh read_stl(const std::string& path, double unit) {
   return parse_stl(read_text(path, "an STL file", largest_solid), path, unit);
 }
 

@@ -4,16 +4,16 @@
 
 #include <string>
 
-#include "clearloci/pose_tasks.hpp"
+#include "clearloci/verify.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci::mechanism {
 
 /// The solid of an STL file's bytes; `unit`: m of one of its numbers. Throws core::InputError in one line for what is
 /// no STL file, and where the surface is not closed: an edge is not passed as often one way as the other.
-core::PoseMeshShape parse_stl(const std::string& bytes, const std::string& file, double unit);
+core::TaskMesh parse_stl(const std::string& bytes, const std::string& file, double unit);
 
 /// The same of a file of 256 MB at most.
-core::PoseMeshShape read_stl(const std::string& path, double unit);
+core::TaskMesh read_stl(const std::string& path, double unit);
 
 }  // namespace clearloci::mechanism

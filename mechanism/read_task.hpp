@@ -1,9 +1,10 @@
-// From a task file (results.md) to a Task.
+// From a task file (docs/task-files.md) to a Task.
 #pragma once
 
 #include <string>
 
 #include "core/task.hpp"
+#include "mechanism/handed_files.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci::mechanism {
@@ -12,7 +13,12 @@ namespace clearloci::mechanism {
 /// a shape that is empty, crosses itself or leaves the mechanism's box.
 core::Task read_task(const std::string& path, const Mechanism& mechanism);
 
-/// The same for a text; `file` is the name that errors show.
-core::Task parse_task(const std::string& text, const std::string& file, const Mechanism& mechanism);
+/// The same for a text; `file` is the name that errors show. `handed`: the files that the text names; null: they are
+/// read from beside `file`.
+core::Task parse_task(const std::string& text, const std::string& file, const Mechanism& mechanism,
+                      const HandedFiles* handed = nullptr);
+
+/// Whether two lengths are free, and nothing else.
+bool is_plane(const Mechanism& mechanism);
 
 }  // namespace clearloci::mechanism

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/task.hpp"
+#include "mechanism/handed_files.hpp"
 #include "mechanism/mechanism.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/yaml_input.hpp"
@@ -98,7 +99,14 @@ void read_limits(Mechanism& mechanism, const std::optional<Value>& value);
 
 // --- read_task.cpp
 /// A task from the mapping of its keys, whatever it says of its format.
-core::Task task_of(const Value& document, const Mechanism& mechanism);
+core::Task task_of(const Value& document, const Mechanism& mechanism, const HandedFiles* handed = nullptr);
+
+// --- read_task_shape.cpp
+/// The one shape that a task has; it lies in the mechanism's box.
+core::TaskShape read_task_shape(const Mechanism& mechanism, const Value& document, const Mapping& root,
+                                const std::optional<Rational>& angle_length, const HandedFiles* handed);
+/// A number of the task's metric: a length, or an angle where there is nothing else.
+Value in_metric(Value value, const Mechanism& mechanism, bool weighted);
 
 // --- checks.cpp: what only the whole mechanism shows
 /// The free coordinates that a point depends on, through the points it is built from.

@@ -1,8 +1,10 @@
 #include "mechanism/write_task.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include "core/errors.hpp"
+#include "core/task.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -36,27 +38,62 @@ class Writer {
 
   std::string length(const Rational& value) const { return number(value / length_); }
   std::string force(const Rational& value) const { return number(value / force_); }
-  std::string place(const core::RationalPoint& at) const { return "[" + length(at[0]) + ", " + length(at[1]) + "]"; }
-  std::string places(const std::vector<core::RationalPoint>& all) const {
-    std::string text;
-    for (const core::RationalPoint& at : all) text += (text.empty() ? "[" : ", ") + place(at);
-    return text + "]";
+  std::string forces(const std::vector<Rational>& parts) const {
+    return listed(parts.size(), [&](std::size_t c) { return force(parts[c]); });
+  }
+  /// A number of the task's metric.
+  std::string distance(const Rational& value, const core::Task& task) const {
+    std::size_t angle = 0;
+    for (std::size_t c = 0; c < mechanism_.coordinates.size(); ++c)
+      if (!mechanism_.coordinates[angle = c].angle) return length(value);
+    return task.angle_length ? length(value) : coordinate(value, angle);
   }
 
-  std::string shape(const core::TaskShape& shape) const {
-    if (const auto* box = std::get_if<core::TaskBox>(&shape)) {
-      const auto range = [&](std::size_t c) {
-        return mechanism_.coordinates[c].name + ": [" + length(box->lower[c]) + ", " + length(box->upper[c]) + "]";
+  std::string shape(const core::Task& task) const {
+    if (const auto* box = std::get_if<core::TaskBox>(&task.shape)) return "box: " + ranges(*box, {});
+    if (const auto* ball = std::get_if<core::TaskBall>(&task.shape))
+      return core::kind_of(task.shape) + ": {centre: " + pose(ball->centre) +
+             ", radius: " + distance(ball->radius, task) + "}";
+    if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape)) {
+      const auto& [i, j] = polygon->across;
+      const auto corner = [&, i = i, j = j](std::size_t k) {
+        return "[" + length(polygon->corners[k][i]) + ", " + length(polygon->corners[k][j]) + "]";
       };
-      return "box: {" + range(0) + ", " + range(1) + "}";
+      const std::string text = "polygon: " + listed(polygon->corners.size(), corner);
+      if (polygon->above.empty()) return text;
+      core::TaskBox others{polygon->corners.front(), polygon->corners.front()};
+      for (std::size_t c = 0; c < others.upper.size(); ++c) others.upper[c] += polygon->above[c];
+      return text + "\nbox: " + ranges(others, {i, j});
     }
-    if (const auto* circle = std::get_if<core::TaskCircle>(&shape))
-      return "circle: {centre: " + place(circle->centre) + ", radius: " + length(circle->radius) + "}";
-    if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) return "polygon: " + places(polygon->corners);
-    return "path: " + places(std::get<core::TaskPath>(shape).points);
+    const auto& points = std::get<core::TaskPath>(task.shape).points;
+    return "path: " + listed(points.size(), [&](std::size_t k) { return pose(points[k]); });
   }
 
  private:
+  template <class Part>
+  static std::string listed(std::size_t count, const Part& part) {
+    std::string text = "[";
+    for (std::size_t k = 0; k < count; ++k) text += (k == 0 ? "" : ", ") + part(k);
+    return text + "]";
+  }
+
+  /// A plain angle is in rad unless the file says otherwise.
+  std::string coordinate(const Rational& value, std::size_t c) const {
+    if (!mechanism_.coordinates[c].angle) return length(value);
+    return number(value) + (mechanism_.units.angle_declared ? " rad" : "");
+  }
+  std::string pose(const core::RationalPose& at) const {
+    return listed(at.size(), [&](std::size_t c) { return coordinate(at[c], c); });
+  }
+  std::string ranges(const core::TaskBox& box, const std::vector<std::size_t>& without) const {
+    std::string text;
+    for (std::size_t c = 0; c < box.lower.size(); ++c)
+      if (std::find(without.begin(), without.end(), c) == without.end())
+        text += (text.empty() ? "{" : ", ") + mechanism_.coordinates[c].name + ": [" + coordinate(box.lower[c], c) +
+                ", " + coordinate(box.upper[c], c) + "]";
+    return text + "}";
+  }
+
   const Mechanism& mechanism_;
   Rational length_, force_;
 };
@@ -66,18 +103,16 @@ class Writer {
 Rational length_unit(const Units& units) { return exact(units.length); }
 
 std::string task_text(const core::Task& task, const Mechanism& mechanism) {
-  core::ensure(task.tolerances.empty() && task.loads_within.empty() && !task.pose_error, "a task that can be moved");
+  core::ensure(!std::holds_alternative<core::TaskMesh>(task.shape), "a task whose shape is numbers");
   const Writer write(mechanism);
-  std::string text = "format: 1\n" + write.shape(task.shape) + "\n";
-  if (task.margin != 0) text += "margin: " + write.length(task.margin) + "\n";
+  std::string text = "format: 1\n" + write.shape(task) + "\n";
+  if (task.margin != 0) text += "margin: " + write.distance(task.margin, task) + "\n";
+  if (task.angle_length) text += "angle_length: " + write.length(*task.angle_length) + "\n";
   if (task.min_force) text += "min_force: " + write.force(*task.min_force) + "\n";
   if (task.min_couple) text += "min_couple: " + number(*task.min_couple) + "\n";
-  if (task.loads) {
-    const auto load = [&](const core::RationalPoint& own) {
-      return "[" + write.force(own[0]) + ", " + write.force(own[1]) + "]";
-    };
-    text += "loads_from: [" + load(task.loads->first) + ", " + load(task.loads->second) + "]\n";
-  }
+  if (task.loads)
+    text += "loads_from: [" + write.forces(task.loads->first) + ", " + write.forces(task.loads->second) + "]\n";
+  if (task.pose_error) text += "pose_error: " + write.length(*task.pose_error) + "\n";
   return text;
 }
 

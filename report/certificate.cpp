@@ -123,20 +123,20 @@ Json points_list(const core::Polyline& line) {
 
 Json task_object(const core::Task& task) {
   Json points = Json::array();
-  const auto add = [&](const core::RationalPoint& p) {
+  const auto add = [&](const core::RationalPose& p) {
     points.push_back({core::to_string(p[0]), core::to_string(p[1])});
   };
   core::Rational radius = 0;
   if (const auto* box = std::get_if<core::TaskBox>(&task.shape)) {
     add(box->lower);
     add(box->upper);
-  } else if (const auto* circle = std::get_if<core::TaskCircle>(&task.shape)) {
+  } else if (const auto* circle = std::get_if<core::TaskBall>(&task.shape)) {
     add(circle->centre);
     radius = circle->radius;
   } else if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape)) {
-    for (const core::RationalPoint& p : polygon->corners) add(p);
+    for (const core::RationalPose& p : polygon->corners) add(p);
   } else {
-    for (const core::RationalPoint& p : std::get<core::TaskPath>(task.shape).points) add(p);
+    for (const core::RationalPose& p : std::get<core::TaskPath>(task.shape).points) add(p);
   }
   Json unchecked = Json::array();
   if (task.min_force || task.min_couple) unchecked.push_back("the least forces and couples");

@@ -73,25 +73,6 @@ class Scaling {
   const std::vector<bool>& angles_;
 };
 
-void scale(core::TaskShape& shape, const Rational& k) {
-  const auto point = [&](core::RationalPoint& p) {
-    for (Rational& c : p) c *= k;
-  };
-  if (auto* box = std::get_if<core::TaskBox>(&shape)) {
-    point(box->lower);
-    point(box->upper);
-  } else if (auto* circle = std::get_if<core::TaskCircle>(&shape)) {
-    point(circle->centre);
-    circle->radius *= k;
-  } else if (auto* polygon = std::get_if<core::TaskPolygon>(&shape)) {
-    for (core::RationalPoint& p : polygon->corners) point(p);
-  } else {
-    for (core::RationalPoint& p : std::get<core::TaskPath>(shape).points) point(p);
-  }
-}
-
-bool is_force(core::Quantity quantity) { return core::unit_of(quantity) == "N"; }
-
 }  // namespace
 
 core::LocusMap in_file_units(core::LocusMap map) {
@@ -156,44 +137,6 @@ core::ZoneMap in_file_units(core::ZoneMap map) {
     area.in_doubt = scaling.area(area.in_doubt);
   }
   return map;
-}
-
-core::Verification in_file_units(core::Verification result) {
-  result.notes = core::in_file_units(std::move(result.notes), result.units, {});
-  if (!result.units.declared) return result;
-  const std::vector<bool> none;
-  const Scaling scaling(result.units, none);
-  const double forces = 1 / result.units.force.size;
-  result.map = in_file_units(std::move(result.map));
-  scale(result.task.shape, scaling.exact());
-  result.task.margin *= scaling.exact();
-  result.margin *= scaling.k();
-  if (result.pose_error) *result.pose_error *= scaling.k();
-  if (result.nearest) {
-    scaling.place(result.nearest->at);
-    result.nearest->distance *= scaling.k();
-  }
-  if (result.witness) {
-    scaling.place(result.witness->at);
-    result.witness->distance *= scaling.k();
-    if (result.witness->load)
-      for (double& part : *result.witness->load) part *= forces;
-    if (result.witness->most) {
-      *result.witness->size *= scaling.k();
-      *result.witness->most *= scaling.exact();
-    }
-    const bool force = !result.witness->too_small.empty() && is_force(result.witness->too_small.front().quantity);
-    if (force && result.witness->size) *result.witness->size *= forces;
-    if (force && result.witness->least)
-      *result.witness->least *= core::simplest_rational_near(Rational(forces), Rational(1, 1000000000));
-  }
-  if (result.open) {
-    scaling.place(result.open->lower);
-    scaling.place(result.open->upper);
-  }
-  if (result.by)
-    for (Rational& part : *result.by) part *= scaling.exact();
-  return result;
 }
 
 core::Sketch in_file_units(core::Sketch sketch, const core::Units& units) {

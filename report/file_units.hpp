@@ -10,7 +10,7 @@
 
 #include "clearloci/error.hpp"
 #include "clearloci/trajectory.hpp"
-#include "clearloci/verify.hpp"
+#include "clearloci/zones.hpp"
 #include "core/locus_map.hpp"
 #include "core/shown_units.hpp"
 #include "core/sketch.hpp"
@@ -19,7 +19,6 @@ namespace clearloci::report {
 
 core::LocusMap in_file_units(core::LocusMap map);
 core::ZoneMap in_file_units(core::ZoneMap map);
-core::Verification in_file_units(core::Verification result);
 core::Sketch in_file_units(core::Sketch sketch, const core::Units& units);
 /// `angles` as of LocusMap. Fields in m and rad get the file's units, angles among them.
 core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles);

@@ -14,8 +14,6 @@
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/pose.hpp"
-#include "report/pose_task_picture.hpp"
-#include "report/pose_verification.hpp"
 #include "report/pose_zone_picture.hpp"
 #include "report/pose_zones.hpp"
 #include "report/trajectory.hpp"
@@ -185,15 +183,6 @@ Files pose_in_modes_json(const core::PoseInModes& poses) {
 Files validation_json(const core::Validation& validation) {
   return {{"validation.json", json_text(validation_object(validation))}};
 }
-Files pose_verification_json(const core::PoseVerification& answer) {
-  return {{"verify.json", json_text(pose_verification_object(answer))}};
-}
-
-template <PictureFormat format>
-Files pose_verification_pictures(const core::PoseVerification& result) {
-  return {{std::string("verify") + ending_of(format), pose_task_picture(result, format)}};
-}
-
 template <PictureFormat format>
 Files pose_zones_pictures(const core::PoseZones& map) {
   return {{std::string("zones") + ending_of(format), pose_zone_picture(map, format)}};
@@ -215,7 +204,6 @@ Format pictures(std::string_view name) {
           zone_pictures<format>,
           pose_zones_pictures<format>,
           verification_pictures<format>,
-          pose_verification_pictures<format>,
           error_pictures<format>,
           coordinate_pictures<format>,
           volume_slices<format>,
@@ -227,7 +215,7 @@ Format pictures(std::string_view name) {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = [] {
     std::vector<Format> list = {
-        {"json", any, loci_json, zones_json, pose_zones_json, verification_json, pose_verification_json, error_json,
+        {"json", any, loci_json, zones_json, pose_zones_json, verification_json, error_json,
          coordinate_json, volume_json, trajectory_json, pose_json, pose_in_modes_json, validation_json},
         {"csv", any, loci_csv, error_csv, coordinate_csv, volume_csv, trajectory_csv},
         pictures<PictureFormat::svg>("svg"),

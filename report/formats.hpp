@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "clearloci/pose.hpp"
-#include "clearloci/pose_tasks.hpp"
 #include "clearloci/pose_zones.hpp"
 #include "clearloci/trajectory.hpp"
 #include "clearloci/validate.hpp"
@@ -49,7 +48,7 @@ class Format {
 
  private:
   std::tuple<Maker<LociSheet>, Maker<core::ZoneMap>, Maker<core::PoseZones>, Maker<core::Verification>,
-             Maker<core::PoseVerification>, Maker<core::ErrorMap>, Maker<core::CoordinateErrors>, Maker<VolumeSheet>,
+             Maker<core::ErrorMap>, Maker<core::CoordinateErrors>, Maker<VolumeSheet>,
              Maker<core::TrajectoryResult>, Maker<core::Pose>, Maker<core::PoseInModes>, Maker<core::Validation>>
       makers_ = {};
 };

@@ -16,7 +16,6 @@
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
 #include "report/pose.hpp"
-#include "report/pose_verification.hpp"
 #include "report/pose_zones.hpp"
 #include "report/trajectory.hpp"
 #include "report/validation.hpp"
@@ -48,16 +47,12 @@ const ZoneMap& told(const ZoneMap& zones) {
   return zones;
 }
 const Verification& told(const Verification& answer) {
-  told(answer.map.loci);
+  require(!answer.coordinates.empty(), "the verification");
   return answer;
 }
 const PoseZones& told(const PoseZones& zones) {
   require(!zones.coordinates.empty(), "the map of zones");
   return zones;
-}
-const PoseVerification& told(const PoseVerification& answer) {
-  require(!answer.coordinates.empty(), "the verification");
-  return answer;
 }
 template <class Errors>
 const Errors& told_errors(const Errors& errors) {
@@ -124,10 +119,6 @@ Paths export_verification(const Verification& answer, const std::filesystem::pat
                           const std::set<std::string>& formats) {
   return write_checked(told(answer), folder, formats);
 }
-Paths export_verification(const PoseVerification& answer, const std::filesystem::path& folder,
-                          const std::set<std::string>& formats) {
-  return write_checked(answer, folder, formats);
-}
 Paths export_errors(const ErrorMap& errors, const std::filesystem::path& folder, const std::set<std::string>& formats) {
   return write_checked(told(errors), folder, formats);
 }
@@ -157,9 +148,6 @@ std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std:
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats) {
   return files_checked(told(answer), formats);
 }
-std::vector<ExportedFile> verification_files(const PoseVerification& answer, const std::set<std::string>& formats) {
-  return files_checked(answer, formats);
-}
 std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats) {
   return files_checked(told(errors), formats);
 }
@@ -179,9 +167,6 @@ std::string to_json(const LocusMap& loci) { return json_text(report::loci_object
 std::string to_json(const ZoneMap& zones) { return json_text(report::zones_object(told(zones))); }
 std::string to_json(const PoseZones& zones) { return json_text(report::pose_zones_object(told(zones))); }
 std::string to_json(const Verification& answer) { return json_text(report::verification_object(told(answer))); }
-std::string to_json(const PoseVerification& answer) {
-  return json_text(report::pose_verification_object(told(answer)));
-}
 std::string to_json(const ErrorMap& errors) { return json_text(report::error_object(told(errors))); }
 std::string to_json(const CoordinateErrors& errors) {
   return json_text(report::coordinate_errors_object(told(errors)));
@@ -195,10 +180,7 @@ std::string to_json(const Validation& validation) { return json_text(report::val
 std::string to_table(const LocusMap& loci) { return report::loci_table(told(loci)); }
 std::string to_table(const ZoneMap& zones) { return report::zones_table(told(zones)); }
 std::string to_table(const PoseZones& zones) { return report::pose_zones_table(told(zones)); }
-std::string to_text(const Verification& answer) {
-  return report::verification_text(told(answer), answer.by.has_value());
-}
-std::string to_text(const PoseVerification& answer) { return report::pose_verification_text(told(answer)); }
+std::string to_text(const Verification& answer) { return report::verification_text(told(answer)); }
 std::string to_text(const ErrorMap& errors) { return report::error_text(told(errors)); }
 std::string to_text(const CoordinateErrors& errors) { return report::coordinate_errors_text(told(errors)); }
 std::string to_text(const VolumeErrors& errors) { return report::error_volume_text(told(errors)); }

@@ -23,12 +23,12 @@ double volume(const core::StudyCell& cell) {
 
 std::string number(const core::Rational& value) { return exact_number(core::to_double(value)); }
 
-std::string place(const core::RationalPoint& at) { return "(" + number(at[0]) + ", " + number(at[1]) + ")"; }
+std::string place(const core::RationalPose& at) { return "(" + number(at[0]) + ", " + number(at[1]) + ")"; }
 
 std::string shape_words(const core::TaskShape& shape) {
   if (const auto* box = std::get_if<core::TaskBox>(&shape))
     return fmt::format("every pose of the box from {} to {} m", place(box->lower), place(box->upper));
-  if (const auto* circle = std::get_if<core::TaskCircle>(&shape))
+  if (const auto* circle = std::get_if<core::TaskBall>(&shape))
     return fmt::format("every pose of the circle of radius {} m about {} m", number(circle->radius),
                        place(circle->centre));
   const bool path = std::holds_alternative<core::TaskPath>(shape);

@@ -5,55 +5,22 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/shown_units.hpp"
 #include "core/task.hpp"
 #include "report/file_units.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
+#include "report/task_panels.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Kind = core::TaskWitness::Kind;
 
-/// m; what is nearer is in the task but for rounding.
+/// What is nearer, m or rad, is in the task but for rounding.
 constexpr double rounding_of_distance = 1e-12;
-
-std::string unit_of(const core::Vanishing& reaction, const core::Units& units) {
-  return reaction.quantity == core::Quantity::M || reaction.quantity == core::Quantity::T ? "N m" : units.force.name;
-}
-
-std::string open_words(const core::OpenTask& open) {
-  switch (open.reason) {
-    case core::OpenTask::Reason::time:
-      return "the time limit was reached";
-    case core::OpenTask::Reason::cells:
-      return fmt::format("{} cells were looked at", open.looked_at);
-    case core::OpenTask::Reason::doubles:
-      break;
-  }
-  return "doubles tell no more apart there";
-}
-
-/// Exact numbers of a shape, rounded.
-Json point_json(const core::RationalPoint& p) { return {core::to_double(p[0]), core::to_double(p[1])}; }
-
-Json points_json(const std::vector<core::RationalPoint>& points) {
-  Json list = Json::array();
-  for (const core::RationalPoint& p : points) list.push_back(point_json(p));
-  return list;
-}
-
-Json shape_json(const core::TaskShape& shape) {
-  if (const auto* box = std::get_if<core::TaskBox>(&shape))
-    return {{"lower", point_json(box->lower)}, {"upper", point_json(box->upper)}};
-  if (const auto* circle = std::get_if<core::TaskCircle>(&shape))
-    return {{"centre", point_json(circle->centre)}, {"radius", core::to_double(circle->radius)}};
-  if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) return points_json(polygon->corners);
-  return points_json(std::get<core::TaskPath>(shape).points);
-}
-
-}  // namespace
 
 const char* verdict_line(core::Verdict verdict) {
   switch (verdict) {
@@ -67,182 +34,297 @@ const char* verdict_line(core::Verdict verdict) {
   return "UNDECIDED     neither proven nor refuted";
 }
 
-std::string witness_words(const core::TaskWitness& witness, const core::Units& units) {
+std::string open_words(const core::Verification& result) {
+  switch (result.open->reason) {
+    case core::OpenTask::Reason::time:
+      return "the time limit was reached";
+    case core::OpenTask::Reason::cells:
+      return fmt::format("{} cells were looked at", result.cells);
+    case core::OpenTask::Reason::doubles:
+      break;
+  }
+  return "doubles tell no more apart there";
+}
+
+/// Exact numbers of a shape, rounded.
+Json poses_json(const std::vector<core::RationalPose>& poses) {
+  Json list = Json::array();
+  for (const core::RationalPose& pose : poses) list.push_back(core::rounded(pose));
+  return list;
+}
+
+Json shape_json(const core::TaskShape& shape) {
+  const auto range = [](const std::array<core::RationalPose, 2>& ends) {
+    return Json{{"lower", core::rounded(ends[0])}, {"upper", core::rounded(ends[1])}};
+  };
+  if (std::holds_alternative<core::TaskBox>(shape)) return range(core::bounds(shape));
+  if (const auto* ball = std::get_if<core::TaskBall>(&shape))
+    return {{"centre", core::rounded(ball->centre)}, {"radius", core::to_double(ball->radius)}};
+  if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) {
+    if (polygon->above.empty()) return poses_json(polygon->corners);
+    Json own = range(core::bounds(shape));
+    own["corners"] = Json::array();
+    for (const core::Point2& corner : core::outline(shape)) own["corners"].push_back(corner);
+    own["corners"].erase(own["corners"].size() - 1);
+    return own;
+  }
+  if (const auto* mesh = std::get_if<core::TaskMesh>(&shape)) {
+    Json own = {{"file", printable(mesh->file)}, {"triangles", mesh->triangles.size()}};
+    own.update(range(core::bounds(shape)));
+    return own;
+  }
+  return poses_json(std::get<core::TaskPath>(shape).points);
+}
+
+Json names_of(const std::vector<core::Vanishing>& reactions) {
+  Json joints = Json::array();
+  for (const core::Vanishing& own : reactions)
+    if (std::find(joints.begin(), joints.end(), own.joint) == joints.end()) joints.push_back(own.joint);
+  return joints;
+}
+
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json witness_json(const core::Verification& result) {
+  const core::TaskWitness& witness = *result.witness;
+  Json own = {{"at", witness.at},
+              {"load", witness.load.empty() ? Json(nullptr) : Json(witness.load)},
+              {"distance", witness.distance},
+              {"reason", witness_words(witness, {}, result.margin_of_angles())},
+              {"vanishing", vanishing_array(witness.vanishing)},
+              {"too_small", vanishing_array(witness.too_small)},
+              {"size", or_null(witness.size)}};
+  if (!witness.limit.empty()) own["limit"] = witness.limit;
+  for (const auto& [name, value] : witness.design) own["design"][name] = value;
+  for (const core::WitnessLoad& load : witness.loads)
+    own["loads"].push_back({{"load", load.load + 1}, {"force", load.force}, {"couple", load.couple}});
+  return own;
+}
+
+/// Values of an answer as they are told, in the units of its mechanism file.
+class Words {
+ public:
+  explicit Words(const core::Verification& result) : result_(result) {
+    plane_ = result.angles == std::vector<bool>{false, false};
+  }
+
+  bool plane() const { return plane_; }
+  std::string length(double metres) const { return told(metres, "m"); }
+  std::string angle(double radians) const { return told(radians, "rad"); }
+  std::string effort(const core::Vanishing& reaction, double value) const {
+    return told(value, core::unit_of(reaction.quantity));
+  }
+  /// A distance in the task's metric.
+  std::string distance(double value) const { return result_.margin_of_angles() ? angle(value) : length(value); }
+
+  /// "(250, -700)"; over other coordinates "x = 250 mm, alpha = 5 deg".
+  std::string pose(const std::vector<double>& at, int digits = size_digits) const {
+    std::string words;
+    for (std::size_t c = 0; c < at.size(); ++c) {
+      const ShownUnit unit = core::told_unit(result_.angles[c] ? "rad" : "m", result_.units);
+      words += fmt::format("{}{}{}{}", c == 0 ? "" : ", ", plane_ ? "" : result_.coordinates[c] + " = ",
+                           engineering(at[c] * unit.per_si, digits), plane_ ? "" : " " + unit.name);
+    }
+    return plane_ ? "(" + words + ")" : words;
+  }
+
+ private:
+  std::string told(double value, const std::string& si) const {
+    const ShownUnit unit = core::told_unit(si, result_.units);
+    return engineering(value * unit.per_si, size_digits) + " " + unit.name;
+  }
+
+  const core::Verification& result_;
+  bool plane_ = false;
+};
+
+}  // namespace
+
+std::string witness_words(const core::TaskWitness& witness, const core::Units& units, bool of_angles) {
+  const ShownUnit length = shown_unit("m", units), force = shown_unit("N", units);
+  const auto vector = [&](const std::vector<double>& parts) {
+    std::string words;
+    for (const double part : parts)
+      words += (words.empty() ? "(" : ", ") + engineering(part * force.per_si, place_digits);
+    return words + ") " + force.name;
+  };
   std::string words;
   switch (witness.kind) {
-    case core::TaskWitness::Kind::unreachable:
+    case Kind::unreachable:
       words = witness.limit.empty() ? "the mechanism does not reach it" : "beyond the limit of the " + witness.limit;
       break;
-    case core::TaskWitness::Kind::boundary:
+    case Kind::boundary:
       words = witness.limit.empty() ? "the boundary of the workspace passes here"
                                     : "the limit of the " + witness.limit + " passes here";
       break;
-    case core::TaskWitness::Kind::singular:
+    case Kind::singular:
       words = "|A| vanishes: a direct singularity";
       break;
-    case core::TaskWitness::Kind::vanishing:
+    case Kind::vanishing:
       words = reaction_names(witness.vanishing) + (witness.vanishing.size() > 1 ? " vanish" : " vanishes");
       break;
-    case core::TaskWitness::Kind::too_small:
-      words = fmt::format("|{}| is {} {}, less than {}", reaction_name(witness.too_small.front()),
-                          engineering(*witness.size, size_digits), unit_of(witness.too_small.front(), units),
-                          engineering(core::to_double(*witness.least), size_digits));
+    case Kind::too_small: {
+      const core::Vanishing& reaction = witness.too_small.front();
+      const ShownUnit unit = shown_unit(core::unit_of(reaction.quantity), units);
+      words = fmt::format("|{}| is {} {}, less than {}", reaction_name(reaction),
+                          engineering(*witness.size * unit.per_si, size_digits), unit.name,
+                          engineering(core::to_double(*witness.least) * unit.per_si, size_digits));
       break;
-    case core::TaskWitness::Kind::displaced:
+    }
+    case Kind::displaced:
       words = fmt::format("the clearances displace the end effector by {} {}, more than {}",
-                          engineering(*witness.size, size_digits), units.length.name,
-                          engineering(core::to_double(*witness.most), size_digits));
+                          engineering(*witness.size * length.per_si, size_digits), length.name,
+                          engineering(core::to_double(*witness.most) * length.per_si, size_digits));
       break;
   }
-  if (witness.load)
-    words += fmt::format(" under the load ({}, {}) {}", engineering((*witness.load)[0], place_digits),
-                         engineering((*witness.load)[1], place_digits), units.force.name);
+  if (!witness.load.empty()) words += " under the load " + vector(witness.load);
   for (const core::WitnessLoad& own : witness.loads)
-    words += fmt::format(" under ({}, {}) {} and {} N m as load {}",
-                         engineering(own.force[0] / units.force.size, place_digits),
-                         engineering(own.force[1] / units.force.size, place_digits), units.force.name,
-                         engineering(own.couple, place_digits), own.load + 1);
+    words += fmt::format(" under {} and {} N m as load {}", vector(own.force), engineering(own.couple, place_digits),
+                         own.load + 1);
   for (std::size_t i = 0; i < witness.design.size(); ++i)
     words += fmt::format("{}{} = {}", i == 0 ? " of the design " : ", ", witness.design[i].first,
                          exact_number(witness.design[i].second));
-  if (witness.distance > rounding_of_distance)
-    words += fmt::format("; {} {} from the task, within its margin", engineering(witness.distance, size_digits),
-                         units.length.name);
+  if (witness.distance > rounding_of_distance) {
+    const ShownUnit unit = of_angles ? core::told_unit("rad", units) : length;
+    words += fmt::format("; {} {} from the task, within its margin",
+                         engineering(witness.distance * unit.per_si, size_digits), unit.name);
+  }
   return words;
 }
 
 std::string shown_witness_words(const core::Verification& result) {
-  return witness_words(*in_file_units(result).witness, result.units);
+  return witness_words(*result.witness, result.units, result.margin_of_angles());
 }
 
 Json verification_object(const core::Verification& result) {
-  const core::LocusMap& loci = result.map.loci;
+  Json mode = Json::object();
+  for (const auto& [point, side] : result.working_mode) mode[point] = side;
   Json root = {{"format", 1},
-               {"mechanism", printable(loci.mechanism)},
-               // A verdict alone comes without a map, and so without the names of the mode's points.
-               {"working_mode", loci.tower.roots.empty() ? Json::object() : mode_object(loci.tower, result.mode)},
+               {"mechanism", printable(result.mechanism)},
+               {"coordinates", result.coordinates},
+               {"angles", result.angles},
+               {"working_mode", std::move(mode)},
                {"task", {{core::kind_of(result.task.shape), shape_json(result.task.shape)}}},
                {"verdict", core::to_string(result.verdict)},
                {"verified", result.verified()},
                {"zone", result.zone.empty() ? Json(nullptr) : Json(result.zone)},
-               {"margin", result.verified() ? Json(result.margin) : Json(nullptr)},
+               {"margin", or_null(result.margin)},
+               {"angle_margin", or_null(result.angle_margin)},
                {"nearest", nullptr},
                {"witness", nullptr},
                {"open", nullptr}};
+  if (result.task.angle_length) root["task"]["angle_length"] = core::to_double(*result.task.angle_length);
   if (result.units.declared) root["units"] = "SI";
-  if (result.task.pose_error) root["pose_error"] = result.pose_error ? Json(*result.pose_error) : Json(nullptr);
-  if (result.by) root["moved_by"] = point_json(*result.by);
+  if (result.task.pose_error) root["pose_error"] = or_null(result.pose_error);
+  if (result.moved_by) root["moved_by"] = core::rounded(*result.moved_by);
+  if (result.scaled_by) root["scale"] = core::to_double(*result.scaled_by);
   if (result.nearest) {
     const core::NearestOfTask& nearest = *result.nearest;
-    Json joints = Json::array();
-    for (const core::Vanishing& v : nearest.vanishing)
-      if (std::find(joints.begin(), joints.end(), v.joint) == joints.end()) joints.push_back(v.joint);
     root["nearest"] = {{"curve", nearest.curve.empty() ? Json(nullptr) : Json(nearest.curve)},
                        {"kind", core::to_string(nearest.kind)},
-                       {"joints", std::move(joints)},
+                       {"joints", names_of(nearest.vanishing)},
                        {"vanishing", vanishing_array(nearest.vanishing)},
                        {"at", nearest.at},
                        {"distance", nearest.distance}};
     if (!nearest.limit.empty()) root["nearest"]["limit"] = nearest.limit;
   }
-  if (result.witness) {
-    const core::TaskWitness& witness = *result.witness;
-    root["witness"] = {{"at", witness.at},
-                       {"load", witness.load ? Json(*witness.load) : Json(nullptr)},
-                       {"distance", witness.distance},
-                       {"reason", witness_words(witness, {})},
-                       {"vanishing", vanishing_array(witness.vanishing)},
-                       {"too_small", vanishing_array(witness.too_small)},
-                       {"size", witness.size ? Json(*witness.size) : Json(nullptr)}};
-    if (!witness.limit.empty()) root["witness"]["limit"] = witness.limit;
-    if (!witness.design.empty()) {
-      Json design = Json::object();
-      for (const auto& [name, value] : witness.design) design[name] = value;
-      root["witness"]["design"] = design;
-    }
-    if (!witness.loads.empty()) {
-      Json loads = Json::array();
-      for (const core::WitnessLoad& own : witness.loads)
-        loads.push_back({{"load", own.load + 1}, {"force", own.force}, {"couple", own.couple}});
-      root["witness"]["loads"] = loads;
-    }
-  }
+  if (result.witness) root["witness"] = witness_json(result);
   if (result.open)
     root["open"] = {{"lower", result.open->lower},
                     {"upper", result.open->upper},
                     {"cells", result.open->cells},
-                    {"reason", open_words(*result.open)}};
+                    {"reason", open_words(result)}};
+  root["least"] = Json::array();
+  for (const core::LeastReaction& own : result.least)
+    root["least"].push_back({{"joint", own.reaction.joint},
+                             {"quantity", core::to_string(own.reaction.quantity)},
+                             {"proven", own.proven},
+                             {"met", own.met}});
+  root["cells"] = result.cells;
   root["notes"] = result.notes;
   return root;
 }
 
-std::string verification_text(const core::Verification& in_si, bool fit) {
-  const core::Verification result = in_file_units(in_si);
-  const std::string& unit = result.units.length.name;
-  std::string text;
-  const auto put = [&](fmt::string_view format, const auto&... values) {
-    text += fmt::format(fmt::runtime(format), values...);
-  };
-  const core::LocusMap& loci = result.map.loci;
-  put("{}: {}", printable(loci.mechanism), core::kind_of(result.task.shape));
-  const std::string mode = printable(mode_words(loci.tower, result.mode));
-  put("{}\n\n", mode.empty() ? "" : "; " + mode);
-  if (result.by)
-    put("moved by      ({}, {}) {}\n", engineering(core::to_double((*result.by)[0]), size_digits),
-        engineering(core::to_double((*result.by)[1]), size_digits), unit);
-  else if (fit)
-    put("No place in the box was found that verifies; where the task lies:\n");
-  put("{}\n", verdict_line(result.verdict));
+std::string verification_text(const core::Verification& result) {
+  const Words words(result);
+  std::string text = printable(result.mechanism) + ": " + core::kind_of(result.task.shape);
+  for (std::size_t c = 0; c < result.coordinates.size() && !words.plane(); ++c)
+    text += (c == 0 ? " over " : ", ") + result.coordinates[c];
+  std::string mode;
+  for (const auto& [point, side] : result.working_mode) mode += (mode.empty() ? "; " : ", ") + point + " " + side;
+  text += printable(mode) + "\n\n";
+  const auto put = [&](const char* head, const std::string& fact) { text += fmt::format("{:<14}{}\n", head, fact); };
   const auto many = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
+  if (result.moved_by)
+    put("moved by", words.pose(core::rounded(*result.moved_by)) +
+                        (words.plane() ? " " + shown_unit("m", result.units).name : std::string()));
+  if (result.scaled_by) put("scaled by", engineering(core::to_double(*result.scaled_by), size_digits));
+  text += std::string(verdict_line(result.verdict)) + "\n";
   std::string of;
   if (const std::size_t count = result.task.tolerances.size(); count > 0)
     of = "every design within the tolerances of " + many(count, "parameter");
   if (const std::size_t count = result.task.loads_within.size(); count > 0)
     of += (of.empty() ? "" : ", ") + ("every load within " + many(count, "ball"));
-  if (!of.empty()) put("of            {}\n", of);
-  if (!result.zone.empty()) put("zone          {}\n", result.zone);
-  if (result.verified()) put("margin        at least {} {}, proven\n", engineering(result.margin, size_digits), unit);
-  if (result.pose_error)
-    put("pose error    at most {} {}, proven\n", engineering(*result.pose_error, size_digits), unit);
+  if (!of.empty()) put("of", of);
+  if (!result.zone.empty()) put("zone", result.zone);
+  const bool apart = result.margin && result.angle_margin;
+  if (result.margin)
+    put("margin", fmt::format("at least {}, proven{}", words.length(*result.margin),
+                              apart ? ", with the angles of the task"
+                              : result.task.angle_length
+                                  ? ", " + words.length(core::to_double(*result.task.angle_length)) + " a radian"
+                                  : ""));
+  if (result.angle_margin)
+    put("margin", fmt::format("at least {}, proven{}", words.angle(*result.angle_margin),
+                              apart ? ", with the lengths of the task" : ""));
+  if (result.pose_error) put("pose error", fmt::format("at most {}, proven", words.length(*result.pose_error)));
   if (result.nearest) {
     const core::NearestOfTask& nearest = *result.nearest;
-    put("nearest       {}{}{}{} at ({}, {}), {}\n", kind_words(nearest.kind), nearest.vanishing.empty() ? "" : " ",
-        reaction_names(nearest.vanishing),
-        nearest.isolated        ? ", an isolated point"
-        : nearest.curve.empty() ? ""
-        : nearest.limit.empty() ? " on " + nearest.curve
-                                : ", limit of the " + nearest.limit + ", on " + nearest.curve,
-        engineering(nearest.at[0], size_digits), engineering(nearest.at[1], size_digits),
-        nearest.distance > rounding_of_distance
-            ? fmt::format("{} {} away", engineering(nearest.distance, size_digits), unit)
-            : "in the task");
+    const bool in_task = nearest.distance <= rounding_of_distance;
+    put("nearest", fmt::format("{}{}{}{} at {}, {}", kind_words(nearest.kind), nearest.vanishing.empty() ? "" : " ",
+                               reaction_names(nearest.vanishing),
+                               nearest.isolated        ? ", an isolated point"
+                               : nearest.curve.empty() ? ""
+                               : nearest.limit.empty() ? " on " + nearest.curve
+                                                       : ", limit of the " + nearest.limit + ", on " + nearest.curve,
+                               words.pose(nearest.at),
+                               in_task ? "in the task"
+                                       : fmt::format("{}{} away", words.plane() ? "" : "found ",
+                                                     words.distance(nearest.distance))));
   }
   if (result.witness)
-    put("witness       ({}, {}): {}\n", engineering(result.witness->at[0], place_digits),
-        engineering(result.witness->at[1], place_digits), witness_words(*result.witness, result.units));
+    put("witness", fmt::format("{}: {}", words.pose(result.witness->at, place_digits), shown_witness_words(result)));
   if (result.open)
-    put("open          {} cell{} in [{}, {}] x [{}, {}]: {}; the rest is proven\n", result.open->cells,
-        result.open->cells == 1 ? "" : "s", engineering(result.open->lower[0], place_digits),
-        engineering(result.open->upper[0], place_digits), engineering(result.open->lower[1], place_digits),
-        engineering(result.open->upper[1], place_digits), open_words(*result.open));
-  for (const std::string& note : told_once(result.notes)) put("{}\n", printable(note));
+    put("open", fmt::format("{} from {} to {}: {}; the rest is proven", many(result.open->cells, "cell"),
+                            words.pose(result.open->lower, place_digits), words.pose(result.open->upper, place_digits),
+                            open_words(result)));
+  for (const core::LeastReaction& own : result.least)
+    put("least", fmt::format("|{}| at least {} over the task, proven; {} met", reaction_name(own.reaction),
+                             words.effort(own.reaction, own.proven), words.effort(own.reaction, own.met)));
+  for (const std::string& note : told_once(core::in_file_units(result.notes, result.units, result.angles)))
+    text += printable(note) + "\n";
   return text;
 }
 
 std::string verification_picture(const core::Verification& result, PictureFormat format) {
-  const core::Verification shown = in_file_units(result);
+  if (result.map.loci.tower.coordinates.empty()) return task_panels(result, format);
+  const ShownUnit unit = shown_unit("m", result.units);
+  const auto shown = [&](double x, double y) { return core::Point2{x * unit.per_si, y * unit.per_si}; };
   TaskMark mark;
-  mark.outline = core::outline(shown.task.shape);
+  for (const core::Point2& at : core::outline(result.task.shape)) mark.outline.push_back(shown(at[0], at[1]));
   mark.filled = !std::holds_alternative<core::TaskPath>(result.task.shape);
   mark.verified = result.verified();
-  mark.margin = shown.verified() ? shown.margin : core::to_double(shown.task.margin);
-  if (shown.witness)
-    mark.points.push_back(shown.witness->at);
-  else if (shown.nearest)
-    mark.points.push_back(shown.nearest->at);
-  return task_picture(shown.map, result.mode, mark, format);
+  mark.margin = unit.per_si * (result.verified() ? result.margin.value_or(0) : core::to_double(result.task.margin));
+  if (result.witness)
+    mark.points.push_back(shown(result.witness->at[0], result.witness->at[1]));
+  else if (result.nearest)
+    mark.points.push_back(shown(result.nearest->at[0], result.nearest->at[1]));
+  return task_picture(in_file_units(result.map), result.mode, mark, format);
 }
 
 }  // namespace clearloci::report

@@ -14,7 +14,10 @@ class Text {
     return *this;
   }
   Text& operator<<(const Rational& value) { return *this << core::to_string(value); }
-  Text& operator<<(const core::RationalPoint& point) { return *this << point[0] << point[1]; }
+  Text& operator<<(const core::RationalPose& pose) {
+    for (const Rational& value : pose) *this << value;
+    return *this;
+  }
   Text& operator<<(const std::optional<Rational>& value) {
     return value ? *this << std::string("is") << *value : *this << std::string("none");
   }
@@ -28,11 +31,11 @@ class Text {
 void add(Text& text, const core::Task& task) {
   text << core::kind_of(task.shape);
   if (const auto* box = std::get_if<core::TaskBox>(&task.shape)) text << box->lower << box->upper;
-  if (const auto* circle = std::get_if<core::TaskCircle>(&task.shape)) text << circle->centre << circle->radius;
+  if (const auto* circle = std::get_if<core::TaskBall>(&task.shape)) text << circle->centre << circle->radius;
   if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape))
-    for (const core::RationalPoint& own : polygon->corners) text << own;
+    for (const core::RationalPose& own : polygon->corners) text << own;
   if (const auto* path = std::get_if<core::TaskPath>(&task.shape))
-    for (const core::RationalPoint& own : path->points) text << own;
+    for (const core::RationalPose& own : path->points) text << own;
   text << task.margin << task.min_force << task.min_couple;
   if (task.loads) text << std::string("loads") << task.loads->first << task.loads->second;
   for (const core::Tolerance& own : task.tolerances)

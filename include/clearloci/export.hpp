@@ -19,7 +19,6 @@
 #include "clearloci/error.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/pose.hpp"
-#include "clearloci/pose_tasks.hpp"
 #include "clearloci/pose_zones.hpp"
 #include "clearloci/trajectory.hpp"
 #include "clearloci/validate.hpp"
@@ -49,9 +48,6 @@ std::vector<std::filesystem::path> export_zones(const PoseZones& zones, const st
                                                 const std::set<std::string>& formats = {"svg", "png"});
 std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
                                                        const std::set<std::string>& formats = {"svg", "png"});
-std::vector<std::filesystem::path> export_verification(const PoseVerification& answer,
-                                                       const std::filesystem::path& folder,
-                                                       const std::set<std::string>& formats = {"svg", "png"});
 std::vector<std::filesystem::path> export_errors(const ErrorMap& errors, const std::filesystem::path& folder,
                                                  const std::set<std::string>& formats = {"png"});
 std::vector<std::filesystem::path> export_errors(const CoordinateErrors& errors, const std::filesystem::path& folder,
@@ -74,7 +70,6 @@ std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, c
 std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats);
 std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std::string>& formats);
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats);
-std::vector<ExportedFile> verification_files(const PoseVerification& answer, const std::set<std::string>& formats);
 std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats);
 std::vector<ExportedFile> error_files(const CoordinateErrors& errors, const std::set<std::string>& formats);
 std::vector<ExportedFile> error_files(const VolumeErrors& errors, const std::set<std::string>& formats,
@@ -87,7 +82,6 @@ std::string to_json(const LocusMap& loci);
 std::string to_json(const ZoneMap& zones);
 std::string to_json(const PoseZones& zones);
 std::string to_json(const Verification& answer);
-std::string to_json(const PoseVerification& answer);
 std::string to_json(const ErrorMap& errors);
 std::string to_json(const CoordinateErrors& errors);
 std::string to_json(const VolumeErrors& errors);
@@ -101,7 +95,6 @@ std::string to_table(const LocusMap& loci);
 std::string to_table(const ZoneMap& zones);
 std::string to_table(const PoseZones& zones);
 std::string to_text(const Verification& answer);
-std::string to_text(const PoseVerification& answer);
 std::string to_text(const ErrorMap& errors);
 std::string to_text(const CoordinateErrors& errors);
 std::string to_text(const VolumeErrors& errors);

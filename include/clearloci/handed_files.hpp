@@ -5,16 +5,16 @@
 #include <map>
 #include <string>
 
-#include "clearloci/pose_tasks.hpp"
 #include "clearloci/trajectory.hpp"
+#include "clearloci/verify.hpp"
 
 namespace clearloci {
 
 using HandedFiles = std::map<std::string, std::string>;  ///< name, as the text writes it, and bytes
 
 /// As without files; throw InputError too where the text names one that was not handed over.
-PoseTask parse_pose_task(const std::string& text, const Model& model, const HandedFiles& handed,
-                         const std::string& file = "task");
+Task parse_task(const std::string& text, const Model& model, const HandedFiles& handed,
+                const std::string& file = "task");
 TrajectoryResult follow_trajectory_text(const Model& model, const std::string& text, const TrajectoryRequest& request,
                                         const HandedFiles& handed, const std::string& file = "trajectory");
 

@@ -1,12 +1,13 @@
-// Does the mechanism keep clear of its loci over a task? Proven for every pose of the task and every load, refuted by a
-// witness that is confirmed numerically, or left undecided, and said to be (docs/results.md, verify.json).
+// Does the mechanism keep clear of its loci over a task: over poses of one to six free coordinates? Proven for every
+// pose of the task and every load, refuted by a witness that is confirmed numerically, or left undecided, and said to
+// be (docs/results.md, verify.json).
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::Task task = clearloci::read_task("tasks/pick_and_place.yaml", model);
-//     const clearloci::Verification answer = clearloci::verify_task(model, task);
-//     if (answer.verified()) std::cout << "free of loci, and " << answer.margin << " m around it\n";
+//     const clearloci::Verification answer = clearloci::verify(model, task);
+//     if (answer.verified()) std::cout << "free of loci, and " << *answer.margin << " m around it\n";
 //
-// Lengths in m, forces in N, couples in N m.
+// Lengths in m, angles in rad, forces in N, couples in N m. Poses are lists of one value a free coordinate.
 #pragma once
 
 #include <array>
@@ -21,28 +22,40 @@
 
 namespace clearloci::inline core {
 
-using RationalPoint = std::array<Rational, 2>;
+using RationalPose = std::vector<Rational>;
 
 struct TaskBox {
-  RationalPoint lower, upper;
+  RationalPose lower, upper;
 };
-struct TaskCircle {
-  RationalPoint centre;
+/// Distances are those of the task's metric: an angle counts `angle_length` m a radian. A circle is a ball of two
+/// lengths.
+struct TaskBall {
+  RationalPose centre;
   Rational radius;
 };
-/// A simple polygon; the last corner is joined to the first.
+/// A simple polygon over two lengths; the last corner is joined to the first. Over more coordinates it goes with a
+/// range of each of the others: from its value at the corners, which is one, to so much above it.
 struct TaskPolygon {
-  std::vector<RationalPoint> corners;
+  std::vector<RationalPose> corners;
+  std::array<std::size_t, 2> across = {0, 1};  ///< the two lengths
+  RationalPose above = {};                     ///< over more than two coordinates; 0 of the two
 };
-/// Straight from point to point; it has no interior.
+/// Straight from pose to pose, coordinate by coordinate; it has no interior.
 struct TaskPath {
-  std::vector<RationalPoint> points;
+  std::vector<RationalPose> points;
 };
-using TaskShape = std::variant<TaskBox, TaskCircle, TaskPolygon, TaskPath>;
+/// Over three lengths, a solid by its closed surface: every point that the surface winds around, whatever the sense of
+/// its triangles, and the surface itself. What a shell within the solid encloses the other way round is a hollow.
+struct TaskMesh {
+  std::string file;
+  std::vector<std::array<double, 3>> corners;  ///< m; each differs from the others
+  std::vector<std::array<int, 3>> triangles;   ///< every edge as often one way as the other
+};
+using TaskShape = std::variant<TaskBox, TaskBall, TaskPolygon, TaskPath, TaskMesh>;
 
 /// The load turns from one vector to the other: every (1 - t) first + t second, N.
 struct LoadRange {
-  RationalPoint first, second;
+  RationalPose first, second;  ///< of two components in the plane, of three in space
 };
 
 /// A parameter of the mechanism file, and how far below and above its value designs may be (below <= 0 <= above).
@@ -60,13 +73,16 @@ struct LoadWithin {
 struct Task {
   std::string file;
   TaskShape shape;
-  Rational margin = 0;                 ///< m that must be left to the nearest locus
-  std::optional<Rational> min_force;   ///< N, that every wanted joint keeps
-  std::optional<Rational> min_couple;  ///< N m
-  std::optional<LoadRange> loads;      ///< instead of the force of the mechanism's one load
+  /// m around the task that must be left to the nearest locus; rad where every coordinate is an angle and there is no
+  /// `angle_length`
+  Rational margin = 0;
+  std::optional<Rational> min_force = {};   ///< N, that every wanted joint keeps
+  std::optional<Rational> min_couple = {};  ///< N m
+  std::optional<LoadRange> loads = {};      ///< instead of the force of the mechanism's one load
   std::vector<Tolerance> tolerances = {};
   std::vector<LoadWithin> loads_within = {};
-  std::optional<Rational> pose_error = {};  ///< m, that the clearances may displace the end effector at most
+  std::optional<Rational> pose_error = {};    ///< m, that the clearances may displace the end effector at most
+  std::optional<Rational> angle_length = {};  ///< m a radian; without it margins are of lengths alone
 };
 
 /// What is not proven is never called refuted.
@@ -75,15 +91,19 @@ enum class Verdict { verified, refuted, undecided };
 /// "verified", "refuted", "undecided".
 std::string to_string(Verdict verdict);
 
-/// Where a task is moved to that fails where it lies: the nearest place that verifies, or the one of the largest
-/// margin.
-enum class FitGoal { nearest, best };
+/// What is done with a task that fails where it lies.
+enum class TaskFit {
+  none,
+  nearest,  ///< moved along the lengths, where there are any, to the nearest place that verifies
+  best,     ///< moved to the place of the largest margin
+  largest,  ///< scaled about its middle, to one part in 100
+};
 
 /// One load of the mechanism file at a witness.
 struct WitnessLoad {
-  std::size_t load = 0;  ///< from 0
-  Point2 force{};        ///< N
-  double couple = 0;     ///< N m
+  std::size_t load = 0;       ///< from 0
+  std::vector<double> force;  ///< N
+  double couple = 0;          ///< N m
 };
 
 /// A pose of the task, or of the margin around it, at which it fails, confirmed by numeric/.
@@ -97,59 +117,95 @@ struct TaskWitness {
     displaced,    ///< the clearances displace the end effector farther than they may
   };
   Kind kind = Kind::unreachable;
-  Point2 at{};
+  std::vector<double> at = {};
   std::vector<Vanishing> vanishing = {};
-  std::optional<Point2> load = {};  ///< N; of a range of loads, where it takes one
+  std::vector<double> load = {};  ///< N; of a range of loads, where it takes one
   std::vector<Vanishing> too_small = {};
   std::optional<double> size = {};     ///< of the first of them, N or N m; of the displacement, m
   std::optional<Rational> least = {};  ///< that is asked of it, N or N m
   std::optional<Rational> most = {};   ///< that the displacement may be, m
-  double distance = 0;                 ///< m from the task
+  double distance = 0;                 ///< from the task
   std::string limit = {};              ///< of the first two kinds, the one that is broken: "distance A1-P at 0.52 m"
   std::vector<std::pair<std::string, double>> design = {};  ///< parameters that have a tolerance
   std::vector<WitnessLoad> loads = {};                      ///< those that may differ
 };
 
+/// The nearest locus that was found: the margin is at most `distance`.
 struct NearestOfTask {
-  std::string curve;  ///< LocusCurve::id; empty: an isolated point, or not among the traced loci
+  std::string curve = {};  ///< LocusCurve::id; empty: an isolated point, or not among the traced loci
   LocusKind kind = LocusKind::contact_loss;
-  std::vector<Vanishing> vanishing;
-  Point2 at{};
-  double distance = 0;    ///< m; negative: its depth inside the task
-  bool isolated = false;  ///< a point of contact loss
-  std::string limit;      ///< of a boundary, the limit that makes it
+  std::vector<Vanishing> vanishing = {};
+  std::vector<double> at = {};
+  double distance = 0;     ///< in the task's metric; negative: its depth inside the task
+  bool isolated = false;   ///< a point of contact loss
+  std::string limit = {};  ///< of a boundary, the limit that makes it
+};
+
+/// What a reaction has at least over the task: proven, and the least that was met.
+struct LeastReaction {
+  Vanishing reaction;
+  double proven = 0, met = 0;  ///< N or N m
 };
 
 /// What a verdict of `undecided` leaves open; the rest of the task and of its margin is proven.
 struct OpenTask {
   enum class Reason { time, cells, doubles };  ///< ran out, or tell no more apart there
   std::size_t cells = 0;                       ///< that stayed open
-  Point2 lower{}, upper{};                     ///< the box around them
+  std::vector<double> lower, upper;            ///< the box around them
   Reason reason = Reason::doubles;
-  int looked_at = 0;  ///< cells in all
 };
 
 struct Verification {
-  Task task;  ///< as verified: moved by `by` where a place was looked for
-  WorkingMode mode;
+  Task task;  ///< as verified: moved and scaled where a place was looked for
+  std::string mechanism;
+  std::vector<std::string> coordinates;
+  std::vector<bool> angles;
+  std::vector<std::pair<std::string, std::string>> working_mode;  ///< as describe_mode
   Verdict verdict = Verdict::undecided;
-  double margin = 0;                      ///< m, proven to be free; 0 where not even the task is
-  std::optional<double> pose_error = {};  ///< m, a proven upper bound over the task, where it asks for one
-  std::string zone;                       ///< Zone::id; empty where not verified
+  /// Proven to be free around the task: m in the task's metric; over lengths and angles without `angle_length` m with
+  /// the angles of the task, and rad with its lengths. None where not verified, or where there is no such coordinate.
+  std::optional<double> margin, angle_margin;
+  std::optional<double> pose_error;  ///< m, a proven upper bound over the task, where it asks for one
+  std::string zone;                  ///< Zone::id; empty where not verified, or not over two lengths
   std::optional<NearestOfTask> nearest;
   std::optional<TaskWitness> witness;  ///< where refuted
   std::optional<OpenTask> open;        ///< where undecided
-  std::optional<RationalPoint> by;     ///< the translation found
-  ZoneMap map;                         ///< the loci (of the file's load) and zones, for pictures; may be empty
+  std::optional<RationalPose> moved_by;
+  std::optional<Rational> scaled_by;
+  std::vector<LeastReaction> least;  ///< where verified by cells of poses
+  long cells = 0;                    ///< that were looked at for the verdict
+  WorkingMode mode;                  ///< of `map`
+  ZoneMap map;  ///< over two lengths the loci (of the file's load) and zones, for pictures; may be empty
   std::vector<std::string> notes;
   Units units = {};  ///< of the mechanism file: what the text speaks in
 
   bool verified() const { return verdict == Verdict::verified; }
+  /// Whether distances of the task's metric are in rad: every coordinate is an angle, and none counts as a length.
+  bool margin_of_angles() const {
+    for (const bool angle : angles)
+      if (!angle) return false;
+    return !angles.empty() && !task.angle_length;
+  }
 };
 
 }  // namespace clearloci::inline core
 
 namespace clearloci {
+
+/// How much is asked. Each has what those before it have.
+enum class VerifyDepth {
+  verdict,     ///< with its witness, or what is open
+  margin,      ///< what is proven to be free around the task
+  everything,  ///< the nearest locus, the zone and the picture; what reactions have at least
+};
+
+struct VerifyRequest {
+  /// Joints, deadline, progress, and the first of the working modes. The task's `min_force` and `min_couple` take the
+  /// place of these here. Where the deadline comes first, what is not proven is undecided.
+  LociRequest loci = {};
+  VerifyDepth depth = VerifyDepth::everything;
+  TaskFit fit = TaskFit::none;
+};
 
 /// Throws InputError, with file, line, column, problem and mend, for whatever is wrong with the file: among that a
 /// shape that is empty, crosses itself or leaves the mechanism's box.
@@ -157,18 +213,11 @@ Task read_task(const std::string& path, const Model& model);
 /// The same for a text; `file` is the name that errors show.
 Task parse_task(const std::string& text, const Model& model, const std::string& file = "task");
 
-/// In the first of the request's working modes. The task's `min_force` and `min_couple` take the place of the
-/// request's. Where the request's deadline comes first, what is not proven is undecided. Throws as trace_loci.
-Verification verify_task(const Model& model, const Task& task, const LociRequest& request = {});
-
-/// The verdict and the margin alone: no locus is traced, and `map` is empty.
-Verification decide_task(const Model& model, const Task& task, const LociRequest& request = {});
-
-/// As verify_task for the best translation of the task in the box by that goal. Without `by`: none was found that
-/// verifies; there is none, apart from places that a five thousandth of the box separates from others that fail, or
-/// that cannot be decided. The verdict is then of the task where it lies. Throws LimitReached where the deadline comes
-/// before the loci are traced.
-Verification fit_task(const Model& model, const Task& task, const LociRequest& request = {},
-                      FitGoal goal = FitGoal::nearest);
+/// Throws as trace_loci, and InputError for what is not asked of such a mechanism. A fit says what is proven of the
+/// task where it was put; that nothing nearer, better or larger verifies is proven over two lengths alone, apart from
+/// places that a five thousandth of the box separates from others that fail. Without `moved_by` and `scaled_by` none
+/// was found, and the answer is of the task where it lies. A fit throws LimitReached where the deadline comes before
+/// the loci are traced.
+Verification verify(const Model& model, const Task& task, const VerifyRequest& request = {});
 
 }  // namespace clearloci

@@ -6,6 +6,8 @@
 #include <limits>
 #include <variant>
 
+#include "core/task.hpp"
+
 namespace clearloci::loci::pose {
 namespace {
 
@@ -15,12 +17,6 @@ constexpr double hair_of_size = 1e-12;
 /// Sums and roots of distances are known to this part.
 constexpr double below = 1 - 1e-12;
 constexpr std::size_t most_corners = 64, more_samples = 96;
-
-Pose rounded(const core::RationalPose& pose) {
-  Pose own;
-  for (const core::Rational& value : pose) own.push_back(core::to_double(value));
-  return own;
-}
 
 /// From an interval to another, 0 where they meet.
 double gap(double low, double high, double from, double to) { return std::max({0.0, from - high, low - to}); }
@@ -66,19 +62,19 @@ std::vector<Pose> samples_in(const Solid& solid) {
 
 }  // namespace
 
-PoseRegion::PoseRegion(const core::PoseShape& shape, PoseMetric metric) : metric_(std::move(metric)) {
-  if (const auto* box = std::get_if<core::PoseBoxShape>(&shape)) {
-    lower_ = rounded(box->lower);
-    upper_ = rounded(box->upper);
-  } else if (const auto* ball = std::get_if<core::PoseBallShape>(&shape)) {
+PoseRegion::PoseRegion(const core::TaskShape& shape, PoseMetric metric) : metric_(std::move(metric)) {
+  if (const auto* box = std::get_if<core::TaskBox>(&shape)) {
+    lower_ = core::rounded(box->lower);
+    upper_ = core::rounded(box->upper);
+  } else if (const auto* ball = std::get_if<core::TaskBall>(&shape)) {
     kind_ = Kind::ball;
-    centre_ = rounded(ball->centre);
+    centre_ = core::rounded(ball->centre);
     radius_ = core::to_double(ball->radius);
     for (std::size_t c = 0; c < centre_.size(); ++c) {
       lower_.push_back(centre_[c] - radius_ / metric_.weights[c]);
       upper_.push_back(centre_[c] + radius_ / metric_.weights[c]);
     }
-  } else if (const auto* mesh = std::get_if<core::PoseMeshShape>(&shape)) {
+  } else if (const auto* mesh = std::get_if<core::TaskMesh>(&shape)) {
     kind_ = Kind::mesh;
     solid_ = std::make_shared<const Solid>(*mesh);
     lower_.assign(solid_->bounds().lower.begin(), solid_->bounds().lower.end());
@@ -86,8 +82,8 @@ PoseRegion::PoseRegion(const core::PoseShape& shape, PoseMetric metric) : metric
     points_ = samples_in(*solid_);
   } else {
     kind_ = Kind::path;
-    for (const core::RationalPose& point : std::get<core::PosePathShape>(shape).points)
-      points_.push_back(rounded(point));
+    for (const core::RationalPose& point : std::get<core::TaskPath>(shape).points)
+      points_.push_back(core::rounded(point));
     lower_ = upper_ = points_.front();
     for (const Pose& point : points_)
       for (std::size_t c = 0; c < point.size(); ++c) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "clearloci/pose_tasks.hpp"
+#include "clearloci/verify.hpp"
 #include "loci/sheet/sheet.hpp"
 #include "loci/tasks/solid.hpp"
 
@@ -28,7 +28,7 @@ struct PosePiece {
 
 class PoseRegion {
  public:
-  PoseRegion(const core::PoseShape& shape, PoseMetric metric);
+  PoseRegion(const core::TaskShape& shape, PoseMetric metric);
 
   /// Pieces that together hold every pose within `margin` of the task, and a hair more.
   std::vector<PosePiece> pieces(double margin) const;

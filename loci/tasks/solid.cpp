@@ -112,7 +112,7 @@ int turn(const Point& a, const Point& b, const Point& p) {
 
 }  // namespace
 
-Solid::Solid(const core::PoseMeshShape& mesh) : corners_(mesh.corners) {
+Solid::Solid(const core::TaskMesh& mesh) : corners_(mesh.corners) {
   for (const std::array<int, 3>& own : mesh.triangles) {
     Triangle& triangle = triangles_.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = corners_[static_cast<std::size_t>(own[k])];

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "clearloci/pose_tasks.hpp"
+#include "clearloci/verify.hpp"
 
 namespace clearloci::loci::pose {
 
@@ -23,7 +23,7 @@ class Solid {
   };
 
   /// Required: a triangle at least.
-  explicit Solid(const core::PoseMeshShape& mesh);
+  explicit Solid(const core::TaskMesh& mesh);
 
   const Box& bounds() const { return nodes_.front().box; }
   const std::vector<Point>& corners() const { return corners_; }

@@ -197,8 +197,9 @@ Fit shortened(Fit fit, const Clearance& clearance_at, double clearance, const st
 }  // namespace
 
 std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core::WorkingMode& mode,
-                            const core::TaskShape& shape, double clearance, FitGoal goal, const SignatureAt& signature,
-                            const std::function<bool(const Fit&)>& accept, const std::function<void()>& pulse) {
+                            const core::TaskShape& shape, double clearance, core::TaskFit goal,
+                            const SignatureAt& signature, const std::function<bool(const Fit&)>& accept,
+                            const std::function<void()>& pulse) {
   constexpr double resolution = 2e-4;  // of the box
   const auto [low, high] = core::bounds(shape);
   TranslationCell all;
@@ -222,11 +223,11 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
   };
   const auto finish = [&](TranslationCell& cell) {
     cell.clearance = clearance_at(cell.middle);
-    if (goal == FitGoal::best) cell.clearance = std::min(cell.clearance, to_box(cell.middle));
+    if (goal == core::TaskFit::best) cell.clearance = std::min(cell.clearance, to_box(cell.middle));
     const double reach = std::hypot(cell.half[0], cell.half[1]);
     const double shortest = std::hypot(std::max(0.0, std::abs(cell.middle[0]) - cell.half[0]),
                                        std::max(0.0, std::abs(cell.middle[1]) - cell.half[1]));
-    cell.key = goal == FitGoal::nearest ? shortest : -(cell.clearance + reach);
+    cell.key = goal == core::TaskFit::nearest ? shortest : -(cell.clearance + reach);
     return cell.clearance + reach >= clearance;
   };
   std::priority_queue<TranslationCell> open;
@@ -244,21 +245,21 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
       for (std::size_t c = 0; c < 2; ++c)
         if (best.half[c] > 0) fit.by[c] = std::clamp(0.0, best.middle[c] - best.half[c], best.middle[c] + best.half[c]);
       if (!accept(fit)) continue;
-      return goal == FitGoal::nearest ? shortened(fit, clearance_at, clearance, accept) : fit;
+      return goal == core::TaskFit::nearest ? shortened(fit, clearance_at, clearance, accept) : fit;
     }
     const TranslationCell cell = open.top();
     open.pop();
     const double reach = std::hypot(cell.half[0], cell.half[1]);
-    if (goal == FitGoal::nearest && cell.clearance - slack(cell.clearance) - reach > clearance) {
+    if (goal == core::TaskFit::nearest && cell.clearance - slack(cell.clearance) - reach > clearance) {
       found.push(cell);
       continue;
     }
     // The largest clearance is often had along a whole line: it is not worth telling apart its last fifth of a percent.
-    if (reach <= std::max(finest, goal == FitGoal::best ? 2e-3 * cell.clearance : 0.0)) {
+    if (reach <= std::max(finest, goal == core::TaskFit::best ? 2e-3 * cell.clearance : 0.0)) {
       if (cell.clearance - slack(cell.clearance) <= clearance) continue;
       TranslationCell place = cell;
       place.half = {0, 0};
-      place.key = goal == FitGoal::nearest ? std::hypot(cell.middle[0], cell.middle[1]) : -cell.clearance;
+      place.key = goal == core::TaskFit::nearest ? std::hypot(cell.middle[0], cell.middle[1]) : -cell.clearance;
       found.push(place);
       continue;
     }

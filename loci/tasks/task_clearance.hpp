@@ -25,8 +25,6 @@ struct NearestLocus {
 std::optional<NearestLocus> nearest_locus(const core::LocusProblem& problem, const core::LocusMap& map,
                                           const core::WorkingMode& mode, const TaskRegion& region);
 
-using core::FitGoal;
-
 /// A translation of a task, m, and its clearance there.
 struct Fit {
   core::Point2 by{};
@@ -42,10 +40,12 @@ using SignatureAt = std::function<std::optional<std::vector<int>>(const core::Po
 /// the task moves, so that a cell of translations whose middle falls short by more than its half diagonal holds none.
 /// Cells are told apart down to 2e-4 of the box.
 ///
-/// `maps`: the loci of every load; read before the first call of `accept`. `accept`: the proof; the search goes on
-/// until it says yes. `pulse`: called again and again meanwhile; what it throws ends the search.
+/// `goal`: nearest or best. `maps`: the loci of every load; read before the first call of `accept`. `accept`: the
+/// proof; the search goes on until it says yes. `pulse`: called again and again meanwhile; what it throws ends the
+/// search.
 std::optional<Fit> fit_task(const std::vector<const core::LocusMap*>& maps, const core::WorkingMode& mode,
-                            const core::TaskShape& shape, double clearance, FitGoal goal, const SignatureAt& signature,
-                            const std::function<bool(const Fit&)>& accept, const std::function<void()>& pulse);
+                            const core::TaskShape& shape, double clearance, core::TaskFit goal,
+                            const SignatureAt& signature, const std::function<bool(const Fit&)>& accept,
+                            const std::function<void()>& pulse);
 
 }  // namespace clearloci::loci

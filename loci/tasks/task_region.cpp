@@ -12,7 +12,7 @@ using core::Interval;
 using core::Point2;
 using core::Polyline;
 
-Point2 rounded(const core::RationalPoint& p) { return {core::to_double(p[0]), core::to_double(p[1])}; }
+Point2 rounded(const core::RationalPose& p) { return {core::to_double(p[0]), core::to_double(p[1])}; }
 
 Point2 closest_on_segment(const Point2& p, const Point2& a, const Point2& b) {
   const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
@@ -74,7 +74,7 @@ TaskRegion::TaskRegion(const core::TaskShape& shape) {
   const auto [low, high] = core::bounds(shape);
   lower_ = rounded(low);
   upper_ = rounded(high);
-  if (const auto* circle = std::get_if<core::TaskCircle>(&shape)) {
+  if (const auto* circle = std::get_if<core::TaskBall>(&shape)) {
     circle_ = true;
     round_ = {rounded(circle->centre), core::to_double(circle->radius)};
   }

@@ -1,4 +1,4 @@
-// A task's shape in doubles: how far points, cells and arcs are from it.
+// A task's shape over two lengths, in doubles: how far points, cells and arcs are from it.
 #pragma once
 
 #include "core/interval.hpp"

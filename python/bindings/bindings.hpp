@@ -14,7 +14,6 @@
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
-#include "clearloci/verify.hpp"
 
 namespace clearloci::python {
 
@@ -38,9 +37,6 @@ std::vector<std::string> names_of(const std::vector<Vanishing>& reactions);
 /// Options of the command line by their names in Python: "--min-force" as "min_force".
 std::string in_python(const std::string& text);
 std::vector<std::string> in_python(const std::vector<std::string>& texts);
-
-/// "time", "cells", "doubles": what ran out.
-std::string word_of(OpenTask::Reason reason);
 
 /// Adds dx, dy and dalpha, in space dx, dy, dz and dalpha_x, dalpha_y, dalpha_z.
 void put_error(py::dict& to, const PoseError& error);

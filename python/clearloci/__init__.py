@@ -20,7 +20,7 @@ from .answers import Curve, Loci, Surface, Validation, Verification, Zone, Zones
 from .design import Designs, design
 from .model import Model, parse, read
 from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
-from .poses import PoseVerification, PoseZone, PoseZones
+from .poses import PoseZone, PoseZones
 
 __all__ = [
     "CoordinateErrors",
@@ -33,7 +33,6 @@ __all__ = [
     "Loci",
     "Model",
     "Pose",
-    "PoseVerification",
     "PoseZone",
     "PoseZones",
     "Surface",

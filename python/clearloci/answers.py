@@ -18,7 +18,7 @@ from . import _clearloci
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from .model import Model, Task
+    from .model import Model
 
 Mode = "dict[str, str]"  # point -> side
 
@@ -365,30 +365,28 @@ class Zones(_Answer):
         return f"<clearloci.Zones of {self.model.name!r}: {len(self)} zones>"
 
 
-class Verification(_Answer):
-    """Whether a task keeps clear of every locus: true where that is proven."""
+@dataclass(frozen=True)
+class Verification(Asked, _Answer):
+    """Whether a task keeps clear of every locus: true where that is proven. m, rad, N, N m; places have a value a
+    coordinate."""
 
-    def __init__(self, model: Model, task: Task, fit: str | None, options: dict[str, Any]) -> None:
-        self.model, self.task, self.fit, self.options = model, task, fit, dict(options)
-        data = self._held.data()
-        self.working_mode: dict[str, str] = data["working_mode"]
-        self.verdict: str = data["verdict"]  #: "verified", "refuted", "undecided"
-        self.margin: float | None = data["margin"]  #: m, proven to be free; None where not verified
-        self.pose_error: float | None = data["pose_error"]  #: m, a proven upper bound, where the task asks for one
-        self.zone: str | None = data["zone"]
-        self.witness: dict[str, Any] | None = data["witness"]  #: where refuted: a pose at which the task fails
-        self.nearest: dict[str, Any] | None = data["nearest"]  #: the nearest locus
-        #: where undecided: "cells" that stayed open, the box around them from "lower" to "upper", and why ("reason":
-        #: "time", "cells" or "doubles" ran out)
-        self.open: dict[str, Any] | None = data["open"]
-        self.moved_by: tuple[float, float] | None = data["moved_by"]  #: m, where a place was looked for
-        self.notes: list[str] = data["notes"]
-
-    def _ask(self) -> Any:
-        from .model import task_of
-
-        task = task_of(self.model, self.task)
-        return _clearloci.verify_task(self.model._handle, task, fit=self.fit, **self.options)
+    verdict: str  #: "verified", "refuted", "undecided"
+    coordinates: list[str]
+    working_mode: dict[str, str]
+    margin: float | None  #: m in the task's metric, proven to be free around it; None where not verified
+    angle_margin: float | None  #: rad, where angles are told apart
+    pose_error: float | None  #: m, a proven upper bound, where the task asks for one
+    zone: str | None  #: over two lengths
+    witness: dict[str, Any] | None  #: where refuted: a pose at which the task fails
+    nearest: dict[str, Any] | None  #: the nearest locus that was found: the margin is at most its "distance"
+    #: where undecided: "cells" that stayed open, the box around them from "lower" to "upper", and why ("reason": "time",
+    #: "cells" or "doubles" ran out)
+    open: dict[str, Any] | None
+    least: list[dict[str, Any]]  #: over other than two lengths what every reaction has at least, "proven" and as "met"
+    cells: int
+    notes: list[str]
+    moved_by: tuple[float, ...] | None  #: what `fit` has moved the task by
+    scaled_by: float | None  #: what `fit` has scaled it by
 
     def __bool__(self) -> bool:
         return self.verdict == "verified"

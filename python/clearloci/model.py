@@ -13,7 +13,7 @@ from . import _clearloci
 from ._arguments import Names, Number, Value, WorkingMode
 from .answers import Loci, Validation, Verification, Zones, ask, validation_of
 from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
-from .poses import PoseVerification, PoseZone, PoseZones
+from .poses import PoseZone, PoseZones
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -167,7 +167,7 @@ class Model:
     def verify(
         self,
         task: Task,
-        fit: Literal["nearest", "best"] | None = None,
+        fit: Literal["nearest", "best", "largest"] | None = None,
         *,
         working_mode: WorkingMode | None = None,
         joint: Names | None = None,
@@ -175,52 +175,20 @@ class Model:
         engine: Engine | None = None,
         time_limit: float | None = None,
     ) -> Verification:
-        """Whether a task over two lengths keeps clear of every locus: true where that is proven. Over other coordinates:
-        `verify_poses`.
+        """Whether a task over one to six coordinates keeps clear of every locus: true where that is proven.
 
         `task`: a task file, its content as a dictionary ({"box": {"x": [0.1, 0.4], "y": [-0.8, -0.6]}, "margin": 0.01,
-        "min_force": 5}), or an array (n, 2) of points, which is a path; in the units of the mechanism file. `fit`:
-        "nearest" moves a task that fails to the nearest place that verifies, "best" to the one of the largest margin.
-        """
-        if fit is not None:
-            arguments.choice("fit", fit, ("nearest", "best"))
-        return Verification(
-            self,
-            task,
-            fit,
-            arguments.options(
-                self,
-                working_mode=working_mode,
-                joint=joint,
-                tolerance=tolerance,
-                engine=engine,
-                time_limit=time_limit,
-            ),
-        )
-
-    def verify_poses(
-        self,
-        task: Task,
-        fit: Literal["nearest", "best", "largest"] | None = None,
-        *,
-        working_mode: WorkingMode | None = None,
-        joint: Names | None = None,
-        time_limit: float | None = None,
-    ) -> PoseVerification:
-        """Whether a task over one to six coordinates, other than two lengths, keeps clear of every locus: true where that
-        is proven.
-
-        `task`: a task file, its content as a dictionary, or an array (n, coordinates) of poses, which is a path. `fit`:
-        "nearest" or "best", to move it where it fails, or "largest", to scale it.
+        "min_force": 5}), or an array (n, coordinates) of poses, which is a path; in the units of the mechanism file.
+        `fit`: "nearest" moves a task that fails to the nearest place that verifies, "best" to the one of the largest
+        margin, "largest" scales it.
         """
         if fit is not None:
             arguments.choice("fit", fit, ("nearest", "best", "largest"))
-        if isinstance(task, (str, os.PathLike)):
-            text, file = "", os.fspath(task)
-        else:
-            text, file = text_of(task), "task"
-        given = arguments.options(self, working_mode=working_mode, joint=joint, time_limit=time_limit)
-        return ask(lambda own: PoseVerification(**own), "verify_poses", self, text, file, fit or "", **given)
+        text, file = ("", os.fspath(task)) if isinstance(task, (str, os.PathLike)) else (text_of(task), "task")
+        given = arguments.options(
+            self, working_mode=working_mode, joint=joint, tolerance=tolerance, engine=engine, time_limit=time_limit
+        )
+        return ask(lambda own: Verification(**own), "verify", self, text, file, fit or "", **given)
 
     def pose_zones(
         self,
@@ -427,13 +395,6 @@ def _single(working_mode: WorkingMode | None) -> WorkingMode | None:
     if working_mode == "all":
         raise ValueError("working_mode is 'all'; this answer is of one mode: give one side a dyad")
     return working_mode
-
-
-def task_of(model: Model, task: Task) -> _clearloci.Task:
-    """A task file, a dictionary or an array, read."""
-    if isinstance(task, (str, os.PathLike)):
-        return _clearloci.read_task(os.fspath(task), model._handle)
-    return _clearloci.parse_task(text_of(task), model._handle)
 
 
 def text_of(task: Mapping[str, Any] | np.ndarray) -> str:

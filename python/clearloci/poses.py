@@ -1,4 +1,4 @@
-"""Answers over one to six coordinates, angles among them, by proofs over cells."""
+"""Zones over one to three coordinates, angles among them, by proofs over cells."""
 
 from __future__ import annotations
 
@@ -8,28 +8,6 @@ from typing import Any
 import numpy as np
 
 from .answers import Asked, Exported
-
-
-@dataclass(frozen=True)
-class PoseVerification(Asked, Exported):
-    """Whether a task of poses keeps clear of every locus: true where that is proven. m, rad, N, N m."""
-
-    verdict: str  #: "verified", "refuted", "undecided"
-    coordinates: list[str]
-    working_mode: dict[str, str]
-    margin: float | None  #: m in the task's metric, proven to be free around it
-    angle_margin: float | None  #: rad, where angles are told apart
-    nearest: dict[str, Any] | None  #: a locus that was found: the margin is at most its "distance"
-    witness: dict[str, Any] | None  #: where refuted: a pose at which the task fails
-    open: dict[str, Any] | None  #: where undecided: the box around what stayed open
-    least: list[dict[str, Any]]  #: what every reaction has at least, "proven" and as "met"
-    cells: int
-    notes: list[str]
-    by: list[float] | None  #: what `fit` has moved the task by
-    scale: float | None  #: what `fit` has scaled it by
-
-    def __bool__(self) -> bool:
-        return self.verdict == "verified"
 
 
 @dataclass(frozen=True)

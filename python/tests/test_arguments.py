@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from conftest import EXAMPLES
 
-QUESTIONS = ("loci", "zones", "verify", "verify_poses", "pose_zones", "validate", "pose", "reactions", "error_map",
+QUESTIONS = ("loci", "zones", "verify", "pose_zones", "validate", "pose", "reactions", "error_map",
              "error_volume", "coordinate_errors", "trajectory")  # fmt: skip
 
 
@@ -133,7 +133,7 @@ def test_every_answer_is_written(five_bar, tmp_path):
     answers = {
         "pose": five_bar.pose((0.25, -0.7)),
         "validation": four_bar.validate([200]),
-        "verify": four_bar.verify_poses({"box": {"theta": ["40 deg", "60 deg"]}}),
+        "verify": four_bar.verify({"box": {"theta": ["40 deg", "60 deg"]}}),
         "loci": five_bar.loci(),
         "zones": five_bar.zones(),
         "designs": cl.design(five_bar, study),

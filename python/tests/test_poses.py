@@ -50,7 +50,7 @@ def test_tasks_of_poses(upu):
     centre, radius = upu.pose_zones(cells=6000)[0].ball
     lower, upper = np.array(centre) - radius / 4, np.array(centre) + radius / 4
     box = {"box": {name: list(ends) for name, *ends in zip("xyz", lower, upper)}}
-    answer = upu.verify_poses(box)
+    answer = upu.verify(box)
     assert answer and answer.margin > 0 and answer.witness is None
     proven = {own["reaction"]: own["proven"] for own in answer.least}
     for corner in np.ndindex(2, 2, 2):
@@ -59,8 +59,8 @@ def test_tasks_of_poses(upu):
             assert 0 < proven[f"F_S{leg}"] <= abs(force) * (1 + 1e-12)
     path = np.array([[-0.3, -0.3, 0.35], [0.35, 0.3, 0.85]])
     assert not np.array_equal(np.sign(upu_forces(path[0])), np.sign(upu_forces(path[1])))
-    refuted = upu.verify_poses(path)
+    refuted = upu.verify(path)
     assert refuted.verdict == "refuted" and not refuted
     assert refuted.witness["kind"] in ("vanishing", "singular")
     with pytest.raises(cl.InputError):
-        upu.verify_poses({"box": {"x": [0, 1]}})
+        upu.verify({"box": {"x": [0, 1]}})

@@ -18,8 +18,8 @@
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
-#include "clearloci/pose_tasks.hpp"
-#include "core/pose_shape.hpp"
+#include "clearloci/verify.hpp"
+#include "core/task.hpp"
 
 namespace clearloci {
 namespace {
@@ -59,7 +59,7 @@ double least_force(const Vector3d& p) { return forces(p).minCoeff(); }
 using Tetrahedron = std::array<Vector3d, 4>;
 
 /// An STL file in mm, whichever way its triangles turn.
-PoseTask task_of(const Tetrahedron& corners, const Model& model, const std::string& more = "") {
+Task task_of(const Tetrahedron& corners, const Model& model, const std::string& more = "") {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "clearloci_pose_solids";
   std::filesystem::create_directories(folder);
   std::ofstream file(folder / "part.stl");
@@ -75,8 +75,7 @@ PoseTask task_of(const Tetrahedron& corners, const Model& model, const std::stri
   }
   file << "endsolid part\n";
   file.close();
-  return parse_pose_task("format: 1\nmesh: {file: part.stl, unit: mm}\n" + more, model,
-                         (folder / "task.yaml").string());
+  return parse_task("format: 1\nmesh: {file: part.stl, unit: mm}\n" + more, model, (folder / "task.yaml").string());
 }
 
 Vector3d inside(const Tetrahedron& corners, std::mt19937& random) {
@@ -107,8 +106,8 @@ TEST(PoseSolids, RandomSolidsAreJudgedRight) {
   for (int i = 0; i < 10; ++i) {
     Tetrahedron corners;
     for (Vector3d& corner : corners) corner = {side(random), side(random), height(random)};
-    const PoseTask task = task_of(corners, model, i % 3 == 0 ? "margin: 0.005\n" : "");
-    const PoseVerification answer = decide_poses(model, task);
+    const Task task = task_of(corners, model, i % 3 == 0 ? "margin: 0.005\n" : "");
+    const Verification answer = verify(model, task, {.depth = VerifyDepth::verdict});
     if (answer.verified()) {
       ++verified;
       for (int k = 0; k < 3000; ++k) ASSERT_GT(least_force(inside(corners, random)), 0) << i;
@@ -140,7 +139,7 @@ TEST(PoseSolids, RandomSolidsAreJudgedRight) {
 TEST(PoseSolids, AMarginIsMeasuredAroundThem) {
   const Model model = level_hexapod();
   const Tetrahedron corners = {Vector3d{-0.03, -0.03, 0.47}, {0.05, -0.02, 0.48}, {-0.02, 0.05, 0.5}, {0, 0, 0.54}};
-  const PoseVerification answer = verify_poses(model, task_of(corners, model));
+  const Verification answer = verify(model, task_of(corners, model));
   ASSERT_TRUE(answer.verified());
   ASSERT_TRUE(answer.margin && answer.nearest);
   EXPECT_GT(*answer.margin, 0.01);
@@ -159,8 +158,8 @@ TEST(PoseSolids, AreRefusedWhereTheyHaveNoMeaning) {
   EXPECT_THROW(task_of(corners, hexapod), InputError);
   const Tetrahedron beyond = {Vector3d{0, 0, 0.5}, {0.4, 0, 0.5}, {0, 0.1, 0.5}, {0, 0, 0.6}};
   EXPECT_THROW(task_of(beyond, level_hexapod()), InputError);
-  EXPECT_THROW(parse_pose_task("format: 1\nmesh: {file: none.stl, unit: mm}\n", level_hexapod()), InputError);
-  EXPECT_THROW(parse_pose_task("format: 1\nmesh: {file: none.stl, unit: kg}\n", level_hexapod()), InputError);
+  EXPECT_THROW(parse_task("format: 1\nmesh: {file: none.stl, unit: mm}\n", level_hexapod()), InputError);
+  EXPECT_THROW(parse_task("format: 1\nmesh: {file: none.stl, unit: kg}\n", level_hexapod()), InputError);
 }
 
 TEST(PoseFits, AnIntervalIsMovedAndGrowsToTheLociOfAFourBar) {
@@ -173,27 +172,27 @@ TEST(PoseFits, AnIntervalIsMovedAndGrowsToTheLociOfAFourBar) {
     if (at > 70 * degree) above = std::min(above, at);
   }
   const double middle = 70 * degree, room = std::min(middle - below, above - middle);
-  const PoseVerification grown =
-      fit_poses(model, parse_pose_task("format: 1\nbox: {theta: [69 deg, 71 deg]}\n", model), PoseFit::largest);
-  ASSERT_TRUE(grown.verified() && grown.scale);
-  EXPECT_LE(*grown.scale, room / degree + 1e-9);
-  EXPECT_GT(*grown.scale, 0.98 * room / degree);
+  const Verification grown =
+      verify(model, parse_task("format: 1\nbox: {theta: [69 deg, 71 deg]}\n", model), {.fit = TaskFit::largest});
+  ASSERT_TRUE(grown.verified() && grown.scaled_by);
+  EXPECT_LE(*grown.scaled_by, room / degree + 1e-9);
+  EXPECT_GT(*grown.scaled_by, 0.98 * room / degree);
 
   // Half of it on the other side of the locus below.
   const double from = below - 1 * degree, to = below + 1 * degree;
   const auto box = [&](double low, double high) {
-    return parse_pose_task("format: 1\nbox: {theta: [" + std::to_string(low / degree) + " deg, " +
-                               std::to_string(high / degree) + " deg]}\n",
-                           model);
+    return parse_task("format: 1\nbox: {theta: [" + std::to_string(low / degree) + " deg, " +
+                          std::to_string(high / degree) + " deg]}\n",
+                      model);
   };
-  const PoseVerification moved = fit_poses(model, box(from, to), PoseFit::nearest);
-  ASSERT_TRUE(moved.verified() && moved.by);
-  EXPECT_GE(std::abs(moved.by->front()), 1 * degree - 1e-6);
-  EXPECT_LT(std::abs(moved.by->front()), 1.2 * degree);
+  const Verification moved = verify(model, box(from, to), {.fit = TaskFit::nearest});
+  ASSERT_TRUE(moved.verified() && moved.moved_by);
+  EXPECT_GE(std::abs(to_double(moved.moved_by->front())), 1 * degree - 1e-6);
+  EXPECT_LT(std::abs(to_double(moved.moved_by->front())), 1.2 * degree);
 
-  const PoseVerification lies = fit_poses(model, box(70 * degree, 71 * degree), PoseFit::nearest);
-  ASSERT_TRUE(lies.verified() && lies.by);
-  EXPECT_EQ(lies.by->front(), 0);
+  const Verification lies = verify(model, box(70 * degree, 71 * degree), {.fit = TaskFit::nearest});
+  ASSERT_TRUE(lies.verified() && lies.moved_by);
+  EXPECT_EQ(lies.moved_by->front(), 0);
 
   // The widest interval between loci has the most room.
   std::vector<double> at;
@@ -201,7 +200,7 @@ TEST(PoseFits, AnIntervalIsMovedAndGrowsToTheLociOfAFourBar) {
   std::sort(at.begin(), at.end());
   double widest = 0;
   for (std::size_t i = 1; i < at.size(); ++i) widest = std::max(widest, at[i] - at[i - 1]);
-  const PoseVerification best = fit_poses(model, box(70 * degree, 71 * degree), PoseFit::best);
+  const Verification best = verify(model, box(70 * degree, 71 * degree), {.fit = TaskFit::best});
   ASSERT_TRUE(best.verified() && best.angle_margin);
   EXPECT_GT(*best.angle_margin, 0.8 * (widest / 2 - 1 * degree));
 }
@@ -217,19 +216,19 @@ TEST(PoseFits, AWideIntervalIsMovedToTheGapThatHoldsIt) {
   // Nearly as wide as the widest gap, and off it by a quarter of its width: many places beside look good.
   const double width = high - low;
   const auto interval = [&](double from, double to) {
-    return parse_pose_task(
-        "format: 1\nbox: {theta: [" + std::to_string(from) + " rad, " + std::to_string(to) + " rad]}\n", model);
+    return parse_task("format: 1\nbox: {theta: [" + std::to_string(from) + " rad, " + std::to_string(to) + " rad]}\n",
+                      model);
   };
   const double off = low > width / 4 ? -width / 4 : width / 4;
-  const PoseTask task = interval(low + 0.05 * width + off, high - 0.05 * width + off);
-  ASSERT_EQ(decide_poses(model, task).verdict, Verdict::refuted);
-  const PoseVerification moved = fit_poses(model, task, PoseFit::nearest);
-  ASSERT_TRUE(moved.verified() && moved.by);
-  EXPECT_NEAR(std::abs(moved.by->front()), 0.2 * width, 0.002 * width);
+  const Task task = interval(low + 0.05 * width + off, high - 0.05 * width + off);
+  ASSERT_EQ(verify(model, task, {.depth = VerifyDepth::verdict}).verdict, Verdict::refuted);
+  const Verification moved = verify(model, task, {.fit = TaskFit::nearest});
+  ASSERT_TRUE(moved.verified() && moved.moved_by);
+  EXPECT_NEAR(std::abs(to_double(moved.moved_by->front())), 0.2 * width, 0.002 * width);
 
-  const PoseVerification none = fit_poses(model, interval(0.1, 6.1), PoseFit::best);
+  const Verification none = verify(model, interval(0.1, 6.1), {.fit = TaskFit::best});
   EXPECT_FALSE(none.verified());
-  EXPECT_FALSE(none.by);
+  EXPECT_FALSE(none.moved_by);
   ASSERT_FALSE(none.notes.empty());
   EXPECT_NE(none.notes.back().find("no place was found"), std::string::npos);
 }
@@ -238,18 +237,17 @@ TEST(PoseFits, ABoxOfAPlatformIsMovedOffALocus) {
   const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/three_rpr_orientation.yaml");
   std::mt19937 random(6);
   std::uniform_real_distribution<double> part(0, 1);
-  const PoseTask task =
-      parse_pose_task("format: 1\nbox: {x: [0.3, 0.33], y: [0.1, 0.13], phi: [-1 deg, 1 deg]}\n", model);
-  ASSERT_EQ(decide_poses(model, task).verdict, Verdict::refuted);
-  const PoseVerification answer = fit_poses(model, task, PoseFit::nearest);
-  ASSERT_TRUE(answer.verified() && answer.by);
-  EXPECT_EQ((*answer.by)[2], 0) << "it is moved, not turned";
-  const auto& box = std::get<PoseBoxShape>(answer.task.shape);
+  const Task task = parse_task("format: 1\nbox: {x: [0.3, 0.33], y: [0.1, 0.13], phi: [-1 deg, 1 deg]}\n", model);
+  ASSERT_EQ(verify(model, task, {.depth = VerifyDepth::verdict}).verdict, Verdict::refuted);
+  const Verification answer = verify(model, task, {.fit = TaskFit::nearest});
+  ASSERT_TRUE(answer.verified() && answer.moved_by);
+  EXPECT_EQ((*answer.moved_by)[2], 0) << "it is moved, not turned";
+  const auto& box = std::get<TaskBox>(answer.task.shape);
   std::vector<double> poses;
   for (int i = 0; i < 300; ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const double low = to_double(box.lower[c]), high = to_double(box.upper[c]);
-      EXPECT_NEAR(low, to_double(std::get<PoseBoxShape>(task.shape).lower[c]) + (*answer.by)[c], 1e-12);
+      EXPECT_NEAR(low, to_double(std::get<TaskBox>(task.shape).lower[c] + (*answer.moved_by)[c]), 1e-12);
       poses.push_back(low + part(random) * (high - low));
     }
   const Reactions all = reactions(model, poses);
@@ -259,12 +257,13 @@ TEST(PoseFits, ABoxOfAPlatformIsMovedOffALocus) {
 }
 
 TEST(PoseFits, SolidsAreMovedAndScaled) {
-  const PoseMeshShape mesh{"", {{1, 2, 3}, {2, 2, 3}, {1, 4, 3}, {1, 2, 7}}, {}};
-  const auto moved = std::get<PoseMeshShape>(core::moved(mesh, {Rational(1), Rational(-2), Rational(1, 2)}));
+  const TaskMesh mesh{"", {{1, 2, 3}, {2, 2, 3}, {1, 4, 3}, {1, 2, 7}}, {}};
+  const auto moved = std::get<TaskMesh>(core::moved(mesh, {Rational(1), Rational(-2), Rational(1, 2)}));
   EXPECT_EQ(moved.corners[3], (std::array<double, 3>{2, 0, 7.5}));
   const auto bounds = core::bounds(mesh, {});
   EXPECT_EQ(bounds[1], (RationalPose{Rational(2), Rational(4), Rational(7)}));
-  const auto scaled = std::get<PoseMeshShape>(core::scaled(mesh, {Rational(1), Rational(3), Rational(5)}, Rational(2)));
+  const auto scaled = std::get<TaskMesh>(core::placed(mesh, {Rational(1), Rational(3), Rational(5)}, Rational(2),
+                                                      {Rational(1), Rational(3), Rational(5)}));
   EXPECT_EQ(scaled.corners[3], (std::array<double, 3>{1, 1, 9}));
 }
 

@@ -38,17 +38,17 @@ TEST(RequestLimits, LeastEffortsArePositiveAndOccur) {
 TEST(RequestLimits, ATaskIsOneOfTheMechanism) {
   const Model model = example("five_bar.yaml"), other = example("hexapod.yaml"), linkage = example("four_bar.yaml");
   const Task task = read_task(CLEARLOCI_SOURCE_DIR "/examples/tasks/pick_and_place.yaml", model);
-  EXPECT_THROW(verify_task(other, task), InputError);
-  EXPECT_THROW(decide_task(linkage, task), InputError);
+  EXPECT_THROW(verify(other, task), InputError);
+  EXPECT_THROW(verify(linkage, task), InputError);
   Task outside = task;
   outside.shape = TaskBox{{Rational(100), Rational(100)}, {Rational(101), Rational(101)}};
-  EXPECT_THROW(decide_task(model, outside), InputError);
+  EXPECT_THROW(verify(model, outside), InputError);
   Task stray = task;
   stray.tolerances = {{"nobody", -1, 1}};
-  EXPECT_THROW(decide_task(model, stray), InputError);
+  EXPECT_THROW(verify(model, stray), InputError);
   Task load = task;
   load.loads_within = {{.load = 7, .force = 1}};
-  EXPECT_THROW(decide_task(model, load), InputError);
+  EXPECT_THROW(verify(model, load), InputError);
 }
 
 TEST(RequestLimits, AGridIsOneThatMemoryHolds) {
@@ -73,7 +73,7 @@ TEST(AnEmptyAnswer, IsNotWritten) {
 TEST(ADecision, IsDrawn) {
   const Model model = example("five_bar.yaml");
   const Task task = read_task(CLEARLOCI_SOURCE_DIR "/examples/tasks/pick_and_place.yaml", model);
-  const auto files = verification_files(decide_task(model, task), {"svg"});
+  const auto files = verification_files(verify(model, task), {"svg"});
   ASSERT_EQ(files.size(), 1U);
   EXPECT_NE(files[0].bytes.find("<svg"), std::string::npos);
 }

@@ -27,7 +27,7 @@ std::string answers(const std::string& name) {
   const Point2 at = map.zones.front().sample;
   std::ostringstream task;
   task << "format: 1\npath: [[" << at[0] << ", " << at[1] << "], [" << at[0] + 0.01 << ", " << at[1] << "]]\n";
-  words << static_cast<int>(decide_task(model, parse_task(task.str(), model)).verdict);
+  words << static_cast<int>(verify(model, parse_task(task.str(), model), {.depth = VerifyDepth::margin}).verdict);
   return words.str();
 }
 

@@ -22,7 +22,7 @@ void check_accepted(const core::Task& task, const mechanism::Mechanism& mechanis
   for (const auto& least : {task.min_force, task.min_couple})
     require(!least || (*least > 0 && is_finite(*least)), "a least effort is finite and positive");
   if (task.loads)
-    for (const core::RationalPoint& end : {task.loads->first, task.loads->second})
+    for (const core::RationalPose& end : {task.loads->first, task.loads->second})
       require(is_finite(end[0]) && is_finite(end[1]) && (end[0] != 0 || end[1] != 0), "a load is finite and not zero");
 }
 

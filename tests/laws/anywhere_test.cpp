@@ -8,14 +8,13 @@
 #include "analysis/framed.hpp"
 #include "analysis/loci.hpp"
 #include "analysis/pose.hpp"
-#include "analysis/pose_verification.hpp"
 #include "analysis/pose_zones.hpp"
-#include "analysis/verification.hpp"
 #include "analysis/zones.hpp"
 #include "check/check.hpp"
 #include "mechanism/read.hpp"
 #include "report/certificate.hpp"
 #include "tests/laws/design_texts.hpp"
+#include "tests/laws/judged.hpp"
 #include "tests/laws/lattice_designs.hpp"
 #include "tests/laws/same_topology.hpp"
 
@@ -163,7 +162,7 @@ TEST_P(AtPlaces, Zones) {
 
 core::Task circle(const Rational& x, const Rational& y, const Rational& radius) {
   core::Task task;
-  task.shape = core::TaskCircle{{x, y}, radius};
+  task.shape = core::TaskBall{{x, y}, radius};
   task.margin = Rational(1, 1000);
   return task;
 }
@@ -175,9 +174,9 @@ TEST_P(AtPlaces, Verdicts) {
     for (const Rational& radius : {Rational(1, 50), Rational(1, 4)}) {
       core::Task task = circle(Rational(1, 4), Rational(-3, 5), radius);
       if (tolerant) task.pose_error = Rational(1, 100);
-      const Verification a = verify_task(m, task, {}), b = verify_task(moved(m, frame), in_frame(task, frame), {});
+      const Verification a = test::judged(m, task, {}), b = test::judged(moved(m, frame), in_frame(task, frame), {});
       EXPECT_EQ(a.verdict, b.verdict);
-      EXPECT_NEAR(a.margin, b.margin, within(m, frame));
+      EXPECT_NEAR(a.margin.value_or(0), b.margin.value_or(0), within(m, frame));
       EXPECT_EQ(a.zone, b.zone);
       EXPECT_EQ(a.nearest.has_value(), b.nearest.has_value());
       if (a.pose_error && b.pose_error) {
@@ -228,15 +227,15 @@ TEST_P(AtPlaces, PosesAndErrors) {
 TEST_P(AtPlaces, TasksAndZonesOverPoses) {
   const Mechanism m = example("gough_stewart");
   const Frame frame = moved_by(m, GetParam().by);
-  core::PoseTask task;
-  core::PoseBoxShape box;
+  core::Task task;
+  core::TaskBox box;
   for (const mechanism::Coordinate& c : m.coordinates) {
     const Rational middle = (c.lower + c.upper) / 2, half = (c.upper - c.lower) / 64;
     box.lower.push_back(middle - half);
     box.upper.push_back(middle + half);
   }
   task.shape = box;
-  const core::PoseVerification a = verify_poses(m, task), b = verify_poses(moved(m, frame), in_frame(task, frame));
+  const Verification a = test::judged(m, task), b = test::judged(moved(m, frame), in_frame(task, frame));
   EXPECT_EQ(a.verdict, b.verdict);
   EXPECT_EQ(a.cells, b.cells);
   EXPECT_EQ(a.margin.has_value(), b.margin.has_value());

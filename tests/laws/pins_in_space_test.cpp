@@ -9,11 +9,11 @@
 #include <numbers>
 
 #include "analysis/loci.hpp"
-#include "analysis/verification.hpp"
 #include "clearloci/mechanism.hpp"
-#include "clearloci/pose_tasks.hpp"
+#include "clearloci/verify.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
+#include "tests/laws/judged.hpp"
 #include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
 
@@ -196,7 +196,7 @@ TEST(PinsInSpace, NoTaskRoundSuchAPointIsVerified) {
   request.joints = {lost.joint};
   request.quantities = {core::Quantity::f};
   const auto verdict = [&](double half, const std::string& more) {
-    return verify_task(m, mechanism::parse_task(box_round(lost.at, half, more), "task.yaml", m), request).verdict;
+    return test::judged(m, mechanism::parse_task(box_round(lost.at, half, more), "task.yaml", m), request).verdict;
   };
   EXPECT_NE(verdict(0.004, ""), core::Verdict::verified);
   const PinForce force(m, lost.joint);
@@ -279,7 +279,7 @@ TEST(PinsInSpace, TasksOverPosesAskForThePartAcrossTheAxis) {
     const std::array<std::pair<const char*, double>, 3> middle = {{{"x", lost.at[0]}, {"y", lost.at[1]}, {"z", z}}};
     for (const auto& [name, at] : middle)
       text += std::string("  ") + name + ": [" + std::to_string(at - half) + ", " + std::to_string(at + half) + "]\n";
-    return verify_poses(model, parse_pose_task(text + more, model), request).verdict;
+    return verify(model, parse_task(text + more, model), {.loci = request}).verdict;
   };
   EXPECT_NE(verdict(0.002, ""), core::Verdict::verified);
   EXPECT_EQ(verdict(1e-6, "min_force: " + std::to_string(std::abs(there.along) / 2) + "\n"), core::Verdict::refuted);

@@ -8,9 +8,9 @@
 #include <iterator>
 
 #include "analysis/loci.hpp"
-#include "analysis/verification.hpp"
 #include "analysis/zones.hpp"
 #include "mechanism/read_task.hpp"
+#include "tests/laws/judged.hpp"
 #include "tests/mechanism/five_bar_text.hpp"
 
 namespace clearloci {
@@ -33,7 +33,7 @@ void expect_witnessed(const mechanism::Mechanism& mechanism) {
 TEST(Preload, RemovesEveryLocusFromTheTask) {
   const auto decide = [](const std::string& name) {
     const mechanism::Mechanism mechanism = example(name);
-    return decide_task(mechanism, mechanism::read_task(folder + "tasks/preload.yaml", mechanism), {});
+    return test::decided(mechanism, mechanism::read_task(folder + "tasks/preload.yaml", mechanism), {});
   };
   const Verification bare = decide("five_bar");
   EXPECT_EQ(bare.verdict, core::Verdict::refuted);
@@ -42,7 +42,7 @@ TEST(Preload, RemovesEveryLocusFromTheTask) {
   for (const char* name : {"five_bar_preloaded", "five_bar_antagonistic"}) {
     const Verification proven = decide(name);
     EXPECT_TRUE(proven.verified()) << name;
-    EXPECT_GT(proven.margin, 0.1) << name;
+    EXPECT_GT(*proven.margin, 0.1) << name;
   }
 }
 
@@ -106,7 +106,7 @@ TEST(Limits, BoundTheWorkspace) {
 TEST(Limits, AreNamedByTheVerdictOnATask) {
   const mechanism::Mechanism m = parsed(mechanism::five_bar_text + limits);
   const auto verify = [&](const std::string& task) {
-    return verify_task(m, mechanism::parse_task("format: 1\n" + task, "task.yaml", m), {});
+    return test::judged(m, mechanism::parse_task("format: 1\n" + task, "task.yaml", m), {});
   };
   const Verification beyond = verify("circle: {centre: [0.25, -0.75], radius: 0.2}");
   EXPECT_EQ(beyond.verdict, core::Verdict::refuted);
@@ -114,7 +114,7 @@ TEST(Limits, AreNamedByTheVerdictOnATask) {
   EXPECT_EQ(beyond.witness->limit, "distance A1-P at 0.92 m");
   const Verification within = verify("circle: {centre: [0.25, -0.75], radius: 0.1}");
   EXPECT_TRUE(within.verified());
-  EXPECT_NEAR(within.margin, 0.92 - std::hypot(0.25, 0.75) - 0.1, 1e-4);
+  EXPECT_NEAR(*within.margin, 0.92 - std::hypot(0.25, 0.75) - 0.1, 1e-4);
   ASSERT_TRUE(within.nearest);
   EXPECT_EQ(within.nearest->limit, "distance A1-P at 0.92 m");
 }

@@ -10,12 +10,12 @@
 #include <cstdlib>
 #include <random>
 
-#include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "mechanism/open_design.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/pose_error.hpp"
+#include "tests/laws/judged.hpp"
 
 namespace clearloci {
 namespace {
@@ -191,7 +191,7 @@ TEST_P(ProvenBounds, AreMetByNoSample) {
       continue;  // it closes nowhere
     }
     const Verification answer =
-        decide_task(m, mechanism::parse_task(shape + varied + "pose_error: 1\n", "task.yaml", m));
+        test::decided(m, mechanism::parse_task(shape + varied + "pose_error: 1\n", "task.yaml", m));
     if (!answer.verified()) continue;
     ++verified;
     ASSERT_TRUE(answer.pose_error);
@@ -229,7 +229,7 @@ TEST_P(ProvenBounds, AreMetByNoSample) {
       EXPECT_GE(most.error, *answer.pose_error * (1 - 4e-3)) << "the bound is not near";
     }
     // A tenth more than what some sample bears is not kept by all.
-    const Verification too_much = decide_task(
+    const Verification too_much = test::decided(
         m, mechanism::parse_task(shape + varied + fmt::format("min_force: {}\n", 1.1 * most.least_force), "t.yaml", m));
     EXPECT_NE(too_much.verdict, core::Verdict::verified) << most.least_force;
   }
@@ -265,7 +265,7 @@ TEST(AxisLengths, AreOfNoConsequence) {
     for (std::size_t at = 0; (at = own.find(axis, at)) != std::string::npos; at += axis.size())
       own.replace(at, axis.size(), fmt::format("axis: [0, {}]", length));
     const Mechanism m = mechanism::parse_mechanism(own, "rails.yaml");
-    const Verification answer = decide_task(m, mechanism::parse_task(task, "task.yaml", m));
+    const Verification answer = test::decided(m, mechanism::parse_task(task, "task.yaml", m));
     ASSERT_TRUE(answer.pose_error) << length;
     bounds.push_back(*answer.pose_error);
   }

@@ -10,7 +10,6 @@
 #include <random>
 
 #include "analysis/loci.hpp"
-#include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
 #include "mechanism/read.hpp"
@@ -18,6 +17,7 @@
 #include "mechanism/rigidity.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/locus_problem.hpp"
+#include "tests/laws/judged.hpp"
 
 namespace clearloci {
 namespace {
@@ -123,7 +123,7 @@ TEST(RigidLinks, TheSideOnWhichOneBendsIsNoWorkspace) {
   ASSERT_FALSE(held.distances.empty());
   // A task there is refuted, and names the link.
   const Verification there =
-      decide_task(m, mechanism::parse_task("format: 1\nbox: {x: [649, 651], y: [-501, -499]}\n", "task.yaml", m));
+      test::decided(m, mechanism::parse_task("format: 1\nbox: {x: [649, 651], y: [-501, -499]}\n", "task.yaml", m));
   ASSERT_EQ(there.verdict, core::Verdict::refuted);
   EXPECT_EQ(there.witness->kind, core::TaskWitness::Kind::unreachable);
   EXPECT_NE(there.witness->limit.find("rod2"), std::string::npos) << there.witness->limit;
@@ -139,7 +139,7 @@ TEST(RigidLinks, LimitsAtTheirLengthsBoundNothing) {
   EXPECT_TRUE(numeric::reachable(model, std::vector<double>{0.1, -0.8}, mode));
   EXPECT_FALSE(numeric::reachable(model, std::vector<double>{0.65, -0.5}, mode));
   EXPECT_TRUE(
-      decide_task(m, mechanism::parse_task("format: 1\nbox: {x: [100, 150], y: [-800, -750]}\n", "task.yaml", m))
+      test::decided(m, mechanism::parse_task("format: 1\nbox: {x: [100, 150], y: [-800, -750]}\n", "task.yaml", m))
           .verified());
 }
 

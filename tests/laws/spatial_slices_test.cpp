@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "analysis/verification.hpp"
 #include "analysis/zones.hpp"
 #include "mechanism/read_task.hpp"
+#include "tests/laws/judged.hpp"
 #include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
 
@@ -177,7 +177,7 @@ TEST(SpatialSlices, TheLeastForceIsKeptUpToItsCurve) {
 }
 
 Verification verified(const mechanism::Mechanism& m, const std::string& task, const LociRequest& request = {}) {
-  return verify_task(m, mechanism::parse_task("format: 1\n" + task, "task.yaml", m), request);
+  return test::judged(m, mechanism::parse_task("format: 1\n" + task, "task.yaml", m), request);
 }
 
 TEST(SpatialSlices, TasksAreVerifiedInsideAZoneAndNotAcrossALocus) {
@@ -185,8 +185,8 @@ TEST(SpatialSlices, TasksAreVerifiedInsideAZoneAndNotAcrossALocus) {
   const Verification good = verified(m, "box: {x: [0.3, 0.35], y: [0.2, 0.25]}\nmargin: 0.05");
   EXPECT_TRUE(good.verified());
   ASSERT_TRUE(good.nearest);
-  EXPECT_GE(good.margin, 0.05);
-  EXPECT_LE(good.margin, good.nearest->distance);
+  EXPECT_GE(*good.margin, 0.05);
+  EXPECT_LE(*good.margin, good.nearest->distance);
   // Some leg's force changes its sign between two corners of this one, and |A| between two of the next.
   const Verification across = verified(m, "box: {x: [0, 0.1], y: [0.2, 0.3]}");
   EXPECT_FALSE(across.verified());

@@ -124,7 +124,7 @@ void judge_task(Subject& s) {
   const core::Task& task = *drawn;
   Verification result;
   try {
-    result = s.report.in_patience([&] { return decide_task(s.mechanism, task, {}); });
+    result = s.report.in_patience([&] { return test::decided(s.mechanism, task, {}); });
   } catch (const core::InputError& refused) {
     return s.report.refused(refused.what());
   }
@@ -199,7 +199,7 @@ void judge_study(Subject& s) {
     const StudyResult result = s.report.in_patience([&] { return run_study(model, study, {.threads = 1}); });
     for (const StudyDesign& design : result.designs) {
       const Model member = design_model(model, result, design);
-      const Verification answer = s.report.in_patience([&] { return decide_task(member, study.tasks.front()); });
+      const Verification answer = s.report.in_patience([&] { return verify(member, study.tasks.front(), {.depth = VerifyDepth::margin}); });
       using Status = StudyDesign::Status;
       const bool differs = (design.status == Status::feasible && answer.verdict == Verdict::refuted) ||
                            (design.status == Status::infeasible && answer.verdict == Verdict::verified);

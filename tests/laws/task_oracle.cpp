@@ -56,7 +56,7 @@ void hold_verified(std::mt19937& random, const Oracle& oracle, const core::Task&
   say(result.margin >= core::to_double(task.margin), "a margin that is too small");
   std::vector<Oracle::Solved> solved;
   std::vector<Point2> places = region.samples();
-  for (int s = 0; s < poses; ++s) places.push_back(pose_of(random, region, outline, result.margin));
+  for (int s = 0; s < poses; ++s) places.push_back(pose_of(random, region, outline, result.margin.value_or(0)));
   for (const Point2& at : places) {
     const auto own = oracle.solve(at);
     if (!own) return say(false, fmt::format("out of reach at {:.17g}, {:.17g}", at[0], at[1]));
@@ -104,11 +104,11 @@ void hold_verified(std::mt19937& random, const Oracle& oracle, const core::Task&
     }
   }
   // A force that turns over between two close poses has vanished between them.
-  for (std::size_t i = 0; result.margin > 0 && i < 60; ++i) {
+  for (std::size_t i = 0; result.margin && *result.margin > 0 && i < 60; ++i) {
     const Point2 base = region.closest(pose_of(random, region, outline, 0));
     const double angle = 0.1 * static_cast<double>(random() % 63);
-    Point2 p = base, q = {base[0] + result.margin * (1 - 1e-9) * std::cos(angle),
-                          base[1] + result.margin * (1 - 1e-9) * std::sin(angle)};
+    Point2 p = base, q = {base[0] + *result.margin * (1 - 1e-9) * std::cos(angle),
+                          base[1] + *result.margin * (1 - 1e-9) * std::sin(angle)};
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       if (unknowns[k].quantity != Quantity::fx || (zero[k] && zero[k + 1])) continue;
       const auto c = static_cast<Eigen::Index>(k);
@@ -134,15 +134,15 @@ void hold_refuted(const Oracle& oracle, const core::Task& task, const TaskWitnes
   const std::string where = fmt::format(" at the witness ({:.17g}, {:.17g}): {}", witness.at[0], witness.at[1],
                                         report::witness_words(witness));
   const loci::TaskRegion region(task.shape);
-  say(region.signed_distance(witness.at) <= std::max(core::to_double(task.margin), 1e-14),
+  say(region.signed_distance(point_of(witness.at)) <= std::max(core::to_double(task.margin), 1e-14),
       "farther than the margin" + where);
   const auto around = [&](double step) {
-    std::vector<Point2> list = {witness.at};
+    std::vector<Point2> list = {point_of(witness.at)};
     for (int i = 0; i < 8; ++i)
       list.push_back({witness.at[0] + step * std::cos(i * M_PI / 4), witness.at[1] + step * std::sin(i * M_PI / 4)});
     return list;
   };
-  const auto here = oracle.solve(witness.at);
+  const auto here = oracle.solve(point_of(witness.at));
   if (witness.vanishing.empty() && witness.too_small.empty()) {
     // Out of reach, or there is both within and out of reach; or |A| has both signs.
     int reached = 0, positive = 0;
@@ -157,7 +157,7 @@ void hold_refuted(const Oracle& oracle, const core::Task& task, const TaskWitnes
     return;
   }
   if (!here) return say(false, "no pose" + where);
-  const double t = witness.load ? oracle.load_of(*witness.load) : 0;
+  const double t = witness.load.empty() ? 0 : oracle.load_of(point_of(witness.load));
   say(t >= -1e-12 && t <= 1 + 1e-12, "a load beyond the range" + where);
   const Eigen::VectorXd w = here->at(t);
   for (const core::Vanishing& reaction : witness.too_small) {

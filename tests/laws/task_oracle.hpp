@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/verification.hpp"
 #include "numeric/reactions.hpp"
 #include "numeric/take_up.hpp"
+#include "tests/laws/judged.hpp"
 
 namespace clearloci::test {
 

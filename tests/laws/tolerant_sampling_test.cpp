@@ -10,13 +10,13 @@
 #include <cstdlib>
 #include <random>
 
-#include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "loci/tasks/task_region.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/reactions.hpp"
 #include "report/verification.hpp"
+#include "tests/laws/judged.hpp"
 
 namespace clearloci {
 namespace {
@@ -104,7 +104,7 @@ double shown_times(int n, const mechanism::Mechanism& m, core::Task task, const 
   task.tolerances.clear();
   task.loads_within.clear();
   const auto again = Clock::now();
-  const Verification nominal = decide_task(m, task, {.deadline = again + std::chrono::seconds(5)});
+  const Verification nominal = test::decided(m, task, {.deadline = again + std::chrono::seconds(5)});
   const double alone = seconds_since(again);
   fmt::print("{} {} {:.4f} s; nominal {} {:.4f} s; ratio {:.2f}\n", n, to_string(answer.verdict), own,
              to_string(nominal.verdict), alone, own / alone);
@@ -136,7 +136,7 @@ TEST(TolerantTasks, NoSampleOfDesignsLoadsAndPosesContradictsAVerdict) {
     task_text += fmt::format("loads_within: [{{load: 1, radius: {}, couple: {}}}]\n", ball, couple);
     const core::Task task = mechanism::parse_task(task_text, "task.yaml", m);
     const auto start = std::chrono::steady_clock::now();
-    const Verification answer = decide_task(m, task, {.deadline = start + std::chrono::seconds(5)});
+    const Verification answer = test::decided(m, task, {.deadline = start + std::chrono::seconds(5)});
     ++n;
     if (std::getenv("CLEARLOCI_SHOW_TIMES") != nullptr) ratios.push_back(shown_times(n, m, task, answer, start));
     SCOPED_TRACE(text + task_text + to_string(answer.verdict) +
@@ -149,7 +149,7 @@ TEST(TolerantTasks, NoSampleOfDesignsLoadsAndPosesContradictsAVerdict) {
       ++refuted;
       ASSERT_TRUE(answer.witness);
       const core::TaskWitness& witness = *answer.witness;
-      EXPECT_LE(loci::TaskRegion(task.shape).signed_distance(witness.at), 1e-12);
+      EXPECT_LE(loci::TaskRegion(task.shape).signed_distance(test::point_of(witness.at)), 1e-12);
       std::vector<Value> values;
       for (const auto& [name, value] : witness.design) {
         values.emplace_back(name, core::to_string(core::Rational(value)));
@@ -168,9 +168,9 @@ TEST(TolerantTasks, NoSampleOfDesignsLoadsAndPosesContradictsAVerdict) {
         const Point2 own = numeric::in_plane(there.loads.front().force);
         EXPECT_LE(std::hypot(witness.loads[0].force[0] - own[0], witness.loads[0].force[1] - own[1]), ball + 1e-9);
         EXPECT_LE(std::abs(witness.loads[0].couple), couple + 1e-9);
-        member = under(member, witness.loads[0].force, witness.loads[0].couple);
+        member = under(member, test::point_of(witness.loads[0].force), witness.loads[0].couple);
       }
-      const auto solved = solve(member, witness.at);
+      const auto solved = solve(member, test::point_of(witness.at));
       using Kind = core::TaskWitness::Kind;
       if (witness.kind == Kind::unreachable) {
         EXPECT_FALSE(solved.has_value());

@@ -7,9 +7,9 @@
 #include <functional>
 
 #include "analysis/loci.hpp"
-#include "analysis/verification.hpp"
 #include "analysis/zones.hpp"
 #include "tests/laws/design_texts.hpp"
+#include "tests/laws/judged.hpp"
 
 namespace clearloci {
 namespace {
@@ -240,13 +240,14 @@ TEST_P(Changes, MoveTheVerdictsAlong) {
   for (const double part : {0.8, 1.2}) {
     const core::Rational radius(part * zone.inscribed.radius);
     core::Task task, moved;
-    task.shape = core::TaskCircle{centre, radius};
-    moved.shape = core::TaskCircle{change.place(centre), radius * change.scale};
-    const Verification a = verify_task(parsed(base()), task, request(false)),
-                       b = verify_task(parsed(changed(base(), change)), moved, request(true));
+    task.shape = core::TaskBall{centre, radius};
+    moved.shape = core::TaskBall{change.place(centre), radius * change.scale};
+    const Verification a = test::judged(parsed(base()), task, request(false)),
+                       b = test::judged(parsed(changed(base(), change)), moved, request(true));
     EXPECT_EQ(a.verified(), part < 1);
     EXPECT_EQ(b.verdict, a.verdict);
-    EXPECT_NEAR(a.margin, b.margin / core::to_double(change.scale), 1e-3 * zone.inscribed.radius);
+    EXPECT_NEAR(a.margin.value_or(0), b.margin.value_or(0) / core::to_double(change.scale),
+                1e-3 * zone.inscribed.radius);
   }
 }
 

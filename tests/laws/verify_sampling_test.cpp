@@ -10,10 +10,10 @@
 #include <fstream>
 #include <random>
 
-#include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "mechanism/read_task.hpp"
 #include "report/verification.hpp"
+#include "tests/laws/judged.hpp"
 #include "tests/laws/task_designs.hpp"
 #include "tests/laws/task_oracle.hpp"
 
@@ -56,7 +56,7 @@ TEST(VerifySampling, IsNeverContradicted) {
         std::ofstream(fmt::format("{}/{}_task.yaml", dump, i)) << own << "\n";
       }
       const auto start = std::chrono::steady_clock::now();
-      result = decide_task(mechanism, *task, {});
+      result = test::decided(mechanism, *task, {});
       times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     } catch (const core::InputError&) {
       ++refused;  // a polygon that crosses itself, a mechanism that is singular in every pose

@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <random>
 
-#include "analysis/verification.hpp"
 #include "loci/tasks/task_region.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_texts.hpp"
+#include "tests/laws/judged.hpp"
 
 namespace clearloci {
 namespace {
@@ -22,21 +22,21 @@ mechanism::Mechanism five_bar() {
 }
 
 Verification verified(const mechanism::Mechanism& mechanism, const std::string& task) {
-  return verify_task(mechanism, mechanism::parse_task("format: 1\n" + task, "task.yaml", mechanism), {});
+  return test::judged(mechanism, mechanism::parse_task("format: 1\n" + task, "task.yaml", mechanism), {});
 }
 
 TEST(Verify, ThePapersPathLiesInOneZone) {
   const mechanism::Mechanism mechanism = five_bar();
   const std::string file = std::string(CLEARLOCI_SOURCE_DIR) + "/examples/tasks/pick_and_place.yaml";
-  const Verification result = verify_task(mechanism, mechanism::read_task(file, mechanism), {});
+  const Verification result = test::judged(mechanism, mechanism::read_task(file, mechanism), {});
   EXPECT_TRUE(result.verified());
   EXPECT_EQ(result.zone, "z1");
   EXPECT_TRUE(result.notes.empty()) << result.notes.front();  // nothing is left open in its picture
   // The outer boundary of leg 2 is the circle of radius 1 about (1/2, 0).
   const double distance = 1 - std::hypot(0.5, 0.7);
   EXPECT_NEAR(result.nearest->distance, distance, 1e-9);
-  EXPECT_LE(result.margin, distance);
-  EXPECT_GE(result.margin, 0.99 * distance);
+  EXPECT_LE(*result.margin, distance);
+  EXPECT_GE(*result.margin, 0.99 * distance);
 }
 
 TEST(Verify, ACircleBetweenTheCirclesFitsUpToAQuarterMetre) {
@@ -73,16 +73,16 @@ mechanism::Mechanism kept(const std::string& name) {
 
 Verification decided(const mechanism::Mechanism& mechanism, const std::string& task, const LociRequest& request = {}) {
   const std::string file = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/verify/" + task;
-  return decide_task(mechanism, mechanism::read_task(file, mechanism), request);
+  return test::decided(mechanism, mechanism::read_task(file, mechanism), request);
 }
 
 TEST(Verify, HoldsTheLeastForceBetweenTheEndsOfARangeOfLoads) {
   const Verification coupler = decided(kept("examples/five_bar_coupler.yaml"), "coupler_minforce_task1.yaml");
   EXPECT_EQ(coupler.verdict, core::Verdict::refuted);
-  ASSERT_TRUE(coupler.witness && coupler.witness->load && coupler.witness->size);
+  ASSERT_TRUE(coupler.witness && !coupler.witness->load.empty() && coupler.witness->size);
   EXPECT_LT(*coupler.witness->size, 12.3);
   // The load is one of the range, from (-14, -21) to (29, -24) N.
-  const core::Point2& load = *coupler.witness->load;
+  const std::vector<double>& load = coupler.witness->load;
   EXPECT_NEAR((load[0] + 14) * -3 - (load[1] + 21) * 43, 0, 1e-9);
   EXPECT_GT(load[0], -14);
   EXPECT_LT(load[0], 29);
@@ -130,7 +130,7 @@ TEST(Verify, TellsOfToleratedLegsWhoseLengthsAreRoots) {
   const mechanism::Mechanism legs = kept("tests/corpus/verify/telescopes_with_couples.yaml");
   const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/verify/";
   const Verification result =
-      verify_task(legs, mechanism::read_task(folder + "telescopes_with_couples_task.yaml", legs), {});
+      test::judged(legs, mechanism::read_task(folder + "telescopes_with_couples_task.yaml", legs), {});
   EXPECT_NE(result.verdict, core::Verdict::undecided);
   EXPECT_EQ(result.mode.size(), result.map.loci.tower.roots.size());
   for (const char* wish : {"pose_error: 1e-3", "loads_within: [{load: 1, radius: 2}]", "tolerances: {b: 1e-4}"}) {
@@ -160,7 +160,7 @@ TEST(Verify, SaysThatItCannotTell) {
   hurried.deadline = std::chrono::steady_clock::now();
   const core::Task task =
       mechanism::parse_task("format: 1\nbox: {x: [0.2, 0.3], y: [-0.7, -0.6]}", "task.yaml", mechanism);
-  const Verification result = decide_task(mechanism, task, hurried);
+  const Verification result = test::decided(mechanism, task, hurried);
   EXPECT_EQ(result.verdict, core::Verdict::undecided);
   EXPECT_FALSE(result.witness);
   ASSERT_TRUE(result.open);
@@ -241,7 +241,7 @@ TEST(VerifyRandomDesigns, NoSampleContradictsAProof) {
               ", -60]]";
     SCOPED_TRACE(design.text() + "\n" + text);
     const core::Task task = mechanism::parse_task(text, "task.yaml", mechanism);
-    const Verification result = verify_task(mechanism, task, {});
+    const Verification result = test::judged(mechanism, task, {});
     ++(result.verified() ? proven : refused);
     if (!result.verified()) {
       EXPECT_TRUE(result.witness);
@@ -251,7 +251,7 @@ TEST(VerifyRandomDesigns, NoSampleContradictsAProof) {
     // Poses of the task and of its margin, under loads of the range.
     const loci::TaskRegion region(task.shape);
     std::optional<Sampled> first;
-    const double m = result.margin;
+    const double m = *result.margin;
     for (int s = 0; s < 300; ++s) {
       const core::Point2 at = {number(region.lower()[0] - m, region.upper()[0] + m),
                                number(region.lower()[1] - m, region.upper()[1] + m)};
@@ -279,27 +279,27 @@ TEST(VerifyFit, FindsTheShortestMoveThatVerifies) {
   // Too low by 0.05: the box's lower corners leave the workspace, symmetrically.
   const core::Task task =
       mechanism::parse_task("format: 1\nbox: {x: [0.15, 0.35], y: [-0.95, -0.85]}\nmargin: 0.01", "t.yaml", mechanism);
-  EXPECT_FALSE(verify_task(mechanism, task, {}).verified());
-  const Verification nearest = fit_task(mechanism, task, {}, FitGoal::nearest);
-  ASSERT_TRUE(nearest.by);
+  EXPECT_FALSE(test::judged(mechanism, task, {}).verified());
+  const Verification nearest = verify(model_of(mechanism), task, {.fit = TaskFit::nearest});
+  ASSERT_TRUE(nearest.moved_by);
   EXPECT_TRUE(nearest.verified());
   // The corner (0.15, y) stays 0.01 within the circle of radius 1 about (1/2, 0).
   const double up = 0.95 - std::sqrt(0.99 * 0.99 - 0.35 * 0.35);
-  const double moved = std::hypot(core::to_double((*nearest.by)[0]), core::to_double((*nearest.by)[1]));
+  const double moved = std::hypot(core::to_double((*nearest.moved_by)[0]), core::to_double((*nearest.moved_by)[1]));
   EXPECT_GE(moved, up - 1e-6);
   EXPECT_LE(moved, up + 1e-3);
-  const Verification best = fit_task(mechanism, task, {}, FitGoal::best);
+  const Verification best = verify(model_of(mechanism), task, {.fit = TaskFit::best});
   EXPECT_TRUE(best.verified());
-  EXPECT_GT(best.margin, 0.1);
+  EXPECT_GT(*best.margin, 0.1);
 }
 
 TEST(VerifyFit, SaysThatThereIsNoPlace) {
   const mechanism::Mechanism mechanism = five_bar();
   const core::Task task =
       mechanism::parse_task("format: 1\nbox: {x: [-0.4, 0.9], y: [-0.8, 0.8]}", "t.yaml", mechanism);
-  const Verification result = fit_task(mechanism, task, {}, FitGoal::nearest);
+  const Verification result = verify(model_of(mechanism), task, {.fit = TaskFit::nearest});
   EXPECT_FALSE(result.verified());
-  EXPECT_FALSE(result.by);
+  EXPECT_FALSE(result.moved_by);
 }
 
 }  // namespace

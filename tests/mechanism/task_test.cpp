@@ -35,8 +35,8 @@ TEST(Task, IsReadExactly) {
   const core::Task task =
       parse("box: {x: [L/5, 0.4], y: [-0.8, -0.6]}\nmargin: 0.01\nloads_from: [[1, -100], [2, -1]]");
   const auto& box = std::get<core::TaskBox>(task.shape);
-  EXPECT_EQ(box.lower, (core::RationalPoint{core::Rational(1, 10), core::Rational(-4, 5)}));
-  EXPECT_EQ(box.upper, (core::RationalPoint{core::Rational(2, 5), core::Rational(-3, 5)}));
+  EXPECT_EQ(box.lower, (core::RationalPose{core::Rational(1, 10), core::Rational(-4, 5)}));
+  EXPECT_EQ(box.upper, (core::RationalPose{core::Rational(2, 5), core::Rational(-3, 5)}));
   EXPECT_EQ(task.margin, core::Rational(1, 100));
   ASSERT_TRUE(task.loads);
   EXPECT_EQ(task.loads->second[0], 2);
@@ -61,8 +61,22 @@ TEST(Task, WrongOnesAreToldWhereAndHowToMendThem) {
   EXPECT_NE(complaint("bocks: 1").find("unknown key 'bocks'"), std::string::npos);
 }
 
-TEST(Task, NeedsAPlaneOfTwoCoordinates) {
-  EXPECT_NE(complaint("path: [[0, 0], [0, 0.1]]", "four_bar").find("tasks lie in"), std::string::npos);
+TEST(Task, HasAValueForEveryFreeCoordinate) {
+  EXPECT_NE(complaint("path: [[0, 0], [0, 0.1]]", "four_bar").find("has 2 values, and 1 coordinates are free"),
+            std::string::npos);
+  EXPECT_EQ(complaint("path: [0, 0.1]", "four_bar"), "");
+}
+
+TEST(Task, ABallOfTwoLengthsIsACircle) {
+  const auto ball = parse("ball: {centre: [0, 0], radius: 1/4}"), circle = parse("circle: {centre: [0, 0], radius: 1/4}");
+  EXPECT_EQ(core::bounds(ball.shape), core::bounds(circle.shape));
+  EXPECT_EQ(core::kind_of(ball.shape), "circle");
+}
+
+TEST(Task, APolygonGoesWithTheRangesOfTheAngles) {
+  const std::string triangle = "polygon: [[0, 0], [0.01, 0], [0, 0.01]]\n";
+  EXPECT_NE(complaint(triangle, "three_rrr_orientation").find("write their ranges too, as a box"), std::string::npos);
+  EXPECT_NE(complaint(triangle, "four_bar").find("lies in the plane of two lengths"), std::string::npos);
 }
 
 TEST(Task, ConvexAndConcavePolygonsAreFine) {

@@ -134,7 +134,7 @@ TEST(Units, TasksAndTrajectoriesFollowTheMechanism) {
   const core::Task task = parse_task(
       "format: 1\ncircle: {centre: [100, -700], radius: 5 cm}\nmargin: 10\nmin_force: 0.005\nmin_couple: 2\n", "t.yaml",
       m);
-  const auto& circle = std::get<core::TaskCircle>(task.shape);
+  const auto& circle = std::get<core::TaskBall>(task.shape);
   EXPECT_EQ(circle.centre[1], Rational(-7, 10));
   EXPECT_EQ(circle.radius, Rational(1, 20));
   EXPECT_EQ(task.margin, Rational(1, 100));

@@ -190,7 +190,6 @@ TEST(Formats, HoldWhatTheySay) {
   EXPECT_EQ(format_names<core::Pose>(), (std::vector<std::string>{"json"}));
   EXPECT_EQ(format_names<core::PoseInModes>(), (std::vector<std::string>{"json"}));
   EXPECT_EQ(format_names<core::Validation>(), (std::vector<std::string>{"json"}));
-  EXPECT_EQ(format_names<core::PoseVerification>(), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
   EXPECT_EQ(format_names<VolumeSheet>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
   EXPECT_EQ(format_names<core::PoseZones>(), (std::vector<std::string>{"json", "svg", "png", "pdf", "vtk", "stl"}));
 }

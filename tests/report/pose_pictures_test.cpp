@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/pose_task_picture.hpp"
+#include "report/task_panels.hpp"
 #include "report/pose_zone_picture.hpp"
 #include "report/pose_zones.hpp"
 
@@ -15,21 +15,21 @@ using core::Rational;
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-core::PoseVerification verified_box() {
-  core::PoseVerification own;
+core::Verification verified_box() {
+  core::Verification own;
   own.mechanism = "a platform";
   own.coordinates = {"x", "y", "phi"};
   own.angles = {false, false, true};
   own.verdict = core::Verdict::verified;
-  own.task.shape = core::PoseBoxShape{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(2), Rational(1)}};
+  own.task.shape = core::TaskBox{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(2), Rational(1)}};
   own.margin = 0.5;
   own.angle_margin = 0.25;
-  own.nearest = core::NearestToPoses{core::LocusKind::backlash, {{"S1", core::Quantity::F, 1}}, {1.5, 1.0, 0.5}, 0.5};
+  own.nearest = core::NearestOfTask{"", core::LocusKind::backlash, {{"S1", core::Quantity::F, 1}}, {1.5, 1.0, 0.5}, 0.5};
   return own;
 }
 
 TEST(PoseTaskPicture, SaysWhatItDraws) {
-  const std::string svg = pose_task_picture(verified_box(), PictureFormat::svg);
+  const std::string svg = task_panels(verified_box(), PictureFormat::svg);
   EXPECT_TRUE(has(svg, "Task (box) with its margin, seen along the other coordinates"));
   EXPECT_TRUE(has(svg, "VERIFIED no locus, singularity or boundary in the task: proven\n"));
   EXPECT_TRUE(has(svg, "margin at least 0.5 m, proven, with the angles of the task\n"));
@@ -38,39 +38,39 @@ TEST(PoseTaskPicture, SaysWhatItDraws) {
 }
 
 TEST(PoseTaskPicture, SaysWhatIsTooFarToBeDrawn) {
-  core::PoseVerification far = verified_box();
+  core::Verification far = verified_box();
   far.nearest->at = {100, 1, 0.5};
-  EXPECT_TRUE(has(pose_task_picture(far, PictureFormat::svg), "beyond the picture: nearest"));
+  EXPECT_TRUE(has(task_panels(far, PictureFormat::svg), "beyond the picture: nearest"));
 }
 
 TEST(PoseTaskPicture, DrawsEveryShapeInEveryFormat) {
-  core::PoseVerification own = verified_box();
+  core::Verification own = verified_box();
   const auto expect_drawn = [&](const char* kind) {
-    const std::string svg = pose_task_picture(own, PictureFormat::svg);
+    const std::string svg = task_panels(own, PictureFormat::svg);
     EXPECT_TRUE(has(svg, std::string("Task (") + kind + ")"));
     EXPECT_FALSE(has(svg, "nan")) << kind;
     EXPECT_FALSE(has(svg, "inf")) << kind;
-    EXPECT_EQ(svg, pose_task_picture(own, PictureFormat::svg));
-    EXPECT_EQ(pose_task_picture(own, PictureFormat::pdf).substr(0, 5), "%PDF-");
-    EXPECT_EQ(pose_task_picture(own, PictureFormat::png).substr(0, 8), "\x89PNG\r\n\x1A\n");
+    EXPECT_EQ(svg, task_panels(own, PictureFormat::svg));
+    EXPECT_EQ(task_panels(own, PictureFormat::pdf).substr(0, 5), "%PDF-");
+    EXPECT_EQ(task_panels(own, PictureFormat::png).substr(0, 8), "\x89PNG\r\n\x1A\n");
   };
   expect_drawn("box");
-  own.task.shape = core::PoseBallShape{{Rational(0), Rational(0), Rational(0)}, Rational(1)};
+  own.task.shape = core::TaskBall{{Rational(0), Rational(0), Rational(0)}, Rational(1)};
   expect_drawn("ball");
   own.verdict = core::Verdict::refuted;
   own.margin.reset(), own.angle_margin.reset(), own.nearest.reset();
   own.witness.emplace().at = {0.5, 0, 0};
   own.task.shape =
-      core::PosePathShape{{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(0), Rational(0)}}};
+      core::TaskPath{{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(0), Rational(0)}}};
   expect_drawn("path");
-  EXPECT_TRUE(has(pose_task_picture(own, PictureFormat::svg), "ring: witness x = 0.5 m"));
+  EXPECT_TRUE(has(task_panels(own, PictureFormat::svg), "ring: witness x = 0.5 m"));
   own.angles = {false, false, false};
-  own.task.shape = core::PoseMeshShape{
+  own.task.shape = core::TaskMesh{
       "part.stl", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
   expect_drawn("mesh");
   // One pose alone has no extent of its own.
   own.coordinates = {"x"}, own.angles = {false}, own.witness->at = {0.5};
-  own.task.shape = core::PoseBoxShape{{Rational(1, 2)}, {Rational(1, 2)}};
+  own.task.shape = core::TaskBox{{Rational(1, 2)}, {Rational(1, 2)}};
   expect_drawn("box");
 }
 

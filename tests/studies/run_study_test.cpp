@@ -46,13 +46,13 @@ TEST(Study, SaysOfEveryDesignWhatVerifySays) {
     for (std::size_t i = 0; i < 2; ++i) values.emplace_back(result.parameters[i], std::to_string(own.values[i]));
     const Model member = model.with(values);
     Task task = study.tasks.front();
-    const Verification answer = decide_task(member, task);
+    const Verification answer = verify(member, task, {.depth = VerifyDepth::margin});
     EXPECT_EQ(own.status == Status::feasible, answer.verdict == Verdict::verified) << own.index << " " << own.reason;
     EXPECT_EQ(own.status == Status::infeasible, answer.verdict == Verdict::refuted) << own.index << " " << own.reason;
     if (own.status != Status::feasible) continue;
     ++feasible;
     // Both are proven lower bounds of one number.
-    EXPECT_NEAR(own.figures.front(), answer.margin, 2e-3 * (answer.margin + 0.3)) << own.index;
+    EXPECT_NEAR(own.figures.front(), *answer.margin, 2e-3 * (*answer.margin + 0.3)) << own.index;
   }
   EXPECT_GT(feasible, 5U);
   EXPECT_LT(feasible, 37U);
@@ -111,7 +111,7 @@ TEST(Study, AFrontHasNoDesignThatAnotherBeatsInEveryGoal) {
 Verdict verdict_of(const Model& model, const StudyResult& result, const std::vector<double>& values) {
   std::vector<Model::Value> own;
   for (std::size_t i = 0; i < values.size(); ++i) own.emplace_back(result.parameters[i], std::to_string(values[i]));
-  return decide_task(model.with(own), result.study.tasks.front()).verdict;
+  return verify(model.with(own), result.study.tasks.front(), {.depth = VerifyDepth::verdict}).verdict;
 }
 
 TEST(Study, ParametersMayEnterByQuotientsAndCosines) {
@@ -244,7 +244,7 @@ TEST(Study, WritesADesignAsTheFileThatItComesFrom) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), std::count(model.text().begin(), model.text().end(), '\n'));
   const Model best = Model::parse(text);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(best.parameters()[i].value, result.designs[*result.best].values[i]);
-  EXPECT_TRUE(decide_task(best, result.study.tasks.front()).verified());
+  EXPECT_TRUE(verify(best, result.study.tasks.front(), {.depth = VerifyDepth::verdict}).verified());
 }
 
 TEST(Study, RefusesWhatHasNoMeaning) {

@@ -4,13 +4,11 @@
 
 #include "clearloci/export.hpp"
 #include "clearloci/handed_files.hpp"
-#include "clearloci/pose_tasks.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 #include "report/base64.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
-#include "report/pose_verification.hpp"
 #include "report/verification.hpp"
 #include "report/viewer.hpp"
 #include "report/zones.hpp"
@@ -34,22 +32,18 @@ bool over_two_lengths(const Model& model) {
   return own.size() == 2 && std::none_of(own.begin(), own.end(), [](const auto& one) { return one.angle; });
 }
 
-Json pose_verification(const Fields& fields, const Model& model, const Watch& watch) {
-  if (fields.has("fit")) throw Refusal(422, "a task is moved in the plane of two lengths");
-  const PoseTask task = parse_pose_task(fields.text("task"), model, fields.files("files"));
-  return report::pose_verification_object(verify_poses(model, task, watched(loci_request(fields, model), watch)));
-}
-
 /// `task`: the text of a task file.
 Verification verification(const Fields& fields, const Watch& watch) {
   const Model model = model_of(fields);
-  const Task task = parse_task(fields.text("task"), model);
-  const LociRequest request = watched(loci_request(fields, model), watch);
   const std::string fit = fields.text("fit", "");
-  if (fit.empty())
-    return fields.flag("with_loci") ? verify_task(model, task, request) : decide_task(model, task, request);
-  if (fit != "nearest" && fit != "best") throw Refusal(400, "'fit' is to be nearest or best");
-  return fit_task(model, task, request, fit == "best" ? FitGoal::best : FitGoal::nearest);
+  if (!fit.empty() && fit != "nearest" && fit != "best" && fit != "largest")
+    throw Refusal(400, "'fit' is to be nearest, best or largest");
+  VerifyRequest request{.loci = watched(loci_request(fields, model), watch)};
+  if (!fit.empty())
+    request.fit = fit == "nearest" ? TaskFit::nearest : fit == "best" ? TaskFit::best : TaskFit::largest;
+  // Over two lengths the loci are drawn already.
+  if (over_two_lengths(model) && fit.empty() && !fields.flag("with_loci")) request.depth = VerifyDepth::margin;
+  return verify(model, parse_task(fields.text("task"), model, fields.files("files")), request);
 }
 
 }  // namespace
@@ -71,8 +65,6 @@ Json answer_zones(const Json& body, const Watch& watch) {
 
 Json answer_verify(const Json& body, const Watch& watch) {
   const Fields fields(body);
-  const Model model = model_of(fields);
-  if (!over_two_lengths(model)) return pose_verification(fields, model, watch);
   const Verification result = verification(fields, watch);
   Json answer = report::verification_object(result);
   if (result.witness) answer["reason_shown"] = report::shown_witness_words(result);
@@ -83,10 +75,8 @@ Json answer_export(const Json& body, const Watch& watch) {
   const Fields fields(body);
   const std::string what = fields.text("what", "loci");
   const std::set<std::string> formats = {fields.text("format")};
-  const Model model = model_of(fields);
-  if (what == "verification" && !over_two_lengths(model))
-    return files_json({{"verify.json", report::json_text(pose_verification(fields, model, watch))}});
   if (what == "verification") return files_json(verification_files(verification(fields, watch), formats));
+  const Model model = model_of(fields);
   const LociRequest request = watched(loci_request(fields, model), watch);
   if (what == "zones") return files_json(zone_files(find_zones(model, request), formats));
   if (what == "loci") return files_json(loci_files(model, trace_loci(model, request), formats));

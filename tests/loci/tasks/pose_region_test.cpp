@@ -36,7 +36,7 @@ bool is_in(const PosePiece& piece, const Pose& pose) {
 }
 
 TEST(PoseRegion, ABoxIsAsFarAsItsNearestPose) {
-  const PoseRegion region(core::PoseBoxShape{{0, 1}, {2, 2}}, metric);
+  const PoseRegion region(core::TaskBox{{0, 1}, {2, 2}}, metric);
   std::vector<Pose> task;
   for (int i = 0; i <= 60; ++i)
     for (int k = 0; k <= 60; ++k) task.push_back({i / 30.0, 1 + k / 60.0});
@@ -51,7 +51,7 @@ TEST(PoseRegion, ABoxIsAsFarAsItsNearestPose) {
 }
 
 TEST(PoseRegion, ABallIsRoundInItsMetric) {
-  const PoseRegion region(core::PoseBallShape{{0, 0}, 1}, metric);
+  const PoseRegion region(core::TaskBall{{0, 0}, 1}, metric);
   EXPECT_NEAR(region.distance(Pose{3, 0}), 2, 1e-12);
   EXPECT_NEAR(region.distance(Pose{0, 3}), 0.5, 1e-12);  // 3 rad are 1.5 m
   EXPECT_NEAR(region.distance(Pose{0.5, 0.5}), 0, 1e-12);
@@ -61,8 +61,8 @@ TEST(PoseRegion, ABallIsRoundInItsMetric) {
 TEST(PoseRegion, PiecesHoldTheTaskAndItsMargin) {
   constexpr double margin = 0.3;
   std::mt19937 random(2);
-  for (const core::PoseShape& shape :
-       {core::PoseShape(core::PoseBoxShape{{0, 1}, {2, 2}}), core::PoseShape(core::PoseBallShape{{0, 0}, 1})}) {
+  for (const core::TaskShape& shape :
+       {core::TaskShape(core::TaskBox{{0, 1}, {2, 2}}), core::TaskShape(core::TaskBall{{0, 0}, 1})}) {
     const PoseRegion region(shape, metric);
     const std::vector<PosePiece> pieces = region.pieces(margin);
     ASSERT_EQ(pieces.size(), 1U);
@@ -78,9 +78,9 @@ TEST(PoseRegion, PiecesHoldTheTaskAndItsMargin) {
 TEST(PoseRegion, BoundsOfPartsAreNotAboveTheDistancesInThem) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(0, 1);
-  for (const core::PoseShape& shape :
-       {core::PoseShape(core::PoseBoxShape{{0, 1}, {2, 2}}), core::PoseShape(core::PoseBallShape{{0, 0}, 1}),
-        core::PoseShape(core::PosePathShape{{{0, 0}, {1, 2}, {2, -1}}})}) {
+  for (const core::TaskShape& shape :
+       {core::TaskShape(core::TaskBox{{0, 1}, {2, 2}}), core::TaskShape(core::TaskBall{{0, 0}, 1}),
+        core::TaskShape(core::TaskPath{{{0, 0}, {1, 2}, {2, -1}}})}) {
     const PoseRegion region(shape, metric);
     for (const PosePiece& piece : region.pieces(0.5))
       for (int trial = 0; trial < 100; ++trial) {
@@ -106,9 +106,9 @@ TEST(PoseRegion, BoundsOfPartsAreNotAboveTheDistancesInThem) {
 }
 
 TEST(PoseRegion, WaysStayInTheTask) {
-  for (const core::PoseShape& shape :
-       {core::PoseShape(core::PoseBoxShape{{0, 1}, {2, 2}}), core::PoseShape(core::PoseBallShape{{0, 0}, 1}),
-        core::PoseShape(core::PosePathShape{{{0, 0}, {1, 2}, {2, -1}}})}) {
+  for (const core::TaskShape& shape :
+       {core::TaskShape(core::TaskBox{{0, 1}, {2, 2}}), core::TaskShape(core::TaskBall{{0, 0}, 1}),
+        core::TaskShape(core::TaskPath{{{0, 0}, {1, 2}, {2, -1}}})}) {
     const PoseRegion region(shape, metric);
     const std::vector<Pose> samples = region.samples();
     ASSERT_GE(samples.size(), 2U);

@@ -11,10 +11,10 @@ namespace clearloci::loci::pose {
 namespace {
 
 using Point = Solid::Point;
-using core::PoseMeshShape;
+using core::TaskMesh;
 
 /// Two triangles a side, counter-clockwise from outside, or with `hollow` from inside.
-void add_box(PoseMeshShape& mesh, const Point& low, const Point& high, bool hollow = false) {
+void add_box(TaskMesh& mesh, const Point& low, const Point& high, bool hollow = false) {
   const int first = static_cast<int>(mesh.corners.size());
   for (int i = 0; i < 8; ++i)
     mesh.corners.push_back({i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]});
@@ -48,7 +48,7 @@ Solid::Box random_box(std::mt19937& random, double reach, double size) {
 }
 
 TEST(Solid, DistancesFromABoxAreNotTooLargeAndGetExact) {
-  PoseMeshShape mesh;
+  TaskMesh mesh;
   add_box(mesh, {-1, -2, -3}, {1, 2, 3});
   const Solid solid(mesh);
   std::mt19937 random(1);
@@ -71,7 +71,7 @@ TEST(Solid, DistancesFromABoxAreNotTooLargeAndGetExact) {
 }
 
 TEST(Solid, AHollowIsNoPartOfIt) {
-  PoseMeshShape mesh;
+  TaskMesh mesh;
   add_box(mesh, {-2, -2, -2}, {2, 2, 2});
   add_box(mesh, {-1, -1, -1}, {1, 1, 1}, true);
   add_box(mesh, {3, -1, -1}, {4, 1, 1}, true);  // turned inside out as a whole: a part all the same
@@ -107,7 +107,7 @@ TEST(Solid, AHollowIsNoPartOfIt) {
 }
 
 TEST(Solid, ABallOfTriangles) {
-  PoseMeshShape mesh;
+  TaskMesh mesh;
   constexpr int round = 40, up = 20;
   constexpr double pi = std::numbers::pi;
   mesh.corners.push_back({0, 0, -1});

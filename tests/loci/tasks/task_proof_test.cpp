@@ -104,10 +104,10 @@ Known force_under_a_range() {
 }
 
 std::vector<core::TaskShape> shapes() {
-  using core::RationalPoint;
-  const auto point = [](int x, int y) { return RationalPoint{Rational(x, 10), Rational(y, 10)}; };
+  using core::RationalPose;
+  const auto point = [](int x, int y) { return RationalPose{Rational(x, 10), Rational(y, 10)}; };
   return {core::TaskBox{point(-3, -4), point(2, -1)}, core::TaskBox{point(-12, -21), point(-9, -17)},
-          core::TaskCircle{point(-2, -8), Rational(3, 10)},
+          core::TaskBall{point(-2, -8), Rational(3, 10)},
           core::TaskPolygon{{point(-9, -9), point(2, -13), point(-1, -3), point(-4, -9)}},
           core::TaskPath{{point(-15, 2), point(-13, -9), point(-2, -3)}}};
 }
@@ -115,7 +115,7 @@ std::vector<core::TaskShape> shapes() {
 /// The least over a shape, by places close to one another.
 double least_over(const core::TaskShape& shape, const std::function<double(const Point2&)>& distance) {
   core::Polyline line = core::outline(shape);
-  if (const auto* circle = std::get_if<core::TaskCircle>(&shape)) {
+  if (const auto* circle = std::get_if<core::TaskBall>(&shape)) {
     line.clear();
     for (int k = 0; k <= 1000; ++k)
       line.push_back({core::to_double(circle->centre[0]) +

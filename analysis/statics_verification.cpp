@@ -1,5 +1,3 @@
-#include "analysis/pose_verification.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,27 +5,22 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
-#include "analysis/model.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/pose_fit.hpp"
-#include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
-#include "clearloci/handed_files.hpp"
+#include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "loci/tasks/tasks.hpp"
 #include "mechanism/actions.hpp"
-#include "mechanism/handed_files.hpp"
 #include "mechanism/idle.hpp"
-#include "mechanism/read_pose_task.hpp"
 #include "numeric/pose_witness.hpp"
 #include "symbolic/pose_statics.hpp"
 
 namespace clearloci {
 namespace {
 
-using core::PoseTask;
-using core::PoseVerification;
+using core::Task;
 using core::TaskDemand;
 using loci::pose::Doubt;
 using loci::pose::NearPose;
@@ -44,25 +37,6 @@ constexpr long cells_of_a_margin = 250'000, cells_of_least = 60'000;
 /// Of each place or scale that a fit tries: beside a locus in six coordinates a proof may take all that it is given.
 constexpr long cells_of_a_trial = 60'000;
 
-std::vector<Mechanism> under_loads_of(const PoseTask& task, const Mechanism& mechanism) {
-  if (!task.loads) return {mechanism};
-  const auto under = [&](const core::RationalPose& load) {
-    Mechanism own = mechanism;
-    for (std::size_t c = 0; c < load.size(); ++c) own.loads.front().force[c] = core::Expression::number(load[c]);
-    return own;
-  };
-  std::vector<Mechanism> all = {under(task.loads->first)};
-  if (task.loads->second != task.loads->first) all.push_back(under(task.loads->second));
-  return all;
-}
-
-LociRequest request_for(const PoseTask& task, const LociRequest& request) {
-  core::Task conditions;
-  conditions.min_force = task.min_force;
-  conditions.min_couple = task.min_couple;
-  return request_of(conditions, request);
-}
-
 /// Metrics that margins are told in: what grows together.
 struct Metrics {
   PoseMetric asked;                  ///< that of the task's margin
@@ -70,7 +44,7 @@ struct Metrics {
   bool is_angle = false;             ///< of `asked`: rad
 };
 
-Metrics metrics_of(const Mechanism& mechanism, const PoseTask& task) {
+Metrics metrics_of(const Mechanism& mechanism, const Task& task) {
   Metrics own;
   bool any_angle = false, any_length = false;
   for (const mechanism::Coordinate& c : mechanism.coordinates) (c.angle ? any_angle : any_length) = true;
@@ -90,10 +64,10 @@ Metrics metrics_of(const Mechanism& mechanism, const PoseTask& task) {
 
 class Verifier {
  public:
-  Verifier(const Mechanism& mechanism, const PoseTask& task, const LociRequest& request)
+  Verifier(const Mechanism& mechanism, const Task& task, const LociRequest& request)
       : mechanism_(mechanism),
         task_(task),
-        request_(request_for(task, request)),
+        request_(request_of(task, request)),
         loads_(under_loads_of(task, mechanism)),
         metrics_(metrics_of(mechanism, task)),
         region_(task.shape, metrics_.asked),
@@ -115,7 +89,7 @@ class Verifier {
   }
 
   /// The task elsewhere, or larger or smaller.
-  void place(const core::PoseShape& shape) {
+  void place(const core::TaskShape& shape) {
     task_.shape = shape;
     region_ = PoseRegion(shape, metrics_.asked);
     witness_.emplace(witness_for(demands_));
@@ -123,7 +97,7 @@ class Verifier {
 
   /// Whether nothing changes its sign or is too small between a few poses of a shape: the first, its middle and
   /// corners, and some of the others.
-  bool looks_good(const core::PoseShape& shape) {
+  bool looks_good(const core::TaskShape& shape) {
     constexpr std::size_t first_looks = 9, looks = 12;
     if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return false;
     std::vector<PoseAt> poses = PoseRegion(shape, metrics_.asked).samples();
@@ -139,22 +113,15 @@ class Verifier {
   }
 
   /// From a shape to the nearest locus found.
-  double room(const core::PoseShape& shape) const {
+  double room(const core::TaskShape& shape) const {
     if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return 0;
     const std::vector<NearPose> near = near_loci(PoseRegion(shape, metrics_.asked));
     return near.empty() ? std::numeric_limits<double>::infinity() : near.front().distance;
   }
 
-  PoseVerification verify(bool measured, const loci::pose::PoseEffort& most = {}) {
-    PoseVerification result;
+  Verification verify(VerifyDepth depth, const loci::pose::PoseEffort& most = {}) {
+    Verification result;
     result.task = task_;
-    result.mechanism = mechanism_.name;
-    result.units = mechanism_.units;
-    for (const mechanism::Coordinate& c : mechanism_.coordinates) {
-      result.coordinates.push_back(c.name);
-      result.angles.push_back(c.angle);
-    }
-    result.working_mode = side_names(mechanism_, sides_);
     result.notes = mechanism::idle_notes(mechanism_);
     result.notes.insert(result.notes.end(), notes_.begin(), notes_.end());
     progress("search");
@@ -181,14 +148,14 @@ class Verifier {
     result.cells = proof.cells;
     if (result.verdict == core::Verdict::undecided) {
       using Reason = core::OpenTask::Reason;
-      result.open = core::OpenPoses{proof.open, proof.lower, proof.upper,
-                                    proof.out_of_time    ? Reason::time
-                                    : proof.out_of_cells ? Reason::cells
-                                                         : Reason::doubles};
+      result.open = core::OpenTask{proof.open, proof.lower, proof.upper,
+                                   proof.out_of_time    ? Reason::time
+                                   : proof.out_of_cells ? Reason::cells
+                                                        : Reason::doubles};
     }
     // Where a witness is in the task, one that is farther off is not the nearest.
     if (result.verdict != core::Verdict::refuted) tell_nearest(near, result);
-    if (result.verified() && measured) measure(near, result);
+    if (result.verified() && depth != VerifyDepth::verdict) measure(near, depth, result);
     return result;
   }
 
@@ -203,10 +170,10 @@ class Verifier {
     return {std::move(models), sides_, demands, region_.samples()};
   }
 
-  core::PoseTaskWitness told(const PoseAt& at, const numeric::TaskFailure& failure) const {
+  core::TaskWitness told(const PoseAt& at, const numeric::TaskFailure& failure) const {
     using Kind = numeric::TaskFailure::Kind;
     using Told = core::TaskWitness::Kind;
-    core::PoseTaskWitness own;
+    core::TaskWitness own;
     own.at = at;
     own.distance = region_.distance(at);
     own.kind = failure.kind == Kind::unreachable ? Told::unreachable
@@ -216,15 +183,13 @@ class Verifier {
                                                  : Told::too_small;
     if (failure.kind == Kind::unreachable || failure.kind == Kind::boundary) own.limit = limit_at(at);
     if (failure.kind != Kind::vanishing && failure.kind != Kind::too_small) return own;
-    own.reactions = {{failure.demand.joint, failure.demand.quantity, 1}};
+    (failure.kind == Kind::vanishing ? own.vanishing
+                                     : own.too_small) = {{failure.demand.joint, failure.demand.quantity, 1}};
     if (failure.kind == Kind::too_small) {
       own.size = failure.size;
       own.least = failure.demand.least;
     }
-    if (loads_.size() > 1)
-      for (std::size_t c = 0; c < task_.loads->first.size(); ++c)
-        own.load.push_back((1 - failure.load) * core::to_double(task_.loads->first[c]) +
-                           failure.load * core::to_double(task_.loads->second[c]));
+    if (loads_.size() > 1) own.load = load_between(*task_.loads, failure.load);
     return own;
   }
 
@@ -235,14 +200,14 @@ class Verifier {
     return end && end->slack <= passes ? mechanism::words_of_end(mechanism_, end->limit, end->upper) : std::string();
   }
 
-  std::optional<core::PoseTaskWitness> fails_at(const PoseAt& at, int demand) const {
+  std::optional<core::TaskWitness> fails_at(const PoseAt& at, int demand) const {
     if (!(region_.distance(at) <= margin_ + region_.hair())) return std::nullopt;
     const auto failure = witness_->failure(at, demand);
     return failure ? std::optional(told(at, *failure)) : std::nullopt;
   }
 
   /// Whether a suspect fails for certain; with another pose, between the two.
-  std::optional<core::PoseTaskWitness> confirmed(const PoseSuspect& suspect) {
+  std::optional<core::TaskWitness> confirmed(const PoseSuspect& suspect) {
     if (auto found = fails_at(suspect.at, suspect.demand)) return found;
     if (!suspect.other) return std::nullopt;
     const std::vector<PoseAt> way = region_.way(*suspect.other, suspect.at);
@@ -268,8 +233,8 @@ class Verifier {
     return true;
   }
 
-  std::optional<core::PoseTaskWitness> between(const PoseCell::At& reference, const PoseAt& from, const PoseAt& to,
-                                               const PoseSuspect& suspect) {
+  std::optional<core::TaskWitness> between(const PoseCell::At& reference, const PoseAt& from, const PoseAt& to,
+                                           const PoseSuspect& suspect) {
     const auto at = [&](double t) {
       PoseAt pose = from;
       for (std::size_t c = 0; c < pose.size(); ++c) pose[c] = t == 1 ? to[c] : from[c] + t * (to[c] - from[c]);
@@ -299,10 +264,10 @@ class Verifier {
     return std::nullopt;
   }
 
-  void tell_nearest(const std::vector<NearPose>& near, PoseVerification& result) const {
+  void tell_nearest(const std::vector<NearPose>& near, Verification& result) const {
     if (near.empty()) return;
     const NearPose& first = near.front();
-    core::NearestToPoses own;
+    core::NearestOfTask own;
     own.at = first.at;
     own.distance = first.distance;
     own.kind = first.kind == Doubt::workspace     ? core::LocusKind::workspace_boundary
@@ -315,7 +280,7 @@ class Verifier {
       if (first.kind != Doubt::demand || other.kind != Doubt::demand) continue;
       if (other.distance > first.distance + together * (1 + first.distance)) continue;
       const TaskDemand& demand = statics_.demands[static_cast<std::size_t>(other.demand)].demand;
-      own.reactions.push_back({demand.joint, demand.quantity, 1});
+      own.vanishing.push_back({demand.joint, demand.quantity, 1});
       const core::LocusKind kind = locus_kind_of(demand);
       own.kind = gravest ? std::min(own.kind, kind) : kind;
       gravest = true;
@@ -336,7 +301,7 @@ class Verifier {
   }
 
   /// The margins, and what reactions have at least.
-  void measure(const std::vector<NearPose>& near, PoseVerification& result) {
+  void measure(const std::vector<NearPose>& near, VerifyDepth depth, Verification& result) {
     loci::pose::PoseEffort effort{.most_cells = cells_of_a_margin, .deadline = request_.deadline};
     progress("margin");
     const double own =
@@ -348,6 +313,7 @@ class Verifier {
       result.angle_margin =
           loci::pose::pose_clearance(statics_, turned, 0, limit_of(*metrics_.angles, nearer), margin_accuracy, effort);
     }
+    if (depth != VerifyDepth::everything) return;
     progress("least reactions");
     std::vector<double> met(statics_.demands.size(), std::numeric_limits<double>::infinity());
     for (const PoseAt& pose : region_.samples())
@@ -363,7 +329,7 @@ class Verifier {
   }
 
   const Mechanism& mechanism_;
-  PoseTask task_;
+  Task task_;
   LociRequest request_;
   std::vector<Mechanism> loads_;
   Metrics metrics_;
@@ -380,78 +346,29 @@ class Verifier {
 
 }  // namespace
 
-PoseVerification verify_poses(const Mechanism& mechanism, const PoseTask& task, const LociRequest& request) {
+Verification verify_by_statics(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
   if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
-    return from_frame(verify_poses(own->mechanism, in_frame(task, own->frame), request), task, mechanism, own->frame);
-  return Verifier(mechanism, task, request).verify(true);
-}
-
-PoseVerification decide_poses(const Mechanism& mechanism, const PoseTask& task, const LociRequest& request) {
-  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
-    return from_frame(decide_poses(own->mechanism, in_frame(task, own->frame), request), task, mechanism, own->frame);
-  return Verifier(mechanism, task, request).verify(false);
-}
-
-PoseVerification fit_poses(const Mechanism& mechanism, const PoseTask& task, PoseFit goal, const LociRequest& request) {
-  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
-    return from_frame(fit_poses(own->mechanism, in_frame(task, own->frame), goal, request), task, mechanism,
+    return from_frame(verify_by_statics(own->mechanism, in_frame(task, own->frame), request), task, mechanism,
                       own->frame);
-  Verifier verifier(mechanism, task, request);
-  const PoseJudge judge{[&](const core::PoseShape& shape) {
+  if (request.fit == TaskFit::none) return Verifier(mechanism, task, request.loci).verify(request.depth);
+  Verifier verifier(mechanism, task, request.loci);
+  const PoseJudge judge{[&](const core::TaskShape& shape) {
                           verifier.place(shape);
-                          return verifier.verify(false, {.most_cells = cells_of_a_trial}).verified();
+                          return verifier.verify(VerifyDepth::verdict, {.most_cells = cells_of_a_trial}).verified();
                         },
-                        [&](const core::PoseShape& shape) { return verifier.looks_good(shape); },
-                        [&](const core::PoseShape& shape) { return verifier.room(shape); }};
-  const std::optional<PlacedShape> placed = place_shape(mechanism, task, goal, judge);
+                        [&](const core::TaskShape& shape) { return verifier.looks_good(shape); },
+                        [&](const core::TaskShape& shape) { return verifier.room(shape); }};
+  const std::optional<PlacedShape> placed = place_shape(mechanism, task, request.fit, judge);
   verifier.place(placed ? placed->shape : task.shape);
-  PoseVerification result = verifier.verify(true);
+  Verification result = verifier.verify(request.depth);
   if (!placed)
-    result.notes.emplace_back(goal == PoseFit::largest
+    result.notes.emplace_back(request.fit == TaskFit::largest
                                   ? "no scale was found at which the task verifies: it is judged as it is"
                                   : "no place was found at which the task verifies: it is judged where it lies");
-  if (placed && placed->by) {
-    result.by.emplace();
-    for (const core::Rational& value : *placed->by) result.by->push_back(core::to_double(value));
-  }
-  if (placed && placed->scale) result.scale = core::to_double(*placed->scale);
+  if (!placed) return result;
+  result.moved_by = placed->by;
+  result.scaled_by = placed->scale;
   return result;
-}
-
-namespace {
-
-const mechanism::Mechanism& checked(const Model& model, const PoseTask& task, const LociRequest& request) {
-  const mechanism::Mechanism& mechanism = model.content().mechanism;
-  check_request(mechanism, request);
-  check_task(mechanism, task);
-  return mechanism;
-}
-
-}  // namespace
-
-PoseTask read_pose_task(const std::string& path, const Model& model) {
-  return mechanism::read_pose_task(path, model.content().mechanism);
-}
-
-PoseTask parse_pose_task(const std::string& text, const Model& model, const std::string& file) {
-  return mechanism::parse_pose_task(text, file, model.content().mechanism);
-}
-
-PoseTask parse_pose_task(const std::string& text, const Model& model, const HandedFiles& handed,
-                         const std::string& file) {
-  return mechanism::parse_pose_task(text, file, model.content().mechanism, handed);
-}
-
-PoseVerification verify_poses(const Model& model, const PoseTask& task, const LociRequest& request) {
-  return verify_poses(checked(model, task, request), task, request);
-}
-
-PoseVerification fit_poses(const Model& model, const PoseTask& task, PoseFit goal, const LociRequest& request) {
-  return fit_poses(checked(model, task, request), task, goal, request);
-}
-
-PoseVerification decide_poses(const Model& model, const PoseTask& task, const LociRequest& request) {
-  return decide_poses(checked(model, task, request), task, request);
 }
 
 }  // namespace clearloci

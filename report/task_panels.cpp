@@ -1,4 +1,4 @@
-#include "report/pose_task_picture.hpp"
+#include "report/task_panels.hpp"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,15 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/pose_shape.hpp"
+#include "core/task.hpp"
 #include "report/axis.hpp"
 #include "report/file_units.hpp"
 #include "report/mechanism_drawing.hpp"
 #include "report/page_head.hpp"
-#include "report/pose_verification.hpp"
 #include "report/surface.hpp"
 #include "report/theme.hpp"
 #include "report/typesetting.hpp"
+#include "report/verification.hpp"
 #include "report/wording.hpp"
 #include "report/wrap.hpp"
 
@@ -33,7 +33,7 @@ constexpr std::size_t columns_of_panels = 3, most_panels = 6;
 /// A locus or witness is drawn where the picture gets no more than this many times as wide by it.
 constexpr double most_growth = 4;
 
-const Colour& colour_of(const core::PoseVerification& result) {
+const Colour& colour_of(const core::Verification& result) {
   return result.verified() ? light_theme.verified : light_theme.failed;
 }
 
@@ -48,30 +48,24 @@ struct Extent {
   Pose lower, upper;
 };
 
-double weight_of(const core::PoseVerification& result, std::size_t c) {
+double weight_of(const core::Verification& result, std::size_t c) {
   const auto& length = result.task.angle_length;
   return result.angles[c] && length ? core::to_double(*length) : 1.0;
 }
 
-Pose rounded(const core::RationalPose& pose) {
-  Pose own;
-  for (const core::Rational& value : pose) own.push_back(core::to_double(value));
-  return own;
-}
-
 /// How far along a coordinate the task is proven to be free around it.
-double room_along(const core::PoseVerification& result, std::size_t c) {
+double room_along(const core::Verification& result, std::size_t c) {
   const bool apart = result.angles[c] && !result.task.angle_length;
   const std::optional<double>& own = apart ? result.angle_margin : result.margin;
   return own.value_or(result.verified() ? 0 : core::to_double(result.task.margin)) / weight_of(result, c);
 }
 
-Extent extent_of(const core::PoseVerification& result) {
+Extent extent_of(const core::Verification& result) {
   std::vector<core::Rational> weights;
   for (std::size_t c = 0; c < result.angles.size(); ++c)
     weights.push_back(result.angles[c] && result.task.angle_length ? *result.task.angle_length : core::Rational(1));
   const auto bounds = core::bounds(result.task.shape, weights);
-  return {rounded(bounds[0]), rounded(bounds[1])};
+  return {core::rounded(bounds[0]), core::rounded(bounds[1])};
 }
 
 /// What is shown of a coordinate, in its own unit.
@@ -80,7 +74,7 @@ struct Range {
   double width() const { return upper - lower; }
 };
 
-Range range_of(const core::PoseVerification& result, const Extent& task, std::size_t c) {
+Range range_of(const core::Verification& result, const Extent& task, std::size_t c) {
   const double room = room_along(result, c);
   Range own{task.lower[c] - room, task.upper[c] + room};
   const double bare = own.width();
@@ -116,7 +110,7 @@ std::vector<Pair> pairs_of(const std::vector<bool>& angles) {
 
 class Panel {
  public:
-  Panel(const core::PoseVerification& result, const Pair& pair, const std::vector<Range>& ranges, Box box)
+  Panel(const core::Verification& result, const Pair& pair, const std::vector<Range>& ranges, Box box)
       : result_(result), pair_(pair), box_(box), x_(ranges[pair.x]), y_(pair.y ? ranges[*pair.y] : Range{0, 1}) {}
 
   void draw(const Context& context, const Extent& task) const {
@@ -156,7 +150,7 @@ class Panel {
   }
 
   /// All turned alike, so that together they fill what any of them covers.
-  void triangles(const Context& context, const core::PoseMeshShape& mesh) const {
+  void triangles(const Context& context, const core::TaskMesh& mesh) const {
     for (const std::array<int, 3>& own : mesh.triangles) {
       std::array<Place, 3> corners;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -174,18 +168,18 @@ class Panel {
   /// True where it has an inside.
   bool trace(const Context& context, const Extent& task) const {
     context->begin_new_path();
-    const auto* path = std::get_if<core::PosePathShape>(&result_.task.shape);
+    const auto* path = std::get_if<core::TaskPath>(&result_.task.shape);
     if (path != nullptr && pair_.y) {
       for (const core::RationalPose& point : path->points) {
-        const Place place = at(rounded(point));
+        const Place place = at(core::rounded(point));
         context->line_to(place[0], place[1]);
       }
       return false;
     }
-    const auto* mesh = std::get_if<core::PoseMeshShape>(&result_.task.shape);
+    const auto* mesh = std::get_if<core::TaskMesh>(&result_.task.shape);
     if (mesh != nullptr)
       triangles(context, *mesh);
-    else if (pair_.y && std::holds_alternative<core::PoseBallShape>(result_.task.shape))
+    else if (pair_.y && std::holds_alternative<core::TaskBall>(result_.task.shape))
       ellipse(context, task);
     else
       rectangle(context, task);
@@ -221,7 +215,7 @@ class Panel {
       set_colour(context, faint(colour_of(result_), 0.4));
       context->fill_preserve();
     }
-    if (std::holds_alternative<core::PoseMeshShape>(result_.task.shape)) return context->begin_new_path();
+    if (std::holds_alternative<core::TaskMesh>(result_.task.shape)) return context->begin_new_path();
     set_colour(context, colour_of(result_));
     context->set_line_width(1.6);
     if (!result_.verified()) context->set_dash(std::vector<double>{5, 4}, 0);
@@ -300,14 +294,14 @@ class Panel {
     write_text(context, label(*pair_.y), box_.x - 4, box_.y - 5, label_font, Align::right);
   }
 
-  const core::PoseVerification& result_;
+  const core::Verification& result_;
   Pair pair_;
   Box box_;
   Range x_, y_;
 };
 
 /// Coordinates of one kind are drawn to one scale, and what has no extent gets that of the others.
-std::vector<Range> ranges_of(const core::PoseVerification& result, const Extent& task) {
+std::vector<Range> ranges_of(const core::Verification& result, const Extent& task) {
   constexpr double bare = 0.1;  ///< m or rad, where nothing has any extent
   std::vector<Range> all;
   std::array<double, 2> widest{};
@@ -332,9 +326,9 @@ bool is_shown(const Pose& at, const std::vector<Range>& ranges) {
 }
 
 /// The facts of the text, but for the least reactions and notes, each with what it is drawn as.
-std::vector<std::string> legend_of(const core::PoseVerification& result, const std::vector<Range>& ranges) {
+std::vector<std::string> legend_of(const core::Verification& result, const std::vector<Range>& ranges) {
   std::vector<std::string> lines;
-  std::istringstream text(pose_verification_text(result));
+  std::istringstream text(verification_text(result));
   std::string line;
   for (int row = 0; std::getline(text, line); ++row) {
     if (row < 2) continue;  // the head
@@ -358,7 +352,7 @@ std::vector<std::string> legend_of(const core::PoseVerification& result, const s
 
 }  // namespace
 
-std::string pose_task_picture(const core::PoseVerification& result, PictureFormat format) {
+std::string task_panels(const core::Verification& result, PictureFormat format) {
   const Extent task = extent_of(result);
   const std::vector<Range> ranges = ranges_of(result, task);
   const std::vector<Pair> pairs = pairs_of(result.angles);
