@@ -10,6 +10,7 @@
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/verification.hpp"
+#include "analysis/widened_task.hpp"
 #include "core/errors.hpp"
 #include "loci/tasks/tasks.hpp"
 #include "mechanism/actions.hpp"
@@ -44,7 +45,8 @@ struct Metrics {
   bool is_angle = false;             ///< of `asked`: rad
 };
 
-Metrics metrics_of(const Mechanism& mechanism, const Task& task) {
+/// `beside`: so many coordinates behind those of the poses, which no margin grows along.
+Metrics metrics_of(const Mechanism& mechanism, const Task& task, std::size_t beside) {
   Metrics own;
   bool any_angle = false, any_length = false;
   for (const mechanism::Coordinate& c : mechanism.coordinates) (c.angle ? any_angle : any_length) = true;
@@ -58,6 +60,10 @@ Metrics metrics_of(const Mechanism& mechanism, const Task& task) {
     angles.weights.push_back(1.0);
     angles.grows.push_back(c.angle);
   }
+  for (PoseMetric* const metric : {&own.asked, &angles}) {
+    metric->weights.insert(metric->weights.end(), beside, 1.0);
+    metric->grows.insert(metric->grows.end(), beside, false);
+  }
   if (apart) own.angles = std::move(angles);
   return own;
 }
@@ -68,13 +74,13 @@ class Verifier {
       : mechanism_(mechanism),
         task_(task),
         request_(request_of(task, request)),
-        loads_(under_loads_of(task, mechanism)),
-        metrics_(metrics_of(mechanism, task)),
-        region_(task.shape, metrics_.asked),
+        widened_(mechanism, task),
+        metrics_(metrics_of(mechanism, task, widened_.beside().lower.size())),
+        region_(task.shape, metrics_.asked, widened_.beside()),
         margin_(core::to_double(task.margin)),
         sides_(requested_modes(mechanism, request_).front()) {
     side_names(mechanism, sides_);  // there is one for every dyad
-    for (const Mechanism& own : loads_) models_.push_back(numeric::compile(own));
+    for (const Mechanism& own : widened_.loads()) models_.push_back(numeric::compile(own));
     constexpr std::size_t poses = 24;
     std::vector<PoseAt> samples = region_.samples();
     if (samples.size() > poses) samples.erase(samples.begin() + 1, samples.end() - (poses - 1));
@@ -83,7 +89,7 @@ class Verifier {
     demands_ = demands;
     witness_.emplace(witness_for(demands));
     std::vector<const Mechanism*> list;
-    for (const Mechanism& own : loads_) list.push_back(&own);
+    for (const Mechanism& own : widened_.loads()) list.push_back(&own);
     statics_ = symbolic::pose_statics(list, sides_, demands);
     cell_.emplace(statics_);
   }
@@ -91,7 +97,7 @@ class Verifier {
   /// The task elsewhere, or larger or smaller.
   void place(const core::TaskShape& shape) {
     task_.shape = shape;
-    region_ = PoseRegion(shape, metrics_.asked);
+    region_ = PoseRegion(shape, metrics_.asked, widened_.beside());
     witness_.emplace(witness_for(demands_));
   }
 
@@ -100,7 +106,7 @@ class Verifier {
   bool looks_good(const core::TaskShape& shape) {
     constexpr std::size_t first_looks = 9, looks = 12;
     if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return false;
-    std::vector<PoseAt> poses = PoseRegion(shape, metrics_.asked).samples();
+    std::vector<PoseAt> poses = PoseRegion(shape, metrics_.asked, widened_.beside()).samples();
     const auto first = cell_->at(poses.front());
     if (!first) return false;
     const std::size_t stride = (poses.size() + looks - 1) / looks;
@@ -115,7 +121,7 @@ class Verifier {
   /// From a shape to the nearest locus found.
   double room(const core::TaskShape& shape) const {
     if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return 0;
-    const std::vector<NearPose> near = near_loci(PoseRegion(shape, metrics_.asked));
+    const std::vector<NearPose> near = near_loci(PoseRegion(shape, metrics_.asked, widened_.beside()));
     return near.empty() ? std::numeric_limits<double>::infinity() : near.front().distance;
   }
 
@@ -147,11 +153,7 @@ class Verifier {
     result.verdict = proof.verdict;
     result.cells = proof.cells;
     if (result.verdict == core::Verdict::undecided) {
-      using Reason = core::OpenTask::Reason;
-      result.open = core::OpenTask{proof.open, proof.lower, proof.upper,
-                                   proof.out_of_time    ? Reason::time
-                                   : proof.out_of_cells ? Reason::cells
-                                                        : Reason::doubles};
+      result.open = open_part(proof, widened_.pose_of(proof.lower), widened_.pose_of(proof.upper));
     }
     // Where a witness is in the task, one that is farther off is not the nearest.
     if (result.verdict != core::Verdict::refuted) tell_nearest(near, result);
@@ -172,35 +174,35 @@ class Verifier {
 
   core::TaskWitness told(const PoseAt& at, const numeric::TaskFailure& failure) const {
     using Kind = numeric::TaskFailure::Kind;
-    using Told = core::TaskWitness::Kind;
-    core::TaskWitness own;
-    own.at = at;
+    core::TaskWitness own = told_failure(mechanism_, models_.front(), at, sides_, failure);
+    own.at = widened_.pose_of(at);
     own.distance = region_.distance(at);
-    own.kind = failure.kind == Kind::unreachable ? Told::unreachable
-               : failure.kind == Kind::boundary  ? Told::boundary
-               : failure.kind == Kind::singular  ? Told::singular
-               : failure.kind == Kind::vanishing ? Told::vanishing
-                                                 : Told::too_small;
-    if (failure.kind == Kind::unreachable || failure.kind == Kind::boundary) own.limit = limit_at(at);
+    own.design = widened_.design(at);
     if (failure.kind != Kind::vanishing && failure.kind != Kind::too_small) return own;
-    (failure.kind == Kind::vanishing ? own.vanishing
-                                     : own.too_small) = {{failure.demand.joint, failure.demand.quantity, 1}};
-    if (failure.kind == Kind::too_small) {
-      own.size = failure.size;
-      own.least = failure.demand.least;
-    }
-    if (loads_.size() > 1) own.load = load_between(*task_.loads, failure.load);
+    if (models_.size() > 1) own.load = load_between(*task_.loads, failure.load);
+    add_loads(at, failure.load, own);
     return own;
   }
 
-  /// The limit that a pose is beyond, or that passes there to some roundings; empty where it is none.
-  std::string limit_at(const PoseAt& at) const {
-    constexpr double passes = 1e-9;  // of a limit's size
-    const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(models_.front(), at, sides_);
-    return end && end->slack <= passes ? mechanism::words_of_end(mechanism_, end->limit, end->upper) : std::string();
+  /// What loads are that may differ.
+  void add_loads(const PoseAt& at, double t, core::TaskWitness& told) const {
+    const auto posture = [&](const numeric::NumericModel& model) { return numeric::posture(model, at, sides_); };
+    const numeric::Posture first = posture(models_.front()), last = posture(models_.back());
+    if (!first.reachable() || !last.reachable()) return;
+    const std::size_t dimension = mechanism_.space == mechanism::Space::planar ? 2 : 3;
+    for (const core::LoadWithin& within : task_.loads_within) {
+      const auto &a = first.loads[within.load], &b = last.loads[within.load];
+      core::WitnessLoad load{within.load, {}, (1 - t) * a.couple[2] + t * b.couple[2]};
+      for (std::size_t c = 0; c < dimension; ++c) {
+        const auto k = static_cast<Eigen::Index>(c);
+        load.force.push_back((1 - t) * a.force[k] + t * b.force[k]);
+      }
+      told.loads.push_back(std::move(load));
+    }
   }
 
-  std::optional<core::TaskWitness> fails_at(const PoseAt& at, int demand) const {
+  std::optional<core::TaskWitness> fails_at(const PoseAt& somewhere, int demand) const {
+    const PoseAt at = widened_.settled(somewhere);
     if (!(region_.distance(at) <= margin_ + region_.hair())) return std::nullopt;
     const auto failure = witness_->failure(at, demand);
     return failure ? std::optional(told(at, *failure)) : std::nullopt;
@@ -238,7 +240,7 @@ class Verifier {
     const auto at = [&](double t) {
       PoseAt pose = from;
       for (std::size_t c = 0; c < pose.size(); ++c) pose[c] = t == 1 ? to[c] : from[c] + t * (to[c] - from[c]);
-      return pose;
+      return widened_.settled(std::move(pose));
     };
     double low = 0, high = 1;
     for (int i = 0; i < 60; ++i) {
@@ -268,7 +270,7 @@ class Verifier {
     if (near.empty()) return;
     const NearPose& first = near.front();
     core::NearestOfTask own;
-    own.at = first.at;
+    own.at = widened_.pose_of(first.at);
     own.distance = first.distance;
     own.kind = first.kind == Doubt::workspace     ? core::LocusKind::workspace_boundary
                : first.kind == Doubt::singularity ? core::LocusKind::direct_singularity
@@ -308,7 +310,7 @@ class Verifier {
         loci::pose::pose_clearance(statics_, region_, margin_, limit_of(metrics_.asked, near), margin_accuracy, effort);
     (metrics_.is_angle ? result.angle_margin : result.margin) = own;
     if (metrics_.angles) {
-      const PoseRegion turned(task_.shape, *metrics_.angles);
+      const PoseRegion turned(task_.shape, *metrics_.angles, widened_.beside());
       const std::vector<NearPose> nearer = near_loci(turned);
       result.angle_margin =
           loci::pose::pose_clearance(statics_, turned, 0, limit_of(*metrics_.angles, nearer), margin_accuracy, effort);
@@ -331,7 +333,7 @@ class Verifier {
   const Mechanism& mechanism_;
   Task task_;
   LociRequest request_;
-  std::vector<Mechanism> loads_;
+  WidenedTask widened_;
   Metrics metrics_;
   PoseRegion region_;
   double margin_;
@@ -347,7 +349,9 @@ class Verifier {
 }  // namespace
 
 Verification verify_by_statics(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
-  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
+  // Tolerances are of the file's parameters.
+  const auto parameters = task.tolerances.empty() ? mechanism::Parameters::valued : mechanism::Parameters::kept;
+  if (const std::optional<Framed> own = framed(mechanism, Scaling::none, parameters))
     return from_frame(verify_by_statics(own->mechanism, in_frame(task, own->frame), request), task, mechanism,
                       own->frame);
   if (request.fit == TaskFit::none) return Verifier(mechanism, task, request.loci).verify(request.depth);

@@ -27,41 +27,6 @@ constexpr double error_accuracy = 1e-3;
 /// What doubles leave open of a pose error, relatively, away from singularities.
 constexpr double rounding_of_pose_errors = 1e-9;
 
-double apart(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
-
-/// A way between two poses of the task or its margin that stays there: straight, or along the outline.
-core::Polyline way_within(const DesignTask& task, const Point2& from, const Point2& to) {
-  constexpr int looks = 64;
-  bool inside = true;
-  for (int i = 0; i <= looks && inside; ++i) {
-    const double t = static_cast<double>(i) / looks;
-    const Point2 at = {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])};
-    inside = task.region().signed_distance(at) <= task.margin() + 1e-12 * (1 + apart(from, to));
-  }
-  if (inside) return {from, to};
-  const core::Polyline line = core::outline(task.task().shape);
-  const auto nearest = [&](const Point2& at) {
-    const Point2 foot = task.region().closest(at);
-    std::size_t best = 1;
-    double least = 1e300;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-      const double detour = apart(line[i - 1], foot) + apart(foot, line[i]) - apart(line[i - 1], line[i]);
-      if (detour < least) least = detour, best = i;
-    }
-    return std::pair(best, foot);
-  };
-  const auto [first, out] = nearest(from);
-  const auto [last, in] = nearest(to);
-  core::Polyline way = {from, out};
-  if (first <= last)
-    for (std::size_t i = first; i < last; ++i) way.push_back(line[i]);
-  else
-    for (std::size_t i = first; i-- > last;) way.push_back(line[i]);
-  way.push_back(in);
-  way.push_back(to);
-  return way;
-}
-
 class Tolerant {
  public:
   Tolerant(const mechanism::Mechanism& mechanism, const core::Task& task, const VerifyRequest& request)
@@ -98,12 +63,8 @@ class Tolerant {
                                      judge_->greatest_displacement(*designs, error_accuracy, effort).upper());
       return;
     }
-    using Reason = core::OpenTask::Reason;
     if (result.verdict == core::Verdict::undecided) {
-      result.open = core::OpenTask{proof.open, list_of(proof.lower), list_of(proof.upper),
-                                   proof.out_of_time    ? Reason::time
-                                   : proof.out_of_cells ? Reason::cells
-                                                        : Reason::doubles};
+      result.open = open_part(proof, list_of(proof.lower), list_of(proof.upper));
       return;
     }
     result.witness = witness_of(*proof.failure);
@@ -136,7 +97,7 @@ class Tolerant {
     };
     if (judge_->sign_at(w, failure.other, to) != sign)
       return between(w, sign, [&](double t) { return std::pair(failure.other, design(t)); });
-    const core::Polyline way = way_within(task_, failure.other, failure.at);
+    const core::Polyline way = task_.region().way(failure.other, failure.at, task_.margin());
     for (std::size_t i = 1; i < way.size(); ++i) {
       if (judge_->sign_at(w, way[i], to) == sign) continue;
       const Point2 &a = way[i - 1], &b = way[i];
@@ -272,26 +233,15 @@ class Tolerant {
   core::TaskWitness described(const Point2& pose, const std::vector<double>& parameters,
                               const std::vector<numeric::DesignFailureAt>& found) const {
     using Kind = numeric::TaskFailure::Kind;
-    using Told = core::TaskWitness::Kind;
-    core::TaskWitness told;
+    const numeric::DesignFailureAt& first = found.front();
+    core::TaskWitness told =
+        told_failure(mechanism_, loads_.front(), values(pose, parameters), task_.sides(), first.failure);
+    told.limit.clear();  // those of the file's own design are told
     told.at = list_of(pose);
     told.distance = std::max(0.0, task_.region().signed_distance(pose));
     for (std::size_t p = 0; p < parameters.size(); ++p)
       told.design.emplace_back(task_.design().varied[p], parameters[p]);
-    const numeric::DesignFailureAt& first = found.front();
-    const Kind kind = first.failure.kind;
-    told.kind = kind == Kind::unreachable ? Told::unreachable
-                : kind == Kind::boundary  ? Told::boundary
-                : kind == Kind::singular  ? Told::singular
-                : kind == Kind::vanishing ? Told::vanishing
-                                          : Told::too_small;
-    if (kind != Kind::vanishing && kind != Kind::too_small) return told;
-    const core::Vanishing reaction = {first.failure.demand.joint, first.failure.demand.quantity, 1};
-    (kind == Kind::vanishing ? told.vanishing : told.too_small).push_back(reaction);
-    if (kind == Kind::too_small) {
-      told.size = first.failure.size;
-      told.least = first.failure.demand.least;
-    }
+    if (first.failure.kind != Kind::vanishing && first.failure.kind != Kind::too_small) return told;
     add_loads(told, first, parameters);
     return told;
   }

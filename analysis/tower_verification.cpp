@@ -91,7 +91,8 @@ class Verifier {
     const loci::TaskProof proof = prove(region, margin, judge, result.witness);
     result.verdict = proof.verdict;
     result.cells = proof.cells;
-    if (result.verdict == Verdict::undecided) result.open = open_part(proof);
+    if (result.verdict == Verdict::undecided)
+      result.open = open_part(proof, list_of(proof.lower), list_of(proof.upper));
     if (result.verified() && depth != VerifyDepth::verdict) {
       progress("margin");
       prove_margin(region, margin, result);
@@ -222,63 +223,22 @@ class Verifier {
   core::Rational unit() const { return mechanism_.frame ? mechanism_.frame->scale : core::Rational(1); }
 
   TaskWitness described(const Point2& at, const std::vector<TaskFailure>& failures, double distance) const {
-    TaskWitness witness;
-    witness.at = list_of(at);
-    witness.distance = std::max(0.0, distance);
-    const TaskFailure& first = failures.front();
     using Kind = TaskFailure::Kind;
-    const auto reactions = [&] {
-      std::vector<core::Vanishing> list;
-      for (const TaskFailure& failure : failures)
-        if (failure.kind == first.kind && failure.load == first.load)
-          list.push_back({failure.demand.joint, failure.demand.quantity, 1});
-      return list;
-    };
-    switch (first.kind) {
-      case Kind::unreachable:
-        witness.kind = TaskWitness::Kind::unreachable;
-        witness.limit = limit_at(at);
-        break;
-      case Kind::boundary:
-        witness.kind = TaskWitness::Kind::boundary;
-        witness.limit = limit_at(at);
-        break;
-      case Kind::singular:
-        witness.kind = TaskWitness::Kind::singular;
-        break;
-      case Kind::vanishing:
-        witness.kind = TaskWitness::Kind::vanishing;
-        witness.vanishing = reactions();
-        break;
-      case Kind::too_small: {
-        witness.kind = TaskWitness::Kind::too_small;
-        witness.too_small = reactions();
-        const Quantity q = first.demand.quantity;
-        const core::Rational outside = q == Quantity::M || q == Quantity::T ? unit() : core::Rational(1);
-        witness.size = core::to_double(outside) * first.size;
-        witness.least = first.demand.least * outside;
-        break;
-      }
+    const TaskFailure& first = failures.front();
+    TaskWitness witness = told_failure(mechanism_, cases_.front().model, list_of(at), sides_, first);
+    witness.distance = std::max(0.0, distance);
+    if (first.kind != Kind::vanishing && first.kind != Kind::too_small) return witness;
+    std::vector<core::Vanishing>& reactions = first.kind == Kind::vanishing ? witness.vanishing : witness.too_small;
+    for (std::size_t i = 1; i < failures.size(); ++i)
+      if (failures[i].kind == first.kind && failures[i].load == first.load)
+        reactions.push_back({failures[i].demand.joint, failures[i].demand.quantity, 1});
+    const Quantity q = first.demand.quantity;
+    if (first.kind == Kind::too_small && (q == Quantity::M || q == Quantity::T)) {
+      *witness.size *= core::to_double(unit());
+      *witness.least *= unit();
     }
-    if (task_.loads && (first.kind == Kind::vanishing || first.kind == Kind::too_small))
-      witness.load = load_between(*task_.loads, first.load);
+    if (task_.loads) witness.load = load_between(*task_.loads, first.load);
     return witness;
-  }
-
-  /// The limit that a pose out of the workspace is beyond, or that passes there; empty where it is none.
-  /// `passes`: of a limit's size; poses on a boundary are told to some roundings.
-  std::string limit_at(const Point2& at, double passes = 1e-9) const {
-    const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(cases_.front().model, at, sides_);
-    if (!end || end->slack > passes) return {};
-    return mechanism::words_of_end(mechanism_, end->limit, end->upper);
-  }
-
-  static OpenTask open_part(const loci::TaskProof& proof) {
-    using Reason = OpenTask::Reason;
-    return {proof.open, list_of(proof.lower), list_of(proof.upper),
-            proof.out_of_time    ? Reason::time
-            : proof.out_of_cells ? Reason::cells
-                                 : Reason::doubles};
   }
 
   /// From the traced loci. Under a range of loads they are those of its ends, and the loads between have others.
@@ -324,7 +284,8 @@ class Verifier {
     nearest.kind = clearance.kind;
     // Of the last cell that stayed open: it is within its size of what bounds it.
     constexpr double near = 1e-3;
-    if (clearance.kind == core::LocusKind::workspace_boundary) nearest.limit = limit_at(*clearance.at, near);
+    if (clearance.kind == core::LocusKind::workspace_boundary)
+      nearest.limit = limit_at(mechanism_, cases_.front().model, *clearance.at, sides_, near);
     if (clearance.condition >= 0) {
       const core::TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(clearance.condition)];
       nearest.vanishing = condition.reactions;

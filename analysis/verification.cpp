@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "analysis/design_task.hpp"
 #include "analysis/loci.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/read_task.hpp"
 
 namespace clearloci {
@@ -16,6 +16,15 @@ namespace {
 
 using core::InputError;
 using mechanism::Mechanism;
+
+bool is_spatial(const Mechanism& mechanism) { return mechanism.space == mechanism::Space::spatial; }
+
+/// The tower answers over two lengths, but for loads that vary in space and what it does not move or scale.
+bool is_asked_of_tower(const Mechanism& mechanism, const Task& task, TaskFit fit) {
+  if (!mechanism::is_plane(mechanism)) return false;
+  if (is_spatial(mechanism) && (task.loads || !task.loads_within.empty())) return false;
+  return fit != TaskFit::largest && (fit == TaskFit::none || !is_tolerant(task));
+}
 
 /// What is not answered, and why: the one place.
 void require_answerable(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
@@ -25,33 +34,52 @@ void require_answerable(const Mechanism& mechanism, const Task& task, const Veri
   if (request.loci.all_working_modes || request.loci.working_modes.size() > 1)
     throw InputError({.file = "--working-mode"}, "a task is verified in one working mode",
                      "give one side for each dyad");
-  const std::string asked = !task.tolerances.empty()     ? "tolerances are"
-                            : !task.loads_within.empty() ? "loads_within are"
-                            : task.pose_error            ? "pose_error is"
-                                                         : "";
-  if (!is_asked_of_tower(mechanism, task)) {
-    const bool plane = mechanism::is_plane(mechanism);
-    if (!asked.empty())
-      refuse(asked + (plane ? " not asked together with loads_from in space"
-                            : " asked of tasks in the plane of two lengths"),
-             plane ? "leave one of them out" : "leave it out, or make the other coordinates parameters");
-    if (std::holds_alternative<core::TaskPolygon>(task.shape))
-      refuse(plane ? "loads_from is not asked of polygons in space" : "a polygon is asked of the plane of two lengths",
-             "write a box, a ball or a path");
-    return;
-  }
-  if (!asked.empty()) require_asked_of_designs(mechanism, task);
-  if (request.fit == TaskFit::largest)
-    refuse("the largest scale is looked for over other than two lengths", "choose from nearest, best");
-  if (request.fit != TaskFit::none && !asked.empty())
-    refuse("a task with tolerances, loads_within or pose_error is verified where it lies",
-           "leave out --fit, or these keys");
+  if (!task.pose_error) return;
+  if (!mechanism::is_plane(mechanism))
+    refuse("pose_error is proven over two lengths, and " + mechanism.file + " has other free coordinates",
+           "leave it out, or make the other coordinates parameters");
+  if (is_spatial(mechanism))
+    refuse("pose_error is proven in the plane, and " + mechanism.file + " is spatial", "leave it out");
+  if (request.fit != TaskFit::none)
+    refuse("a task with a pose_error is verified where it lies", "leave out --fit, or the pose_error");
 }
 
 }  // namespace
 
-bool is_asked_of_tower(const Mechanism& mechanism, const Task& task) {
-  return mechanism::is_plane(mechanism) && !(task.loads && mechanism.space == mechanism::Space::spatial);
+std::string limit_at(const Mechanism& mechanism, const numeric::NumericModel& model, std::span<const double> at,
+                     const DyadSides& sides, double passes) {
+  const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(model, at, sides);
+  return end && end->slack <= passes ? mechanism::words_of_end(mechanism, end->limit, end->upper) : std::string();
+}
+
+core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::NumericModel& model, std::vector<double> at,
+                               const DyadSides& sides, const numeric::TaskFailure& failure) {
+  using Kind = numeric::TaskFailure::Kind;
+  using Told = core::TaskWitness::Kind;
+  core::TaskWitness told;
+  told.at = std::move(at);
+  const std::vector<core::Vanishing> reaction = {{failure.demand.joint, failure.demand.quantity, 1}};
+  switch (failure.kind) {
+    case Kind::unreachable:
+    case Kind::boundary:
+      told.kind = failure.kind == Kind::boundary ? Told::boundary : Told::unreachable;
+      told.limit = limit_at(mechanism, model, told.at, sides);
+      break;
+    case Kind::singular:
+      told.kind = Told::singular;
+      break;
+    case Kind::vanishing:
+      told.kind = Told::vanishing;
+      told.vanishing = reaction;
+      break;
+    case Kind::too_small:
+      told.kind = Told::too_small;
+      told.too_small = reaction;
+      told.size = failure.size;
+      told.least = failure.demand.least;
+      break;
+  }
+  return told;
 }
 
 Verification verify(const Model& model, const Task& task, const VerifyRequest& request) {
@@ -59,8 +87,8 @@ Verification verify(const Model& model, const Task& task, const VerifyRequest& r
   check_request(mechanism, request.loci);
   check_task(mechanism, task);
   require_answerable(mechanism, task, request);
-  Verification result = is_asked_of_tower(mechanism, task) ? verify_by_tower(mechanism, task, request)
-                                                           : verify_by_statics(mechanism, task, request);
+  Verification result = is_asked_of_tower(mechanism, task, request.fit) ? verify_by_tower(mechanism, task, request)
+                                                                        : verify_by_statics(mechanism, task, request);
   result.mechanism = mechanism.name;
   result.units = mechanism.units;
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {

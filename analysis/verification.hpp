@@ -8,15 +8,38 @@
 // Private to analysis/.
 #pragma once
 
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "clearloci/verify.hpp"
 #include "mechanism/mechanism.hpp"
+#include "numeric/task_witness.hpp"
 
 namespace clearloci {
 
-inline std::vector<double> list_of(const core::Point2& at) { return {at[0], at[1]}; }
+/// What all three tell alike of a failure: its kind and the limit that is broken; of a reaction which, how large it is
+/// and how large it has to be.
+core::TaskWitness told_failure(const mechanism::Mechanism& mechanism, const numeric::NumericModel& model,
+                               std::vector<double> at, const DyadSides& sides, const numeric::TaskFailure& failure);
 
-/// Whether the tower answers: over two lengths, and not for loads that turn in space.
-bool is_asked_of_tower(const mechanism::Mechanism& mechanism, const core::Task& task);
+/// The limit that a pose is beyond, or that passes there; empty where it is none. `passes`: of a limit's size; poses on
+/// a boundary are told to some roundings.
+std::string limit_at(const mechanism::Mechanism& mechanism, const numeric::NumericModel& model,
+                     std::span<const double> at, const DyadSides& sides, double passes = 1e-9);
+
+/// What a proof leaves open.
+template <class Proof>
+core::OpenTask open_part(const Proof& proof, std::vector<double> lower, std::vector<double> upper) {
+  using Reason = core::OpenTask::Reason;
+  return {proof.open, std::move(lower), std::move(upper),
+          proof.out_of_time    ? Reason::time
+          : proof.out_of_cells ? Reason::cells
+                               : Reason::doubles};
+}
+
+inline std::vector<double> list_of(const core::Point2& at) { return {at[0], at[1]}; }
 
 /// Without names and units, which verification.cpp adds. Traced loci and zones come after the verdict: they name what
 /// is near and are drawn, and prove nothing. So a sketch of them is enough (loci::TraceOptions::sketch), unless the

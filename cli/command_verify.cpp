@@ -113,15 +113,15 @@ Command add_verify_command(CLI::App& program) {
   const auto arguments = std::make_shared<VerifyCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("TASK", arguments->task,
-                  "The task file: a box, circle, polygon or path; over other than two lengths a box, ball or path, "
-                  "over three a mesh")
+                  "The task file: a box, ball (over two lengths a circle), polygon or path of poses, over three lengths "
+                  "a mesh")
       ->required();
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
   app->add_option(
          "--fit", arguments->fit,
-         "Move the task: to the nearest place that verifies, or to the best, with the largest margin; over other "
-         "than two lengths also the largest scale of it")
+         "Move the task: to the nearest place that verifies, or to the best, with the largest margin; or scale it, to "
+         "the largest that verifies")
       ->type_name("nearest|best|largest")
       ->expected(0, 1)
       ->default_str("nearest");

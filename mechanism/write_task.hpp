@@ -11,7 +11,7 @@ namespace clearloci::mechanism {
 /// The file's unit of length, m, exactly.
 Rational length_unit(const Units& units);
 
-/// Required: no mesh, no tolerances and no loads_within.
+/// Required: no mesh.
 std::string task_text(const core::Task& task, const Mechanism& mechanism);
 
 }  // namespace clearloci::mechanism

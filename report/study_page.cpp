@@ -170,7 +170,7 @@ std::string recommended(const StudyResult& result, const std::vector<core::Verif
   page += table(rows) + "<p>The mechanism file is best.yaml, ready for every other command.</p>\n";
   for (std::size_t t = 0; t < proofs.size(); ++t) {
     if (proofs.size() > 1) page += fmt::format("<h3>Task {}</h3>\n", t + 1);
-    page += "<pre>" + escape_xml(verification_text(proofs[t], false)) + "</pre>\n";
+    page += "<pre>" + escape_xml(verification_text(proofs[t])) + "</pre>\n";
     if (!proofs[t].map.loci.tower.coordinates.empty())
       page += image(verification_picture(proofs[t], PictureFormat::svg), "The task among the loci");
   }

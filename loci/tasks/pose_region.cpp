@@ -62,7 +62,8 @@ std::vector<Pose> samples_in(const Solid& solid) {
 
 }  // namespace
 
-PoseRegion::PoseRegion(const core::TaskShape& shape, PoseMetric metric) : metric_(std::move(metric)) {
+PoseRegion::PoseRegion(const core::TaskShape& shape, PoseMetric metric, PoseBeside beside)
+    : metric_(std::move(metric)), shaped_(metric_.weights.size() - beside.lower.size()), beside_(std::move(beside)) {
   if (const auto* box = std::get_if<core::TaskBox>(&shape)) {
     lower_ = core::rounded(box->lower);
     upper_ = core::rounded(box->upper);
@@ -80,6 +81,26 @@ PoseRegion::PoseRegion(const core::TaskShape& shape, PoseMetric metric) : metric
     lower_.assign(solid_->bounds().lower.begin(), solid_->bounds().lower.end());
     upper_.assign(solid_->bounds().upper.begin(), solid_->bounds().upper.end());
     points_ = samples_in(*solid_);
+  } else if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) {
+    kind_ = Kind::polygon;
+    across_ = polygon->across;
+    const auto [low, high] = core::bounds(shape);
+    lower_ = core::rounded(low);
+    upper_ = core::rounded(high);
+    core::TaskPolygon alone;
+    for (const core::RationalPose& corner : polygon->corners)
+      alone.corners.push_back({corner[across_[0]], corner[across_[1]]});
+    plane_.emplace(core::TaskShape(std::move(alone)));
+    for (const core::Point2& at : plane_->samples()) {
+      Pose pose = lower_;
+      for (std::size_t c = 0; c < pose.size(); ++c) {
+        const std::size_t k = points_.size();  // the middle, then corners and what lies between them in turn
+        const double part = k == 0 ? 0.5 : k % 2 == 1 ? static_cast<double>(k / 2 >> c & 1) : spread(k, 2 + c);
+        pose[c] += part * (upper_[c] - lower_[c]);
+      }
+      for (std::size_t i = 0; i < 2; ++i) pose[across_[i]] = at[i];
+      points_.push_back(std::move(pose));
+    }
   } else {
     kind_ = Kind::path;
     for (const core::RationalPose& point : std::get<core::TaskPath>(shape).points)
@@ -91,8 +112,53 @@ PoseRegion::PoseRegion(const core::TaskShape& shape, PoseMetric metric) : metric
         upper_[c] = std::max(upper_[c], point[c]);
       }
   }
+  lower_.insert(lower_.end(), beside_.lower.begin(), beside_.lower.end());
+  upper_.insert(upper_.end(), beside_.upper.begin(), beside_.upper.end());
+  for (std::size_t i = 0; i < points_.size() && !beside_.lower.empty(); ++i) points_[i] = with_beside(points_[i], i);
   for (std::size_t c = 0; c < lower_.size(); ++c)
     hair_ = std::max(hair_, hair_of_size * (std::abs(lower_[c]) + std::abs(upper_[c])));
+}
+
+void PoseRegion::clamp_beside(Pose& pose) const {
+  for (std::size_t c = shaped_; c < pose.size(); ++c) pose[c] = std::clamp(pose[c], lower_[c], upper_[c]);
+  for (const PoseBeside::Ball& ball : beside_.balls) {
+    double square = 0;
+    const auto each = [&](const auto& act) {
+      for (std::size_t c = shaped_ + ball.first; c < shaped_ + ball.first + ball.count; ++c)
+        act(pose[c], 0.5 * (lower_[c] + upper_[c]));
+    };
+    each([&](double value, double middle) { square += (value - middle) * (value - middle); });
+    const double far = std::sqrt(square);
+    if (far > ball.radius)
+      each([&](double& value, double middle) { value = middle + (value - middle) * (ball.radius / far); });
+  }
+}
+
+bool PoseRegion::is_beyond_ball(const PoseBox& box, std::size_t offset) const {
+  for (const PoseBeside::Ball& ball : beside_.balls) {
+    double square = 0;
+    for (std::size_t k = ball.first; k < ball.first + ball.count; ++k) {
+      const double middle = 0.5 * (lower_[shaped_ + k] + upper_[shaped_ + k]);
+      const double off = gap(box[offset + k][0], box[offset + k][1], middle, middle);
+      square += off * off;
+    }
+    if (below * std::sqrt(square) > ball.radius + hair_) return true;
+  }
+  return false;
+}
+
+Pose PoseRegion::with_beside(Pose pose, std::size_t number) const {
+  constexpr std::array<std::size_t, 6> bases = {2, 3, 5, 7, 11, 13};
+  pose.resize(shaped_);
+  for (std::size_t k = 0; k < beside_.lower.size(); ++k) {
+    const bool corner = number % 2 == 1;
+    const double part = number == 0 ? 0.5
+                        : corner    ? static_cast<double>(number / 2 >> (k % 16) & 1)
+                                    : spread(number, bases[k % bases.size()]);
+    pose.push_back(beside_.lower[k] + part * (beside_.upper[k] - beside_.lower[k]));
+  }
+  clamp_beside(pose);
+  return pose;
 }
 
 std::vector<PosePiece> PoseRegion::pieces(double margin) const {
@@ -119,12 +185,18 @@ std::vector<PosePiece> PoseRegion::pieces(double margin) const {
     piece.chart.ways.push_back(std::move(along));
     piece.box.push_back({0, 1});
     // The hair is of the path's own rounding: it has no thickness where nothing is asked around it.
-    for (std::size_t c = 0; c < n && margin > 0; ++c) {
-      if (!metric_.grows[c]) continue;
+    for (std::size_t c = 0; c < n; ++c) {
+      if (c < shaped_ && (!metric_.grows[c] || !(margin > 0))) continue;
       Pose way(n, 0.0);
       way[c] = 1;
       piece.chart.ways.push_back(std::move(way));
-      piece.box.push_back({-reach(c), reach(c)});
+      if (c < shaped_) {
+        piece.box.push_back({-reach(c), reach(c)});
+        continue;
+      }
+      piece.chart.base[c] = 0;
+      piece.chart.ways.front()[c] = 0;
+      piece.box.push_back({lower_[c] - hair_, upper_[c] + hair_});
     }
   }
   return all;
@@ -132,8 +204,9 @@ std::vector<PosePiece> PoseRegion::pieces(double margin) const {
 
 double PoseRegion::distance(const PosePiece& piece, const PoseBox& box) const {
   double square = 0;
+  if (is_beyond_ball(box, box.size() - beside_.lower.size())) return infinite;
   if (kind_ == Kind::path) {
-    for (std::size_t j = 1; j < box.size(); ++j) {
+    for (std::size_t j = 1; j < box.size() - beside_.lower.size(); ++j) {
       const Pose& way = piece.chart.ways[j];
       const auto c = static_cast<std::size_t>(std::find(way.begin(), way.end(), 1.0) - way.begin());
       const double off = metric_.weights[c] * gap(box[j][0], box[j][1], 0, 0);
@@ -143,7 +216,17 @@ double PoseRegion::distance(const PosePiece& piece, const PoseBox& box) const {
   }
   if (kind_ == Kind::mesh)
     return below * solid_->distance({{box[0][0], box[1][0], box[2][0]}, {box[0][1], box[1][1], box[2][1]}});
-  for (std::size_t c = 0; c < box.size(); ++c) {
+  if (kind_ == Kind::polygon) {
+    const auto& [i, j] = across_;
+    const double off = plane_->distance({box[i][0], box[i][1]}, {box[j][0], box[j][1]});
+    square = off * off;
+    for (std::size_t c = 0; c < shaped_; ++c) {
+      if (c == i || c == j || !metric_.grows[c]) continue;
+      square += std::pow(metric_.weights[c] * gap(box[c][0], box[c][1], lower_[c], upper_[c]), 2);
+    }
+    return below * std::sqrt(square);
+  }
+  for (std::size_t c = 0; c < shaped_; ++c) {
     const double off = metric_.weights[c] * (kind_ == Kind::box ? gap(box[c][0], box[c][1], lower_[c], upper_[c])
                                                                 : gap(box[c][0], box[c][1], centre_[c], centre_[c]));
     if (kind_ == Kind::box && !metric_.grows[c]) continue;
@@ -157,8 +240,8 @@ double PoseRegion::apart(const Pose& a, const Pose& b) const {
   for (std::size_t c = 0; c < a.size(); ++c) {
     const double off = metric_.weights[c] * (a[c] - b[c]);
     // Off a held coordinate there is nothing but the hair.
-    if (!metric_.grows[c] && kind_ != Kind::ball && std::abs(a[c] - b[c]) > 2 * hair_) return infinite;
-    if (metric_.grows[c] || kind_ == Kind::ball) square += off * off;
+    if (is_held(c) && std::abs(a[c] - b[c]) > 2 * hair_) return infinite;
+    if (!is_held(c)) square += off * off;
   }
   return std::sqrt(square);
 }
@@ -174,7 +257,7 @@ std::pair<std::size_t, double> PoseRegion::foot(const Pose& pose) const {
   double least = infinite;
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
     double along = 0, length2 = 0;
-    for (std::size_t c = 0; c < pose.size(); ++c) {
+    for (std::size_t c = 0; c < shaped_; ++c) {
       const double w2 = metric_.weights[c] * metric_.weights[c], way = points_[i + 1][c] - points_[i][c];
       along += w2 * way * (pose[c] - points_[i][c]);
       length2 += w2 * way * way;
@@ -182,7 +265,7 @@ std::pair<std::size_t, double> PoseRegion::foot(const Pose& pose) const {
     const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
     const Pose at = on_segment(i, t);
     double square = 0;
-    for (std::size_t c = 0; c < pose.size(); ++c) square += std::pow(metric_.weights[c] * (pose[c] - at[c]), 2);
+    for (std::size_t c = 0; c < shaped_; ++c) square += std::pow(metric_.weights[c] * (pose[c] - at[c]), 2);
     if (square < least) {
       least = square;
       best = {i, t};
@@ -194,26 +277,35 @@ std::pair<std::size_t, double> PoseRegion::foot(const Pose& pose) const {
 Pose PoseRegion::closest(const Pose& pose) const {
   if (kind_ == Kind::path) {
     const auto [segment, t] = foot(pose);
-    return on_segment(segment, t);
+    Pose own = on_segment(segment, t);
+    std::copy(pose.begin() + static_cast<std::ptrdiff_t>(shaped_), pose.end(),
+              own.begin() + static_cast<std::ptrdiff_t>(shaped_));
+    clamp_beside(own);
+    return own;
   }
   if (kind_ == Kind::mesh) return nearest_in_solid(pose);
   Pose own = pose;
-  if (kind_ == Kind::box) {
-    for (std::size_t c = 0; c < own.size(); ++c) own[c] = std::clamp(own[c], lower_[c], upper_[c]);
+  clamp_beside(own);
+  if (kind_ == Kind::box || kind_ == Kind::polygon) {
+    for (std::size_t c = 0; c < shaped_; ++c) own[c] = std::clamp(own[c], lower_[c], upper_[c]);
+    if (kind_ == Kind::box) return own;
+    const core::Point2 at = plane_->closest(in_plane(pose));
+    for (std::size_t i = 0; i < 2; ++i) own[across_[i]] = at[i];
     return own;
   }
   double square = 0;
-  for (std::size_t c = 0; c < own.size(); ++c) square += std::pow(metric_.weights[c] * (own[c] - centre_[c]), 2);
+  for (std::size_t c = 0; c < shaped_; ++c) square += std::pow(metric_.weights[c] * (own[c] - centre_[c]), 2);
   const double far = std::sqrt(square);
   if (far > radius_)
-    for (std::size_t c = 0; c < own.size(); ++c) own[c] = centre_[c] + (own[c] - centre_[c]) * (radius_ / far);
+    for (std::size_t c = 0; c < shaped_; ++c) own[c] = centre_[c] + (own[c] - centre_[c]) * (radius_ / far);
   return own;
 }
 
 Pose PoseRegion::farthest_along(std::size_t coordinate, double way) const {
   if (points_.empty()) {
-    Pose own = kind_ == Kind::ball ? centre_ : lower_;
-    for (std::size_t c = 0; c < own.size(); ++c) own[c] += 0.5 * (kind_ == Kind::ball ? 0 : upper_[c] - lower_[c]);
+    Pose own = lower_;
+    for (std::size_t c = 0; c < own.size(); ++c)
+      own[c] = kind_ == Kind::ball && c < shaped_ ? centre_[c] : own[c] + 0.5 * (upper_[c] - own[c]);
     own[coordinate] = way > 0 ? upper_[coordinate] : lower_[coordinate];
     return own;
   }
@@ -224,7 +316,12 @@ Pose PoseRegion::farthest_along(std::size_t coordinate, double way) const {
 double PoseRegion::distance(const Pose& pose) const { return apart(pose, closest(pose)); }
 
 Pose PoseRegion::nearest_in_solid(const Pose& pose) const {
-  return solid_->holds(point_of(pose)) ? pose : pose_of(solid_->nearest_of_surface(point_of(pose)));
+  Pose own = pose;
+  clamp_beside(own);
+  if (solid_->holds(point_of(pose))) return own;
+  const Solid::Point at = solid_->nearest_of_surface(point_of(pose));
+  std::copy(at.begin(), at.end(), own.begin());
+  return own;
 }
 
 bool PoseRegion::seems_inside(const Pose& from, const Pose& to) const {
@@ -238,19 +335,22 @@ bool PoseRegion::seems_inside(const Pose& from, const Pose& to) const {
 }
 
 bool PoseRegion::holds_way(const Pose& from, const Pose& to, double margin) const {
-  if (kind_ != Kind::mesh) return true;  // the others are convex, or a way of theirs is
+  if (kind_ != Kind::mesh && kind_ != Kind::polygon) return true;  // the others are convex, or a way of theirs is
   double square = 0;
   for (std::size_t c = 0; c < from.size(); ++c) square += (to[c] - from[c]) * (to[c] - from[c]);
   const double length = std::sqrt(square), off = distance(from);
   if (off + length <= margin + hair_) return true;
   // A ball around `from` that no triangle meets lies in the solid as a whole.
   if (off > 0) return false;
-  const Pose rim = pose_of(solid_->nearest_of_surface(point_of(from)));
-  return length <= below * apart(from, rim);
+  if (kind_ == Kind::polygon) return length <= -below * plane_->signed_distance(in_plane(from));
+  const Solid::Point rim = solid_->nearest_of_surface(point_of(from));
+  return length <= below * std::sqrt(std::pow(from[0] - rim[0], 2) + std::pow(from[1] - rim[1], 2) +
+                                     std::pow(from[2] - rim[2], 2));
 }
 
 std::vector<Pose> PoseRegion::way(const Pose& from, const Pose& to) const {
   if (kind_ == Kind::mesh) return way_in_solid(from, to);
+  if (kind_ == Kind::polygon) return way_in_polygon(from, to);
   if (kind_ != Kind::path) return {from, to};
   const auto [first, s] = foot(from);
   const auto [last, t] = foot(to);
@@ -258,7 +358,24 @@ std::vector<Pose> PoseRegion::way(const Pose& from, const Pose& to) const {
   for (std::size_t i = first; i < last; ++i) way.push_back(points_[i + 1]);
   for (std::size_t i = first; i > last; --i) way.push_back(points_[i]);
   way.push_back(on_segment(last, t));
+  for (std::size_t i = 1; i < way.size(); ++i)
+    std::copy(from.begin() + static_cast<std::ptrdiff_t>(shaped_), from.end(),
+              way[i].begin() + static_cast<std::ptrdiff_t>(shaped_));
   way.push_back(to);
+  return way;
+}
+
+/// Straight where that looks inside, else along the outline, with the other values on the way between.
+std::vector<Pose> PoseRegion::way_in_polygon(const Pose& from, const Pose& to) const {
+  const core::Polyline line = plane_->way(in_plane(from), in_plane(to), hair_);
+  std::vector<Pose> way;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(line.size() - 1);
+    Pose pose = from;
+    for (std::size_t c = 0; c < pose.size(); ++c) pose[c] += part * (to[c] - from[c]);
+    for (std::size_t k = 0; k < 2; ++k) pose[across_[k]] = line[i][k];
+    way.push_back(std::move(pose));
+  }
   return way;
 }
 
@@ -293,15 +410,19 @@ std::vector<Pose> PoseRegion::way_in_solid(const Pose& from, const Pose& to) con
 }
 
 std::vector<Pose> PoseRegion::samples() const {
-  if (kind_ == Kind::mesh) return points_;
+  if (kind_ == Kind::mesh || kind_ == Kind::polygon) return points_;
   std::vector<Pose> all;
-  const std::size_t n = coordinates();
+  const std::size_t n = shaped_;
+  const auto told = [&] {
+    for (std::size_t i = 0; i < all.size() && !beside_.lower.empty(); ++i) all[i] = with_beside(all[i], i);
+    return all;
+  };
   if (kind_ == Kind::path) {
     constexpr std::size_t looks = 16;
     for (std::size_t i = 0; i + 1 < points_.size(); ++i)
       for (std::size_t k = 0; k < looks; ++k) all.push_back(on_segment(i, static_cast<double>(k) / looks));
     all.push_back(points_.back());
-    return all;
+    return told();
   }
   const auto inside = [&](const std::vector<double>& part) {
     Pose pose(n);
@@ -320,7 +441,7 @@ std::vector<Pose> PoseRegion::samples() const {
     for (std::size_t c = 0; c < n; ++c) part[c] = spread(i, bases[c]);
     all.push_back(inside(part));
   }
-  return all;
+  return told();
 }
 
 }  // namespace clearloci::loci::pose

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "clearloci/verify.hpp"
 #include "loci/sheet/sheet.hpp"
 #include "loci/tasks/solid.hpp"
+#include "loci/tasks/task_region.hpp"
 
 namespace clearloci::loci::pose {
 
@@ -17,6 +19,18 @@ namespace clearloci::loci::pose {
 struct PoseMetric {
   std::vector<double> weights;
   std::vector<bool> grows;
+};
+
+/// Coordinates behind those of the shape, whatever its pose: designs and loads that a task is asked for at once. The
+/// margin does not grow along them.
+struct PoseBeside {
+  Pose lower, upper;  ///< a value each
+  /// Some of them that follow one another are those of a ball about the middle of their ranges.
+  struct Ball {
+    std::size_t first = 0, count = 0;
+    double radius = 0;
+  };
+  std::vector<Ball> balls = {};
 };
 
 /// A part of the task and its margin: parameters, poses over them, and how far from the task they are at least.
@@ -28,7 +42,8 @@ struct PosePiece {
 
 class PoseRegion {
  public:
-  PoseRegion(const core::TaskShape& shape, PoseMetric metric);
+  /// `metric`: of all coordinates, those beside the shape among them.
+  PoseRegion(const core::TaskShape& shape, PoseMetric metric, PoseBeside beside = {});
 
   /// Pieces that together hold every pose within `margin` of the task, and a hair more.
   std::vector<PosePiece> pieces(double margin) const;
@@ -57,17 +72,31 @@ class PoseRegion {
   std::pair<std::size_t, double> foot(const Pose& pose) const;
   Pose on_segment(std::size_t segment, double t) const;
 
+  bool is_held(std::size_t c) const { return c >= shaped_ || (!metric_.grows[c] && kind_ != Kind::ball); }
+  /// Into the ranges beside the shape.
+  void clamp_beside(Pose& pose) const;
+  /// How far a box is from a ball beside the shape at most: whether it is beyond one.
+  bool is_beyond_ball(const PoseBox& box, std::size_t offset) const;
+  /// A pose of the shape with values beside it, the middle ones first.
+  Pose with_beside(Pose pose, std::size_t number) const;
+  core::Point2 in_plane(const Pose& pose) const { return {pose[across_[0]], pose[across_[1]]}; }
+  std::vector<Pose> way_in_polygon(const Pose& from, const Pose& to) const;
+
   PoseMetric metric_;
+  std::size_t shaped_ = 0;  ///< coordinates of the shape
+  PoseBeside beside_;
   Pose nearest_in_solid(const Pose& pose) const;
   std::vector<Pose> way_in_solid(const Pose& from, const Pose& to) const;
   bool seems_inside(const Pose& from, const Pose& to) const;
 
-  enum class Kind { box, ball, path, mesh } kind_ = Kind::box;
+  enum class Kind { box, ball, polygon, path, mesh } kind_ = Kind::box;
   Pose lower_, upper_;  ///< of a box; the box around anything
   Pose centre_;
   double radius_ = 0;
-  std::vector<Pose> points_;            ///< of a path; of a mesh those that samples() tells
+  std::vector<Pose> points_;            ///< of a path; of a polygon and a mesh those that samples() tells
   std::shared_ptr<const Solid> solid_;  ///< of a mesh
+  std::optional<TaskRegion> plane_;     ///< of a polygon, across these two coordinates
+  std::array<std::size_t, 2> across_{};
   double hair_ = 0;
 };
 

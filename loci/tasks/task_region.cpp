@@ -195,6 +195,38 @@ TaskRegion::Nearest TaskRegion::nearest(const Polyline& polygon) const {
   return {std::sqrt(least), best};
 }
 
+Polyline TaskRegion::way(const Point2& from, const Point2& to, double margin) const {
+  const auto apart = [](const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); };
+  constexpr int looks = 64;
+  bool inside = true;
+  for (int i = 0; i <= looks && inside; ++i) {
+    const double t = static_cast<double>(i) / looks;
+    const Point2 at = {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])};
+    inside = signed_distance(at) <= margin + 1e-12 * (1 + apart(from, to));
+  }
+  if (inside) return {from, to};
+  const auto nearest = [&](const Point2& at) {
+    const Point2 foot = closest(at);
+    std::size_t best = 1;
+    double least = 1e300;
+    for (std::size_t i = 1; i < line_.size(); ++i) {
+      const double detour = apart(line_[i - 1], foot) + apart(foot, line_[i]) - apart(line_[i - 1], line_[i]);
+      if (detour < least) least = detour, best = i;
+    }
+    return std::pair(best, foot);
+  };
+  const auto [first, out] = nearest(from);
+  const auto [last, in] = nearest(to);
+  Polyline way = {from, out};
+  if (first <= last)
+    for (std::size_t i = first; i < last; ++i) way.push_back(line_[i]);
+  else
+    for (std::size_t i = first; i-- > last;) way.push_back(line_[i]);
+  way.push_back(in);
+  way.push_back(to);
+  return way;
+}
+
 Polyline TaskRegion::samples() const {
   if (circle_) {
     Polyline points = {round_.centre};

@@ -26,6 +26,10 @@ class TaskRegion {
   /// The point of the shape nearest to a place; of a place inside the place itself.
   core::Point2 closest(const core::Point2& to) const;
 
+  /// A way between two places in the shape, or no farther from it than `margin`, that stays there: straight, or along
+  /// the outline.
+  core::Polyline way(const core::Point2& from, const core::Point2& to, double margin) const;
+
   core::Point2 lower() const { return lower_; }
   core::Point2 upper() const { return upper_; }
   /// A few points of the shape, one in its middle first.

@@ -17,6 +17,7 @@
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
+#include "core/task.hpp"
 
 namespace clearloci {
 namespace {
@@ -38,8 +39,13 @@ Task hexapod_box(double length, double angle, const std::string& more = "", doub
   return parse_task(text + more, hexapod());
 }
 
+/// Radii of the circles of joints, m.
+struct Radii {
+  double base = 0.5, plate = 0.3;
+};
+
 /// Forces on the platform along the legs, from base to platform, N: sum F u + load = 0, sum (B - P) x F u = 0.
-Eigen::VectorXd leg_forces(const Pose& q, const Eigen::Vector3d& load = {0, 0, -1000}) {
+Eigen::VectorXd leg_forces(const Pose& q, const Eigen::Vector3d& load = {0, 0, -1000}, const Radii& radii = {}) {
   const Eigen::Vector3d p(q[0], q[1], q[2]);
   const Eigen::Matrix3d R =
       (Eigen::AngleAxisd(q[5], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(q[4], Eigen::Vector3d::UnitY()) *
@@ -49,8 +55,8 @@ Eigen::VectorXd leg_forces(const Pose& q, const Eigen::Vector3d& load = {0, 0, -
   Eigen::Matrix<double, 6, 6> A;
   for (int i = 0; i < 6; ++i) {
     const double a = base[static_cast<std::size_t>(i)] * degree, b = plate[static_cast<std::size_t>(i)] * degree;
-    const Eigen::Vector3d foot(0.5 * std::cos(a), 0.5 * std::sin(a), 0);
-    const Eigen::Vector3d arm = R * Eigen::Vector3d(0.3 * std::cos(b), 0.3 * std::sin(b), 0);
+    const Eigen::Vector3d foot(radii.base * std::cos(a), radii.base * std::sin(a), 0);
+    const Eigen::Vector3d arm = R * Eigen::Vector3d(radii.plate * std::cos(b), radii.plate * std::sin(b), 0);
     const Eigen::Vector3d u = (p + arm - foot).normalized();
     A.col(i) << u, arm.cross(u);
   }
@@ -215,6 +221,100 @@ TEST(PoseTasks, ALoadMayTurnInASliceOfSpace) {
     EXPECT_THROW(parse_task(std::string("format: 1\n") + wrong, slice), InputError) << wrong;
 }
 
+/// A load of 1000 N down, off by so much in a random direction; half of them as far off as may be.
+Eigen::Vector3d load_within(double radius, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> part(0, 1);
+  const Eigen::Vector3d way = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+  return Eigen::Vector3d(0, 0, -1000) + (part(random) < 0.5 ? 1 : part(random)) * radius * way;
+}
+
+TEST(PoseTasks, HoldForEveryDesignAndLoadThatIsAskedFor) {
+  const Model slice = slice_of_hexapod("1/2");
+  const std::string circle = "format: 1\ncircle: {centre: [0, 0], radius: 0.02}\n";
+  const Task task = parse_task(
+      circle + "tolerances: {base: 0.002, plate: [-0.003, 0.001]}\nloads_within: [{load: 1, radius: 60}]\n", slice);
+  const Verification answer = verify(slice, task, {.depth = VerifyDepth::margin});
+  ASSERT_TRUE(answer.verified());
+  ASSERT_TRUE(answer.margin);
+  EXPECT_GT(*answer.margin, 0);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 3000; ++i) {
+    const double r = (0.02 + *answer.margin) * std::sqrt(part(random)), a = 360 * degree * part(random);
+    const Radii radii{0.498 + 0.004 * part(random), 0.297 + 0.004 * part(random)};
+    ASSERT_GT(leg_forces({r * std::cos(a), r * std::sin(a), 0.5, 0, 0, 0}, load_within(60, random), radii).minCoeff(),
+              0);
+  }
+  const Verification alone = verify(slice, parse_task(circle, slice), {.depth = VerifyDepth::margin});
+  EXPECT_LT(*answer.margin, *alone.margin) << "other designs and loads leave less room";
+}
+
+TEST(PoseTasks, AWitnessIsAPoseADesignAndALoad) {
+  const Model slice = slice_of_hexapod("1/2");
+  const Verification answer =
+      verify(slice, parse_task("format: 1\nbox: {x: [0, 0.01], y: [0, 0.01]}\ntolerances: {base: 0.002, plate: 0.001}\n"
+                               "loads_within: [{load: 1, radius: 900}]\n",
+                               slice));
+  ASSERT_EQ(answer.verdict, Verdict::refuted);
+  const TaskWitness& witness = *answer.witness;
+  ASSERT_EQ(witness.design.size(), 2U);
+  EXPECT_EQ(witness.design[0].first, "base");
+  EXPECT_NEAR(witness.design[0].second, 0.5, 0.002 + 1e-12);
+  EXPECT_NEAR(witness.design[1].second, 0.3, 0.001 + 1e-12);
+  ASSERT_EQ(witness.loads.size(), 1U);
+  ASSERT_EQ(witness.loads[0].force.size(), 3U);
+  const Eigen::Vector3d load(witness.loads[0].force.data());
+  EXPECT_LE((load - Eigen::Vector3d(0, 0, -1000)).norm(), 900 * (1 + 1e-12));
+  ASSERT_EQ(witness.at.size(), 2U);
+  const Radii radii{witness.design[0].second, witness.design[1].second};
+  EXPECT_LT(leg_forces({witness.at[0], witness.at[1], 0.5, 0, 0, 0}, load, radii).cwiseAbs().minCoeff(), 1e-6);
+}
+
+TEST(PoseTasks, SixCoordinatesHaveRoomForOneTolerance) {
+  const Task task = hexapod_box(0.02, 2, "tolerances: {plate: 0.001}\n");
+  ASSERT_TRUE(verify(hexapod(), task, {.depth = VerifyDepth::verdict}).verified());
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> part(-1, 1);
+  const Eigen::VectorXd middle = leg_forces({0, 0, 0.5, 0, 0, 0});
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::VectorXd legs = leg_forces(pose_in(task, random), {0, 0, -1000}, {0.5, 0.3 + 0.001 * part(random)});
+    ASSERT_GT(legs.cwiseProduct(middle).minCoeff(), 0);
+  }
+  EXPECT_THROW(verify(hexapod(), hexapod_box(0.02, 2, "tolerances: {base: 0.001, plate: 0.001}\n")), InputError);
+}
+
+TEST(PoseTasks, APolygonIsTheBoxWhoseCornersItHas) {
+  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/three_rpr_orientation.yaml");
+  int verified = 0;
+  for (const char* const angles : {"box: {phi: [10 deg, 12 deg]", "box: {phi: [40 deg, 60 deg]"}) {
+    const Task box = parse_task(std::string("format: 1\n") + angles + ", x: [0, 0.02], y: [0.01, 0.03]}\n", model);
+    const Task polygon = parse_task(
+        std::string("format: 1\npolygon: [[0, 0.01], [0.02, 0.01], [0.02, 0.03], [0, 0.03]]\n") + angles + "}\n",
+        model);
+    EXPECT_EQ(core::bounds(polygon.shape), core::bounds(box.shape));
+    const Verification a = verify(model, polygon, {.depth = VerifyDepth::margin});
+    const Verification b = verify(model, box, {.depth = VerifyDepth::margin});
+    EXPECT_EQ(a.verdict, b.verdict) << angles;
+    if (!a.verified() || !b.verified()) continue;
+    ++verified;
+    EXPECT_NEAR(*a.margin, *b.margin, 0.1 * *b.margin);
+    EXPECT_NEAR(*a.angle_margin, *b.angle_margin, 0.1 * *b.angle_margin);
+  }
+  EXPECT_GT(verified, 0);
+}
+
+/// The zone is the circle of radius 1/4 about (1/4, 1/2).
+TEST(PoseTasks, ACircleOverTwoLengthsGrowsToTheLociOfAFiveBar) {
+  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
+  const Task task = parse_task("format: 1\ncircle: {centre: [1/4, 1/2], radius: 0.1}\n", model);
+  const Verification grown = verify(model, task, {.depth = VerifyDepth::verdict, .fit = TaskFit::largest});
+  ASSERT_TRUE(grown.verified() && grown.scaled_by);
+  EXPECT_LE(*grown.scaled_by, Rational(5, 2));
+  EXPECT_GT(*grown.scaled_by, Rational(245, 100));
+  EXPECT_TRUE(verify(model, grown.task, {.depth = VerifyDepth::verdict}).verified()) << "by the other kernel, too";
+}
+
 TEST(PoseTasks, MarginsOfLengthsAndAnglesAreApartWithoutAMetric) {
   const Verification answer = verify(hexapod(), hexapod_box(0.02, 2));
   ASSERT_TRUE(answer.verified());
@@ -341,7 +441,8 @@ TEST(PoseTasks, RefuseWhatHasNoMeaningInOneLine) {
   says("box: {x: [0, 0.1]}\n", "y");
   says("box: {x: [0.1, 0], y: 0, z: 0.5, alpha: 0, beta: 0, gamma: 0}\n", "is empty");
   says("box: {x: [0, 3], y: 0, z: 0.5, alpha: 0, beta: 0, gamma: 0}\n", "leaves the mechanism's box");
-  says("path: [[0, 0, 0.5, 0, 0, 0], [0.1, 0, 0.5, 0, 0, 0]]\ntolerances: {base: 0.001}\n", "tolerances are asked of");
+  says("path: [[0, 0, 0.5, 0, 0, 0], [0.1, 0, 0.5, 0, 0, 0]]\ntolerances: {base: 0.001}\n", "cells have room for 7");
+  says("path: [[0, 0, 0.5, 0, 0, 0], [0.1, 0, 0.5, 0, 0, 0]]\npose_error: 0.001\n", "pose_error is proven over two");
 }
 
 }  // namespace

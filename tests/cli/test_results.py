@@ -262,6 +262,21 @@ class Error(InOwnFolder):
         moved = json.loads(self.run_program("verify", FIVE_BAR, "good.yaml", "--fit", "best", "--json").stdout)
         self.assertGreater(moved["margin"], good["margin"])
 
+    def test_tasks_are_placed_and_hold_for_all_designs_over_any_coordinates(self):
+        (self.folder / "crank.yaml").write_text("format: 1\nbox: {theta: [55 deg, 65 deg]}\nmargin: 1 deg\n", encoding="utf-8")
+        options = ["-o", self.folder / "crank", "--json"]
+        moved = json.loads(self.run_program("verify", FOUR_BAR, "crank.yaml", "--fit", *options).stdout)
+        self.assertNotIn("by", moved)
+        self.assertNotEqual(moved["moved_by"], [0])
+        again = json.loads(self.run_program("verify", FOUR_BAR, self.folder / "crank" / "moved.yaml", *options).stdout)
+        self.assertEqual((again["task"], again["angle_margin"]), (moved["task"], moved["angle_margin"]))
+        (self.folder / "platform.yaml").write_text(
+            "format: 1\nbox: {x: [-0.01, 0.01], y: 0, z: 0.5, alpha: 0, beta: 0, gamma: 0}\ntolerances: {plate: 0.05}\n"
+            "min_force: 189\n", encoding="utf-8")
+        model = SOURCE / "examples" / "gough_stewart_poses.yaml"
+        refuted = json.loads(self.run_program("verify", model, "platform.yaml", "--json", status=1).stdout)
+        self.assertLessEqual(abs(refuted["witness"]["design"]["plate"] - 0.3), 0.05)
+
     def test_error_sizes_zone_by_zone(self):
         options = ["--grid", "150x200", "--export", "csv", "--zones", "--json", "-o", self.folder / "zoned"]
         mode = json.loads(self.run_program("error", FIVE_BAR, *options).stdout)["modes"][0]

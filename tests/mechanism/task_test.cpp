@@ -68,7 +68,8 @@ TEST(Task, HasAValueForEveryFreeCoordinate) {
 }
 
 TEST(Task, ABallOfTwoLengthsIsACircle) {
-  const auto ball = parse("ball: {centre: [0, 0], radius: 1/4}"), circle = parse("circle: {centre: [0, 0], radius: 1/4}");
+  const auto ball = parse("ball: {centre: [0, 0], radius: 1/4}"),
+             circle = parse("circle: {centre: [0, 0], radius: 1/4}");
   EXPECT_EQ(core::bounds(ball.shape), core::bounds(circle.shape));
   EXPECT_EQ(core::kind_of(ball.shape), "circle");
 }
@@ -82,6 +83,38 @@ TEST(Task, APolygonGoesWithTheRangesOfTheAngles) {
 TEST(Task, ConvexAndConcavePolygonsAreFine) {
   EXPECT_EQ(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0.25, -0.6]]"), "");
   EXPECT_EQ(complaint("polygon: [[0, -0.8], [0.5, -0.8], [0.5, -0.6], [0.25, -0.75], [0, -0.6]]"), "");
+}
+
+TEST(Task, OfAnglesWrittenReadsBackAsItself) {
+  const Mechanism& m = example("three_rrr_orientation");
+  for (const std::string shape :
+       {"box: {x: [0, 0.1], y: [-1/7, 0], phi: [-0.25, 1/3]}", "path: [[0, 0, 0], [0.1, 0, 10 deg]]",
+        "ball: {centre: [0, 0, 0.125], radius: 0.01}\nangle_length: 0.2",
+        "polygon: [[0, 0], [0.1, 0], [0, 0.1]]\nbox: {phi: [0, 0.25]}"}) {
+    const core::Task task = parse_task("format: 1\n" + shape + "\nmargin: 0.001\n", "t.yaml", m);
+    const std::string text = task_text(task, m);
+    const core::Task again = parse_task(text, "again.yaml", m);
+    EXPECT_EQ(task_text(again, m), text);
+    EXPECT_EQ(core::bounds(again.shape), core::bounds(task.shape)) << text;
+    EXPECT_EQ(again.shape.index(), task.shape.index());
+    EXPECT_EQ(again.margin, task.margin);
+    EXPECT_EQ(again.angle_length, task.angle_length);
+  }
+}
+
+TEST(Task, OfManyDesignsAndLoadsWrittenReadsBackAsItself) {
+  const Mechanism& m = example("five_bar");
+  const core::Task task = parse(
+      "box: {x: [0, 0.1], y: [0.4, 0.5]}\ntolerances: {L: 0.1e-3, d: [-1/3000, 0]}\n"
+      "loads_within: [{load: 1, radius: 20}]\npose_error: 1e-5\n");
+  const core::Task again = parse_task(task_text(task, m), "again.yaml", m);
+  ASSERT_EQ(again.tolerances.size(), 2U);
+  EXPECT_EQ(again.tolerances[1].parameter, "d");
+  EXPECT_EQ(again.tolerances[1].below, Rational(-1, 3000));
+  EXPECT_EQ(again.tolerances[0].above, Rational(1, 10000));
+  ASSERT_EQ(again.loads_within.size(), 1U);
+  EXPECT_EQ(again.loads_within[0].force, 20);
+  EXPECT_EQ(again.pose_error, task.pose_error);
 }
 
 TEST(Task, WrittenReadsBackAsItself) {

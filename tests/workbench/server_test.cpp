@@ -115,8 +115,10 @@ TEST_F(TheServer, VerifiesTasksOverAnglesToo) {
   const Json verified = Json::parse(server->ask("verify", question)->body);
   EXPECT_EQ(verified["verdict"], "verified");
   EXPECT_GT(verified["angle_margin"], 0);
-  question["fit"] = "best";
-  EXPECT_EQ(server->ask("verify", question)->status, 422);
+  question["fit"] = "smallest";
+  EXPECT_EQ(server->ask("verify", question)->status, 400);
+  question["fit"] = "largest";
+  EXPECT_GT(Json::parse(server->ask("verify", question)->body)["scale"], 1);
   question.erase("fit");
   question["task"] = "format: 1\nbox: {theta: [10 deg, 40 deg]}\n";
   question["what"] = "verification";

@@ -10,6 +10,8 @@
 namespace clearloci::loci::pose {
 namespace {
 
+using core::Rational;
+
 /// x in m, and an angle that counts half a metre a radian.
 const PoseMetric metric = {{1, 0.5}, {true, true}};
 
@@ -122,6 +124,63 @@ TEST(PoseRegion, WaysStayInTheTask) {
           for (std::size_t c = 0; c < at.size(); ++c) at[c] += t * (way[i + 1][c] - way[i][c]);
           EXPECT_LE(region.distance(at), 1e-9);
         }
+    }
+  }
+}
+
+/// An L, over the two lengths.
+const core::TaskPolygon l_shape{{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
+
+TEST(PoseRegion, APolygonGoesWithRangesOfTheOtherCoordinates) {
+  core::TaskPolygon polygon = l_shape;
+  for (core::RationalPose& corner : polygon.corners) corner.push_back(1);
+  polygon.above = {0, 0, Rational(1, 2)};
+  const PoseRegion region(polygon, {{1, 1, 0.5}, {true, true, true}});
+  EXPECT_EQ(region.distance(Pose{0.5, 1.5, 1.25}), 0);
+  EXPECT_NEAR(region.distance(Pose{1.5, 1.25, 1.25}), 0.25, 1e-12);
+  EXPECT_NEAR(region.distance(Pose{1.5, 1.5, 2.1}), std::hypot(0.5, 0.3), 1e-12);  // 0.6 rad are 0.3 m
+  for (const Pose& from : region.samples()) {
+    EXPECT_LE(region.distance(from), 2 * region.hair());
+    // From one end of the L to the other, round its inner corner.
+    const std::vector<Pose> way = region.way(from, {0.5, 1.9, 1.5});
+    for (std::size_t k = 0; k + 1 < way.size(); ++k)
+      for (const double t : {0.25, 0.5, 0.75}) {
+        Pose at = way[k];
+        for (std::size_t c = 0; c < at.size(); ++c) at[c] += t * (way[k + 1][c] - way[k][c]);
+        EXPECT_LE(region.distance(at), 1e-9);
+      }
+  }
+  EXPECT_TRUE(region.holds_way({0.5, 0.5, 1.2}, {0.7, 0.6, 1.3}, 0));
+  EXPECT_FALSE(region.holds_way({0.5, 1.5, 1.2}, {1.5, 0.5, 1.3}, 0));
+}
+
+TEST(PoseRegion, ValuesBesideTheShapeAreHeld) {
+  const PoseMetric wide = {{1, 0.5, 1, 1, 1}, {true, true, false, false, false}};
+  const PoseBeside beside{{-1, -2, -2}, {1, 2, 2}, {{1, 2, 2.0}}};
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (const core::TaskShape& shape :
+       {core::TaskShape(core::TaskBox{{0, 1}, {2, 2}}), core::TaskShape(core::TaskBall{{0, 0}, 1}),
+        core::TaskShape(core::TaskPath{{{0, 0}, {1, 2}, {2, -1}}}), core::TaskShape(l_shape)}) {
+    const PoseRegion alone(shape, metric), region(shape, wide, beside);
+    for (const Pose& own : region.samples()) {
+      EXPECT_LE(region.distance(own), 2 * region.hair());
+      EXPECT_LE(std::hypot(own[3], own[4]), 2 + 1e-12);
+    }
+    for (int trial = 0; trial < 200; ++trial) {
+      Pose pose = random_pose(random);
+      const double distance = alone.distance(pose);
+      pose.insert(pose.end(), {1 - part(random), 1.4 * part(random), -1.4 * part(random)});
+      EXPECT_NEAR(region.distance(pose), distance, 1e-9);
+      pose[2 + static_cast<std::size_t>(trial) % 3] = 2.1;
+      EXPECT_TRUE(std::isinf(region.distance(pose)));
+    }
+    for (const PosePiece& piece : region.pieces(0.5)) {
+      const std::size_t own = piece.box.size() - 3;
+      PoseBox box = piece.box;
+      EXPECT_TRUE(std::isfinite(region.distance(piece, box)));
+      box[own + 1] = box[own + 2] = {1.5, 1.9};
+      EXPECT_TRUE(std::isinf(region.distance(piece, box))) << "in the square, and in no part of its circle";
     }
   }
 }
