@@ -13,7 +13,7 @@
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
-#include "mechanism/idle.hpp"
+#include "mechanism/notes.hpp"
 #include "numeric/error_map.hpp"
 #include "numeric/error_range.hpp"
 
@@ -181,7 +181,7 @@ CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const 
   const numeric::NumericModel model = numeric::compile(mechanism);
   all.mechanism = mechanism.name;
   all.notes = mechanism::fit_notes(mechanism);
-  for (std::string& note : mechanism::idle_notes(mechanism)) all.notes.push_back(std::move(note));
+  for (std::string& note : mechanism::notes_of(mechanism)) all.notes.push_back(std::move(note));
   all.coordinate = mechanism.coordinates.front().name;
   all.angle = mechanism.coordinates.front().angle;
   all.range = model.box.front();

@@ -12,7 +12,7 @@
 #include "analysis/zones.hpp"
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
-#include "mechanism/idle.hpp"
+#include "mechanism/notes.hpp"
 #include "numeric/error_map.hpp"
 
 namespace clearloci {
@@ -83,7 +83,7 @@ ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& re
   const numeric::NumericModel model = numeric::compile(mechanism);
   ErrorMap errors;
   errors.notes = mechanism::fit_notes(mechanism);
-  for (std::string& note : mechanism::idle_notes(mechanism)) errors.notes.push_back(std::move(note));
+  for (std::string& note : mechanism::notes_of(mechanism)) errors.notes.push_back(std::move(note));
   core::ZoneMap zones;
   if (request.with_zones) zones = find_zones(mechanism, request.loci);
   errors.loci = request.with_zones ? with_modes(mechanism, std::move(zones.loci)) : loci_below(mechanism, request);

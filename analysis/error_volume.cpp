@@ -7,7 +7,7 @@
 #include "analysis/side_names.hpp"
 #include "analysis/singular_modes.hpp"
 #include "mechanism/fits.hpp"
-#include "mechanism/idle.hpp"
+#include "mechanism/notes.hpp"
 #include "numeric/error_map.hpp"
 
 namespace clearloci {
@@ -20,7 +20,7 @@ VolumeErrors error_volume(const mechanism::Mechanism& mechanism, const ErrorRequ
   VolumeErrors errors;
   errors.units = mechanism.units;
   errors.notes = mechanism::fit_notes(mechanism);
-  for (std::string& note : mechanism::idle_notes(mechanism)) errors.notes.push_back(std::move(note));
+  for (std::string& note : mechanism::notes_of(mechanism)) errors.notes.push_back(std::move(note));
   for (const DyadSides& sides : regular_modes(mechanism, requested_modes(mechanism, request.loci), errors.notes)) {
     if (request.loci.progress) request.loci.progress(0, "errors");
     numeric::ErrorVolume found = numeric::error_volume(

@@ -18,7 +18,7 @@
 #include "loci/curves/curves.hpp"
 #include "loci/surfaces/surfaces.hpp"
 #include "mechanism/guide.hpp"
-#include "mechanism/idle.hpp"
+#include "mechanism/notes.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/written_unit.hpp"
 #include "numeric/sketch.hpp"
@@ -286,7 +286,7 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
   for (const mechanism::Parameter& parameter : mechanism.parameters)
     map.parameters.emplace_back(parameter.name, mechanism::value_words(parameter, mechanism));
   map.tolerance = request.tolerance;
-  for (std::string& note : mechanism::idle_notes(mechanism)) map.notes.push_back(std::move(note));
+  for (std::string& note : mechanism::notes_of(mechanism)) map.notes.push_back(std::move(note));
   if (closes_nowhere(map)) map.notes.emplace_back("no pose is reached: the mechanism does not close in the workspace");
   return traced;
 }

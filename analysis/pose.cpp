@@ -15,7 +15,7 @@
 #include "core/rational.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/fits.hpp"
-#include "mechanism/idle.hpp"
+#include "mechanism/notes.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/dynamics.hpp"
@@ -334,7 +334,7 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   pose.mechanism = mechanism.name;
   pose.units = mechanism.units;
   pose.notes = mechanism::fit_notes(mechanism);
-  for (std::string& note : mechanism::idle_notes(mechanism)) pose.notes.push_back(std::move(note));
+  for (std::string& note : mechanism::notes_of(mechanism)) pose.notes.push_back(std::move(note));
   if (mechanism.relative_to != mechanism::ground)
     pose.relative_to = mechanism.links[static_cast<std::size_t>(mechanism.relative_to)].name;
   for (const numeric::Bounded& value : values) pose.at.push_back(value.value);

@@ -14,7 +14,7 @@
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "loci/zones/zones.hpp"
-#include "mechanism/idle.hpp"
+#include "mechanism/notes.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "numeric/error_samples.hpp"
 #include "numeric/reactions.hpp"
@@ -206,7 +206,7 @@ PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociReque
   PoseZones result;
   result.mechanism = mechanism.name;
   result.units = mechanism.units;
-  result.notes = mechanism::idle_notes(mechanism);
+  result.notes = mechanism::notes_of(mechanism);
   for (const mechanism::Coordinate& c : mechanism.coordinates) {
     result.coordinates.push_back(c.name);
     result.angles.push_back(c.angle);

@@ -14,7 +14,7 @@
 #include "core/errors.hpp"
 #include "loci/tasks/tasks.hpp"
 #include "mechanism/actions.hpp"
-#include "mechanism/idle.hpp"
+#include "mechanism/notes.hpp"
 #include "numeric/pose_witness.hpp"
 #include "symbolic/pose_statics.hpp"
 
@@ -128,7 +128,7 @@ class Verifier {
   Verification verify(VerifyDepth depth, const loci::pose::PoseEffort& most = {}) {
     Verification result;
     result.task = task_;
-    result.notes = mechanism::idle_notes(mechanism_);
+    result.notes = mechanism::notes_of(mechanism_);
     result.notes.insert(result.notes.end(), notes_.begin(), notes_.end());
     progress("search");
     const std::vector<NearPose> near = near_loci(region_);

@@ -143,7 +143,7 @@ class Closure {
     const Vector way = at(form.to) - at(form.from);
     const Interval d = square_of(way);
     const Interval a2 = squared(pose_.value(form.from_length)), b2 = squared(pose_.value(form.to_length));
-    const Interval k = a2 - b2 + d;
+    const Interval k = form.right_angle ? pose_.number(2.0) * a2 : a2 - b2 + d;
     const std::optional<Interval> s = branch(pose_.number(4.0) * a2 * d - squared(k));
     if (!s || !divides(d)) return false;
     const Interval half = pose_.number(0.5) / d;
@@ -156,6 +156,15 @@ class Closure {
     const std::optional<Interval> s = branch(squared(pose_.value(form.length)) * u2 - squared(cross(u, way)));
     if (!s || !divides(u2)) return false;
     return put(at(form.base) + ((dot(u, way) + *s) / u2) * u);
+  }
+
+  bool place(const mechanism::ShiftedPoint& form) { return put(at(form.from) + pose_.vector(form.by, result.points)); }
+
+  bool place(const mechanism::CrossingPoint& form) {
+    const Vector u = pose_.vector(form.along_first, result.points), v = pose_.vector(form.along_second, result.points);
+    const Interval turn = cross(u, v);
+    if (!divides(turn)) return false;
+    return put(at(form.first) + (cross(at(form.second) - at(form.first), v) / turn) * u);
   }
 
   bool place(const mechanism::OffsetPoint& form) {

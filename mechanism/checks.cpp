@@ -26,6 +26,17 @@ std::vector<PointIndex> bases(const PointForm& form) {
   }
   if (const auto* offset = std::get_if<OffsetPoint>(&form)) return {offset->first, offset->second};
   if (const auto* mean = std::get_if<MeanPoint>(&form)) return {mean->first, mean->second};
+  if (const auto* shifted = std::get_if<ShiftedPoint>(&form)) {
+    std::set<PointIndex> used = points_of(shifted->by);
+    used.insert(shifted->from);
+    return {used.begin(), used.end()};
+  }
+  if (const auto* crossing = std::get_if<CrossingPoint>(&form)) {
+    std::set<PointIndex> used = points_of(crossing->along_first);
+    used.merge(points_of(crossing->along_second));
+    used.insert({crossing->first, crossing->second});
+    return {used.begin(), used.end()};
+  }
   if (const auto* slider = std::get_if<SliderPoint>(&form)) {
     std::set<PointIndex> used = points_of(slider->along);
     used.insert({slider->base, slider->from});
@@ -53,20 +64,31 @@ const VectorExpression* axis_of(const Point& point) {
   return dyad != nullptr && dyad->axis ? &*dyad->axis : nullptr;
 }
 
-bool is_explicit(const Point& point) { return std::holds_alternative<ExplicitPoint>(point.form); }
+/// Whether formulas have no symbols for its coordinates.
+bool is_explicit(const Point& point) {
+  return std::holds_alternative<ExplicitPoint>(point.form) || std::holds_alternative<ShiftedPoint>(point.form);
+}
 
 }  // namespace
 
 std::set<std::string> coordinates_of(const Mechanism& mechanism, PointIndex point) {
   std::set<std::string> found;
   const PointForm& form = point_at(mechanism, point).form;
-  if (const auto* fixed = std::get_if<ExplicitPoint>(&form)) {
-    for (const Expression& expression : fixed->coordinates)
-      for (const std::string& name : symbols(expression))
-        if (std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
-                        [&name](const Coordinate& coordinate) { return coordinate.name == name; }))
-          found.insert(name);
+  std::vector<Expression> own;
+  if (const auto* fixed = std::get_if<ExplicitPoint>(&form)) own = fixed->coordinates;
+  if (const auto* dyad = std::get_if<DyadPoint>(&form)) own = {dyad->from_length, dyad->to_length};
+  if (const auto* slider = std::get_if<SliderPoint>(&form)) own = numbers_of(slider->along);
+  if (const auto* shifted = std::get_if<ShiftedPoint>(&form)) own = numbers_of(shifted->by);
+  if (const auto* crossing = std::get_if<CrossingPoint>(&form)) {
+    own = numbers_of(crossing->along_first);
+    const std::vector<Expression> more = numbers_of(crossing->along_second);
+    own.insert(own.end(), more.begin(), more.end());
   }
+  for (const Expression& expression : own)
+    for (const std::string& name : symbols(expression))
+      if (std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                      [&name](const Coordinate& coordinate) { return coordinate.name == name; }))
+        found.insert(name);
   for (const PointIndex base : bases(form)) found.merge(coordinates_of(mechanism, base));
   return found;
 }

@@ -86,6 +86,18 @@ class Change {
       slider->length = scaled(slider->length, 1);
       change(slider->along);
     }
+    if (auto* shifted = std::get_if<ShiftedPoint>(&form)) {
+      change(shifted->by);
+      VectorExpression inside;
+      inside.kind = VectorExpression::Kind::scale;
+      inside.numbers = {Expression::number(1 / frame_.scale)};
+      inside.arguments = {std::move(shifted->by)};
+      shifted->by = std::move(inside);
+    }
+    if (auto* crossing = std::get_if<CrossingPoint>(&form)) {
+      change(crossing->along_first);
+      change(crossing->along_second);
+    }
   }
 
   /// The same vector: places in it are put back; of a difference of places their scale alone.

@@ -57,6 +57,15 @@ std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Join
 
 Quantity actuator_quantity(const Joint& joint) { return traits(joint).actuator.value_or(Quantity::M); }
 
+std::vector<Expression> numbers_of(const VectorExpression& vector) {
+  std::vector<Expression> numbers = vector.numbers;
+  for (const VectorExpression& argument : vector.arguments) {
+    const std::vector<Expression> more = numbers_of(argument);
+    numbers.insert(numbers.end(), more.begin(), more.end());
+  }
+  return numbers;
+}
+
 std::vector<Mass> masses(const Mechanism& mechanism) {
   std::vector<Mass> all;
   for (std::size_t i = 0; i < mechanism.links.size(); ++i) {

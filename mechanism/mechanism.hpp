@@ -66,6 +66,9 @@ struct VectorExpression {
   std::vector<VectorExpression> arguments;  ///< two of add and cross, one of negate and scale
 };
 
+/// Every expression that a vector is made of.
+std::vector<Expression> numbers_of(const VectorExpression& vector);
+
 /// The point at distance `from_length` from `from` and `to_length` from `to`, on the named side of from -> to. In space
 /// it turns about the `axis` through `from`, on the circle across it; left is as seen against the axis.
 struct DyadPoint {
@@ -73,6 +76,9 @@ struct DyadPoint {
   Expression from_length, to_length;
   Side side;
   std::optional<VectorExpression> axis = {};  ///< none in the plane
+  /// In the plane: no `to_length`, but a right angle at the point, where the way on to `to` passes `from` at a
+  /// distance.
+  bool right_angle = false;
 };
 /// In the frame of first -> second: `along` m along it and `left` m to its left.
 struct OffsetPoint {
@@ -90,7 +96,18 @@ struct SliderPoint {
   Expression length;
   bool ahead = true;
 };
-using PointForm = std::variant<ExplicitPoint, DyadPoint, OffsetPoint, MeanPoint, SliderPoint>;
+/// At `by` from another point: parallelograms, and links that slide without turning.
+struct ShiftedPoint {
+  PointIndex from;
+  VectorExpression by;  ///< its numbers may vary with the pose
+};
+/// In the plane: where the line through `first` along `along_first` meets that through `second` along `along_second`.
+struct CrossingPoint {
+  PointIndex first, second;
+  VectorExpression along_first, along_second;
+};
+using PointForm =
+    std::variant<ExplicitPoint, DyadPoint, OffsetPoint, MeanPoint, SliderPoint, ShiftedPoint, CrossingPoint>;
 
 /// Points are in an order in which each uses only earlier ones. `auxiliary` points (centres of mass) were not named by
 /// the user; they stand last.
@@ -258,6 +275,7 @@ struct Mechanism {
   std::vector<Expression> gravity;  ///< empty: links are weightless
   std::vector<Spring> springs = {};
   std::vector<Limit> limits = {};
+  std::vector<std::string> notes = {};  ///< what its reader says of it, a line each
   /// The frame that it is seen in, if not its own: expressions are printed in the coordinates outside it.
   std::optional<Frame> frame = {};
 };

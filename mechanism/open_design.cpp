@@ -129,6 +129,11 @@ void change(PointForm& form, const Change& by) {
     change(own->along, by);
     own->length = by(own->length);
   }
+  if (auto* own = std::get_if<ShiftedPoint>(&form)) change(own->by, by);
+  if (auto* own = std::get_if<CrossingPoint>(&form)) {
+    change(own->along_first, by);
+    change(own->along_second, by);
+  }
 }
 
 /// Every expression that the statics are made of.

@@ -5,6 +5,8 @@
 //   dyad B on A, P about n with |AB| = a, |BP| = b:   w = P - A,  N = n . n,  h = n . w,
 //       D = N w . w - h^2,  k = a^2 - b^2 + w . w,  s^2 = 4 a^2 D - N k^2
 //       B = A + k / (2 D) (N w - h n) + s / (2 D) (n x w)
+//   foot B of A on the way to P, |AB| = a:   k = 2 a^2, for a^2 + b^2 = D
+//   crossing X of the line through Q along u and that through R along v:   X = Q + ((R - Q) x v) / (u x v) u
 //   slider S on Q along u, |SC| = l:   r = C - Q,  S = Q + (u . r +- sqrt(l^2 - |u x r|^2)) u,  u of length one
 //
 // An algebra is one of core/interpret.hpp with subtract(a, b), square(a), inverse(a) and square_root(a) besides. The
@@ -110,6 +112,8 @@ class Placement {
     if (const auto* own = std::get_if<DyadPoint>(&form)) return elbow(*own, sides_.at(index));
     if (const auto* own = std::get_if<SliderPoint>(&form)) return slide(*own, sides_.at(index));
     if (const auto* own = std::get_if<OffsetPoint>(&form)) return beside(*own);
+    if (const auto* own = std::get_if<ShiftedPoint>(&form)) return plus(point(own->from), vector(own->by));
+    if (const auto* own = std::get_if<CrossingPoint>(&form)) return cross_lines(*own);
     const auto& mean = std::get<MeanPoint>(form);
     return times(constant(Rational(1, 2)), plus(point(mean.first), point(mean.second)));
   }
@@ -123,9 +127,10 @@ class Placement {
     const Number n2 = dot(n, n), h = dot(n, w), w2 = dot(w, w);
     const Number d = b.subtract(b.multiply(n2, w2), b.square(h));
     const Number sum = b.add(crank, rod), difference = b.subtract(crank, rod);
-    const Number k = b.add(b.multiply(sum, difference), w2);
+    const Number k =
+        form.right_angle ? b.multiply(constant(2), b.square(crank)) : b.add(b.multiply(sum, difference), w2);
     // Across n = z, in the plane, Q is a product, which is tighter near both ends of the reach.
-    const bool in_plane = n2 == constant(1) && h == constant(0);
+    const bool in_plane = !form.right_angle && n2 == constant(1) && h == constant(0);
     const Number q =
         in_plane ? b.multiply(b.subtract(b.square(sum), w2), b.subtract(w2, b.square(difference)))
                  : b.subtract(b.multiply(b.multiply(constant(4), b.square(crank)), d), b.multiply(n2, b.square(k)));
@@ -143,6 +148,12 @@ class Placement {
     const Number q = b.subtract(b.square(expression(form.length)), dot(across, across));
     const Number way = b.add(dot(u, r), b.multiply(constant(side), b.square_root(q)));
     return plus(base, times(way, u));
+  }
+
+  Vector cross_lines(const CrossingPoint& form) {
+    const Vector u = vector(form.along_first), v = vector(form.along_second);
+    const Number way = cross(minus(point(form.second), point(form.first)), v)[2], turn = cross(u, v)[2];
+    return plus(point(form.first), times(algebra_.multiply(way, algebra_.inverse(turn)), u));
   }
 
   Vector beside(const OffsetPoint& form) {

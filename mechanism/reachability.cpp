@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/enclosure.hpp"
 #include "core/shown_units.hpp"
@@ -48,7 +49,9 @@ Interval distance(const Mechanism& mechanism, PointIndex p, PointIndex q, const 
   const auto is_built = [&](PointIndex i) { return !std::holds_alternative<ExplicitPoint>(form_of(mechanism, i)); };
   // p: the one to trace back to its bases, which stand above it; the later one where both are built.
   if (is_built(q) && (!is_built(p) || p < q)) std::swap(p, q);
-  if (const auto* dyad = std::get_if<DyadPoint>(&form_of(mechanism, p)))
+  const auto* dyad = std::get_if<DyadPoint>(&form_of(mechanism, p));
+  if (dyad != nullptr && dyad->right_angle) return around(mechanism, dyad->from, bound(dyad->from_length, box), q, box);
+  if (dyad != nullptr)
     return common(around(mechanism, dyad->from, bound(dyad->from_length, box), q, box),
                   around(mechanism, dyad->to, bound(dyad->to_length, box), q, box));
   if (const auto* offset = std::get_if<OffsetPoint>(&form_of(mechanism, p))) {
@@ -61,6 +64,7 @@ Interval distance(const Mechanism& mechanism, PointIndex p, PointIndex q, const 
   }
   if (const auto* slider = std::get_if<SliderPoint>(&form_of(mechanism, p)))
     return around(mechanism, slider->from, bound(slider->length, box), q, box);
+  if (is_built(p)) return {0.0, std::numeric_limits<double>::max()};  // shifted and crossing points: anywhere
   const ExplicitPoint& first = std::get<ExplicitPoint>(form_of(mechanism, p));
   const ExplicitPoint& second = std::get<ExplicitPoint>(form_of(mechanism, q));
   Interval sum;
@@ -121,6 +125,7 @@ std::optional<Interval> proven_outside(const Mechanism& mechanism, const Interva
 
 /// The distances |AP| over a box in which the dyad closes nowhere; nothing where that is not proven.
 std::optional<Interval> proven_unreachable(const Mechanism& mechanism, const DyadPoint& dyad) {
+  if (dyad.right_angle) return std::nullopt;
   const Box whole = whole_box(mechanism);
   const Interval a = bound(dyad.from_length, whole);
   const Interval b = bound(dyad.to_length, whole);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/text.hpp"
+#include "mechanism/assembly/assemble.hpp"
 #include "mechanism/inline_points.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/repeat.hpp"
@@ -18,11 +19,11 @@ namespace {
 
 using core::InputError;
 
-const std::vector<std::string> top_keys = {"format", "name",   "space",   "units",  "parameters", "workspace",
-                                           "frames", "points", "links",   "joints", "springs",    "end_effector",
-                                           "loads",  "limits", "gravity", "repeat"};
+const std::vector<std::string> top_keys = {"format",       "name",  "space",  "units",   "parameters", "workspace",
+                                           "frames",       "drawn", "points", "links",   "joints",     "springs",
+                                           "end_effector", "loads", "limits", "gravity", "repeat"};
 /// What may be written once for parts that are alike.
-const std::vector<std::string> repeatable_keys = {"parameters", "frames", "points",  "links",
+const std::vector<std::string> repeatable_keys = {"parameters", "frames", "drawn",   "points", "links",
                                                   "joints",     "loads",  "springs", "limits"};
 
 Space read_space(const std::optional<Value>& value) {
@@ -47,12 +48,23 @@ std::string name_of(const std::optional<Value>& value, const std::string& file) 
 
 namespace {
 
-Mechanism read_document(const Value& written, const std::string& file, const std::vector<Override>& overrides) {
+/// The document with its repetitions written out and a construction of every point.
+Assembled constructed(const Value& written, const std::vector<Override>& overrides) {
   (void)Mapping(written, top_keys);
-  const Mapping root(name_inline_points(expand_repeat(written, repeatable_keys)), top_keys);
+  const Value plain = name_inline_points(expand_repeat(written, repeatable_keys));
+  const Mapping root(plain, top_keys);
   check_format(root.at("format"));
+  (void)read_space(root.find("space"));
+  if (is_drawn(plain)) return assemble(plain, overrides);
+  return {plain, {}, {}};
+}
+
+Mechanism read_document(const Value& written, const std::string& file, const std::vector<Override>& overrides) {
+  const Assembled assembled = constructed(written, overrides);
+  const Mapping root(assembled.document, top_keys);
 
   Mechanism mechanism;
+  mechanism.notes = assembled.notes;
   mechanism.space = read_space(root.find("space"));
   mechanism.file = file;
   mechanism.name = name_of(root.find("name"), file);
@@ -84,15 +96,40 @@ Mechanism read_document(const Value& written, const std::string& file, const std
 
 }  // namespace
 
-Mechanism parse_mechanism(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+namespace {
+
+template <typename Read>
+auto read_text_of(const std::string& text, const std::string& file, const Read& read) {
   const Value document = parse_document(text, file);
   if (!document.is_map())
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
   try {
-    return read_document(document, file, overrides);
+    return read(document);
   } catch (const InputError& error) {
     throw told_of_file(error, file);
   }
+}
+
+}  // namespace
+
+Mechanism parse_mechanism(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+  return read_text_of(text, file, [&](const Value& document) { return read_document(document, file, overrides); });
+}
+
+WrittenMechanism constructed_text(const std::string& text, const std::string& file) {
+  return read_text_of(text, file, [&](const Value& document) -> WrittenMechanism {
+    Assembled assembled = constructed(document, {});
+    const Mapping root(assembled.document, top_keys);
+    std::vector<Node::Pair> pairs;
+    for (const auto& [key, content] : assembled.document.node.pairs()) {
+      pairs.emplace_back(key, content);
+      // A file that gives itself no name is called by the file's: this one has another.
+      if (key.Scalar() == "format" && !root.find("name"))
+        pairs.emplace_back(Node::scalar("name", key.where()), Node::scalar(name_of({}, file), key.where()));
+    }
+    assembled.document.node = Node::map(std::move(pairs), assembled.document.node.where());
+    return {written_document(assembled.document, assembled.comments), std::move(assembled.notes)};
+  });
 }
 
 std::string read_text(const std::string& path, const std::string& what, std::size_t most) {

@@ -19,6 +19,14 @@ Mechanism read_mechanism(const std::string& path, const std::vector<Override>& o
 Mechanism parse_mechanism(const std::string& text, const std::string& file,
                           const std::vector<Override>& overrides = {});
 
+/// A mechanism file in which every point has a construction.
+struct WrittenMechanism {
+  std::string text;
+  std::vector<std::string> notes;
+};
+/// The same mechanism as a file that says how it closes; what is drawn is constructed.
+WrittenMechanism constructed_text(const std::string& text, const std::string& file);
+
 /// The keys of a mechanism file, in the order of mechanism-file.md; what a help text names.
 const std::vector<std::string>& file_keys();
 

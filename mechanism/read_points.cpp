@@ -155,6 +155,14 @@ std::pair<PointIndex, PointIndex> read_pair(const Mechanism& mechanism, const Va
   return {first, second};
 }
 
+/// The length of a rod, or a polynomial in the coordinates: that of a leg which a motor makes longer.
+Expression read_length(const Mechanism& mechanism, const Value& value) {
+  const Expression length = read_expression(mechanism, value, Scope::parameters_and_coordinates);
+  if (!mentions_coordinates(mechanism, length)) return read_number(mechanism, value, Sign::positive).expression;
+  check_polynomial(mechanism, value, length, "the length of a leg is a number or a polynomial in the coordinates");
+  return length;
+}
+
 DyadPoint read_dyad(const Mechanism& mechanism, const Value& value) {
   const bool spatial = mechanism.space == Space::spatial;
   std::vector<std::string> keys = {"dyad", "lengths", "side"};
@@ -180,8 +188,8 @@ DyadPoint read_dyad(const Mechanism& mechanism, const Value& value) {
     throw InputError(side.where, side.what + " is '" + side_text + "'", "write left or right");
   return {from,
           to,
-          read_number(mechanism, lengths[0], Sign::positive).expression,
-          read_number(mechanism, lengths[1], Sign::positive).expression,
+          read_length(mechanism, lengths[0]),
+          read_length(mechanism, lengths[1]),
           side_text == "left" ? Side::left : Side::right,
           std::move(axis)};
 }
@@ -220,6 +228,54 @@ OffsetPoint read_offset(const Mechanism& mechanism, const Value& value) {
   (void)elements(written, 2);
   return {first, second, read_number(mechanism, offset[0], Sign::any).expression,
           read_number(mechanism, offset[1], Sign::any).expression};
+}
+
+ShiftedPoint read_shifted(const Mechanism& mechanism, const Value& value) {
+  const Mapping mapping(value, {"from", "by"});
+  Value by = mapping.at("by");
+  by.what = "the way of " + value.what;
+  by.field = "points";
+  return {read_point_name(mechanism, mapping.at("from")),
+          read_vector_expression(mechanism, by, Scope::parameters_and_coordinates)};
+}
+
+CrossingPoint read_crossing(const Mechanism& mechanism, const Value& value) {
+  const Value written = Mapping(value, {"crossing"}).at("crossing");
+  if (mechanism.space == Space::spatial)
+    throw InputError(value.where, value.what + " is where two lines of the plane cross, but the space is spatial",
+                     "write its coordinates, or a dyad with an axis");
+  const std::vector<Value> lines = elements(written, 2);
+  CrossingPoint point;
+  const auto line = [&](const Value& part, PointIndex& base, VectorExpression& along) {
+    const std::vector<Value> ends = elements(part, 2);
+    base = read_point_name(mechanism, ends[0]);
+    Value direction = ends[1];
+    direction.what = "a direction of " + value.what;
+    direction.field = "slider";
+    along = read_vector_expression(mechanism, direction, Scope::parameters_and_coordinates);
+  };
+  line(lines[0], point.first, point.along_first);
+  line(lines[1], point.second, point.along_second);
+  return point;
+}
+
+/// Where a line that passes the first point at a distance has its foot, on its way to the second.
+DyadPoint read_foot(const Mechanism& mechanism, const Value& value) {
+  const Mapping mapping(value, {"foot", "length", "side"});
+  if (mechanism.space == Space::spatial)
+    throw InputError(value.where, value.what + " is a foot in the plane, but the space is spatial",
+                     "write its coordinates, or a dyad with an axis");
+  const auto [from, to] = read_pair(mechanism, mapping.at("foot"));
+  Value length = mapping.at("length");
+  length.what = "the length of " + value.what;
+  const Value side = mapping.at("side");
+  const std::string side_text = text_of(side);
+  if (side_text != "left" && side_text != "right")
+    throw InputError(side.where, side.what + " is '" + side_text + "'", "write left or right");
+  DyadPoint point{from, to, read_number(mechanism, length, Sign::positive).expression, Expression(),
+                  side_text == "left" ? Side::left : Side::right};
+  point.right_angle = true;
+  return point;
 }
 
 bool has_key(const Value& value, const std::string& key) { return value.node.has(key); }
@@ -265,12 +321,16 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
     return MeanPoint{first, second};
   }
   if (has_key(value, "slider")) return read_slider(mechanism, value);
-  const std::vector<std::string> forms = {"dyad", "slider", "on", "mean", "in"};
+  if (has_key(value, "by")) return read_shifted(mechanism, value);
+  if (has_key(value, "foot")) return read_foot(mechanism, value);
+  if (has_key(value, "crossing")) return read_crossing(mechanism, value);
+  const std::vector<std::string> forms = {"dyad", "slider", "on", "mean", "in", "from", "crossing", "foot"};
   const std::vector<Entry> written = entries(value);
   if (written.empty())
     throw InputError(value.where, value.what + " is empty",
                      "write [x, y], {dyad: ...}, {slider: ...}, {on: ...} or {mean: ...}");
-  throw InputError(written.front().where, value.what + " has none of the forms dyad, slider, on, mean, in",
+  throw InputError(written.front().where,
+                   value.what + " has none of the forms dyad, slider, on, mean, in, from, crossing, foot",
                    suggest(written.front().key, forms, "forms"));
 }
 

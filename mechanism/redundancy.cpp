@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "mechanism/dependence.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/posture_sample.hpp"
@@ -13,7 +14,7 @@ namespace clearloci::mechanism {
 namespace {
 
 using Vector = std::array<double, 3>;
-using Matrix = std::vector<std::vector<double>>;  ///< row after row
+using Column = BorneReaction;
 
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -34,20 +35,15 @@ std::array<Vector, 2> across(const Vector& u) {
   return {first, cross(u, first)};
 }
 
-/// A unit reaction that a joint can bear: a force at its point, or a couple.
-struct Column {
-  JointIndex joint = 0;
-  bool motor = false;
-  Vector force{}, couple{};
-};
-
 constexpr std::array<Vector, 3> xyz = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& axes, std::vector<Column>& columns) {
   const Joint& joint = m.joints[static_cast<std::size_t>(index)];
   const JointTraits& own = traits(joint);
-  const auto force = [&](const Vector& v) { columns.push_back({index, false, v, {}}); };
-  const auto couple = [&](const Vector& v) { columns.push_back({index, false, {}, v}); };
+  const auto force = [&](const Vector& v) { columns.push_back({index, false, joint.from, joint.to, joint.at, v, {}}); };
+  const auto couple = [&](const Vector& v) {
+    columns.push_back({index, false, joint.from, joint.to, joint.at, {}, v});
+  };
   if (m.space == Space::planar) {
     if (is_guide(m, joint)) {
       force({-axes[0][1], axes[0][0], 0});
@@ -72,8 +68,9 @@ void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& 
     for (const Vector& v : xyz) couple(v);
 }
 
-/// Columns of every joint's unknowns; nothing where an axis is not known in this pose.
-std::optional<std::vector<Column>> columns_at(const Mechanism& m, const std::vector<double>& pose) {
+}  // namespace
+
+std::optional<std::vector<BorneReaction>> reactions_at(const Mechanism& m, const std::vector<double>& pose) {
   std::vector<Column> columns;
   for (std::size_t j = 0; j < m.joints.size(); ++j) {
     const Joint& joint = m.joints[j];
@@ -88,15 +85,14 @@ std::optional<std::vector<Column>> columns_at(const Mechanism& m, const std::vec
     if (!joint.actuated) continue;
     const Vector along = axes.empty() ? xyz[2] : axes[0];
     if (actuator_quantity(joint) == core::Quantity::F)
-      columns.push_back({index, true, along, {}});
+      columns.push_back({index, true, joint.from, joint.to, joint.at, along, {}});
     else
-      columns.push_back({index, true, {}, along});
+      columns.push_back({index, true, joint.from, joint.to, joint.at, {}, along});
   }
   return columns;
 }
 
-/// Force and moment balances of every link, in lengths of the mechanism's size.
-Matrix equilibrium(const Mechanism& m, const std::vector<Column>& columns, const std::vector<Vector>& places) {
+Matrix balances_of(const Mechanism& m, const std::vector<BorneReaction>& columns, const std::vector<Vector>& places) {
   double size = 0;
   for (const Vector& p : places)
     for (const Vector& q : places) size = std::max(size, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
@@ -104,8 +100,7 @@ Matrix equilibrium(const Mechanism& m, const std::vector<Column>& columns, const
   const std::size_t rows = equations_per_link(m);
   Matrix matrix(rows * m.links.size(), std::vector<double>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const Joint& joint = m.joints[static_cast<std::size_t>(columns[c].joint)];
-    const Vector& at = places[static_cast<std::size_t>(joint.at)];
+    const Vector& at = places[static_cast<std::size_t>(columns[c].at)];
     Vector arm{};
     for (std::size_t i = 0; i < 3; ++i) arm[i] = (at[i] - places.front()[i]) / size;
     const Vector turned = cross(arm, columns[c].force);
@@ -116,55 +111,12 @@ Matrix equilibrium(const Mechanism& m, const std::vector<Column>& columns, const
       if (rows == 3) all = {all[0], all[1], all[5]};
       for (std::size_t i = 0; i < rows; ++i) matrix[rows * static_cast<std::size_t>(link) + i][c] += sign * all[i];
     };
-    add(joint.to, 1);
-    add(joint.from, -1);
+    add(columns[c].to, 1);
+    add(columns[c].from, -1);
   }
   return matrix;
 }
 
-/// The columns in which some vector of the null space is not zero: Gauss-Jordan elimination with full pivoting. Entries
-/// are of the order of one.
-std::set<std::size_t> dependent_columns(Matrix a) {
-  constexpr double rounding = 1e-9;  // far above what a few hundred operations on numbers of about one leave
-  const std::size_t rows = a.size(), columns = rows == 0 ? 0 : a.front().size();
-  std::vector<std::size_t> pivots;  // the column of each row done so far
-  std::vector<bool> taken(columns);
-  for (std::size_t done = 0; done < rows; ++done) {
-    std::size_t row = done, column = columns;
-    double best = rounding;
-    for (std::size_t i = done; i < rows; ++i)
-      for (std::size_t j = 0; j < columns; ++j)
-        if (!taken[j] && std::abs(a[i][j]) > best) best = std::abs(a[row = i][column = j]);
-    if (column == columns) break;
-    std::swap(a[done], a[row]);
-    taken[column] = true;
-    pivots.push_back(column);
-    const double pivot = a[done][column];
-    for (double& entry : a[done]) entry /= pivot;
-    for (std::size_t i = 0; i < rows; ++i) {
-      const double factor = a[i][column];
-      if (i == done || factor == 0) continue;
-      for (std::size_t j = 0; j < columns; ++j) a[i][j] -= factor * a[done][j];
-    }
-  }
-  std::set<std::size_t> dependent;
-  for (std::size_t j = 0; j < columns; ++j) {
-    if (taken[j]) continue;
-    dependent.insert(j);
-    for (std::size_t i = 0; i < pivots.size(); ++i)
-      if (std::abs(a[i][j]) > rounding) dependent.insert(pivots[i]);
-  }
-  return dependent;
-}
-
-Matrix transposed(const Matrix& a) {
-  Matrix result(a.empty() ? 0 : a.front().size(), std::vector<double>(a.size()));
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t j = 0; j < a[i].size(); ++j) result[j][i] = a[i][j];
-  return result;
-}
-
-/// Whether a link only passes a force on from one pin to another.
 bool is_rod(const Mechanism& m, LinkIndex link) {
   if (link == m.end_effector_link || link == m.relative_to) return false;
   std::size_t pins = 0;
@@ -179,6 +131,8 @@ bool is_rod(const Mechanism& m, LinkIndex link) {
   return pins == 2;
 }
 
+namespace {
+
 struct Dependent {
   std::set<JointIndex> motors, joints;
   std::set<LinkIndex> loose;
@@ -186,18 +140,18 @@ struct Dependent {
 
 /// In one posture.
 std::optional<Dependent> dependent_at(const Mechanism& m, const std::vector<double>& pose) {
-  const auto columns = columns_at(m, pose);
+  const auto columns = reactions_at(m, pose);
   if (!columns || columns->size() != unknowns(m).size()) return std::nullopt;
   std::vector<Vector> places;
   for (const auto& place : sample_points(m, pose)) {
     if (!place) return std::nullopt;
     places.push_back(*place);
   }
-  const Matrix matrix = equilibrium(m, *columns, places);
+  const Matrix matrix = balances_of(m, *columns, places);
   Dependent found;
-  for (const std::size_t c : dependent_columns(matrix))
+  for (const std::size_t c : dependence_of(matrix).columns)
     ((*columns)[c].motor ? found.motors : found.joints).insert((*columns)[c].joint);
-  for (const std::size_t row : dependent_columns(transposed(matrix)))
+  for (const std::size_t row : dependence_of(transposed(matrix)).columns)
     found.loose.insert(static_cast<LinkIndex>(row / equations_per_link(m)));
   return found;
 }

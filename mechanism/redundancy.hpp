@@ -3,13 +3,35 @@
 // is held by no motor (principle of virtual work). For messages: no result rests on it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mechanism/dependence.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci::mechanism {
+
+/// A unit reaction that a joint can bear, of `from` on `to`: a force at a point, or a couple.
+struct BorneReaction {
+  JointIndex joint = 0;
+  bool motor = false;
+  LinkIndex from = ground, to = ground;
+  PointIndex at = 0;
+  std::array<double, 3> force{}, couple{};
+};
+
+/// One a column of the unknowns of every joint; nothing where an axis is not known in this pose.
+std::optional<std::vector<BorneReaction>> reactions_at(const Mechanism& mechanism, const std::vector<double>& pose);
+
+/// Force and moment balances of every link, in lengths of the mechanism's size. A row is a freedom of a link too: it
+/// moves where a vector of the left null space is not zero.
+Matrix balances_of(const Mechanism& mechanism, const std::vector<BorneReaction>& columns,
+                   const std::vector<std::array<double, 3>>& places);
+
+/// Whether a link only passes a force on from one pin to another.
+bool is_rod(const Mechanism& mechanism, LinkIndex link);
 
 struct Redundancy {
   std::vector<std::string> motors;  ///< any one of them can be left out, and the rest still holds the mechanism

@@ -49,6 +49,17 @@ std::vector<PointIndex> points_held(const Link& link) {
   return list;
 }
 
+/// Whether a vector is the same in every pose as it is written: made of numbers and parameters.
+bool is_constant(const Mechanism& mechanism, const VectorExpression& vector) {
+  if (!points_of(vector).empty()) return false;
+  const std::vector<Expression> numbers = numbers_of(vector);
+  return std::none_of(numbers.begin(), numbers.end(), [&](const Expression& number) {
+    const std::set<std::string> names = symbols(number);
+    return std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                       [&](const Coordinate& own) { return names.contains(own.name); });
+  });
+}
+
 /// Distances that the construction of the points holds, as far as simple rules tell.
 class Construction {
  public:
@@ -57,9 +68,11 @@ class Construction {
       const auto own = static_cast<PointIndex>(i);
       if (const auto* dyad = std::get_if<DyadPoint>(&m_.points[i].form)) {
         held_.insert(pair_of(own, dyad->from));
-        held_.insert(pair_of(own, dyad->to));
+        if (!dyad->right_angle) held_.insert(pair_of(own, dyad->to));
       } else if (const auto* slider = std::get_if<SliderPoint>(&m_.points[i].form)) {
         held_.insert(pair_of(own, slider->from));
+      } else if (const auto* shifted = std::get_if<ShiftedPoint>(&m_.points[i].form)) {
+        if (is_constant(m_, shifted->by)) held_.insert(pair_of(own, shifted->from));
       }
     }
   }
@@ -72,6 +85,11 @@ class Construction {
     if (std::holds_alternative<ExplicitPoint>(form)) return false;
     if (const auto* mean = std::get_if<MeanPoint>(&form))
       return is_built_by_roots(mean->first) || is_built_by_roots(mean->second);
+    if (const auto* shifted = std::get_if<ShiftedPoint>(&form)) {
+      const std::set<PointIndex> used = points_of(shifted->by);
+      return is_built_by_roots(shifted->from) ||
+             std::any_of(used.begin(), used.end(), [&](PointIndex own) { return is_built_by_roots(own); });
+    }
     return true;
   }
 

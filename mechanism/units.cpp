@@ -31,6 +31,8 @@ const std::map<std::string, std::optional<Dimension>>& fields() {
       {"workspace", length},
       {"angle", angle},
       {"points", length},
+      {"drawn", length},
+      {"stroke", length},
       {"lengths", length},
       {"length", length},
       {"offset", length},

@@ -72,6 +72,8 @@ Triple Geometry::place(mechanism::PointIndex index) {
   if (const auto* d = std::get_if<mechanism::DyadPoint>(&form)) return dyad(*d, named_.sign_of(index));
   if (const auto* s = std::get_if<mechanism::SliderPoint>(&form)) return slider(*s, named_.sign_of(index));
   if (const auto* o = std::get_if<mechanism::OffsetPoint>(&form)) return offset(*o);
+  if (const auto* s = std::get_if<mechanism::ShiftedPoint>(&form)) return plus(point(s->from), vector(s->by));
+  if (const auto* c = std::get_if<mechanism::CrossingPoint>(&form)) return crossing(*c);
   const auto& mean = std::get<mechanism::MeanPoint>(form);
   return times(tape_.constant(0.5), plus(point(mean.first), point(mean.second)));
 }
@@ -97,8 +99,9 @@ Triple Geometry::dyad(const mechanism::DyadPoint& form, Register sign) {
   const Register h = dot(n, way);
   const bool in_plane = t.is_exactly(h, 0);
   const Triple r = in_plane ? way : minus(way, times(h, n));
-  const Register seen = in_plane ? b : t.sqrt(t.multiply(t.subtract(b, h), t.add(b, h)));
   const Register D = dot(r, r);
+  Register seen = in_plane ? b : t.sqrt(t.multiply(t.subtract(b, h), t.add(b, h)));
+  if (form.right_angle) seen = t.sqrt(t.subtract(D, t.square(a)));  // b² = D - a²
   const Register sum = t.add(a, seen), difference = t.subtract(a, seen);
   const Register Q = t.multiply(t.subtract(t.square(sum), D), t.subtract(D, t.square(difference)));
   const Register k = t.add(t.multiply(sum, difference), D);
@@ -119,6 +122,13 @@ Triple Geometry::slider(const mechanism::SliderPoint& form, Register sign) {
   Register square = t.multiply(t.subtract(l, across[2]), t.add(l, across[2]));
   for (const std::size_t c : {0u, 1u}) square = t.subtract(square, t.square(across[c]));
   return plus(point(form.base), times(t.add(dot(r, u), t.multiply(sign, t.sqrt(square))), u));
+}
+
+/// X = Q + t u with (X - R) x v = 0:  t = ((R - Q) x v) / (u x v).
+Triple Geometry::crossing(const mechanism::CrossingPoint& form) {
+  const Triple u = vector(form.along_first), v = vector(form.along_second);
+  const Triple way = minus(point(form.second), point(form.first));
+  return plus(point(form.first), times(tape_.divide(cross(way, v)[2], cross(u, v)[2]), u));
 }
 
 Triple Geometry::vector(const mechanism::VectorExpression& v) {

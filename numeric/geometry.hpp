@@ -53,6 +53,7 @@ class Geometry {
   Triple offset(const mechanism::OffsetPoint& form);
   Triple dyad(const mechanism::DyadPoint& form, Register sign);
   Triple slider(const mechanism::SliderPoint& form, Register sign);
+  Triple crossing(const mechanism::CrossingPoint& form);
   void add_axes(const mechanism::Joint& joint);
 
   const mechanism::Mechanism& m_;

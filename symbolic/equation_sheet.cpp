@@ -299,6 +299,8 @@ class SheetWriter {
     } else if (const auto* offset = std::get_if<mechanism::OffsetPoint>(&point.form)) {
       // Otherwise linear in the two other points.
       if (geometry_.poly(geometry_.natural(c.point)[0]).depends_on(c.x)) write_offset(c, point.name, *offset, lines);
+    } else if (const auto* crossing = std::get_if<mechanism::CrossingPoint>(&point.form)) {
+      write_crossing(c, point.name, *crossing, lines);
     }
   }
 
@@ -308,8 +310,8 @@ class SheetWriter {
     const FormulaWriter w(language_);
     const FormulaText D = symbol_text("D" + name), k = symbol_text("k" + name), s = symbol_text("s" + name);
     const Vector way = difference(dyad.from, dyad.to);
-    const Poly a = length(dyad.from_length), b = length(dyad.to_length);
-    const FormulaText way2 = squared(way), reach = as_text((a * a).scaled(4)), excess = as_text(a * a - b * b);
+    const Poly a2 = geometry_.squared_length(dyad.from_length), b2 = geometry_.squared_length(dyad.to_length);
+    const FormulaText way2 = squared(way), reach = as_text(a2.scaled(4)), excess = as_text(a2 - b2);
     const auto add_root = [&](const FormulaText& square) {
       const FormulaText root = w.root(square);
       lines.emplace_back(s.text, (dyad.side == mechanism::Side::left ? root : w.negated(root)).text);
@@ -319,7 +321,7 @@ class SheetWriter {
     };
     if (!dyad.axis) {
       lines.emplace_back(D.text, way2.text);
-      lines.emplace_back(k.text, w.sum(excess, D).text);
+      lines.emplace_back(k.text, dyad.right_angle ? as_text(a2.scaled(2)).text : w.sum(excess, D).text);
       add_root(w.difference(w.product(reach, D), w.squared(k)));
       const FormulaText x = w.quotient(w.difference(w.product(k, way[0]), w.product(s, way[1])), w.twice(D));
       write_place(c, dyad.from, {x, over_twice_D(way[1], way[0]), {}}, lines);
@@ -353,11 +355,22 @@ class SheetWriter {
     }
     const FormulaText across2 = mechanism_.space == mechanism::Space::planar ? w.squared(q) : squared(across);
     const FormulaText size = as_text(squared(slider.along));
-    const Poly l = length(slider.length);
-    const FormulaText root = w.root(w.difference(w.product(as_text(l * l), size), across2));
+    const Poly l2 = geometry_.squared_length(slider.length);
+    const FormulaText root = w.root(w.difference(w.product(as_text(l2), size), across2));
     lines.emplace_back(s.text, (slider.ahead ? root : w.negated(root)).text);
     const FormulaText step = w.quotient(w.sum(p, s), size);
     write_place(c, slider.base, {w.product(step, u[0]), w.product(step, u[1]), w.product(step, u[2])}, lines);
+  }
+
+  /// X = Q + (((R - Q) x v) / (u x v)) u.
+  void write_crossing(const ConstructedPoint& c, const std::string& name, const mechanism::CrossingPoint& crossing,
+                      Lines& lines) {
+    const FormulaWriter w(language_);
+    const FormulaText p = symbol_text("p" + name);
+    const Vector u = direction(crossing.along_first), v = direction(crossing.along_second);
+    const Vector way = difference(crossing.first, crossing.second);
+    lines.emplace_back(p.text, w.quotient(cross(way, v)[2], cross(u, v)[2]).text);
+    write_place(c, crossing.first, {w.product(p, u[0]), w.product(p, u[1]), {}}, lines);
   }
 
   void write_offset(const ConstructedPoint& c, const std::string& name, const mechanism::OffsetPoint& offset,

@@ -37,15 +37,6 @@ struct PlacedExpression {
   core::SourcePosition where;
 };
 
-std::vector<Expression> numbers_of(const mechanism::VectorExpression& vector) {
-  std::vector<Expression> numbers = vector.numbers;
-  for (const auto& argument : vector.arguments) {
-    const std::vector<Expression> more = numbers_of(argument);
-    numbers.insert(numbers.end(), more.begin(), more.end());
-  }
-  return numbers;
-}
-
 /// Every expression that the equations are made of.
 std::vector<PlacedExpression> expressions_of(const Mechanism& m) {
   std::vector<PlacedExpression> all;
@@ -59,6 +50,12 @@ std::vector<PlacedExpression> expressions_of(const Mechanism& m) {
     if (const auto* slider = std::get_if<SliderPoint>(&point.form)) {
       add({slider->length}, point.where);
       add(numbers_of(slider->along), point.where);
+    }
+    if (const auto* shifted = std::get_if<mechanism::ShiftedPoint>(&point.form))
+      add(numbers_of(shifted->by), point.where);
+    if (const auto* crossing = std::get_if<mechanism::CrossingPoint>(&point.form)) {
+      add(numbers_of(crossing->along_first), point.where);
+      add(numbers_of(crossing->along_second), point.where);
     }
   }
   for (const mechanism::Joint& joint : m.joints)
@@ -108,6 +105,7 @@ Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts char
                              "write it with + - * and whole powers of the coordinates");
     }
   }
+  list_crank_lengths();
   list_lengths();
   list_torsion_angles();
   name_variables();
@@ -247,7 +245,9 @@ void Geometry::name_variables() {
   };
   for (PointIndex i = 0; i < static_cast<PointIndex>(mechanism_->points.size()); ++i) {
     const mechanism::Point& point = mechanism_->points[index(i)];
-    if (std::holds_alternative<ExplicitPoint>(point.form) || std::holds_alternative<MeanPoint>(point.form)) continue;
+    if (std::holds_alternative<ExplicitPoint>(point.form) || std::holds_alternative<MeanPoint>(point.form) ||
+        std::holds_alternative<mechanism::ShiftedPoint>(point.form))
+      continue;
     const int x = add_untaken("x" + point.name);
     const int y = add_untaken("y" + point.name);
     const bool spatial = mechanism_->space == mechanism::Space::spatial;

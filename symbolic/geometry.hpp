@@ -19,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -168,6 +169,10 @@ class Geometry {
   /// What is called after it: the spring, or the symbol of an arc tangent.
   const std::string& name_of(const TorsionAngle& angle) const;
 
+  /// The square of a length of the file: exact where the length is the root of a rational number, unless the length is
+  /// that of a crank too, whose place needs the length itself.
+  Poly squared_length(const core::Expression& length) const;
+
   const Charts& charts() const { return charts_; }
   /// What over_tower puts in, in an order in which no place holds a coordinate that is still to be replaced.
   std::vector<Substitution> substitutions() const;
@@ -223,9 +228,14 @@ class Geometry {
   void place_dyad(mechanism::PointIndex point, const mechanism::DyadPoint& form);
   void place_offset(mechanism::PointIndex point, const mechanism::OffsetPoint& form);
   void place_slider(mechanism::PointIndex point, const mechanism::SliderPoint& form);
+  void place_shifted(mechanism::PointIndex point, const mechanism::ShiftedPoint& form);
+  void place_crossing(mechanism::PointIndex point, const mechanism::CrossingPoint& form);
+  void list_crank_lengths();
   /// Position first + ((u along + v across) (second - first)) / length, over the tower.
   TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const Poly& length_numerator,
                                const Poly& length_denominator) const;
+  TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const std::array<Poly, 2>& offset,
+                               const Poly& length_numerator, const Poly& length_denominator) const;
   void construct(mechanism::PointIndex point);
   /// Returns the root times its `scale_divisor`, that is, the true root times its `scale`.
   Poly add_root(TowerRoot root);
@@ -286,7 +296,8 @@ class Geometry {
   std::vector<Poly> positive_;  ///< known to be nowhere negative on the sheets, in the order of their appearance
   Charts charts_;
   std::vector<Substitution> angles_;
-  int first_root_ = 0;  ///< ring variable
+  std::set<core::Rational> crank_lengths_;  ///< rational numbers that stand for irrational lengths in places
+  int first_root_ = 0;                      ///< ring variable
   SheetChoice sheet_;
   std::vector<Fold> folds_;
   /// Of every dependent root the roots, itself among them, whose signs together it was placed with.

@@ -1,5 +1,6 @@
 // Where the points of a mechanism are over the tower (method.md section 1).
 #include <algorithm>
+#include <functional>
 
 #include "mechanism/evaluate.hpp"
 #include "symbolic/geometry.hpp"
@@ -39,6 +40,8 @@ void Geometry::place(PointIndex point) {
   if (const auto* dyad = std::get_if<DyadPoint>(&form)) place_dyad(point, *dyad);
   if (const auto* offset = std::get_if<OffsetPoint>(&form)) place_offset(point, *offset);
   if (const auto* slider = std::get_if<SliderPoint>(&form)) place_slider(point, *slider);
+  if (const auto* shifted = std::get_if<mechanism::ShiftedPoint>(&form)) place_shifted(point, *shifted);
+  if (const auto* crossing = std::get_if<mechanism::CrossingPoint>(&form)) place_crossing(point, *crossing);
 }
 
 void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
@@ -141,8 +144,8 @@ Poly Geometry::by_known_lengths(Poly squared) const {
     if (!factor.is_constant()) continue;
     std::optional<Poly> best;
     for (const auto& [end, length] : {std::pair{dyad->from, dyad->from_length}, {dyad->to, dyad->to_length}}) {
-      const Poly own = poly(expression(length).expand());
-      Poly less = squared - factor * (squared_way(end, elbow->point) - own * own);
+      if (dyad->right_angle && end == dyad->to) continue;
+      Poly less = squared - factor * (squared_way(end, elbow->point) - squared_length(length));
       if (less.degree(pair) < 2 && (!best || less.length() < best->length())) best = std::move(less);
     }
     if (best) squared = std::move(*best);
@@ -168,11 +171,35 @@ std::array<Poly, 2> Geometry::squared_distance(PointIndex from, PointIndex to) c
   return {above, below};
 }
 
+Poly Geometry::squared_length(const Expression& length) const {
+  const Poly own = poly(expression(length).expand());
+  if (!own.is_constant() || is_free(length) || crank_lengths_.contains(own.constant())) return own * own;
+  const Expression square = Expression::apply(Expression::Kind::power, {length, Expression::number(2)});
+  const mechanism::ExactValue exact = mechanism::evaluate(square, mechanism_->parameters);
+  return exact.exact ? Poly(*ring_, exact.value) : own * own;
+}
+
+void Geometry::list_crank_lengths() {
+  const std::function<void(const Expression&)> walk = [&](const Expression& e) {
+    if (e.kind() == Expression::Kind::sqrt && !is_free(e)) {
+      const mechanism::ExactValue root = mechanism::evaluate(e, mechanism_->parameters);
+      if (!root.exact) crank_lengths_.insert(root.value);
+    }
+    for (const Expression& argument : e.arguments()) walk(argument);
+  };
+  for (const mechanism::Point& point : mechanism_->points) {
+    if (const auto* form = std::get_if<ExplicitPoint>(&point.form))
+      for (const Expression& coordinate : form->coordinates) walk(coordinate);
+    if (const auto* form = std::get_if<mechanism::ShiftedPoint>(&point.form))
+      for (const Expression& number : mechanism::numbers_of(form->by)) walk(number);
+  }
+}
+
 void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   construct(point);
   const TowerPoint& a = tower(form.from);
-  const Poly from_length = poly(expression(form.from_length).expand());
-  const Poly to_length = poly(expression(form.to_length).expand());
+  const Poly from2 = squared_length(form.from_length);
+  const Poly to2 = form.right_angle ? Poly(*ring_) : squared_length(form.to_length);
   // P - A = way / w; D = d / w^2; k = kn / w^2; Q = square / w^4 and s is scaled by w^2 > 0 likewise.
   const auto [x, y, w, z] = difference(tower(form.to), a);
   const Vector way = {x, y, z};
@@ -192,8 +219,9 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
       w2 = std::move(below);
     }
   }
-  Poly kn = reduce((from_length * from_length - to_length * to_length) * w2 + (rigid || !form.axis ? d : way2));
-  Poly square = reduce((from_length * from_length * d * w2).scaled(4) - n2 * kn * kn);
+  Poly kn =
+      form.right_angle ? reduce((from2 * w2).scaled(2)) : reduce((from2 - to2) * w2 + (rigid || !form.axis ? d : way2));
+  Poly square = reduce((from2 * d * w2).scaled(4) - n2 * kn * kn);
   // What divides k and the root alike is taken out of the root.
   Poly scale(*ring_, 1), less(*ring_), quotient(*ring_);
   for (const Poly& divisor : positive_)
@@ -283,9 +311,14 @@ TowerPoint Geometry::sum(const TowerPoint& a, const TowerPoint& way) const {
 
 TowerPoint Geometry::offset_over_tower(const OffsetPoint& form, const Poly& length_numerator,
                                        const Poly& length_denominator) const {
+  return offset_over_tower(form, {poly(expression(form.along).expand()), poly(expression(form.left).expand())},
+                           length_numerator, length_denominator);
+}
+
+TowerPoint Geometry::offset_over_tower(const OffsetPoint& form, const std::array<Poly, 2>& offset,
+                                       const Poly& length_numerator, const Poly& length_denominator) const {
   const TowerPoint& a = tower(form.first);
-  const Poly along = poly(expression(form.along).expand());
-  const Poly left = poly(expression(form.left).expand());
+  const auto& [along, left] = offset;
   const auto [u, v, w, h] = difference(tower(form.second), a);
   // A + (along u - left v) / (w length)
   TowerPoint way{reduce((along * u - left * v) * length_denominator),
@@ -317,21 +350,56 @@ void Geometry::divide_by_length(const mechanism::VectorExpression& axis) {
 // S = Q + (p +- s) u / U,  p = u . (C - Q),  U = u . u,  s^2 = l^2 U - (u x (C - Q))^2: the sign + is ahead.
 void Geometry::place_slider(PointIndex point, const SliderPoint& form) {
   const TowerPoint& q = tower(form.base);
-  const Poly length = poly(expression(form.length).expand());
+  const Poly length2 = squared_length(form.length);
   const Vector u = direction(form.along);
   // C - Q = way / w; p = pn / w, s is scaled by w > 0 likewise.
   const auto [x, y, w, z] = difference(tower(form.from), q);
   const Vector way = {x, y, z};
   const Poly size = reduce(dot(u, u)), pn = reduce(dot(u, way));
   const Vector across = cross(u, way);
-  const Poly s = add_root(
-      {point, next_root(), RootRole::working_mode, reduce(length * length * size * w * w - dot(across, across)), w});
+  const Poly s =
+      add_root({point, next_root(), RootRole::working_mode, reduce(length2 * size * w * w - dot(across, across)), w});
   if (!size.is_constant()) add_denominator(size);
   TowerPoint step{reduce((pn + s) * u[0]), reduce((pn + s) * u[1]), reduce((pn + s) * u[2]), reduce(w * size)};
   lighten(step);
   tower_[index(point)] = sum(q, step);
   construct(point);
   keep_on_line(point, form.base, u);
+}
+
+void Geometry::place_shifted(PointIndex point, const mechanism::ShiftedPoint& form) {
+  const std::vector<GiNaC::ex> by = vector(form.by);
+  auto& own = natural_[index(point)];
+  TowerPoint way{Poly(*ring_), Poly(*ring_), Poly(*ring_), Poly(*ring_, 1)};
+  std::array<Poly*, 3> parts = {&way.x, &way.y, &way.z};
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    own[i] = (natural(form.from)[i] + by[i]).expand();
+    *parts[i] = poly(by[i]);
+  }
+  for (std::size_t i = by.size(); i < 3; ++i) own[i] = natural(form.from)[i];
+  for (const Substitution& pair : substitutions()) {
+    const int degree = std::max({degree_in(way.x, pair), degree_in(way.y, pair), degree_in(way.z, pair)});
+    if (degree == 0) continue;
+    for (Poly* part : parts) *part = substituted(*part, pair, degree);
+    way.w = reduce(way.w * pair.place.w.pow(static_cast<unsigned>(degree)));
+  }
+  lighten(way);
+  tower_[index(point)] = sum(tower(form.from), way);
+}
+
+// X = Q + (((R - Q) x v) / (u x v)) u, with (u x v)^2 below: a denominator is nowhere negative.
+void Geometry::place_crossing(PointIndex point, const mechanism::CrossingPoint& form) {
+  const TowerPoint& q = tower(form.first);
+  const Vector u = direction(form.along_first), v = direction(form.along_second);
+  const auto [x, y, w, z] = difference(tower(form.second), q);
+  const Poly turn = reduce(u[0] * v[1] - u[1] * v[0]), square = reduce(turn * turn);
+  const Poly part = reduce((x * v[1] - y * v[0]) * turn);
+  if (!square.is_constant()) add_denominator(square);
+  TowerPoint step{reduce(part * u[0]), reduce(part * u[1]), Poly(*ring_), reduce(w * square)};
+  lighten(step);
+  tower_[index(point)] = sum(q, step);
+  construct(point);
+  keep_on_line(point, form.first, u);
 }
 
 void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
@@ -350,15 +418,24 @@ void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
     known = true;
   }
   if (known && length.is_constant()) {
-    const GiNaC::ex scale = number(1 / length.constant());
-    const GiNaC::ex along = expression(form.along) * scale;
-    const GiNaC::ex left = expression(form.left) * scale;
+    // Parts of the way to the second point: rational numbers where the offsets and the length have a root in common.
+    const auto part = [&](const Expression& offset) -> GiNaC::ex {
+      if (squared_length->is_constant() && !keep_parameters_ && !is_free(offset)) {
+        const Expression root =
+            Expression::apply(Expression::Kind::sqrt, {Expression::number(squared_length->constant())});
+        const mechanism::ExactValue exact =
+            mechanism::evaluate(Expression::apply(Expression::Kind::divide, {offset, root}), mechanism_->parameters);
+        if (exact.exact) return number(exact.value);
+      }
+      return expression(offset) * number(1 / length.constant());
+    };
+    const GiNaC::ex along = part(form.along), left = part(form.left);
     const auto& p = natural(form.first);
     const auto& q = natural(form.second);
     natural_[index(point)] = {(p[0] + along * (q[0] - p[0]) - left * (q[1] - p[1])).expand(),
                               (p[1] + along * (q[1] - p[1]) + left * (q[0] - p[0])).expand(),
                               (p[2] + along * (q[2] - p[2])).expand()};
-    tower_[index(point)] = offset_over_tower(form, length, one);
+    tower_[index(point)] = offset_over_tower(form, {poly(along.expand()), poly(left.expand())}, one, one);
     return;
   }
   construct(point);

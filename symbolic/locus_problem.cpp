@@ -663,8 +663,13 @@ class Derivation {
     if (!lines) return false;
     const auto& dyad = std::get<mechanism::DyadPoint>(mechanism_.points[static_cast<std::size_t>(root.point)].form);
     const auto squared = [](const Poly& length) { return length * length; };
+    // Rims are of a length itself, of which the square alone may be rational.
+    if (dyad.right_angle) return false;
     const Poly a = geometry_.poly(geometry_.expression(dyad.from_length).expand());
     const Poly b = geometry_.poly(geometry_.expression(dyad.to_length).expand());
+    if (!(geometry_.squared_length(dyad.from_length) == squared(a)) ||
+        !(geometry_.squared_length(dyad.to_length) == squared(b)))
+      return false;
     const std::array<Poly, 2> rims = {geometry_.reduce(squared(a + b) * own->w2 - own->d),
                                       geometry_.reduce(own->d - squared(a - b) * own->w2)};
     for (std::size_t k = 0; k < rims.size(); ++k) {

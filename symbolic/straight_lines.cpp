@@ -366,7 +366,7 @@ int StraightLines::excess(const Dyad& dyad) {
 std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex point) {
   const mechanism::PointForm& form = geometry_->mechanism().points[static_cast<std::size_t>(point)].form;
   const auto* own = std::get_if<mechanism::DyadPoint>(&form);
-  if (own == nullptr) return std::nullopt;
+  if (own == nullptr || own->right_angle) return std::nullopt;
   const Poly from_length = geometry_->poly(geometry_->expression(own->from_length).expand());
   const Poly to_length = geometry_->poly(geometry_->expression(own->to_length).expand());
   const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),

@@ -1,0 +1,311 @@
+// What is loose in a drawing and what is too much, by counting: the joints' reactions in the drawn posture hold the
+// links (virtual work), and what is left has to be as many as there are coordinates and motors.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "mechanism/assembly/drawing.hpp"
+#include "mechanism/idle.hpp"
+#include "mechanism/joint_traits.hpp"
+#include "mechanism/posture_sample.hpp"
+#include "mechanism/redundancy.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+using Place = std::array<double, 3>;
+
+double apart(const Place& p, const Place& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+
+/// "1 motor", "2 motors".
+std::string counted(std::size_t count, const std::string& what, const std::string& more) {
+  return std::to_string(count) + " " + (count == 1 ? what : more);
+}
+
+void check_every_link_joined(const Drawing& d) {
+  for (std::size_t l = 0; l < d.mechanism.links.size(); ++l) {
+    const auto link = static_cast<LinkIndex>(l);
+    if (std::any_of(d.mechanism.joints.begin(), d.mechanism.joints.end(),
+                    [&](const Joint& joint) { return joint.from == link || joint.to == link; }))
+      continue;
+    throw InputError(d.link(link).where, "link " + d.link(link).name + " has no joint",
+                     "join it to another link, or leave it out");
+  }
+}
+
+void check_doubled_joints(const Drawing& d) {
+  const double near = 1e-9 * d.size;  // of the drawing: two joints so close are meant to be in one place
+  const auto& joints = d.mechanism.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const Joint &a = joints[i], &b = joints[j];
+      if (std::minmax(a.from, a.to) != std::minmax(b.from, b.to)) continue;
+      if (apart(d.place(a.at), d.place(b.at)) > near || !d.at(a.at).has_place || !d.at(b.at).has_place) continue;
+      throw InputError(b.where,
+                       "joints " + a.name + " and " + b.name + " join " + d.name_of(a.from) + " and " +
+                           d.name_of(a.to) + " in one place",
+                       "leave " + b.name + " out, or join another link there");
+    }
+}
+
+/// The links and joints of the drawing in doubles, and what holds them.
+class Freedoms {
+ public:
+  explicit Freedoms(const Drawing& drawing) : d_(drawing), m_(drawing.mechanism) {
+    m_.loads.clear();
+    m_.gravity.clear();
+    m_.springs.clear();
+    m_.end_effector_link = ground;
+    for (std::size_t p = 0; p < m_.points.size() && p < d_.points.size(); ++p) {
+      ExplicitPoint form;
+      for (std::size_t i = 0; i < dimension(m_); ++i)
+        form.coordinates.push_back(Expression::number(Rational(d_.posture[p][i])));
+      m_.points[p].form = std::move(form);
+    }
+    if (drawing.is_spatial()) hold_idle_freedoms(m_);
+    pose_ = spread_poses(m_, 1).front();
+    for (const auto& place : sample_points(m_, pose_)) places_.push_back(place.value_or(Place{}));
+    if (auto columns = reactions_at(m_, pose_)) {
+      for (const BorneReaction& own : *columns) (own.motor ? motors_ : passive_).push_back(own);
+      known_ = true;
+    }
+  }
+
+  /// False where an axis has no direction in the posture: other checks say so.
+  bool known() const { return known_; }
+  std::size_t rows() const { return equations_per_link(m_) * m_.links.size(); }
+  std::size_t reactions() const { return passive_.size(); }
+  std::size_t mobility() const { return rows() - rank(passive_); }
+  std::size_t motors() const { return motors_.size(); }
+
+  /// Links that move while the coordinates stand still.
+  std::vector<LinkIndex> loose(std::size_t& freedoms) const {
+    std::vector<BorneReaction> columns = passive_;
+    add_coordinates(columns);
+    const Matrix matrix = balances_of(m_, columns, places_);
+    const Dependence found = dependence_of(transposed(matrix));
+    freedoms = rows() - found.rank;
+    std::set<LinkIndex> links;
+    for (const std::size_t row : found.columns) links.insert(static_cast<LinkIndex>(row / equations_per_link(m_)));
+    return {links.begin(), links.end()};
+  }
+
+  /// Rods, and joints where there are none, that brace against each other.
+  void braced(std::vector<std::string>& rods, std::vector<std::string>& joints) const {
+    std::set<JointIndex> own;
+    for (const std::size_t c : dependence_of(balances_of(m_, passive_, places_)).columns) own.insert(passive_[c].joint);
+    for (const JointIndex j : own) joints.push_back(d_.joint(j).name);
+    for (std::size_t l = 0; l < m_.links.size(); ++l) {
+      const auto link = static_cast<LinkIndex>(l);
+      const bool touched = std::any_of(
+          own.begin(), own.end(), [&](JointIndex j) { return d_.joint(j).from == link || d_.joint(j).to == link; });
+      if (touched && is_rod(m_, link)) rods.push_back(m_.links[l].name);
+    }
+  }
+
+  /// Whether motors alone brace against each other: any one of them may go.
+  std::vector<std::string> motors_too_many() const {
+    std::vector<BorneReaction> columns = passive_;
+    columns.insert(columns.end(), motors_.begin(), motors_.end());
+    std::vector<std::string> names;
+    for (const std::size_t c : dependence_of(balances_of(m_, columns, places_)).columns)
+      if (columns[c].motor) names.push_back(d_.joint(columns[c].joint).name);
+    return names;
+  }
+  std::vector<LinkIndex> undriven() const {
+    std::vector<BorneReaction> columns = passive_;
+    columns.insert(columns.end(), motors_.begin(), motors_.end());
+    std::set<LinkIndex> links;
+    for (const std::size_t row : dependence_of(transposed(balances_of(m_, columns, places_))).columns)
+      links.insert(static_cast<LinkIndex>(row / equations_per_link(m_)));
+    return {links.begin(), links.end()};
+  }
+
+ private:
+  std::size_t rank(const std::vector<BorneReaction>& columns) const {
+    return dependence_of(balances_of(m_, columns, places_)).rank;
+  }
+
+  LinkIndex link_of(PointIndex point) const {
+    for (std::size_t l = 0; l < m_.links.size(); ++l)
+      if (std::find(m_.links[l].points.begin(), m_.links[l].points.end(), point) != m_.links[l].points.end())
+        return static_cast<LinkIndex>(l);
+    return ground;
+  }
+
+  /// What would hold every coordinate still.
+  void add_coordinates(std::vector<BorneReaction>& columns) const {
+    const auto hold = [&](PointIndex point, std::size_t axis) {
+      BorneReaction own{0, false, ground, link_of(point), point, {}, {}};
+      own.force[axis] = 1;
+      if (own.to != ground) columns.push_back(own);
+    };
+    for (const DrawnCoordinate& c : d_.coordinates) {
+      using Kind = DrawnCoordinate::Kind;
+      if (c.kind == Kind::place) hold(c.point, c.axis);
+      if (c.kind == Kind::stroke)
+        if (const auto axis = sample_vector(m_, d_.joint(c.joint).axes.front(), pose_))
+          columns.push_back(
+              {c.joint, false, d_.joint(c.joint).from, d_.joint(c.joint).to, d_.joint(c.joint).at, unit(*axis), {}});
+      if (c.kind == Kind::direction && !d_.is_spatial())
+        columns.push_back({0, false, c.other, c.link, d_.link(c.link).points.front(), {}, {0, 0, 1}});
+      if (c.kind == Kind::turn || (c.kind == Kind::direction && d_.is_spatial()))
+        for (std::size_t i = 0; i < 3; ++i) {
+          BorneReaction own{0, false, c.other, c.link, d_.link(c.link).points.front(), {}, {}};
+          own.couple[i] = 1;
+          if (c.kind == Kind::direction || i == static_cast<std::size_t>(c.order[c.axis] - 'x')) columns.push_back(own);
+        }
+    }
+    for (std::size_t p = 0; p < d_.points.size(); ++p)
+      if (d_.points[p].moves && std::holds_alternative<ExplicitPoint>(d_.mechanism.points[p].form))
+        for (std::size_t i = 0; i < dimension(m_); ++i) hold(static_cast<PointIndex>(p), i);
+  }
+
+  static Place unit(const Place& v) {
+    const double size = std::hypot(v[0], v[1], v[2]);
+    return {v[0] / size, v[1] / size, v[2] / size};
+  }
+
+  const Drawing& d_;
+  Mechanism m_;
+  bool known_ = false;
+  std::vector<double> pose_;
+  std::vector<Place> places_;
+  std::vector<BorneReaction> passive_, motors_;
+};
+
+std::vector<std::string> names_of(const Drawing& d, const std::vector<LinkIndex>& links) {
+  std::vector<std::string> names;
+  for (const LinkIndex link : links) names.push_back(d.name_of(link));
+  return names;
+}
+
+std::string link_words(const Drawing& d, const std::vector<LinkIndex>& links) {
+  return (links.size() == 1 ? "link " : "links ") + listed(names_of(d, links));
+}
+
+std::string counts(const Drawing& d, const Freedoms& freedoms) {
+  return counted(freedoms.mobility(), "freedom", "freedoms") + ", " +
+         counted(d.coordinates.size(), "coordinate", "coordinates") + ", " +
+         counted(freedoms.motors(), "motor", "motors");
+}
+
+core::SourcePosition place_of(const Drawing& d, const std::vector<LinkIndex>& links) {
+  return links.empty() || links.front() == ground ? core::SourcePosition{d.mechanism.file}
+                                                  : d.link(links.front()).where;
+}
+
+/// In the plane: rods and joints that hold the rest more than it needs.
+void check_braced(const Drawing& d, const Freedoms& freedoms) {
+  if (d.is_spatial() || freedoms.reactions() + d.coordinates.size() <= freedoms.rows()) return;
+  std::vector<std::string> rods, joints;
+  freedoms.braced(rods, joints);
+  if (joints.empty()) return;
+  const std::size_t more = freedoms.reactions() + d.coordinates.size() - freedoms.rows();
+  if (rods.empty())
+    throw InputError({d.mechanism.file},
+                     "joints " + listed(joints) + " brace against each other: " + counts(d, freedoms),
+                     "leave out " + counted(more, "link", "links") + " between them with a joint each");
+  throw InputError({d.mechanism.file},
+                   "rods " + listed(rods) + " hold the links between them more than once: " +
+                       std::to_string(rods.size() - more) + " of these " + std::to_string(rods.size()) + " will do",
+                   "leave " + rods.back() + " out with its joints");
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::vector<bool> fixed_points(const Drawing& d) {
+  std::vector<bool> fixed(d.points.size());
+  std::vector<bool> carried(d.points.size());
+  for (const Link& link : d.mechanism.links)
+    for (const PointIndex point : link.points)
+      if (static_cast<std::size_t>(point) < carried.size()) carried[static_cast<std::size_t>(point)] = true;
+  for (std::size_t p = 0; p < fixed.size(); ++p) {
+    const DrawnPoint& own = d.points[p];
+    fixed[p] = own.built ? !own.moves && own.uses.empty() : !carried[p];
+  }
+  for (const Joint& joint : d.mechanism.joints) {
+    if (joint.from != ground && joint.to != ground) continue;
+    if (!traits(joint).slides) fixed[static_cast<std::size_t>(joint.at)] = true;
+    if (!d.is_spatial() || joint.type != JointType::revolute) continue;
+    // What lies on the axis of a crank stands still with it.
+    const auto axis = sample_vector(d.mechanism, joint.axes.front(), spread_poses(d.mechanism, 1).front());
+    if (!axis) continue;
+    for (const PointIndex point : d.link(joint.from == ground ? joint.to : joint.from).points) {
+      const Place &p = d.place(point), &q = d.place(joint.at);
+      const Place way = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+      const Place& u = *axis;
+      const Place across = {u[1] * way[2] - u[2] * way[1], u[2] * way[0] - u[0] * way[2],
+                            u[0] * way[1] - u[1] * way[0]};
+      if (apart(across, {}) <= 1e-12 * d.size * apart(u, {})) fixed[static_cast<std::size_t>(point)] = true;
+    }
+  }
+  for (std::size_t p = 0; p < fixed.size(); ++p) {
+    const DrawnPoint& own = d.points[p];
+    if (own.built && !own.moves && !own.uses.empty())
+      fixed[p] = std::all_of(own.uses.begin(), own.uses.end(),
+                             [&](PointIndex base) { return fixed[static_cast<std::size_t>(base)]; });
+  }
+  return fixed;
+}
+
+void check_drawing(const Drawing& d) {
+  check_every_link_joined(d);
+  check_doubled_joints(d);
+  const Freedoms freedoms(d);
+  if (!freedoms.known()) return;
+  check_braced(d, freedoms);
+  std::size_t left = 0;
+  const std::vector<LinkIndex> loose = freedoms.loose(left);
+  if (!loose.empty() && freedoms.mobility() > d.coordinates.size())
+    throw InputError(
+        place_of(d, loose),
+        link_words(d, loose) + (loose.size() == 1 ? " moves" : " move") + " freely: " + counts(d, freedoms),
+        "actuate another joint, or name a coordinate of it under workspace");
+  if (!loose.empty())
+    throw InputError(place_of(d, loose),
+                     link_words(d, loose) + (loose.size() == 1 ? " moves" : " move") +
+                         " in the drawn posture while the coordinates stand still: it is singular, or the coordinates "
+                         "say one thing twice",
+                     "draw another posture, or name other coordinates");
+  if (d.coordinates.size() > freedoms.mobility() &&
+      std::none_of(d.coordinates.begin(), d.coordinates.end(),
+                   [](const auto& own) { return own.kind == DrawnCoordinate::Kind::plain; }))
+    throw InputError(d.coordinates.back().where,
+                     "coordinate " + d.coordinates.back().name + " is one too many: " + counts(d, freedoms),
+                     "leave out " + counted(d.coordinates.size() - freedoms.mobility(), "coordinate", "coordinates"));
+  if (freedoms.motors() > freedoms.mobility()) {
+    const std::vector<std::string> names = freedoms.motors_too_many();
+    throw InputError({d.mechanism.file},
+                     "motors " + listed(names) + " brace against each other: " + counts(d, freedoms),
+                     "let one of them go (actuated: false), or give it a known effort (actuated: {effort: 0})");
+  }
+  if (freedoms.motors() < freedoms.mobility()) {
+    const std::vector<LinkIndex> undriven = freedoms.undriven();
+    throw InputError(
+        place_of(d, undriven),
+        link_words(d, undriven) + (undriven.size() == 1 ? " moves" : " move") +
+            " freely while the motors stand still: " + counts(d, freedoms),
+        "actuate another joint of " + (undriven.size() == 1 ? std::string("it") : "these") + " (actuated: true)");
+  }
+}
+
+void refuse_rest(const Drawing& d, const std::vector<LinkIndex>& open) {
+  throw InputError(
+      place_of(d, open),
+      link_words(d, open) + " close together, none before the others: a group that has no construction here",
+      "name a coordinate of one of them under workspace, such as {angle: [0, 360 deg], of: " + d.name_of(open.front()) +
+          "}, or give one of their points a construction under points");
+}
+
+}  // namespace clearloci::mechanism
