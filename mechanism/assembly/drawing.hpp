@@ -18,6 +18,7 @@ namespace clearloci::mechanism {
 struct DrawnPoint {
   bool built = false;            ///< has a construction of its own, which it keeps
   bool moves = false;            ///< by its construction: it uses free coordinates
+  bool held = false;             ///< by its construction: it stands still while the coordinates do
   bool has_place = true;         ///< its place in the posture is known; SI, in Drawing::posture
   bool is_exact = false;         ///< `at` is known
   Amounts at;                    ///< as drawn, in the file's units

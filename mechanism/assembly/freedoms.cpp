@@ -65,6 +65,9 @@ class Freedoms {
         form.coordinates.push_back(Expression::number(Rational(d_.posture[p][i])));
       m_.points[p].form = std::move(form);
     }
+    for (const Link& link : m_.links)
+      for (const PointIndex point : link.points)
+        if (!d_.at(point).has_place) return;
     if (drawing.is_spatial()) hold_idle_freedoms(m_);
     pose_ = spread_poses(m_, 1).front();
     for (const auto& place : sample_points(m_, pose_)) places_.push_back(place.value_or(Place{}));
@@ -74,7 +77,7 @@ class Freedoms {
     }
   }
 
-  /// False where an axis has no direction in the posture: other checks say so.
+  /// False where a point has no place in the posture, or an axis no direction: other checks say so.
   bool known() const { return known_; }
   std::size_t rows() const { return equations_per_link(m_) * m_.links.size(); }
   std::size_t reactions() const { return passive_.size(); }
@@ -104,6 +107,14 @@ class Freedoms {
           own.begin(), own.end(), [&](JointIndex j) { return d_.joint(j).from == link || d_.joint(j).to == link; });
       if (touched && is_rod(m_, link)) rods.push_back(m_.links[l].name);
     }
+  }
+
+  /// Links that only pass a force on.
+  std::vector<std::string> rods() const {
+    std::vector<std::string> names;
+    for (std::size_t l = 0; l < m_.links.size(); ++l)
+      if (is_rod(m_, static_cast<LinkIndex>(l))) names.push_back(m_.links[l].name);
+    return names;
   }
 
   /// Whether motors alone brace against each other: any one of them may go.
@@ -160,7 +171,7 @@ class Freedoms {
         }
     }
     for (std::size_t p = 0; p < d_.points.size(); ++p)
-      if (d_.points[p].moves && std::holds_alternative<ExplicitPoint>(d_.mechanism.points[p].form))
+      if (d_.points[p].held)
         for (std::size_t i = 0; i < dimension(m_); ++i) hold(static_cast<PointIndex>(p), i);
   }
 
@@ -265,6 +276,12 @@ void check_drawing(const Drawing& d) {
   const Freedoms freedoms(d);
   if (!freedoms.known()) return;
   check_braced(d, freedoms);
+  if (freedoms.mobility() == 0) {
+    const std::vector<std::string> rods = freedoms.rods();
+    throw InputError(
+        {d.mechanism.file}, "nothing moves: " + counts(d, freedoms),
+        rods.empty() ? "leave out a link with its joints" : "leave out a link with its joints, such as " + rods.back());
+  }
   std::size_t left = 0;
   const std::vector<LinkIndex> loose = freedoms.loose(left);
   if (!loose.empty() && freedoms.mobility() > d.coordinates.size())

@@ -267,7 +267,10 @@ class DrawingReader {
         built.emplace(entry.key, entry);
         order.push_back(entry.key);
       }
-    for (const Entry& entry : drawn) add_drawn(entry, built);
+    for (const Entry& entry : drawn) {
+      add_drawn(entry, built);
+      read_known_frames(m, section("frames"));
+    }
     for (const std::string& name : order) add_built(built.at(name));
     for (const std::string& name : order) note_uses(built.at(name));
     place_built();
@@ -336,6 +339,7 @@ class DrawingReader {
     point.form = form.node;
     m.points.push_back({entry.key, read_point_form(m, form), false, entry.where});
     point.moves = !coordinates_of(m, static_cast<PointIndex>(m.points.size()) - 1).empty();
+    point.held = form.is_sequence() || form.node.has("in");
     point.has_place = !point.moves;
     if (form.is_sequence() && !point.moves) {
       point.is_exact = true;
@@ -388,7 +392,9 @@ class DrawingReader {
       PointForm own = read_point_form(result_.mechanism, form);
       if (!std::holds_alternative<ExplicitPoint>(own)) continue;
       as_built.points[p].form = std::move(own);
-      if (!coordinates_of(as_built, static_cast<PointIndex>(p)).empty()) both.push_back(p);
+      result_.points[p].held = true;
+      result_.points[p].moves = !coordinates_of(as_built, static_cast<PointIndex>(p)).empty();
+      if (result_.points[p].moves) both.push_back(p);
     }
     const std::vector<double> middle = spread_poses(as_built, 1).front();
     if (both.empty()) return middle;

@@ -19,6 +19,9 @@ namespace {
 
 constexpr double aligned = 1e-9;  // of vectors' lengths: what a drawing means to be parallel or square
 
+/// The same of drawn decimals that stand for irrational places, where a length is given besides.
+constexpr double meant = 1e-6;
+
 double size_of(const Amounts& v) { return std::hypot(v[0].value(), v[1].value(), v[2].value()); }
 
 bool is_parallel(const Amounts& a, const Amounts& b) {
@@ -238,17 +241,20 @@ class SpatialConstruction : public Construction {
   bool turn_by_axis(LinkIndex link) {
     const auto hinge = hinge_of(link);
     const std::vector<PointIndex> points = known_points(link);
-    if (!hinge || points.size() < 2 || !shape(link).is_drawn()) return false;
+    if (!hinge || points.size() < 2) return false;
     const Amounts n = *drawn_axis(*hinge);
     for (std::size_t k = 1; k < points.size(); ++k) {
-      const Amounts way = shape(link).way(points[0], points[k]);
+      if (!d_.at(points[0]).is_exact || !d_.at(points[k]).is_exact) continue;
+      const Amounts way = d_.at(points[k]).at - d_.at(points[0]).at;
       if (is_parallel(n, way)) continue;
       const std::string p = known(handle(points[0])).name, q = known(handle(points[k])).name;
       Triad triad;
       triad.drawn = {n, way, cross(n, way)};
       const WrittenVector axis = image(other_of(d_.joint(*hinge), link), n);
-      triad.written = {axis, way_between(p, q), WrittenVector{}};
-      triad.written[2].ways.push_back({one_, "cross(" + text_of(axis, 3) + ", " + q + " - " + p + ")"});
+      const Amount drawn_part =
+          shape(link).is_drawn() ? one_ : length(way) / shape(link).distance(points[0], points[k]);
+      triad.written = {axis, drawn_part * way_between(p, q), WrittenVector{}};
+      triad.written[2].ways.push_back({drawn_part, "cross(" + text_of(axis, 3) + ", " + q + " - " + p + ")"});
       Attitude own;
       own.triad = std::move(triad);
       set(link, std::move(own));
@@ -408,13 +414,18 @@ class SpatialConstruction : public Construction {
     own.source = d_.link(link).name;
     const std::vector<PointIndex> bases = known_points(link);
     if (const auto hinge = hinge_of(link);
-        hinge && shape(link).is_drawn() && d_.at(d_.joint(*hinge).at).is_exact && is_known(d_.joint(*hinge).at)) {
+        hinge && is_known(d_.joint(*hinge).at) && turns_with_drawing(link, *hinge, point)) {
       const PointIndex at = d_.joint(*hinge).at;
       own.direction = *drawn_axis(*hinge);
       const LinkIndex base = other_of(d_.joint(*hinge), link);
       own.axis = base == ground ? written_axis(*hinge) : text_of(image(base, own.direction), 3);
-      set_circle(own, at, d_.at(point).at - d_.at(at).at,
-                 [this, base, at](const Amounts& along) { return shifted(at, image(base, along), along); });
+      if (!shape(link).is_drawn()) {
+        own.radius = shape(link).distance(at, point).text();
+        own.base = [this, at] { return handle(at); };
+      } else {
+        set_circle(own, at, d_.at(point).at - d_.at(at).at,
+                   [this, base, at](const Amounts& along) { return shifted(at, image(base, along), along); });
+      }
     } else if (bases.size() > 1) {
       const std::string p = known(handle(bases[0])).name, q = known(handle(bases[1])).name;
       own.direction = shape(link).way(bases[0], bases[1]);
@@ -429,6 +440,16 @@ class SpatialConstruction : public Construction {
     }
     all.push_back(std::move(own));
     return true;
+  }
+
+  /// Whether the circle of a point about a hinge is told: of lengths that are given where it lies across the axis.
+  bool turns_with_drawing(LinkIndex link, JointIndex hinge, PointIndex point) const {
+    const PointIndex at = d_.joint(hinge).at;
+    if (!d_.at(at).is_exact || !d_.at(point).is_exact) return false;
+    if (shape(link).is_drawn()) return true;
+    const Amounts axis = *drawn_axis(hinge), way = d_.at(point).at - d_.at(at).at;
+    return shape(link).has(at) && shape(link).has(point) &&
+           std::abs(dot(axis, way).value()) <= meant * size_of(axis) * size_of(way);
   }
 
   std::string written_axis(JointIndex joint) const {
@@ -579,7 +600,7 @@ class SpatialConstruction : public Construction {
     const LinkIndex holder = both || which == 0 ? joint.from : joint.to;
     if (!points_of(joint.axes[which]).empty() || holder == ground || (both && joint.to == ground)) return "";
     const auto axis = drawn_axis(index, which);
-    if (!axis) return "";
+    if (!axis || keeps_constructions(holder) || (both && keeps_constructions(joint.to))) return "";
     for (const LinkIndex link : {holder, both ? joint.to : holder}) {
       if (!is_turned(link) || (attitudes_[static_cast<std::size_t>(link)]->by_shape)) continue;
       const WrittenVector own = image(link, *axis);
@@ -608,6 +629,13 @@ class SpatialConstruction : public Construction {
                                "of joint " + joint.name +
                                " turns with links whose orientation is not known: " + d_.name_of(holder),
                            "write it over points, such as axis: B - A or 'cross([0, 1, 0], B - A)'");
+  }
+
+  /// A link whose points all keep their own constructions keeps its axes as they are written too.
+  bool keeps_constructions(LinkIndex link) const {
+    if (link == ground) return false;
+    const auto& points = d_.link(link).points;
+    return std::all_of(points.begin(), points.end(), [&](PointIndex p) { return d_.at(p).built && d_.at(p).moves; });
   }
 
   std::string words_of_axis(JointIndex joint, std::size_t which) const {

@@ -1,0 +1,109 @@
+// What the drawn form finds in space.
+#include "tests/mechanism/assembly/assembly_text.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+const std::string header = "format: 1\nspace: spatial\nunits: {length: mm}\n";
+
+/// A crank, a rod between two balls and a rocker of three points, one of them off the plane of its circle.
+TEST(DrawnInSpace, ClosesTwoSpheresAndAPlane) {
+  const Mechanism m =
+      parse_mechanism(header +
+                          "drawn: {A: [0, 0, 0], B: [0, 30, 40], C: [200, 60, 20], D: [200, 0, 0], E: [230, 60, 30]}\n"
+                          "links: {crank: {points: [A, B]}, rod: {points: [B, C]}, rocker: {points: [D, C, E]}}\n"
+                          "joints:\n"
+                          "  A: {revolute: [ground, crank], at: A, axis: [1, 0, 0], actuated: true}\n"
+                          "  B: {spherical: [crank, rod], at: B}\n"
+                          "  C: {spherical: [rod, rocker], at: C}\n"
+                          "  D: {revolute: [ground, rocker], at: D, axis: [0, 0, 1]}\n"
+                          "end_effector: {link: rocker, at: E}\n",
+                      "sketch.yaml");
+  ASSERT_EQ(m.coordinates.size(), 1U);
+  EXPECT_LT(apart(places_at(m, {0})->at("E"), {0.230, 0.060, 0.030}), 1e-12);
+  int closed = 0;
+  for (const std::vector<double>& pose : spread_poses(m, 24)) {
+    const auto places = places_at(m, pose);
+    if (!places) continue;
+    ++closed;
+    EXPECT_NEAR(apart(places->at("B"), places->at("C")), std::hypot(0.200, 0.030, 0.020), 1e-12);
+    EXPECT_NEAR(apart(places->at("C"), places->at("E")), std::hypot(0.030, 0, 0.010), 1e-12);
+    EXPECT_NEAR(apart(places->at("D"), places->at("E")), std::hypot(0.030, 0.060, 0.030), 1e-12);
+    EXPECT_NEAR(places->at("C")[2], 0.020, 1e-12);
+  }
+  EXPECT_GT(closed, 4);
+}
+
+std::string hexapod(const std::string& workspace) {
+  std::string text =
+      header + "workspace:\n" + workspace +
+      "drawn: {P: [0, 0, 400], A1: [300, 50, 0], A2: [300, -50, 0], A3: [-100, 280, 0], A4: [-150, 250, 0], "
+      "A5: [-150, -250, 0], A6: [-100, -280, 0], B1: [100, 150, 400], B2: [100, -150, 410], B3: [80, 160, 400], "
+      "B4: [-180, 0, 400], B5: [-180, -20, 400], B6: [70, -170, 400]}\n"
+      "links: {plate: {points: [P, B1, B2, B3, B4, B5, B6]}}\n"
+      "repeat:\n  i: [1, 2, 3, 4, 5, 6]\n  links:\n"
+      "    cyl{i}: {points: ['A{i}']}\n    rod{i}: {points: ['B{i}']}\n  joints:\n"
+      "    U{i}: {universal: [ground, 'cyl{i}'], at: 'A{i}', axes: [[1, 0, 0], 'cross([1, 0, 0], B{i} - A{i})']}\n"
+      "    S{i}: {prismatic: ['cyl{i}', 'rod{i}'], at: 'B{i}', axis: 'B{i} - A{i}', actuated: true}\n"
+      "    B{i}: {spherical: ['rod{i}', plate], at: 'B{i}'}\n"
+      "end_effector: {link: plate, at: P}\n";
+  return text;
+}
+
+/// The place and the angles of a plate, which are zero as it is drawn.
+TEST(DrawnInSpace, TurnsAPlate) {
+  const Mechanism m = parse_mechanism(hexapod("  x: {place: x, of: P, within: [-100, 100]}\n"
+                                              "  y: {place: y, of: P, within: [-100, 100]}\n"
+                                              "  z: {place: z, of: P, within: [300, 500]}\n"
+                                              "  a: {turn: zyx.1, of: plate, within: [-30 deg, 30 deg]}\n"
+                                              "  b: {turn: zyx.2, of: plate, within: [-30 deg, 30 deg]}\n"
+                                              "  c: {turn: zyx.3, of: plate, within: [-30 deg, 30 deg]}\n"),
+                                      "sketch.yaml");
+  EXPECT_LT(apart(places_at(m, {0, 0, 0.4, 0, 0, 0})->at("B2"), {0.100, -0.150, 0.410}), 1e-12);
+  // Rz first of the order: a turns about z.
+  const double a = 0.3;
+  const auto turned = places_at(m, {0.01, 0.02, 0.4, a, 0, 0});
+  EXPECT_LT(apart(turned->at("B1"),
+                  {0.01 + 0.1 * std::cos(a) - 0.15 * std::sin(a), 0.02 + 0.1 * std::sin(a) + 0.15 * std::cos(a), 0.4}),
+            1e-12);
+}
+
+/// By their strokes the six legs close together: none before the others.
+TEST(DrawnInSpace, NamesTheLinksOfAGroup) {
+  std::string strokes;
+  for (const char* i : {"1", "2", "3", "4", "5", "6"})
+    strokes += "  s" + std::string(i) + ": {stroke: [300, 600], of: S" + i + "}\n";
+  try {
+    (void)parse_mechanism(hexapod(strokes), "sketch.yaml");
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(error.problem().find("plate"), std::string::npos) << error.what();
+    EXPECT_NE(error.problem().find("close together"), std::string::npos) << error.what();
+  }
+}
+
+/// A block on a rail, a rod with a ball and a cross.
+TEST(DrawnInSpace, ClosesASliderCrank) {
+  const Mechanism m =
+      parse_mechanism(header +
+                          "workspace: {theta: {angle: [0, 360 deg], of: crank}}\n"
+                          "drawn: {A: [0, 0, 0], B: [0, 30, 40], C: [200, 10, 20], Q: [0, 10, 20]}\n"
+                          "links: {crank: {points: [A, B]}, rod: {points: [B, C]}, block: {points: [C]}}\n"
+                          "joints:\n"
+                          "  A: {revolute: [ground, crank], at: A, axis: [1, 0, 0], actuated: true}\n"
+                          "  B: {spherical: [crank, rod], at: B}\n"
+                          "  C: {spherical: [rod, block], at: C}\n"
+                          "  G: {prismatic: [ground, block], at: C, axis: [1, 0, 0]}\n"
+                          "end_effector: {link: block, at: C}\n",
+                      "sketch.yaml");
+  for (const double theta : {0.0, 0.7, 2.9}) {
+    const auto places = places_at(m, {theta});
+    ASSERT_TRUE(places.has_value());
+    EXPECT_NEAR(apart(places->at("B"), places->at("C")), std::hypot(0.200, 0.020, 0.020), 1e-12);
+    EXPECT_NEAR(places->at("C")[1], 0.010, 1e-12);
+    EXPECT_GT(places->at("C")[0], 0);
+  }
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism

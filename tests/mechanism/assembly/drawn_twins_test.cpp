@@ -1,0 +1,74 @@
+// Every shipped example, drawn: the same points in the same poses, and the same equations.
+#include <ctime>
+#include <filesystem>
+
+#include "tests/mechanism/assembly/assembly_text.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+const std::filesystem::path root = CLEARLOCI_SOURCE_DIR;
+const std::filesystem::path twins = root / "tests/mechanism/assembly/twins";
+
+std::vector<std::string> names_of_unknowns(const Mechanism& m) {
+  std::vector<std::string> names;
+  for (const Unknown& own : unknowns(m)) names.push_back(unknown_name(m, own));
+  return names;
+}
+
+TEST(DrawnTwins, AreTheExamples) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "examples")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const std::string name = entry.path().filename().string();
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(std::filesystem::exists(twins / name)) << "draw it";
+    const Mechanism example = read_mechanism(entry.path().string());
+    const Mechanism twin = read_mechanism((twins / name).string());
+    ASSERT_EQ(twin.coordinates.size(), example.coordinates.size());
+    for (std::size_t i = 0; i < twin.coordinates.size(); ++i) {
+      EXPECT_EQ(twin.coordinates[i].name, example.coordinates[i].name);
+      EXPECT_EQ(twin.coordinates[i].lower, example.coordinates[i].lower);
+      EXPECT_EQ(twin.coordinates[i].upper, example.coordinates[i].upper);
+    }
+    EXPECT_EQ(names_of_unknowns(twin), names_of_unknowns(example));
+    EXPECT_GT(expect_same_places(example, twin, 40, 1e-9), 0);
+    ++count;
+  }
+  EXPECT_GE(count, 30);
+}
+
+/// The construction that is written says the same as the drawing, word for word.
+TEST(DrawnTwins, AreWrittenAsConstructions) {
+  for (const char* name : {"five_bar", "slider_crank", "jansen_leg", "gripper", "delta"}) {
+    SCOPED_TRACE(name);
+    const std::string path = (twins / (std::string(name) + ".yaml")).string();
+    const WrittenMechanism written = constructed_text(read_text(path, "the twin"), path);
+    EXPECT_EQ(written.text.find("drawn:"), std::string::npos);
+    EXPECT_EQ(constructed_text(written.text, "own.yaml").text.size(),
+              constructed_text(written.text, "own.yaml").text.size());
+    const Mechanism twin = read_mechanism(path), own = parse_mechanism(written.text, "own.yaml");
+    ASSERT_EQ(twin.points.size(), own.points.size());
+    for (std::size_t p = 0; p < own.points.size(); ++p) {
+      EXPECT_EQ(twin.points[p].name, own.points[p].name);
+      EXPECT_EQ(twin.points[p].form.index(), own.points[p].form.index());
+    }
+    EXPECT_EQ(working_mode(twin), working_mode(own));
+    EXPECT_GT(expect_same_places(own, twin, 20, 1e-15), 0);
+  }
+}
+
+/// Ten links are decomposed in 10 ms of one processor.
+TEST(DrawnTwins, AreDecomposedQuickly) {
+  const std::string path = (twins / "jansen_leg.yaml").string(), text = read_text(path, "the twin");
+  (void)constructed_text(text, path);
+  constexpr int times = 20;
+  const std::clock_t start = std::clock();
+  for (int i = 0; i < times; ++i) (void)constructed_text(text, path);
+  const double each = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / times;
+  EXPECT_LT(each, 0.010);
+  RecordProperty("milliseconds", std::to_string(1e3 * each));
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism

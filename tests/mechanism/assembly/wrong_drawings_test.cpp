@@ -1,0 +1,179 @@
+// Wrong drawings: each is answered in one line that names the element and says how to mend it.
+#include "tests/mechanism/assembly/assembly_text.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+struct WrongDrawing {
+  const char* what;
+  std::vector<std::pair<std::string, std::string>> changes;  ///< of drawn_four_bar
+  const char *problem, *mend;
+};
+
+const std::vector<WrongDrawing>& wrong_drawings() {
+  static const std::string angle = "{angle: [0, 360 deg], of: AB}", pin_d = "  D: {revolute: [ground, CD], at: D}\n",
+                           links = "  CD: {points: [C, D]}\n", place_c = "  C: [120, 90]\n",
+                           bc = "BC: {points: [B, C]}";
+  static const std::vector<WrongDrawing> all = {
+      {"a link hangs loose",
+       {{pin_d, ""}},
+       "links BC and CD move freely: 3 freedoms, 1 coordinate, 1 motor",
+       "actuate"},
+      {"a link has no joint", {{links, links + "  X: {points: [C, D]}\n"}}, "link X has no joint", "join it"},
+      {"two pins in one place",
+       {{pin_d, pin_d + "  D2: {revolute: [ground, CD], at: D}\n"}},
+       "joints D and D2 join ground and CD in one place",
+       "leave D2 out"},
+      {"a length does not close",
+       {{"CD: {points: [C, D]}", "CD: {points: [C, D], length: 300}"}},
+       "the loop of BC, CD, ground and AB does not close with the lengths given: ",
+       "correct the lengths"},
+      {"a stretched posture",
+       {{place_c, "  C: [170, -40]\n"}},
+       "link",  // the drawn posture is a singular one
+       "draw"},
+      {"a link that is not there",
+       {{angle, "{angle: [0, 360 deg], of: AX}"}},
+       "there is no link 'AX'",
+       "did you mean 'AB'?"},
+      {"an axis that is not there",
+       {{angle, "{place: z, of: C, within: [0, 100]}"}},
+       "coordinate theta: the place is 'z'",
+       "write place: x or y"},
+      {"the stroke of a pin",
+       {{angle, "{stroke: [0, 100], of: A}"}},
+       "there is no prismatic joint 'A'",
+       "prismatic joints"},
+      {"a coordinate too many",
+       {{angle, "{angle: [0, 360 deg], of: AB}, phi: {angle: [0, 360 deg], of: CD}"}},
+       "coordinate phi is one too many: 1 freedom, 2 coordinates",
+       "leave out 1 coordinate"},
+      {"a motor too many",
+       {{pin_d, "  D: {revolute: [ground, CD], at: D, actuated: true}\n"}},
+       "motors A and D brace against each other: 1 freedom",
+       "actuated: false"},
+      {"no motor",
+       {{"at: A, actuated: true}", "at: A}"}},
+       "move freely while the motors stand still",
+       "actuate another"},
+      {"a construction among places",
+       {{place_c, "  C: {dyad: [B, D], lengths: [10, 20], side: left}\n"}},
+       "the drawn place of C is no place",
+       "constructions stand under points"},
+      {"three numbers in the plane",
+       {{"  B: [30, 40]\n", "  B: [30, 40, 0]\n"}},
+       "the drawn place of B",
+       "write 2 entries"},
+      {"a point that is not drawn", {{place_c, ""}}, "there is no point 'C'", "the points are A, B, D"},
+      {"lengths of other points",
+       {{bc, "BC: {points: [B, C], lengths: {B-D: 50}}"}},
+       "the lengths of link BC: 'B-D' is no pair of its points",
+       "write such as B-C"},
+      {"a negative length", {{bc, "BC: {points: [B, C], length: -50}"}}, "the length B-C is negative", "above 0"},
+      {"a rod too many",
+       {{"  C: [120, 90]\n", "  C: [120, 90]\n  E: [60, 65]\n  H: [70, 0]\n"},
+        {bc, "BC: {points: [B, C, E]}\n  EH: {points: [E, H]}"},
+        {pin_d, pin_d + "  E: {revolute: [BC, EH], at: E}\n  H: {revolute: [ground, EH], at: H}\n"}},
+       "nothing moves: 0 freedoms",
+       "such as EH"},
+      {"the angle of a link from itself",
+       {{angle, "{angle: [0, 360 deg], of: [AB, AB]}"}},
+       "coordinate theta is the angle of a link from itself",
+       "two different links"},
+      {"a turn in the plane",
+       {{angle, "{turn: zyx.1, of: AB, within: [0, 1]}"}},
+       "coordinate theta is a turn in space",
+       "write {angle: [...], of: AB}"},
+      {"a motor without a range",
+       {{"workspace: {theta: {angle: [0, 360 deg], of: AB}}\n", ""},
+        {"A: {revolute: [ground, AB], at: A, actuated: true}", "A: {revolute: [ground, AB], at: A}"},
+        {pin_d, "  D: {prismatic: [ground, CD], at: D, axis: [1, 0], actuated: true}\n"}},
+       "the motor D is a coordinate without a range",
+       "stroke: [least, greatest]"},
+      {"neither coordinates nor motors",
+       {{"workspace: {theta: {angle: [0, 360 deg], of: AB}}\n", ""}, {"at: A, actuated: true}", "at: A}"}},
+       "there is no workspace, and no joint is actuated",
+       "write workspace"},
+      {"two points of one place", {{place_c, "  C: [30, 40]\n"}}, "", ""},
+      {"a length of three points",
+       {{"  C: [120, 90]\n", "  C: [120, 90]\n  E: [60, 65]\n"}, {bc, "BC: {points: [B, C, E], length: 10}"}},
+       "link BC has 3 points",
+       "write lengths"},
+  };
+  return all;
+}
+
+TEST(WrongDrawings, AreAnsweredInOneLine) {
+  EXPECT_NO_THROW(parse_mechanism(drawn_four_bar(), "sketch.yaml"));
+  EXPECT_GE(wrong_drawings().size(), 20U);
+  for (const WrongDrawing& wrong : wrong_drawings()) {
+    SCOPED_TRACE(wrong.what);
+    std::string text = drawn_four_bar();
+    for (const auto& [line, instead] : wrong.changes) text = with_line(text, line, instead);
+    try {
+      (void)parse_mechanism(text, "sketch.yaml");
+      ADD_FAILURE() << "it reads";
+    } catch (const core::InputError& error) {
+      const std::string said = error.what();
+      EXPECT_EQ(said.find('\n'), std::string::npos);
+      EXPECT_EQ(said.rfind("sketch.yaml", 0), 0U) << said;
+      EXPECT_NE(error.problem().find(wrong.problem), std::string::npos) << said;
+      EXPECT_NE(error.mend().find(wrong.mend), std::string::npos) << said;
+    }
+  }
+}
+
+/// Rods in parallel: one is enough.
+TEST(WrongDrawings, NamesARodTooMany) {
+  const std::string text =
+      "format: 1\n"
+      "drawn: {A: [0, 0], B: [1, 0], C: [2, 0], D: [0.5, 1], E: [1.5, 1], F: [2.5, 1]}\n"
+      "links: {AD: {points: [A, D]}, BE: {points: [B, E]}, CF: {points: [C, F]}, bar: {points: [D, E, F]}}\n"
+      "joints:\n"
+      "  A: {revolute: [ground, AD], at: A, actuated: true}\n"
+      "  B: {revolute: [ground, BE], at: B}\n"
+      "  C: {revolute: [ground, CF], at: C}\n"
+      "  D: {revolute: [AD, bar], at: D}\n"
+      "  E: {revolute: [BE, bar], at: E}\n"
+      "  F: {revolute: [CF, bar], at: F}\n"
+      "workspace: {theta: {angle: [0, 360 deg], of: AD}}\n"
+      "end_effector: {link: bar, at: E}\n";
+  try {
+    (void)parse_mechanism(text, "sketch.yaml");
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(error.problem(), "rods BE and CF hold the links between them more than once: 1 of these 2 will do");
+    EXPECT_EQ(error.mend(), "leave CF out with its joints");
+  }
+}
+
+/// A Stephenson six-bar driven at its far end: none of four links is placed before the others.
+TEST(WrongDrawings, NamesAGroup) {
+  const std::string text =
+      "format: 1\n"
+      "drawn: {A: [0, 0], B: [0.1, 0.3], C: [1, 0.8], D: [1.2, 0], E: [0.6, 1], G: [1.9, 0.2], H: [1.6, 0.9]}\n"
+      "links: {AB: {points: [A, B]}, BCE: {points: [B, C, E]}, CD: {points: [C, D]}, EH: {points: [E, H]}, GH: "
+      "{points: [G, H]}}\n"
+      "joints:\n"
+      "  A: {revolute: [ground, AB], at: A}\n"
+      "  B: {revolute: [AB, BCE], at: B}\n"
+      "  C: {revolute: [BCE, CD], at: C}\n"
+      "  D: {revolute: [ground, CD], at: D}\n"
+      "  E: {revolute: [BCE, EH], at: E}\n"
+      "  H: {revolute: [EH, GH], at: H}\n"
+      "  G: {revolute: [ground, GH], at: G, actuated: true}\n"
+      "workspace: {theta: {angle: [0, 360 deg], of: GH}}\n"
+      "end_effector: {link: GH, at: H}\n";
+  try {
+    (void)parse_mechanism(text, "sketch.yaml");
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(error.problem().find("links AB, BCE, CD and EH close together"), std::string::npos) << error.what();
+  }
+  // The same driven from the other end closes, dyad by dyad.
+  std::string other = with_line(text, "of: GH", "of: AB");
+  EXPECT_NO_THROW((void)parse_mechanism(other, "sketch.yaml"));
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism
