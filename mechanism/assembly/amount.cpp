@@ -10,7 +10,7 @@ namespace {
 mpz_class take_squares_out(mpz_class& number) {
   constexpr unsigned largest_prime = 1000;
   mpz_class root = 1;
-  for (unsigned p = 2; p <= largest_prime; ++p)
+  for (unsigned p = 2; p <= largest_prime && p * p <= number; p += p == 2 ? 1 : 2)
     while (mpz_divisible_ui_p(number.get_mpz_t(), p * p) != 0) {
       mpz_divexact_ui(number.get_mpz_t(), number.get_mpz_t(), p * p);
       root *= p;

@@ -61,8 +61,9 @@ class LoopClosure {
         return std::minmax(own.first, own.second) == std::minmax(a, b);
       });
     };
+    constexpr std::size_t enough = 3;  // points from which the others are told, in space on one of two sides
     for (std::size_t i = 0; i < link.points.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t j = 0; j < std::min(i, enough); ++j)
         if (placed(link.points[i]) && placed(link.points[j]) && keeps(link.points[i], link.points[j]) &&
             !is_given(link.points[i], link.points[j]))
           kept_.push_back({index, static_cast<std::size_t>(link.points[j]), static_cast<std::size_t>(link.points[i]),

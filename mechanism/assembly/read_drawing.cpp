@@ -58,6 +58,7 @@ class DrawingReader {
     read_points();
     read_links();
     read_joints(m, required("joints"));
+    check_size();
     place_axes();
     for (DrawnCoordinate& coordinate : result_.coordinates) resolve(coordinate);
     check_order_of_turns();
@@ -81,6 +82,16 @@ class DrawingReader {
   Rational length_unit() const {
     const Value one{Node("1"), "a length", document_.where, "length"};
     return read_number(result_.mechanism, one, Sign::any).value;
+  }
+
+  /// Freedoms are counted in matrices as wide as there are links; nobody draws more by hand.
+  void check_size() const {
+    constexpr std::size_t most_links = 60, most_points = 200;
+    if (result_.mechanism.links.size() > most_links || result_.points.size() > most_points)
+      throw InputError(required("drawn").where,
+                       "the drawing has " + std::to_string(result_.mechanism.links.size()) + " links and " +
+                           std::to_string(result_.points.size()) + " points",
+                       "draw 60 links and 200 points at most, or write constructions");
   }
 
   // --- coordinates

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bindings/bindings.hpp"
+#include "clearloci/normalize.hpp"
 
 namespace clearloci::python {
 namespace {
@@ -150,6 +151,13 @@ void bind_mechanism(py::module_& module) {
           "The same mechanism with new values: with_parameters(L='0.45', F=80). What does not depend on them is "
           "derived "
           "once.")
+      .def(
+          "normalize",
+          [](const Model& model) {
+            NormalizedFile found = normalize(model);
+            return py::make_tuple(std::move(found.text), std::move(found.notes));
+          },
+          "What is drawn as what is constructed: the text of a file, and notes")
       .def_property_readonly("name", &Model::name)
       .def_property_readonly("file", &Model::file)
       .def_property_readonly("text", &Model::text)

@@ -18,7 +18,7 @@ from . import _needs  # first: says in a line what is missing
 from ._clearloci import InputError, LimitReached, __version__
 from .answers import Curve, Loci, Surface, Validation, Verification, Zone, Zones
 from .design import Designs, design
-from .model import Model, parse, read
+from .model import Model, NormalizedFile, parse, read
 from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
 from .poses import PoseZone, PoseZones
 
@@ -32,6 +32,7 @@ __all__ = [
     "LimitReached",
     "Loci",
     "Model",
+    "NormalizedFile",
     "Pose",
     "PoseZone",
     "PoseZones",

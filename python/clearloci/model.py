@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, Mapping, NamedTuple, Sequence, Union, overload
 
 import numpy as np
 
@@ -21,6 +21,14 @@ if TYPE_CHECKING:
 #: A task file, its content as a dictionary, or an array of points, which is a path.
 Task = Union[str, "os.PathLike[str]", Mapping[str, Any], np.ndarray]
 Engine = Literal["adaptive-then-exact", "exact", "adaptive"]
+
+
+class NormalizedFile(NamedTuple):
+    """A mechanism file in which every point has its construction."""
+
+    text: str
+    #: Such as by how much points moved to close with the lengths given.
+    notes: list[str]
 
 
 class Model:
@@ -99,6 +107,10 @@ class Model:
         Numbers are taken as they print, in the units of the file; what does not depend on them is derived once.
         """
         return Model(self._handle.with_parameters(**{name: _plain(name, value) for name, value in values.items()}))
+
+    def normalize(self) -> NormalizedFile:
+        """The file in which every point has its construction; what is drawn is constructed (docs/drawn-form.md)."""
+        return NormalizedFile(*self._handle.normalize())
 
     def loci(
         self,

@@ -63,6 +63,23 @@ class Documented(InOwnFolder):
                 if base != "examples/gough_stewart_poses.yaml":  # loci take three coordinates at most
                     self.run_program("loci", model, "--quiet", "-o", f"out{number}")
 
+    def test_drawings_are_constructed(self):
+        text = (SOURCE / "docs" / "drawn-form.md").read_text(encoding="utf-8")
+        drawings = re.findall(r"^```yaml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(drawings), 6)
+        for number, drawing in enumerate(drawings):
+            with self.subTest(drawing.splitlines()[0]):
+                model = self.folder / f"drawing{number}.yaml"
+                model.write_text(drawing, encoding="utf-8")
+                own = self.folder / f"own{number}.yaml"
+                self.run_program("normalize", model, "-o", own)
+                self.assertNotIn("drawn:", own.read_text(encoding="utf-8"))
+                for one in (model, own):
+                    self.run_program("loci", one, "--quiet", "-o", f"{one.stem}_out")
+                printed = re.findall(r"^```\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)[0]
+                if number == 0:
+                    self.assertIn(printed, own.read_text(encoding="utf-8"))
+
     def test_commands_of_other_pages_run(self):
         for page in ("certificates.md", "studies.md"):
             text = (SOURCE / "docs" / page).read_text(encoding="utf-8")

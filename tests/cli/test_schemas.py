@@ -46,6 +46,15 @@ class MechanismFiles(unittest.TestCase):
             document = yaml.load(file.read_text(encoding="utf-8"), Yaml12)
             self.assertEqual(complaints(self.schema, document), [], file.name)
 
+    def test_every_drawing_keeps_to_it(self):
+        files = sorted((SOURCE / "tests" / "mechanism" / "assembly" / "twins").glob("*.yaml"))
+        self.assertGreater(len(files), 20)
+        for file in files:
+            document = yaml.load(file.read_text(encoding="utf-8"), Yaml12)
+            self.assertEqual(complaints(self.schema, document), [], file.name)
+            printed = self.run_program("normalize", file).stdout
+            self.assertEqual(complaints(self.schema, yaml.load(printed, Yaml12)), [], file.name)
+
     def test_what_the_program_refuses_is_marked(self):
         text = FIVE_BAR.read_text(encoding="utf-8")
         for wrong, right in [

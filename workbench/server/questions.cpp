@@ -5,6 +5,7 @@
 
 #include "clearloci/errors.hpp"
 #include "clearloci/export.hpp"
+#include "clearloci/normalize.hpp"
 #include "clearloci/sketch.hpp"
 #include "workbench/server/refusal.hpp"
 
@@ -73,6 +74,11 @@ Json answer_model(const Json& body, const Watch&) {
             {"verification", verification_formats()}}}};
 }
 
+Json answer_normalize(const Json& body, const Watch&) {
+  const NormalizedFile found = normalize(model_of(Fields(body)));
+  return {{"text", found.text}, {"notes", found.notes}};
+}
+
 LociRequest watched(LociRequest request, const Watch& watch) {
   request.deadline = watch.deadline;
   request.progress = [watch](double fraction, std::string_view stage) {
@@ -88,7 +94,7 @@ void check(const Watch& watch) {
 }
 
 Question question_named(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, Question>, 10> known = {{{"model", answer_model},
+  constexpr std::array<std::pair<std::string_view, Question>, 11> known = {{{"model", answer_model},
                                                                             {"loci", answer_loci},
                                                                             {"zones", answer_zones},
                                                                             {"verify", answer_verify},
@@ -97,6 +103,7 @@ Question question_named(const std::string& name) {
                                                                             {"cycle", answer_cycle},
                                                                             {"modes", answer_modes},
                                                                             {"trajectory", answer_trajectory},
+                                                                            {"normalize", answer_normalize},
                                                                             {"export", answer_export}}};
   for (const auto& [own, question] : known)
     if (own == name) return question;

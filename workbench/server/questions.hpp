@@ -20,8 +20,8 @@ struct Watch {
 
 using Question = Json (*)(const Json& body, const Watch& watch);
 
-/// "model", "loci", "zones", "verify", "pose", "sweep", "cycle", "modes", "trajectory", "export"; null for another
-/// name.
+/// "model", "loci", "zones", "verify", "pose", "sweep", "cycle", "modes", "trajectory", "normalize", "export"; null for
+/// another name.
 Question question_named(const std::string& name);
 
 // By what they answer (questions_*.cpp). Each throws Refusal, InputError or LimitReached.
@@ -34,6 +34,7 @@ Json answer_sweep(const Json& body, const Watch& watch);
 Json answer_cycle(const Json& body, const Watch& watch);
 Json answer_modes(const Json& body, const Watch& watch);
 Json answer_trajectory(const Json& body, const Watch& watch);
+Json answer_normalize(const Json& body, const Watch& watch);
 Json answer_export(const Json& body, const Watch& watch);
 
 /// A request's loci under the watch: its deadline, and an end as soon as it is abandoned.

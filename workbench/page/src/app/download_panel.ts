@@ -30,10 +30,22 @@ export function downloadPanel(bench: Workbench): Panel {
       fault.textContent = error.fault.message;
     }
   };
+  const fetchConstructed = async (): Promise<void> => {
+    fault.textContent = "";
+    const { text, file } = bench.state;
+    try {
+      const answer = await ask<{ text: string; notes: string[] }>("normalize", { text, file, lane: "normalize" });
+      download(`constructed_${file}`, answer.text, "application/yaml");
+    } catch (error) {
+      if (!(error instanceof AskingError)) throw error;
+      fault.textContent = error.fault.message;
+    }
+  };
   let shown = "";
   const update = (): void => {
     const { facts } = bench;
-    const now = JSON.stringify([facts?.formats, bench.state.task !== undefined]);
+    const isDrawn = /^drawn:/m.test(bench.state.text);
+    const now = JSON.stringify([facts?.formats, bench.state.task !== undefined, isDrawn]);
     if (!facts || now === shown) return;
     shown = now;
     const rows: [string, string, string[]][] = [["loci", "Loci", facts.formats.loci]];
@@ -41,7 +53,7 @@ export function downloadPanel(bench: Workbench): Panel {
     if (bench.state.task) rows.push(["verification", "Verdict", bench.overTwoLengths ? facts.formats.verification : ["json"]]);
     replace(
       body,
-      h("div", { class: "buttons" }, h("button", { type: "button", id: "download-model", click: () => download(bench.state.file, bench.state.text, "application/yaml") }, "Mechanism file")),
+      h("div", { class: "buttons" }, h("button", { type: "button", id: "download-model", click: () => download(bench.state.file, bench.state.text, "application/yaml") }, "Mechanism file"), isDrawn ? h("button", { type: "button", id: "download-constructed", click: () => void fetchConstructed() }, "With constructions") : undefined),
       ...rows.map(([what, words, formats]) => h("div", { class: "buttons" }, h("span", {}, words), ...formats.map((format) => h("button", { type: "button", "data-export": `${what}-${format}`, click: () => void fetchFiles(what, format) }, format)))),
     );
   };
