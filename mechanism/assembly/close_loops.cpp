@@ -15,16 +15,16 @@ namespace clearloci::mechanism {
 namespace {
 
 using core::InputError;
-using Place = std::array<double, 3>;
+using PointAt = std::array<double, 3>;
 
-double length_between(const Place& p, const Place& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+double length_between(const PointAt& p, const PointAt& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
 /// A distance to keep, or where `along` is set a part of a point's way to keep: along . (p - start) = 0.
 struct Kept {
   LinkIndex link = ground;
   std::size_t first = 0, second = 0;
   double length = 0;
-  std::optional<Place> along = {};
+  std::optional<PointAt> along = {};
 };
 
 class LoopClosure {
@@ -76,7 +76,7 @@ class LoopClosure {
     const LinkIndex link = joint.from == ground ? joint.to : joint.from;
     const auto u = sample_vector(d_.mechanism, joint.axes.front(), spread_poses(d_.mechanism, 1).front());
     if (!u || link == ground) return;
-    std::vector<Place> across;
+    std::vector<PointAt> across;
     if (joint.type == JointType::prismatic) {
       if (!d_.is_spatial())
         across = {{-(*u)[1], (*u)[0], 0}};
@@ -85,19 +85,19 @@ class LoopClosure {
     } else if (joint.type == JointType::revolute && d_.is_spatial()) {
       across = {*u};
     }
-    for (const Place& v : across) {
+    for (const PointAt& v : across) {
       const double size = std::hypot(v[0], v[1], v[2]);
       if (!(size > 0)) continue;
       for (const PointIndex point : d_.link(link).points)
         kept_.push_back({link, static_cast<std::size_t>(point), static_cast<std::size_t>(point), 0,
-                         Place{v[0] / size, v[1] / size, v[2] / size}});
+                         PointAt{v[0] / size, v[1] / size, v[2] / size}});
     }
   }
 
   double residual(const Kept& own) const {
-    const Place &p = d_.posture[own.first], &q = d_.posture[own.second];
+    const PointAt &p = d_.posture[own.first], &q = d_.posture[own.second];
     if (!own.along) return length_between(p, q) - own.length;
-    const Place &u = *own.along, &from = start_[own.first];
+    const PointAt &u = *own.along, &from = start_[own.first];
     return u[0] * (p[0] - from[0]) + u[1] * (p[1] - from[1]) + u[2] * (p[2] - from[2]);
   }
 
@@ -114,9 +114,9 @@ class LoopClosure {
     for (std::size_t r = 0; r < rows; ++r) {
       const Kept& own = kept_[r];
       right[r] = -residual(own);
-      Place u = own.along.value_or(Place{});
+      PointAt u = own.along.value_or(PointAt{});
       if (!own.along) {
-        const Place &p = d_.posture[own.first], &q = d_.posture[own.second];
+        const PointAt &p = d_.posture[own.first], &q = d_.posture[own.second];
         const double now = length_between(p, q);
         if (!(now > 0)) continue;
         u = {(p[0] - q[0]) / now, (p[1] - q[1]) / now, (p[2] - q[2]) / now};
@@ -234,7 +234,7 @@ class LoopClosure {
   }
 
   Drawing& d_;
-  std::vector<Place> start_;
+  std::vector<PointAt> start_;
   std::vector<bool> fixed_;
   std::vector<Kept> kept_;
   std::vector<int> unknown_;

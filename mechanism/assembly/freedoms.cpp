@@ -16,9 +16,9 @@ namespace clearloci::mechanism {
 namespace {
 
 using core::InputError;
-using Place = std::array<double, 3>;
+using PointAt = std::array<double, 3>;
 
-double apart(const Place& p, const Place& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+double apart(const PointAt& p, const PointAt& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
 /// "1 motor", "2 motors".
 std::string counted(std::size_t count, const std::string& what, const std::string& more) {
@@ -70,7 +70,7 @@ class Freedoms {
         if (!d_.at(point).has_place) return;
     if (drawing.is_spatial()) hold_idle_freedoms(m_);
     pose_ = spread_poses(m_, 1).front();
-    for (const auto& place : sample_points(m_, pose_)) places_.push_back(place.value_or(Place{}));
+    for (const auto& place : sample_points(m_, pose_)) places_.push_back(place.value_or(PointAt{}));
     if (auto columns = reactions_at(m_, pose_)) {
       for (const BorneReaction& own : *columns) (own.motor ? motors_ : passive_).push_back(own);
       known_ = true;
@@ -175,7 +175,7 @@ class Freedoms {
         for (std::size_t i = 0; i < dimension(m_); ++i) hold(static_cast<PointIndex>(p), i);
   }
 
-  static Place unit(const Place& v) {
+  static PointAt unit(const PointAt& v) {
     const double size = std::hypot(v[0], v[1], v[2]);
     return {v[0] / size, v[1] / size, v[2] / size};
   }
@@ -184,7 +184,7 @@ class Freedoms {
   Mechanism m_;
   bool known_ = false;
   std::vector<double> pose_;
-  std::vector<Place> places_;
+  std::vector<PointAt> places_;
   std::vector<BorneReaction> passive_, motors_;
 };
 
@@ -253,10 +253,10 @@ std::vector<bool> fixed_points(const Drawing& d) {
     const auto axis = sample_vector(d.mechanism, joint.axes.front(), spread_poses(d.mechanism, 1).front());
     if (!axis) continue;
     for (const PointIndex point : d.link(joint.from == ground ? joint.to : joint.from).points) {
-      const Place &p = d.place(point), &q = d.place(joint.at);
-      const Place way = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-      const Place& u = *axis;
-      const Place across = {u[1] * way[2] - u[2] * way[1], u[2] * way[0] - u[0] * way[2],
+      const PointAt &p = d.place(point), &q = d.place(joint.at);
+      const PointAt way = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+      const PointAt& u = *axis;
+      const PointAt across = {u[1] * way[2] - u[2] * way[1], u[2] * way[0] - u[0] * way[2],
                             u[0] * way[1] - u[1] * way[0]};
       if (apart(across, {}) <= 1e-12 * d.size * apart(u, {})) fixed[static_cast<std::size_t>(point)] = true;
     }

@@ -16,7 +16,7 @@ namespace clearloci::mechanism {
 namespace {
 
 using core::InputError;
-using Kind = DrawnCoordinate::Kind;
+using CoordinateKind = DrawnCoordinate::Kind;
 
 const std::vector<std::string> axis_names = {"x", "y", "z"};
 
@@ -129,19 +129,19 @@ class DrawingReader {
       return Node::map({{text_node("angle", entry.where), range}}, entry.value.where);
     };
     if (value.node.has("place")) {
-      own.kind = Kind::place;
+      own.kind = CoordinateKind::place;
       return range_of(Mapping(value, {"place", "of", "within"}), "within");
     }
     if (value.node.has("stroke")) {
-      own.kind = Kind::stroke;
+      own.kind = CoordinateKind::stroke;
       return range_of(Mapping(value, {"stroke", "of"}), "stroke");
     }
     if (value.node.has("turn")) {
-      own.kind = Kind::turn;
+      own.kind = CoordinateKind::turn;
       return angle(range_of(Mapping(value, {"turn", "of", "within"}), "within"));
     }
     if (!value.node.has("of")) return entry.value.node;
-    own.kind = Kind::direction;
+    own.kind = CoordinateKind::direction;
     return angle(range_of(Mapping(value, {"angle", "of"}), "angle"));
   }
 
@@ -166,7 +166,7 @@ class DrawingReader {
       DrawnCoordinate& own = result_.coordinates.emplace_back();
       own.name = entry.key;
       own.where = entry.where;
-      own.kind = Kind::direction;
+      own.kind = CoordinateKind::direction;
       written_.push_back(
           {entry.key,
            entry.where,
@@ -193,13 +193,13 @@ class DrawingReader {
   }
 
   void resolve(DrawnCoordinate& own) const {
-    if (own.kind == Kind::plain) return;
+    if (own.kind == CoordinateKind::plain) return;
     const auto index = static_cast<std::size_t>(&own - result_.coordinates.data());
     Value value = written_[index].value;
     value.what = "coordinate " + own.name;
     const Mapping mapping(value, {"angle", "place", "stroke", "turn", "of", "within"});
     Value of = mapping.at("of");
-    if (own.kind == Kind::direction) {
+    if (own.kind == CoordinateKind::direction) {
       if (of.is_sequence()) {
         const std::vector<Value> pair = elements(of, 2);
         own.other = link_named(pair[0], own, true);
@@ -211,7 +211,7 @@ class DrawingReader {
       } else {
         own.link = link_named(of, own, false);
       }
-    } else if (own.kind == Kind::place) {
+    } else if (own.kind == CoordinateKind::place) {
       const Value axis = mapping.at("place");
       const auto found = std::find(axis_names.begin(), axis_names.end(), text_of(axis));
       own.axis = static_cast<std::size_t>(found - axis_names.begin());
@@ -219,7 +219,7 @@ class DrawingReader {
         throw InputError(axis.where, "coordinate " + own.name + ": the place is '" + text_of(axis) + "'",
                          dimension(result_.mechanism) == 2 ? "write place: x or y" : "write place: x, y or z");
       own.point = read_point_name(result_.mechanism, of);
-    } else if (own.kind == Kind::stroke) {
+    } else if (own.kind == CoordinateKind::stroke) {
       own.joint = joint_named(of, own);
     } else {
       own.link = link_named(of, own, false);
@@ -252,12 +252,12 @@ class DrawingReader {
 
   void check_order_of_turns() const {
     for (const DrawnCoordinate& own : result_.coordinates) {
-      if (own.kind != Kind::turn) continue;
+      if (own.kind != CoordinateKind::turn) continue;
       if (!result_.is_spatial())
         throw InputError(own.where, "coordinate " + own.name + " is a turn in space, but the mechanism is planar",
                          "write {angle: [...], of: " + result_.name_of(own.link) + "}");
       for (const DrawnCoordinate& other : result_.coordinates)
-        if (other.kind == Kind::turn && other.link == own.link && other.order != own.order)
+        if (other.kind == CoordinateKind::turn && other.link == own.link && other.order != own.order)
           throw InputError(other.where,
                            "coordinates " + own.name + " and " + other.name + " turn link " +
                                result_.name_of(own.link) + " in two orders",
