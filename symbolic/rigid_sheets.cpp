@@ -118,6 +118,10 @@ bool stands_for_irrational(const mechanism::Mechanism& m) {
       return rounded(dyad->from_length) || rounded(dyad->to_length);
     if (const auto* offset = std::get_if<mechanism::OffsetPoint>(&point.form))
       return rounded(offset->along) || rounded(offset->left);
+    if (const auto* shifted = std::get_if<mechanism::ShiftedPoint>(&point.form)) {
+      const std::vector<core::Expression> numbers = mechanism::numbers_of(shifted->by);
+      return std::any_of(numbers.begin(), numbers.end(), rounded);
+    }
     const auto* slider = std::get_if<mechanism::SliderPoint>(&point.form);
     return slider != nullptr && rounded(slider->length);
   });

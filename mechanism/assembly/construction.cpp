@@ -74,7 +74,7 @@ std::string Construction::new_name(const std::string& wanted) {
 Construction::Handle Construction::put(PointIndex point, const Node& form, const std::string& comment,
                                        std::optional<WrittenVector> place) {
   found_.points.push_back({d_.name(point), form, comment});
-  known_.push_back({d_.name(point), std::move(place), d_.place(point)});
+  known_.push_back({d_.name(point), std::move(place), d_.place(point), d_.at(point).has_place});
   const Handle handle = static_cast<Handle>(known_.size()) - 1;
   handles_.emplace(point, handle);
   return handle;
@@ -85,7 +85,7 @@ Construction::Handle Construction::put_extra(const std::string& name, const Node
                                              std::optional<WrittenVector> place) {
   const std::string own = new_name(name);
   found_.points.push_back({own, form, comment});
-  known_.push_back({own, std::move(place), posture});
+  known_.push_back({own, std::move(place), posture, true});
   return static_cast<Handle>(known_.size()) - 1;
 }
 
@@ -130,6 +130,16 @@ Node Construction::form_at(Handle base, const WrittenVector& by, std::optional<W
   place.reset();
   if (by.ways.empty()) return map({{"from", text(from.name)}, {"by", explicit_form(by)}});
   return map({{"from", text(from.name)}, {"by", text(text_of(by, dimension()))}});
+}
+
+void Construction::require_place(Handle handle) const {
+  const KnownPoint& own = known(handle);
+  if (own.has_place) return;
+  for (const Point& point : d_.mechanism.points)
+    if (point.name == own.name)
+      throw core::InputError(
+          point.where, "point " + own.name + " has a construction over the coordinates, and no place in the drawing",
+          "write where it is in the drawn posture, under drawn too");
 }
 
 bool Construction::put_given(PointIndex point) {

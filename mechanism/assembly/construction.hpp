@@ -33,6 +33,7 @@ struct KnownPoint {
   std::string name;
   std::optional<WrittenVector> place;  ///< of explicit coordinates
   std::array<double, 3> posture{};     ///< SI
+  bool has_place = true;               ///< `posture` is known
 };
 
 class Construction {
@@ -52,6 +53,9 @@ class Construction {
                    const std::string& comment, std::optional<WrittenVector> place = {});
   /// The form of a point at a way from another one.
   Node form_at(Handle base, const WrittenVector& by, std::optional<WrittenVector>& place) const;
+
+  /// Throws where it is not known where a point is in the drawn posture: no side can be told from it.
+  void require_place(Handle handle) const;
 
   /// A point that stands still, or keeps its own construction and has all that this uses. False where it is neither.
   bool put_given(PointIndex point);

@@ -555,6 +555,8 @@ class PlanarConstruction : public Construction {
       return true;
     }
     const Handle from = a.base(), to = b.base();
+    require_place(from);
+    require_place(to);
     const auto &p = known(from).posture, &q = known(to).posture, &r = d_.place(point);
     const double size = std::hypot(q[0] - p[0], q[1] - p[1]) * std::hypot(r[0] - p[0], r[1] - p[1]);
     if (!(std::hypot(q[0] - p[0], q[1] - p[1]) > 1e-9 * d_.size)) return false;
@@ -580,6 +582,7 @@ class PlanarConstruction : public Construction {
                                  " meets the " + guide.source + ", for which there is no construction",
                              "name another coordinate, such as the stroke along the guide");
     const Handle base = guide.base(), from = circle.base();
+    require_place(from);
     const auto &c = known(from).posture, &r = d_.place(point);
     const double along = (r[0] - c[0]) * guide.way[0] + (r[1] - c[1]) * guide.way[1];
     if (std::abs(along) <= 1e-9 * std::hypot(guide.way[0], guide.way[1]) * std::hypot(r[0] - c[0], r[1] - c[1]))

@@ -407,17 +407,49 @@ class DrawingReader {
       result_.points[p].moves = !coordinates_of(as_built, static_cast<PointIndex>(p)).empty();
       if (result_.points[p].moves) both.push_back(p);
     }
-    const std::vector<double> middle = spread_poses(as_built, 1).front();
-    if (both.empty()) return middle;
+    std::vector<double> middle = spread_poses(as_built, 1).front();
+    const bool all_placed = put_drawn_places(middle);
+    if (both.empty()) {
+      if (all_placed)
+        for (DrawnPoint& point : result_.points) point.has_place = true;
+      return middle;
+    }
     std::vector<double> best;
     double least = 0;
     for (std::vector<double> pose : spread_poses(as_built, 8)) {
+      (void)put_drawn_places(pose);
       const double off = fit(as_built, both, pose);
       if (best.empty() || off < least) best = std::move(pose), least = off;
     }
     check_fit(as_built, both, best);
     for (DrawnPoint& point : result_.points) point.has_place = true;
     return best;
+  }
+
+  /// Coordinates that are the place of a drawn point; returns whether all of them are.
+  bool put_drawn_places(std::vector<double>& pose) const {
+    bool all = true;
+    const auto& points = result_.mechanism.points;
+    for (std::size_t c = 0; c < result_.coordinates.size() && c < pose.size(); ++c) {
+      bool found = false;
+      if (result_.coordinates[c].kind == Kind::place) {
+        std::string axis, of;
+        for (const Entry& part : entries(written_[c].value)) {
+          if (part.key == "place") axis = text_of(part.value);
+          if (part.key == "of") of = text_of(part.value);
+        }
+        const auto which =
+            static_cast<std::size_t>(std::find(axis_names.begin(), axis_names.end(), axis) - axis_names.begin());
+        for (const Point& point : points) {
+          const auto* form = std::get_if<ExplicitPoint>(&point.form);
+          if (point.name != of || form == nullptr || which >= form->coordinates.size()) continue;
+          pose[c] = core::to_double(value_of(form->coordinates[which], result_.mechanism));
+          found = true;
+        }
+      }
+      all = all && found;
+    }
+    return all;
   }
 
   using Places = std::vector<double>;

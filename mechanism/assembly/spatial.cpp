@@ -103,6 +103,32 @@ class SpatialConstruction : public Construction {
     return way_between(known(own.origin).name, in_frame(own, v));
   }
 
+  /// A cross product of two ways is a length more than a way: over one, in the file's units.
+  Amount per_length() const { return Amount(1 / d_.unit); }
+
+  /// A vector as an axis: components, a sum of ways, or else the way to a point that is put at it.
+  std::string direction_text(LinkIndex link, const Amounts& v) {
+    const WrittenVector vector = image(link, v);
+    const bool mixed =
+        !std::all_of(vector.components.begin(), vector.components.end(), [](const Terms& t) { return t.empty(); });
+    const bool crossed = std::any_of(vector.ways.begin(), vector.ways.end(),
+                                     [](const Term& own) { return own.factor.find("cross") != std::string::npos; });
+    if (vector.ways.empty() || (!mixed && !crossed)) return text_of(vector, 3);
+    const PointIndex base = known_points(link).front();
+    const std::string key = std::to_string(link) + " " + v[0].text() + " " + v[1].text() + " " + v[2].text();
+    auto found = extras_.find(key);
+    if (found == extras_.end()) {
+      std::array<double, 3> posture = d_.place(base);
+      for (std::size_t i = 0; i < 3; ++i) posture[i] += v[i].value() * core::to_double(d_.unit);
+      std::optional<WrittenVector> place;
+      const Node form = form_at(handle(base), vector, place);
+      const Handle end = put_extra(d_.link(link).name + "_axis", form, posture, "a direction of " + d_.link(link).name,
+                                   std::move(place));
+      found = extras_.emplace(key, known(end).name).first;
+    }
+    return found->second + " - " + known(handle(base)).name;
+  }
+
   /// A point of the frame at a way from its origin.
   std::string in_frame(const Attitude& own, const Amounts& way) {
     const std::string key = own.frame + " " + way[0].text() + " " + way[1].text() + " " + way[2].text();
@@ -227,7 +253,7 @@ class SpatialConstruction : public Construction {
       Triad triad;
       triad.drawn = {a, b, cross(a, b)};
       triad.written = {way_between(p, q), way_between(p, r), WrittenVector{}};
-      triad.written[2].ways.push_back({one_, "cross(" + q + " - " + p + ", " + r + " - " + p + ")"});
+      triad.written[2].ways.push_back({per_length(), "cross(" + q + " - " + p + ", " + r + " - " + p + ")"});
       Attitude own;
       own.triad = std::move(triad);
       own.by_shape = !shape(link).is_drawn();
@@ -250,11 +276,15 @@ class SpatialConstruction : public Construction {
       const std::string p = known(handle(points[0])).name, q = known(handle(points[k])).name;
       Triad triad;
       triad.drawn = {n, way, cross(n, way)};
-      const WrittenVector axis = image(other_of(d_.joint(*hinge), link), n);
+      const std::string axis = direction_text(other_of(d_.joint(*hinge), link), n);
       const Amount drawn_part =
           shape(link).is_drawn() ? one_ : length(way) / shape(link).distance(points[0], points[k]);
-      triad.written = {axis, drawn_part * way_between(p, q), WrittenVector{}};
-      triad.written[2].ways.push_back({drawn_part, "cross(" + text_of(axis, 3) + ", " + q + " - " + p + ")"});
+      triad.written = {WrittenVector{}, drawn_part * way_between(p, q), WrittenVector{}};
+      if (axis.front() == '[')
+        triad.written[0] = image(other_of(d_.joint(*hinge), link), n);
+      else
+        triad.written[0].ways.push_back({one_, "(" + axis + ")"});
+      triad.written[2].ways.push_back({drawn_part * per_length(), "cross(" + axis + ", " + q + " - " + p + ")"});
       Attitude own;
       own.triad = std::move(triad);
       set(link, std::move(own));
@@ -418,7 +448,7 @@ class SpatialConstruction : public Construction {
       const PointIndex at = d_.joint(*hinge).at;
       own.direction = *drawn_axis(*hinge);
       const LinkIndex base = other_of(d_.joint(*hinge), link);
-      own.axis = base == ground ? written_axis(*hinge) : text_of(image(base, own.direction), 3);
+      own.axis = base == ground ? written_axis(*hinge) : direction_text(base, own.direction);
       if (!shape(link).is_drawn()) {
         own.radius = shape(link).distance(at, point).text();
         own.base = [this, at] { return handle(at); };
@@ -487,7 +517,7 @@ class SpatialConstruction : public Construction {
       SpaceLocus line;
       line.kind = Kind::line;
       line.direction = *axis;
-      line.axis = guide == ground ? written_axis(static_cast<JointIndex>(j)) : text_of(image(guide, *axis), 3);
+      line.axis = guide == ground ? written_axis(static_cast<JointIndex>(j)) : direction_text(guide, *axis);
       line.source = "guide " + joint.name;
       line.base = [this, guide, point, axis = *axis, name = joint.name] {
         return base_of_line(guide, point, axis, name);
@@ -528,6 +558,8 @@ class SpatialConstruction : public Construction {
   bool meet(PointIndex point, const SpaceLocus& first, const SpaceLocus& sphere) {
     if (sphere.kind != Kind::sphere) return false;
     const Handle base = first.base(), from = sphere.base();
+    require_place(base);
+    require_place(from);
     const auto &a = known(base).posture, &c = known(from).posture, &r = d_.place(point);
     const std::array<double, 3> n = {first.direction[0].value(), first.direction[1].value(),
                                      first.direction[2].value()};
@@ -603,8 +635,7 @@ class SpatialConstruction : public Construction {
     if (!axis || keeps_constructions(holder) || (both && keeps_constructions(joint.to))) return "";
     for (const LinkIndex link : {holder, both ? joint.to : holder}) {
       if (!is_turned(link) || (attitudes_[static_cast<std::size_t>(link)]->by_shape)) continue;
-      const WrittenVector own = image(link, *axis);
-      return own.is_constant() ? "" : text_of(own, 3);
+      return image(link, *axis).is_constant() ? "" : direction_text(link, *axis);
     }
     for (const LinkIndex link : {holder, both ? joint.to : holder}) {
       const auto way = way_of(link);

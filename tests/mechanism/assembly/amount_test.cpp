@@ -19,7 +19,7 @@ TEST(Amount, KeepsRoots) {
   EXPECT_EQ((size * size).text(), "9469");
   EXPECT_EQ((dot(way, way) / size).text(), "sqrt(9469)");
   EXPECT_EQ(length({whole(30), whole(40), {}}).text(), "50");
-  EXPECT_EQ(square_root(Amount(Rational(1, 2))).text(), "1/2*sqrt(2)");
+  EXPECT_EQ(square_root(Amount(Rational(1, 2))).text(), "0.5*sqrt(2)");
   EXPECT_EQ((square_root(whole(8)) + square_root(whole(2))).text(), "3*sqrt(2)");
   EXPECT_TRUE((square_root(whole(8)) - whole(2) * square_root(whole(2))).is_zero());
 }

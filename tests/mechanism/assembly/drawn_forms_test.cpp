@@ -8,8 +8,6 @@ namespace {
 
 Mechanism drawn(const std::string& text) { return parse_mechanism(text, "sketch.yaml"); }
 
-const std::string four_links = drawn_four_bar();
-
 TEST(DrawnForm, KeepsLengthsExact) {
   const WrittenMechanism own = constructed_text(
       with_line(with_line(drawn_four_bar(), "B: [30, 40]", "B: [62, 75]"), "C: [120, 90]", "C: [291, 204]"),
@@ -56,18 +54,39 @@ TEST(DrawnForm, TakesTheMotorsForCoordinates) {
 TEST(DrawnForm, TakesAnyCoordinate) {
   const Mechanism by_crank = drawn(drawn_four_bar());
   const Mechanism by_rocker = drawn(with_line(drawn_four_bar(), "of: AB}", "of: CD}"));
-  const Mechanism by_angle = drawn(with_line(drawn_four_bar(), "of: AB}", "of: [AB, BC]}"));
   const Mechanism by_place =
       drawn(with_line(drawn_four_bar(), "{angle: [0, 360 deg], of: AB}", "{place: y, of: B, within: [0, 49]}"));
   // In the drawn posture all of them are the drawing.
-  const double crank = std::atan2(40, 30), rocker = std::atan2(-90, -20), coupler = std::atan2(50, 90);
-  for (const auto& [m, value] :
-       {std::pair(&by_crank, crank), {&by_rocker, rocker}, {&by_angle, coupler - crank}, {&by_place, 0.040}}) {
+  const double crank = std::atan2(40, 30), rocker = std::atan2(-90, -20);
+  for (const auto& [m, value] : {std::pair(&by_crank, crank), {&by_rocker, rocker}, {&by_place, 0.040}}) {
     const auto places = places_at(*m, {value});
     ASSERT_TRUE(places.has_value());
     EXPECT_LT(apart(places->at("B"), {0.030, 0.040, 0}), 1e-12);
     EXPECT_LT(apart(places->at("C"), {0.120, 0.090, 0}), 1e-12);
   }
+}
+
+/// The angle between two links, at a joint that moves.
+TEST(DrawnForm, TakesTheAngleBetweenTwoLinks) {
+  const Mechanism m = drawn(
+      "format: 1\nunits: {length: mm}\n"
+      "workspace: {theta: {angle: [0, 360 deg], of: AB}, phi: {angle: [0, 360 deg], of: [AB, BC]}}\n"
+      "drawn: {A: [0, 0], B: [30, 40], C: [90, 120], D: [170, 80], E: [150, 0]}\n"
+      "links: {AB: {points: [A, B]}, BC: {points: [B, C]}, CD: {points: [C, D]}, DE: {points: [D, E]}}\n"
+      "joints:\n"
+      "  A: {revolute: [ground, AB], at: A, actuated: true}\n"
+      "  B: {revolute: [AB, BC], at: B}\n"
+      "  C: {revolute: [BC, CD], at: C}\n"
+      "  D: {revolute: [CD, DE], at: D}\n"
+      "  E: {revolute: [ground, DE], at: E, actuated: true}\n"
+      "end_effector: {link: BC, at: C}\n");
+  const double theta = 0.9, phi = 0.2;
+  const auto places = places_at(m, {theta, phi});
+  ASSERT_TRUE(places.has_value());
+  EXPECT_LT(apart(places->at("C"), {0.050 * std::cos(theta) + 0.100 * std::cos(theta + phi),
+                                    0.050 * std::sin(theta) + 0.100 * std::sin(theta + phi), 0}),
+            1e-12);
+  EXPECT_NEAR(apart(places->at("D"), places->at("E")), std::hypot(0.020, 0.080), 1e-12);
 }
 
 const std::string pin_and_guide =

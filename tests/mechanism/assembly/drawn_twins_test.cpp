@@ -1,6 +1,6 @@
 // Every shipped example, drawn: the same points in the same poses, and the same equations.
-#include <ctime>
 #include <filesystem>
+#include <sstream>
 
 #include "tests/mechanism/assembly/assembly_text.hpp"
 
@@ -14,6 +14,13 @@ std::vector<std::string> names_of_unknowns(const Mechanism& m) {
   std::vector<std::string> names;
   for (const Unknown& own : unknowns(m)) names.push_back(unknown_name(m, own));
   return names;
+}
+
+std::string without_comments(const std::string& text) {
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) result += line.substr(0, line.find("  # ")) + "\n";
+  return result;
 }
 
 TEST(DrawnTwins, AreTheExamples) {
@@ -45,8 +52,8 @@ TEST(DrawnTwins, AreWrittenAsConstructions) {
     const std::string path = (twins / (std::string(name) + ".yaml")).string();
     const WrittenMechanism written = constructed_text(read_text(path, "the twin"), path);
     EXPECT_EQ(written.text.find("drawn:"), std::string::npos);
-    EXPECT_EQ(constructed_text(written.text, "own.yaml").text.size(),
-              constructed_text(written.text, "own.yaml").text.size());
+    // What is constructed stays as it is, but for the comments.
+    EXPECT_EQ(constructed_text(written.text, "own.yaml").text, without_comments(written.text));
     const Mechanism twin = read_mechanism(path), own = parse_mechanism(written.text, "own.yaml");
     ASSERT_EQ(twin.points.size(), own.points.size());
     for (std::size_t p = 0; p < own.points.size(); ++p) {
@@ -56,18 +63,6 @@ TEST(DrawnTwins, AreWrittenAsConstructions) {
     EXPECT_EQ(working_mode(twin), working_mode(own));
     EXPECT_GT(expect_same_places(own, twin, 20, 1e-15), 0);
   }
-}
-
-/// Ten links are decomposed in 10 ms of one processor.
-TEST(DrawnTwins, AreDecomposedQuickly) {
-  const std::string path = (twins / "jansen_leg.yaml").string(), text = read_text(path, "the twin");
-  (void)constructed_text(text, path);
-  constexpr int times = 20;
-  const std::clock_t start = std::clock();
-  for (int i = 0; i < times; ++i) (void)constructed_text(text, path);
-  const double each = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / times;
-  EXPECT_LT(each, 0.010);
-  RecordProperty("milliseconds", std::to_string(1e3 * each));
 }
 
 }  // namespace

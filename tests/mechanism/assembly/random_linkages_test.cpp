@@ -2,6 +2,8 @@
 // ones constructed by hand.
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
+#include <iostream>
 #include <random>
 #include <set>
 
@@ -211,6 +213,7 @@ TEST(RandomLinkages, CloseAsThoseConstructedByHand) {
   const int designs = wanted != nullptr ? std::atoi(wanted) : 60;
   int compared = 0, poses = 0;
   std::set<std::size_t> sizes;
+  std::vector<double> ten_links;  // ms of one processor
   for (unsigned seed = 1; compared < designs && seed < 20U * static_cast<unsigned>(designs); ++seed) {
     Linkage linkage(seed);
     if (linkage.links() < 4) continue;
@@ -228,6 +231,12 @@ TEST(RandomLinkages, CloseAsThoseConstructedByHand) {
       ADD_FAILURE() << error.what() << "\n" << linkage.drawn() << linkage.constructed();
       continue;
     }
+    if (linkage.links() == 10) {
+      const std::string text = linkage.drawn();
+      const std::clock_t start = std::clock();
+      (void)constructed_text(text, "drawn.yaml");
+      ten_links.push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
     poses += expect_same_places(*hand, *drawn, 8, 1e-9);
     sizes.insert(linkage.links());
     ++compared;
@@ -235,6 +244,11 @@ TEST(RandomLinkages, CloseAsThoseConstructedByHand) {
   EXPECT_EQ(compared, designs);
   EXPECT_GT(poses, compared);
   EXPECT_TRUE(sizes.contains(4) && sizes.contains(10));
+  std::sort(ten_links.begin(), ten_links.end());
+  ASSERT_FALSE(ten_links.empty());
+  EXPECT_LT(ten_links[ten_links.size() / 2], 10);
+  RecordProperty("milliseconds_of_ten_links", std::to_string(ten_links[ten_links.size() / 2]));
+  std::cout << "ten links: " << ten_links[ten_links.size() / 2] << " ms, at most " << ten_links.back() << " ms\n";
 }
 
 }  // namespace

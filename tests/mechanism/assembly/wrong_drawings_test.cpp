@@ -75,7 +75,7 @@ const std::vector<WrongDrawing>& wrong_drawings() {
         {bc, "BC: {points: [B, C, E]}\n  EH: {points: [E, H]}"},
         {pin_d, pin_d + "  E: {revolute: [BC, EH], at: E}\n  H: {revolute: [ground, EH], at: H}\n"}},
        "nothing moves: 0 freedoms",
-       "such as EH"},
+       "leave out a link with its joints, such as CD"},
       {"the angle of a link from itself",
        {{angle, "{angle: [0, 360 deg], of: [AB, AB]}"}},
        "coordinate theta is the angle of a link from itself",
