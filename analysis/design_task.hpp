@@ -26,7 +26,7 @@ void require_asked_of_designs(const mechanism::Mechanism& mechanism, const core:
 class DesignTask {
  public:
   /// `vary`: parameters that designs differ in. Those that the task gives a tolerance to may differ besides.
-  /// Throws core::InputError as verify_task, and for parameters that cannot be left open.
+  /// Throws core::InputError as verify(), and for parameters that cannot be left open.
   DesignTask(const mechanism::Mechanism& mechanism, const std::vector<mechanism::ParameterRange>& vary,
              const core::Task& task, const LociRequest& request = {});
   DesignTask(const DesignTask&) = delete;

@@ -23,7 +23,7 @@ WrittenVector as_written(const Node& form) {
 
 /// A vector in the drawn posture, exactly; nothing where a point of it is not.
 std::optional<Amounts> amounts_of(const Drawing& d, const VectorExpression& v) {
-  using Kind = VectorExpression::Kind;
+  using VectorKind = VectorExpression::Kind;
   std::vector<Amounts> arguments;
   for (const VectorExpression& argument : v.arguments) {
     const auto own = amounts_of(d, argument);
@@ -36,20 +36,20 @@ std::optional<Amounts> amounts_of(const Drawing& d, const VectorExpression& v) {
                                              : Amount::expression(to_string(e), core::to_double(value.value));
   };
   switch (v.kind) {
-    case Kind::components: {
+    case VectorKind::components: {
       Amounts result;
       for (std::size_t i = 0; i < v.numbers.size(); ++i) result[i] = number(v.numbers[i]);
       return result;
     }
-    case Kind::point:
+    case VectorKind::point:
       return d.at(v.point).is_exact ? std::optional(d.at(v.point).at) : std::nullopt;
-    case Kind::add:
+    case VectorKind::add:
       return arguments[0] + arguments[1];
-    case Kind::negate:
+    case VectorKind::negate:
       return Amount(core::Rational(-1)) * arguments[0];
-    case Kind::scale:
+    case VectorKind::scale:
       return number(v.numbers[0]) * arguments[0];
-    case Kind::cross:
+    case VectorKind::cross:
       return mechanism::cross(arguments[0], arguments[1]);
   }
   return std::nullopt;

@@ -432,7 +432,7 @@ class DrawingReader {
     const auto& points = result_.mechanism.points;
     for (std::size_t c = 0; c < result_.coordinates.size() && c < pose.size(); ++c) {
       bool found = false;
-      if (result_.coordinates[c].kind == Kind::place) {
+      if (result_.coordinates[c].kind == CoordinateKind::place) {
         std::string axis, of;
         for (const Entry& part : entries(written_[c].value)) {
           if (part.key == "place") axis = text_of(part.value);

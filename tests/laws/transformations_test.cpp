@@ -240,8 +240,9 @@ TEST_P(Changes, MoveTheVerdictsAlong) {
   for (const double part : {0.8, 1.2}) {
     const core::Rational radius(part * zone.inscribed.radius);
     core::Task task, moved;
-    task.shape = core::TaskBall{centre, radius};
-    moved.shape = core::TaskBall{change.place(centre), radius * change.scale};
+    const Place moved_centre = change.place(centre);
+    task.shape = core::TaskBall{{centre[0], centre[1]}, radius};
+    moved.shape = core::TaskBall{{moved_centre[0], moved_centre[1]}, radius * change.scale};
     const Verification a = test::judged(parsed(base()), task, request(false)),
                        b = test::judged(parsed(changed(base(), change)), moved, request(true));
     EXPECT_EQ(a.verified(), part < 1);
