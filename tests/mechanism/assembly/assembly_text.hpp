@@ -63,10 +63,24 @@ inline double apart(const std::array<double, 3>& p, const std::array<double, 3>&
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
+/// Whether rounding moves no point: at the end of a reach it moves one by its square root.
+inline bool is_steady(const Mechanism& m, std::vector<double> pose) {
+  constexpr double rounding = 1e-13, still = 1e-10;
+  const auto here = places_at(m, pose);
+  for (double& value : pose) value += rounding;
+  const auto there = places_at(m, pose);
+  if (here.has_value() != there.has_value()) return false;
+  if (!here) return true;
+  for (const auto& [name, place] : *here)
+    if (apart(place, there->at(name)) > still) return false;
+  return true;
+}
+
 /// Points of one name are in one place, pose by pose; returns how many poses close.
 inline int expect_same_places(const Mechanism& one, const Mechanism& other, std::size_t poses, double within) {
   int closed = 0;
   for (const std::vector<double>& pose : spread_poses(one, poses)) {
+    if (!is_steady(one, pose)) continue;
     const auto a = places_at(one, pose), b = places_at(other, pose);
     EXPECT_EQ(a.has_value(), b.has_value());
     if (!a || !b) continue;
