@@ -18,8 +18,8 @@
 #include "loci/curves/curves.hpp"
 #include "loci/surfaces/surfaces.hpp"
 #include "mechanism/guide.hpp"
-#include "mechanism/notes.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/notes.hpp"
 #include "mechanism/written_unit.hpp"
 #include "numeric/sketch.hpp"
 
