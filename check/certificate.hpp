@@ -73,7 +73,7 @@ struct ZoneClaim {
 /// Over the task and its margin nothing wanted vanishes.
 struct TaskClaim {
   int mode = 0;
-  std::string shape;                        ///< "box", "circle", "polygon", "path"
+  std::string shape;                       ///< "box", "circle", "polygon", "path"
   std::vector<core::RationalPose> points;  ///< opposite corners; the centre; corners
   core::Rational radius, margin;
   std::vector<std::string> unchecked;  ///< what else was asked for

@@ -112,9 +112,10 @@ Command add_verify_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("verify", "Prove that a task keeps clear of every discontinuity locus");
   const auto arguments = std::make_shared<VerifyCommand>();
   add_common_arguments(*app, arguments->common);
-  app->add_option("TASK", arguments->task,
-                  "The task file: a box, ball (over two lengths a circle), polygon or path of poses, over three lengths "
-                  "a mesh")
+  app->add_option(
+         "TASK", arguments->task,
+         "The task file: a box, ball (over two lengths a circle), polygon or path of poses, over three lengths "
+         "a mesh")
       ->required();
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);

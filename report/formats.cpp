@@ -215,8 +215,8 @@ Format pictures(std::string_view name) {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = [] {
     std::vector<Format> list = {
-        {"json", any, loci_json, zones_json, pose_zones_json, verification_json, error_json,
-         coordinate_json, volume_json, trajectory_json, pose_json, pose_in_modes_json, validation_json},
+        {"json", any, loci_json, zones_json, pose_zones_json, verification_json, error_json, coordinate_json,
+         volume_json, trajectory_json, pose_json, pose_in_modes_json, validation_json},
         {"csv", any, loci_csv, error_csv, coordinate_csv, volume_csv, trajectory_csv},
         pictures<PictureFormat::svg>("svg"),
         pictures<PictureFormat::png>("png"),

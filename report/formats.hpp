@@ -48,8 +48,8 @@ class Format {
 
  private:
   std::tuple<Maker<LociSheet>, Maker<core::ZoneMap>, Maker<core::PoseZones>, Maker<core::Verification>,
-             Maker<core::ErrorMap>, Maker<core::CoordinateErrors>, Maker<VolumeSheet>,
-             Maker<core::TrajectoryResult>, Maker<core::Pose>, Maker<core::PoseInModes>, Maker<core::Validation>>
+             Maker<core::ErrorMap>, Maker<core::CoordinateErrors>, Maker<VolumeSheet>, Maker<core::TrajectoryResult>,
+             Maker<core::Pose>, Maker<core::PoseInModes>, Maker<core::Validation>>
       makers_ = {};
 };
 

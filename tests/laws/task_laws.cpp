@@ -199,7 +199,8 @@ void judge_study(Subject& s) {
     const StudyResult result = s.report.in_patience([&] { return run_study(model, study, {.threads = 1}); });
     for (const StudyDesign& design : result.designs) {
       const Model member = design_model(model, result, design);
-      const Verification answer = s.report.in_patience([&] { return verify(member, study.tasks.front(), {.depth = VerifyDepth::margin}); });
+      const Verification answer =
+          s.report.in_patience([&] { return verify(member, study.tasks.front(), {.depth = VerifyDepth::margin}); });
       using Status = StudyDesign::Status;
       const bool differs = (design.status == Status::feasible && answer.verdict == Verdict::refuted) ||
                            (design.status == Status::infeasible && answer.verdict == Verdict::verified);

@@ -60,7 +60,7 @@ std::string complaint(const std::string& bytes) {
 
 TEST(Stl, BinaryAndTextSayTheSame) {
   const core::TaskMesh one = parse_stl(binary(tetrahedron()), "part.stl", 0.001),
-                            two = parse_stl(text(tetrahedron()), "part.stl", 0.001);
+                       two = parse_stl(text(tetrahedron()), "part.stl", 0.001);
   ASSERT_EQ(one.corners.size(), 4U);
   EXPECT_EQ(one.triangles, two.triangles);
   ASSERT_EQ(one.triangles.size(), 4U);

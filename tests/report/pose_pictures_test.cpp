@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/task_panels.hpp"
 #include "report/pose_zone_picture.hpp"
 #include "report/pose_zones.hpp"
+#include "report/task_panels.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -24,7 +24,8 @@ core::Verification verified_box() {
   own.task.shape = core::TaskBox{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(2), Rational(1)}};
   own.margin = 0.5;
   own.angle_margin = 0.25;
-  own.nearest = core::NearestOfTask{"", core::LocusKind::backlash, {{"S1", core::Quantity::F, 1}}, {1.5, 1.0, 0.5}, 0.5};
+  own.nearest =
+      core::NearestOfTask{"", core::LocusKind::backlash, {{"S1", core::Quantity::F, 1}}, {1.5, 1.0, 0.5}, 0.5};
   return own;
 }
 
@@ -60,8 +61,7 @@ TEST(PoseTaskPicture, DrawsEveryShapeInEveryFormat) {
   own.verdict = core::Verdict::refuted;
   own.margin.reset(), own.angle_margin.reset(), own.nearest.reset();
   own.witness.emplace().at = {0.5, 0, 0};
-  own.task.shape =
-      core::TaskPath{{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(0), Rational(0)}}};
+  own.task.shape = core::TaskPath{{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(0), Rational(0)}}};
   expect_drawn("path");
   EXPECT_TRUE(has(task_panels(own, PictureFormat::svg), "ring: witness x = 0.5 m"));
   own.angles = {false, false, false};
