@@ -120,6 +120,7 @@ PoseRegion::PoseRegion(const core::TaskShape& shape, PoseMetric metric, PoseBesi
 }
 
 void PoseRegion::clamp_beside(Pose& pose) const {
+  if (pose.size() == shaped_) return;  // of the shape alone
   for (std::size_t c = shaped_; c < pose.size(); ++c) pose[c] = std::clamp(pose[c], lower_[c], upper_[c]);
   for (const PoseBeside::Ball& ball : beside_.balls) {
     double square = 0;
