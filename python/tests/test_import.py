@@ -13,8 +13,9 @@ BUILD = Path(os.environ["CLEARLOCI_BUILD"])
 
 
 def run(program, **environment):
+    # Python looks for modules in the working folder first.
     return subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, env={**os.environ, **environment}
+        [sys.executable, "-c", program], capture_output=True, text=True, env={**os.environ, **environment}, cwd=os.sep
     )
 
 
