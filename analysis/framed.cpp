@@ -80,7 +80,7 @@ class Outward {
     }
   }
 
-  /// Places in notes are written as "(x, y)".
+  /// Places in notes are written as "(x, y)", boxes as "[x0, x1] x [y0, y1]".
   std::string note(const std::string& text) const {
     static const std::regex place(R"(\((-?[0-9.]+(?:e[-+]?[0-9]+)?)((?:, -?[0-9.]+(?:e[-+]?[0-9]+)?)+)\))");
     std::string result, rest = text;

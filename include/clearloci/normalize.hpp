@@ -2,7 +2,7 @@
 // found it (docs/drawn-form.md). Its answers are those of the drawing.
 //
 //     const auto found = clearloci::normalize(clearloci::Model::read("sketch.yaml"));
-//     std::ofstream("own.yaml") << found.text;
+//     std::cout << found.text;
 #pragma once
 
 #include <string>

@@ -35,7 +35,7 @@ def complaints(schema, instance):
     return [f"{list(error.absolute_path)}: {error.message[:200]}" for error in schema.iter_errors(instance)]
 
 
-class MechanismFiles(unittest.TestCase):
+class MechanismFiles(InOwnFolder):
     def setUp(self):
         self.schema = validator("mechanism")
 

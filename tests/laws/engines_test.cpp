@@ -246,7 +246,7 @@ TEST(Engines, CertifyThreeDyadsButOnOneCircle) {
                                            "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml"),
                  {});
   EXPECT_GE(map.curves.size(), 15u);
-  EXPECT_TRUE(map.complete);
+  EXPECT_FALSE(map.out_of_time);
   for (const core::LocusCurve& curve : map.curves)
     EXPECT_TRUE(curve.certified || curve.cause == "P, B2, A2 aligned") << curve.id << " " << curve.cause;
   EXPECT_LE(map.notes.size(), 1u);
@@ -376,10 +376,12 @@ loads:
 TEST(AdaptiveEngine, TracesADyadOnADyadThroughTheBaseOfTheLowerOne) {
   const core::LocusMap map =
       trace_loci(mechanism::parse_mechanism(seven_bar, "seven_bar.yaml"), {.engine = loci::Engine::adaptive});
-  EXPECT_TRUE(map.complete);
+  EXPECT_FALSE(map.out_of_time);
   EXPECT_FALSE(map.curves.empty());
   for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.factor;
   EXPECT_TRUE(map.isolated_points.empty());
+  // Of the curves nothing is open.
+  for (const core::OpenRegion& region : map.open) EXPECT_TRUE(region.point) << region.factor;
 }
 
 TEST(AdaptiveEngine, MarksWhatADeadlineCutShort) {

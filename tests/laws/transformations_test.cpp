@@ -227,8 +227,8 @@ TEST_P(Changes, MoveTheZonesAlong) {
   for (std::size_t i = 0; i < a.zones.size(); ++i) {
     EXPECT_NEAR(a.zones[i].area, b.zones[i].area / (k * k), 2e-5) << i;
     EXPECT_EQ(a.zones[i].certified, b.zones[i].certified);
-    // The search for the largest circle ends within 1e-3 of its radius (loci/zones/largest_circle.cpp).
-    EXPECT_NEAR(a.zones[i].inscribed.radius, b.zones[i].inscribed.radius / k, 1e-3 * a.zones[i].inscribed.radius);
+    // Either search for the largest circle ends within 1e-3 of its radius (loci/zones/largest_circle.cpp).
+    EXPECT_NEAR(a.zones[i].inscribed.radius, b.zones[i].inscribed.radius / k, 2e-3 * a.zones[i].inscribed.radius);
   }
 }
 

@@ -38,7 +38,7 @@ TEST(LociJson, KeysAreThoseOfTheFormatInItsOrder) {
   const Json root = loci_object(fixture::five_bar_map());
   EXPECT_EQ(keys(root),
             (std::vector<std::string>{"format", "mechanism", "parameters", "coordinates", "box", "tolerance",
-                                      "complete", "curves", "isolated_points", "workspace", "notes", "timing"}));
+                                      "complete", "curves", "isolated_points", "open", "workspace", "notes", "timing"}));
   EXPECT_EQ(keys(root["curves"][0]), (std::vector<std::string>{"id", "kind", "vanishing", "factor", "cause", "implicit",
                                                                "closed_form", "working_mode", "certified", "arcs"}));
   EXPECT_EQ(keys(root["curves"][0]["arcs"][0]), (std::vector<std::string>{"closed", "ends", "length", "points"}));
@@ -208,7 +208,8 @@ TEST(Wording, ModesAndClosedFormsInWords) {
   const auto& names = map.tower.coordinates;
   EXPECT_EQ(mode_words(map.tower, fixture::elbows_out()), "B1 right, B2 left");
   EXPECT_EQ(mode_slug(map.tower, fixture::elbows_out()), "right-left");
-  EXPECT_EQ(closed_form_words(map.curves[0].closed_form, names), "circle centre (1/2, -1/2), radius 1/2");
+  EXPECT_EQ(closed_form_words(map.curves[0].closed_form, names), "circle centre (0.5, -0.5), radius 0.5");
+  EXPECT_EQ(closed_form_words(map.curves[0].closed_form, names, true), "circle centre (1/2, -1/2), radius 1/2");
   EXPECT_EQ(closed_form_words(core::CircleForm{{0, 1}, core::Rational(69, 100), {}}, names),
             "circle centre (0, 1), radius 0.830662");
   EXPECT_EQ(closed_form_words(core::CircleForm{{0, 1}, core::Rational(69, 100), {}}, names, true),
@@ -218,9 +219,9 @@ TEST(Wording, ModesAndClosedFormsInWords) {
   pair.n = 3;
   pair.centre = {core::QuadraticNumber{core::Rational(1, 4), 0}, core::QuadraticNumber{0, core::Rational(1, 4)}};
   pair.radius_squared = {1, core::Rational(1, 2)};
-  EXPECT_EQ(closed_form_words(pair, names), "circles centre (1/4, ±0.433013), radius 1.36603 or 0.366025");
+  EXPECT_EQ(closed_form_words(pair, names), "circles centre (0.25, ±0.433013), radius 1.36603 or 0.366025");
   EXPECT_EQ(closed_form_words(pair, names, true), "circles centre (1/4, ±√3/4), radius √(1 ± √3/2)");
-  EXPECT_EQ(closed_form_words(core::LineForm{2, -1, core::Rational(3, 4)}, names), "line 2 x - y + 3/4 = 0");
+  EXPECT_EQ(closed_form_words(core::LineForm{2, -1, core::Rational(3, 4)}, names), "line x - 0.5 y + 0.375 = 0");
   EXPECT_EQ(closed_form_words(core::LineForm{0, -1, 0}, names), "line -y = 0");
   EXPECT_EQ(closed_form_words(core::ConicForm{"parabola", {}, {}, {}, 0}, names), "parabola");
   EXPECT_EQ(closed_form_words({}, names), "");

@@ -182,7 +182,7 @@ TEST(Formats, HoldWhatTheySay) {
   EXPECT_FALSE(can_hold("dxf", 3));
   EXPECT_TRUE(can_hold("stl", 3));
   EXPECT_FALSE(can_hold("stl", 2));
-  EXPECT_EQ(format_names<core::ZoneMap>(), (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson"}));
+  EXPECT_EQ(format_names<core::ZoneMap>(), (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson", "html"}));
   EXPECT_EQ(format_names<core::Verification>(), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
   EXPECT_EQ(format_names<core::ErrorMap>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
   EXPECT_EQ(format_names<core::CoordinateErrors>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));

@@ -92,8 +92,12 @@ TEST(ZonesBetween, CirclesThatTouch) {
 }
 
 TEST(ZonesBetween, ANodeAndTheSides) {
-  // x y = 0: four squares with a node in the middle.
-  expect_areas(zones_between({x * y}), {4, 4, 4, 4});
+  // The nodal cubic y^2 = x^2 (x + 1): a loop, and branches that leave through y = 2 and y = -2 at x^2 (x + 1) = 4.
+  double side = 1;
+  for (int i = 0; i < 60; ++i) side = 2 / std::sqrt(side + 1);
+  const auto integral = [](double t) { return 0.4 * std::pow(t + 1, 2.5) - 2.0 / 3 * std::pow(t + 1, 1.5); };
+  const double loop = 8.0 / 15, right = 2 * (integral(side) - integral(0)) + 4 * (2 - side);
+  expect_areas(zones_between({y * y - x * x * x - x * x}), {16 - loop - right, right, loop});
 }
 
 TEST(ZonesBetween, AFigureOfEight) {
