@@ -1,6 +1,6 @@
 // The door of search/: boxes cut until something is proven in each, on all cores. Common zeros of functions on a sheet,
-// touches, stars at irrational points; trees of cells in which a curve hides nothing. What a search leaves undecided, it
-// says.
+// touches, stars at irrational points; trees of cells in which a curve hides nothing. What a search leaves undecided,
+// it says.
 #pragma once
 
 #include "loci/search/cell_tree.hpp"
