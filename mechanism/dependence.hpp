@@ -1,5 +1,5 @@
 // Which columns of a matrix depend on each other, in doubles: for advice on mechanisms that are not square, and for the
-// freedoms of a drawing. Private to mechanism/.
+// freedoms of a drawing.
 #pragma once
 
 #include <cstddef>
