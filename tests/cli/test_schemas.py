@@ -37,6 +37,7 @@ def complaints(schema, instance):
 
 class MechanismFiles(InOwnFolder):
     def setUp(self):
+        super().setUp()
         self.schema = validator("mechanism")
 
     def test_every_example_keeps_to_it(self):
