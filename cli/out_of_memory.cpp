@@ -3,12 +3,16 @@
 #include <gmp.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <new>
 #include <string_view>
 
 #include "cli/program.hpp"
 #include "report/files.hpp"
+
+/// mimalloc's, where the program is linked with it: its `new` aborts without asking the new-handler.
+extern "C" [[gnu::weak]] void mi_register_error(void (*handler)(int error, void* argument), void* argument);
 
 namespace clearloci::cli {
 namespace {
@@ -32,16 +36,25 @@ void* gmp_reallocate(void* old, std::size_t, std::size_t size) {
 
 void gmp_free(void* old, std::size_t) { std::free(old); }
 
+template <void (*end)()>
+void on_error_of_allocator(int error, void*) {
+  if (error == ENOMEM) end();
+}
+
+template <void (*end)()>
+void call_where_memory_ends() {
+  if (mi_register_error != nullptr) ::mi_register_error(on_error_of_allocator<end>, nullptr);
+  ::mp_set_memory_functions(gmp_allocate<end>, gmp_reallocate<end>, gmp_free);
+}
+
 }  // namespace
 
 void end_where_memory_ends() {
   std::set_new_handler(end_without_memory);
-  ::mp_set_memory_functions(gmp_allocate<end_without_memory>, gmp_reallocate<end_without_memory>, gmp_free);
+  call_where_memory_ends<end_without_memory>();
 }
 
-void throw_where_memory_ends() {
-  ::mp_set_memory_functions(gmp_allocate<throw_without_memory>, gmp_reallocate<throw_without_memory>, gmp_free);
-}
+void throw_where_memory_ends() { call_where_memory_ends<throw_without_memory>(); }
 
 void end_without_memory() {
   constexpr std::string_view line =

@@ -80,7 +80,8 @@ class Documented(InOwnFolder):
                 if number == 0:
                     blocks = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
                     printed = next(block for language, block in blocks if not language)
-                    self.assertIn(printed, own.read_text(encoding="utf-8"))
+                    for line in printed.splitlines():
+                        self.assertIn(line + "\n", own.read_text(encoding="utf-8"))
 
     def test_commands_of_other_pages_run(self):
         for page in ("certificates.md", "studies.md"):
