@@ -19,7 +19,7 @@ TEST_P(OnceRejected, IsAccepted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Corpus, OnceRejected,
-                         testing::Values("end_of_a_guide", "guide_beside_the_boundary", "torsion_slit",
+                         testing::Values("end_of_a_guide", "guide_beside_the_boundary",
                                          "point_where_a_spring_has_no_length", "chord_beside_another"),
                          [](const auto& own) { return std::string(own.param); });
 

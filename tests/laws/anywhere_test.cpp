@@ -97,7 +97,11 @@ void expect_same_loci(const Mechanism& m, const Frame& frame) {
 std::array<Rational, 3> somewhere(std::mt19937& random, double least, double most) {
   const double way = std::uniform_real_distribution(0.0, 6.2831853)(random),
                size = std::uniform_real_distribution(least, most)(random);
-  const auto decimal = [](double value) { return Rational(static_cast<long>(std::lround(1000 * value)), 1000L); };
+  const auto decimal = [](double value) {
+    Rational result(static_cast<long>(std::lround(1000 * value)), 1000L);
+    result.canonicalize();
+    return result;
+  };
   return {decimal(size * std::cos(way)), decimal(size * std::sin(way)), Rational(0)};
 }
 

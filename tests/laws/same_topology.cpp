@@ -13,7 +13,10 @@ using core::LocusMap;
 using core::Point2;
 
 double size_of(const LocusMap& map) {
-  return std::max(core::to_double(map.upper[0] - map.lower[0]), core::to_double(map.upper[1] - map.lower[1]));
+  double size = 0;
+  for (std::size_t i = 0; i < map.lower.size(); ++i)
+    size = std::max(size, core::to_double(map.upper[i] - map.lower[i]));
+  return size;
 }
 
 std::string name(const LocusMap& map, const LocusCurve& curve) {
@@ -41,7 +44,7 @@ bool same_place(const Point2& a, const Point2& b, double size) {
 }
 
 bool on_side(const LocusMap& map, const Point2& at) {
-  for (std::size_t i = 0; i < 2; ++i)
+  for (std::size_t i = 0; i < map.lower.size(); ++i)
     for (const core::Rational& side : {map.lower[i], map.upper[i]})
       if (std::abs(at[i] - core::to_double(side)) <= 1e-12 * size_of(map)) return true;
   return false;

@@ -36,9 +36,9 @@ std::size_t vertex_count(const core::LocusMap& map) {
 
 TEST(LociJson, KeysAreThoseOfTheFormatInItsOrder) {
   const Json root = loci_object(fixture::five_bar_map());
-  EXPECT_EQ(keys(root),
-            (std::vector<std::string>{"format", "mechanism", "parameters", "coordinates", "box", "tolerance",
-                                      "complete", "curves", "isolated_points", "open", "workspace", "notes", "timing"}));
+  EXPECT_EQ(keys(root), (std::vector<std::string>{"format", "mechanism", "parameters", "coordinates", "box",
+                                                  "tolerance", "complete", "curves", "isolated_points", "open",
+                                                  "workspace", "notes", "timing"}));
   EXPECT_EQ(keys(root["curves"][0]), (std::vector<std::string>{"id", "kind", "vanishing", "factor", "cause", "implicit",
                                                                "closed_form", "working_mode", "certified", "arcs"}));
   EXPECT_EQ(keys(root["curves"][0]["arcs"][0]), (std::vector<std::string>{"closed", "ends", "length", "points"}));
