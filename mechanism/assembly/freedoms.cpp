@@ -257,7 +257,7 @@ std::vector<bool> fixed_points(const Drawing& d) {
       const PointAt way = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
       const PointAt& u = *axis;
       const PointAt across = {u[1] * way[2] - u[2] * way[1], u[2] * way[0] - u[0] * way[2],
-                            u[0] * way[1] - u[1] * way[0]};
+                              u[0] * way[1] - u[1] * way[0]};
       if (apart(across, {}) <= 1e-12 * d.size * apart(u, {})) fixed[static_cast<std::size_t>(point)] = true;
     }
   }
