@@ -390,7 +390,7 @@ TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociReq
 core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,
                           const LociRequest& request) {
   // A family is derived in the coordinates of the file: from there it serves as long as its members are near by.
-  if (mechanism::is_far(member) || !family.is_derived()) return trace_loci(member, request);
+  if (mechanism::is_far(member)) return trace_loci(member, request);
   return trace_member(member, request, {.family = &family}).map;
 }
 

@@ -45,7 +45,7 @@ TaskShape moved(const TaskShape& shape, const RationalPose& by) { return placed(
 std::array<RationalPose, 2> bounds(const TaskShape& shape, const std::vector<Rational>& weights) {
   if (const auto* box = std::get_if<TaskBox>(&shape)) return {box->lower, box->upper};
   std::array<RationalPose, 2> result;
-  auto& [lower, upper] = result;
+  RationalPose &lower = result[0], &upper = result[1];
   if (const auto* ball = std::get_if<TaskBall>(&shape)) {
     for (std::size_t c = 0; c < ball->centre.size(); ++c) {
       const Rational reach = weights.empty() ? ball->radius : Rational(ball->radius / weights[c]);

@@ -157,7 +157,7 @@ std::pair<PointIndex, PointIndex> read_pair(const Mechanism& mechanism, const Va
 
 /// The length of a rod, or a polynomial in the coordinates: that of a leg which a motor makes longer.
 Expression read_length(const Mechanism& mechanism, const Value& value) {
-  const Expression length = read_expression(mechanism, value, Scope::parameters_and_coordinates);
+  Expression length = read_expression(mechanism, value, Scope::parameters_and_coordinates);
   if (!mentions_coordinates(mechanism, length)) return read_number(mechanism, value, Sign::positive).expression;
   check_polynomial(mechanism, value, length, "the length of a leg is a number or a polynomial in the coordinates");
   return length;

@@ -61,7 +61,7 @@ class Writer {
       const auto corner = [&, i = i, j = j](std::size_t k) {
         return "[" + length(polygon->corners[k][i]) + ", " + length(polygon->corners[k][j]) + "]";
       };
-      const std::string text = "polygon: " + listed(polygon->corners.size(), corner);
+      std::string text = "polygon: " + listed(polygon->corners.size(), corner);
       if (polygon->above.empty()) return text;
       core::TaskBox others{polygon->corners.front(), polygon->corners.front()};
       for (std::size_t c = 0; c < others.upper.size(); ++c) others.upper[c] += polygon->above[c];

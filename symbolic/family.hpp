@@ -19,7 +19,6 @@ class Family {
   /// its equations are not these with values put in (an irrational length, another structure), or are too long with
   /// symbols: then they are to be derived from scratch.
   std::optional<FactoredDeterminants> at(const Geometry& geometry) const;
-  bool is_derived() const { return determinants_.has_value(); }
 
  private:
   Poly substituted(const Poly& p, const Geometry& geometry, const std::vector<std::optional<Poly>>& values) const;

@@ -1052,8 +1052,6 @@ LocusFamily& LocusFamily::operator=(LocusFamily&& other) noexcept {
   return *this;
 }
 
-bool LocusFamily::is_derived() const { return family_ != nullptr && family_->is_derived(); }
-
 std::vector<DerivedProblem> LocusFamily::problems(const Mechanism& member, const Selection& selection) const {
   const auto turn = algebra_turn();
   return problems_of(member, selection, family_.get());

@@ -61,8 +61,6 @@ class LocusFamily {
   LocusFamily& operator=(LocusFamily&&) noexcept;
 
   std::vector<DerivedProblem> problems(const mechanism::Mechanism& member, const Selection& selection) const;
-  /// False where the equations are too long with symbols: every member is derived from scratch.
-  bool is_derived() const;
 
  private:
   std::unique_ptr<const class Family> family_;

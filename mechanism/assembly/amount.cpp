@@ -77,7 +77,7 @@ std::string Amount::text(bool tight) const {
     const std::string text = decimal_text(factor_);
     return text.find_first_of("-/") == std::string::npos ? text : wrapped(text);
   }
-  const std::string root = "sqrt(" + radicand_.get_num().get_str() + ")";
+  std::string root = "sqrt(" + radicand_.get_num().get_str() + ")";
   if (factor_ == 1) return root;
   const std::string text = (factor_ == -1 ? "-" : decimal_text(factor_) + "*") + root;
   return text.find_first_of("-/") == std::string::npos ? text : wrapped(text);
