@@ -124,8 +124,7 @@ TEST(Family, LeavesIrrationalValuesToTheUsualWay) {
 
 // With symbols for all parameters the equations of these would have millions of terms: they are given up in time.
 TEST(Family, LeavesWhatIsTooLongWithSymbolsToTheUsualWay) {
-  for (const auto& [name, z] :
-       {std::pair{"hexapod", "470"}, {"gough_stewart_slice", "9/20"}}) {
+  for (const auto& [name, z] : {std::pair{"hexapod", "470"}}) {
     SCOPED_TRACE(name);
     const Model family = Model::read(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
     const Model member = family.with({{"z", z}});
