@@ -91,16 +91,35 @@ class Outward {
         values.push_back(std::stod(others.substr(at + 2)));
       std::string moved;
       for (std::size_t i = 0; i < values.size() && i < angles_.size(); ++i) {
-        char digits[32];
-        std::snprintf(digits, sizeof digits, "%.9g", value(values[i], i));
-        moved += (i == 0 ? "" : ", ") + std::string(digits);
+        moved += (i == 0 ? "" : ", ") + words(values[i], i);
       }
       result += found.prefix().str() + (values.size() == angles_.size() ? "(" + moved + ")" : found[0].str());
+    }
+    return with_boxes_moved(result + rest);
+  }
+
+ private:
+  std::string words(double at, std::size_t coordinate) const {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.9g", value(at, coordinate));
+    return digits;
+  }
+
+  std::string with_boxes_moved(const std::string& text) const {
+    static const std::regex range(R"(\[(-?[0-9.]+(?:e[-+]?[0-9]+)?), (-?[0-9.]+(?:e[-+]?[0-9]+)?)\])");
+    std::string result, rest = text;
+    std::size_t c = 0;
+    for (std::smatch found; std::regex_search(rest, found, range); rest = found.suffix()) {
+      c = found.prefix() == " x " ? c + 1 : 0;
+      const bool of_box = c > 0 || found.suffix().str().starts_with(" x [");
+      result += found.prefix().str();
+      result += of_box && c < angles_.size()
+                    ? "[" + words(std::stod(found[1]), c) + ", " + words(std::stod(found[2]), c) + "]"
+                    : found[0].str();
     }
     return result + rest;
   }
 
- private:
   /// p with (v - from) / scale in the place of v.
   core::Polynomial substituted(const core::Polynomial& p, int v, const Rational& from) const {
     const int degree = core::degree_in(p, v);
