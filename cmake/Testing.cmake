@@ -13,13 +13,12 @@ if(CLEARLOCI_LAW_INPUTS)
 endif()
 
 # clearloci_test(<name> sources... [LIBS libs...]): a GoogleTest executable, each of its tests known to ctest.
-# Sources may use CLEARLOCI_SOURCE_DIR (the repository) and RapidCheck's <rapidcheck/gtest.h>.
+# Sources may use "tests/source_dir.hpp" (the repository) and RapidCheck's <rapidcheck/gtest.h>.
 function(clearloci_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBS")
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
-  target_compile_definitions(${name} PRIVATE CLEARLOCI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gtest_main GTest::gmock rapidcheck Threads::Threads)
+  target_link_libraries(${name} PRIVATE ${arg_LIBS} test_source_dir GTest::gtest_main GTest::gmock rapidcheck Threads::Threads)
   clearloci_warnings(${name})
   clearloci_known_leaks(${name})
   # What is tested is compiled as users get it; the tests themselves compile a third faster so.

@@ -11,16 +11,17 @@
 #include "clearloci/error.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
 std::string example_text(const std::string& name) {
-  std::ifstream file(CLEARLOCI_SOURCE_DIR "/examples/" + name + ".yaml");
+  std::ifstream file(source_dir() + "/examples/" + name + ".yaml");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Model four_bar() { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml"); }
+Model four_bar() { return Model::read(source_dir() + "/examples/four_bar.yaml"); }
 
 TEST(CoordinateErrorsOfAModel, JumpAtTheLociByWhatTheirRowsSay) {
   const CoordinateErrors errors = coordinate_errors(four_bar(), {.steps = 360});
@@ -128,7 +129,7 @@ TEST(CoordinateErrorsOfAModel, InSpaceJumpByWhatTheirRowsSay) {
 }
 
 TEST(Errors, AreRefusedInTheirOwnWordsOverSixCoordinates) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_poses.yaml");
+  const Model model = Model::read(source_dir() + "/examples/gough_stewart_poses.yaml");
   const auto words = [&](const auto& ask) -> std::string {
     try {
       ask(model, ErrorRequest{});
@@ -146,7 +147,7 @@ TEST(Errors, AreRefusedInTheirOwnWordsOverSixCoordinates) {
 }
 
 TEST(CoordinateErrorsOfAModel, WantOneCoordinate) {
-  EXPECT_THROW(coordinate_errors(Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml")), InputError);
+  EXPECT_THROW(coordinate_errors(Model::read(source_dir() + "/examples/five_bar.yaml")), InputError);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "clearloci/pose.hpp"
 #include "clearloci/verify.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -16,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double degree = 0.017453292519943295;
 
-Model example(const std::string& name) { return Model::read(std::string(CLEARLOCI_SOURCE_DIR "/examples/") + name); }
+Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name); }
 
 double component(const Pose& pose, const std::string& joint, Quantity quantity) {
   for (const JointReaction& own : pose.reactions)
@@ -68,7 +69,7 @@ TEST(Hexapod, LegForcesBalanceTheWrenchOnThePlatform) {
 /// Its equations are made of integers of hundreds of digits: places on circles are known to 1e-30.
 TEST(Hexapod, KeepsItsLegsLoadedOverATask) {
   const Model model = example("hexapod.yaml");
-  const Verification proven = verify(model, read_task(CLEARLOCI_SOURCE_DIR "/examples/tasks/hexapod.yaml", model));
+  const Verification proven = verify(model, read_task(source_dir() + "/examples/tasks/hexapod.yaml", model));
   ASSERT_EQ(proven.verdict, Verdict::verified);
   EXPECT_GT(*proven.margin, 0.1);
   ASSERT_TRUE(proven.nearest);

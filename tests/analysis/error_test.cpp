@@ -8,11 +8,12 @@
 
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
-Model five_bar() { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml"); }
+Model five_bar() { return Model::read(source_dir() + "/examples/five_bar.yaml"); }
 
 std::size_t field(const FieldMap& map, const std::string& name) {
   const auto found = std::find_if(map.fields.begin(), map.fields.end(), [&](const Field& f) { return f.name == name; });

@@ -10,15 +10,14 @@
 #include "clearloci/error.hpp"
 #include "clearloci/errors.hpp"
 #include "clearloci/mechanism.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-Model example(const std::string& name) {
-  return Model::read(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
-}
+Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name + ".yaml"); }
 
 const Field& field(const FieldVolume& volume, const std::string& name) {
   for (const Field& own : volume.fields)

@@ -11,12 +11,13 @@
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
 std::vector<std::string> notes(const std::string& name, const std::vector<Model::Value>& values) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/" + name);
+  const Model model = Model::read(source_dir() + "/examples/" + name);
   return trace_loci(values.empty() ? model : model.with(values)).notes;
 }
 
@@ -34,7 +35,7 @@ TEST(Loci, SayThatNoPoseIsReached) {
 /// An example under gravity, with a mass at the end of every cylinder and rod of its three legs.
 std::string with_heavy_legs(const std::string& name, const std::string& rod, const std::string& cylinder,
                             const std::string& gravity) {
-  std::ifstream file(CLEARLOCI_SOURCE_DIR "/examples/" + name + ".yaml");
+  std::ifstream file(source_dir() + "/examples/" + name + ".yaml");
   std::string text(std::istreambuf_iterator<char>(file), {});
   const auto put = [&](const std::string& what, const std::string& by) {
     text.replace(text.find(what), what.size(), by);

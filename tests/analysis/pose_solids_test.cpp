@@ -20,6 +20,7 @@
 #include "clearloci/pose.hpp"
 #include "clearloci/verify.hpp"
 #include "core/task.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -30,7 +31,7 @@ constexpr double degree = std::numbers::pi / 180;
 
 /// The hexapod over x, y, z, its platform level.
 Model level_hexapod() {
-  std::ifstream file(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_poses.yaml");
+  std::ifstream file(source_dir() + "/examples/gough_stewart_poses.yaml");
   std::string text, line;
   while (std::getline(file, line))
     if (line.find(": {angle: ") == std::string::npos) text += line + "\n";
@@ -153,7 +154,7 @@ TEST(PoseSolids, AMarginIsMeasuredAroundThem) {
 }
 
 TEST(PoseSolids, AreRefusedWhereTheyHaveNoMeaning) {
-  const Model hexapod = Model::read(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_poses.yaml");
+  const Model hexapod = Model::read(source_dir() + "/examples/gough_stewart_poses.yaml");
   const Tetrahedron corners = {Vector3d{0, 0, 0.5}, {0.1, 0, 0.5}, {0, 0.1, 0.5}, {0, 0, 0.6}};
   EXPECT_THROW(task_of(corners, hexapod), InputError);
   const Tetrahedron beyond = {Vector3d{0, 0, 0.5}, {0.4, 0, 0.5}, {0, 0.1, 0.5}, {0, 0, 0.6}};
@@ -163,7 +164,7 @@ TEST(PoseSolids, AreRefusedWhereTheyHaveNoMeaning) {
 }
 
 TEST(PoseFits, AnIntervalIsMovedAndGrowsToTheLociOfAFourBar) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml");
+  const Model model = Model::read(source_dir() + "/examples/four_bar.yaml");
   const LocusMap loci = trace_loci(model);
   double below = 0, above = 10;
   for (const IsolatedPoint& point : loci.isolated_points) {
@@ -206,7 +207,7 @@ TEST(PoseFits, AnIntervalIsMovedAndGrowsToTheLociOfAFourBar) {
 }
 
 TEST(PoseFits, AWideIntervalIsMovedToTheGapThatHoldsIt) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml");
+  const Model model = Model::read(source_dir() + "/examples/four_bar.yaml");
   std::vector<double> at;
   for (const IsolatedPoint& point : trace_loci(model).isolated_points) at.push_back(point.at.front());
   std::sort(at.begin(), at.end());
@@ -234,7 +235,7 @@ TEST(PoseFits, AWideIntervalIsMovedToTheGapThatHoldsIt) {
 }
 
 TEST(PoseFits, ABoxOfAPlatformIsMovedOffALocus) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/three_rpr_orientation.yaml");
+  const Model model = Model::read(source_dir() + "/examples/three_rpr_orientation.yaml");
   std::mt19937 random(6);
   std::uniform_real_distribution<double> part(0, 1);
   const Task task = parse_task("format: 1\nbox: {x: [0.3, 0.33], y: [0.1, 0.13], phi: [-1 deg, 1 deg]}\n", model);

@@ -18,6 +18,7 @@
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
 #include "core/task.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -25,7 +26,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 using Pose = std::vector<double>;
 
-Model hexapod() { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_poses.yaml"); }
+Model hexapod() { return Model::read(source_dir() + "/examples/gough_stewart_poses.yaml"); }
 
 Task hexapod_box(double length, double angle, const std::string& more = "", double z = 0.5) {
   std::string text = "format: 1\nbox:\n";
@@ -171,7 +172,7 @@ TEST(PoseTasks, ALoadMayTurnInSpace) {
 
 /// The hexapod over x and y alone, its platform level at a height.
 Model slice_of_hexapod(const std::string& height) {
-  std::ifstream file(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_poses.yaml");
+  std::ifstream file(source_dir() + "/examples/gough_stewart_poses.yaml");
   std::string text, line;
   while (std::getline(file, line))
     if (line.find(": {angle: ") == std::string::npos && line != "  z: [0.2, 0.8]") text += line + "\n";
@@ -288,7 +289,7 @@ TEST(PoseTasks, SixCoordinatesHaveRoomForOneTolerance) {
 }
 
 TEST(PoseTasks, APolygonIsTheBoxWhoseCornersItHas) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/three_rpr_orientation.yaml");
+  const Model model = Model::read(source_dir() + "/examples/three_rpr_orientation.yaml");
   int verified = 0;
   for (const char* const angles : {"box: {phi: [10 deg, 12 deg]", "box: {phi: [40 deg, 60 deg]"}) {
     const Task box = parse_task(std::string("format: 1\n") + angles + ", x: [0, 0.02], y: [0.01, 0.03]}\n", model);
@@ -309,7 +310,7 @@ TEST(PoseTasks, APolygonIsTheBoxWhoseCornersItHas) {
 
 /// The zone is the circle of radius 1/4 about (1/4, 1/2).
 TEST(PoseTasks, ACircleOverTwoLengthsGrowsToTheLociOfAFiveBar) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
+  const Model model = Model::read(source_dir() + "/examples/five_bar.yaml");
   const Task task = parse_task("format: 1\ncircle: {centre: [1/4, 1/2], radius: 0.1}\n", model);
   const Verification grown = verify(model, task, {.depth = VerifyDepth::verdict, .fit = TaskFit::largest});
   ASSERT_TRUE(grown.verified() && grown.scaled_by);
@@ -327,7 +328,7 @@ TEST(PoseTasks, MarginsOfLengthsAndAnglesAreApartWithoutAMetric) {
 }
 
 TEST(PoseTasks, AnIntervalEndsAtTheLociOfAFourBar) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml");
+  const Model model = Model::read(source_dir() + "/examples/four_bar.yaml");
   const LocusMap loci = trace_loci(model);
   double below = 0, above = 10;
   for (const IsolatedPoint& point : loci.isolated_points) {
@@ -349,7 +350,7 @@ TEST(PoseTasks, AnIntervalEndsAtTheLociOfAFourBar) {
 
 /// Random boxes and balls of other mechanisms, against reactions solved pose by pose: dyads, working modes, angles.
 TEST(PoseTasks, TheNearestLocusOfAFourBarIsTheNearest) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml");
+  const Model model = Model::read(source_dir() + "/examples/four_bar.yaml");
   const std::vector<IsolatedPoint> loci = trace_loci(model).isolated_points;
   const auto nearest = [&](double low, double high) {
     double least = std::numeric_limits<double>::infinity();
@@ -376,7 +377,7 @@ TEST(PoseTasks, TheNearestLocusOfAFourBarIsTheNearest) {
 class Sampled : public testing::TestWithParam<const char*> {};
 
 TEST_P(Sampled, VerifiedTasksHaveNoChangeOfSign) {
-  const Model model = Model::read(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + GetParam() + ".yaml");
+  const Model model = Model::read(source_dir() + "/examples/" + GetParam() + ".yaml");
   const std::vector<Model::Coordinate> coordinates = model.coordinates();
   std::mt19937 random(17);
   std::uniform_real_distribution<double> part(0, 1);

@@ -1,5 +1,6 @@
 // Poses and reactions through the public headers.
 #include "clearloci/pose.hpp"
+#include "tests/source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 namespace clearloci {
 namespace {
 
-Model example(const std::string& name) { return Model::read(std::string(CLEARLOCI_SOURCE_DIR "/examples/") + name); }
+Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name); }
 
 double component(const Pose& pose, const std::string& joint, Quantity quantity) {
   for (const JointReaction& reaction : pose.reactions)

@@ -15,6 +15,7 @@
 #include "clearloci/errors.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -22,9 +23,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr long few_cells = 40'000;  // enough to tell the zones of these examples apart
 
-Model example(const std::string& name) {
-  return Model::read(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
-}
+Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name + ".yaml"); }
 
 /// Signs of the three legs' forces.
 using Signs = std::array<int, 3>;

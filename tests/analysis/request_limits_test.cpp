@@ -10,11 +10,12 @@
 #include "clearloci/mechanism.hpp"
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
-Model example(const std::string& name) { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/" + name); }
+Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name); }
 
 TEST(RequestLimits, ATolerancesIsOneThatDoublesCanKeep) {
   const Model model = example("five_bar.yaml");
@@ -37,7 +38,7 @@ TEST(RequestLimits, LeastEffortsArePositiveAndOccur) {
 
 TEST(RequestLimits, ATaskIsOneOfTheMechanism) {
   const Model model = example("five_bar.yaml"), other = example("hexapod.yaml"), linkage = example("four_bar.yaml");
-  const Task task = read_task(CLEARLOCI_SOURCE_DIR "/examples/tasks/pick_and_place.yaml", model);
+  const Task task = read_task(source_dir() + "/examples/tasks/pick_and_place.yaml", model);
   EXPECT_THROW(verify(other, task), InputError);
   EXPECT_THROW(verify(linkage, task), InputError);
   Task outside = task;
@@ -72,7 +73,7 @@ TEST(AnEmptyAnswer, IsNotWritten) {
 /// A verdict without loci has the box, so that there is a picture of the task.
 TEST(ADecision, IsDrawn) {
   const Model model = example("five_bar.yaml");
-  const Task task = read_task(CLEARLOCI_SOURCE_DIR "/examples/tasks/pick_and_place.yaml", model);
+  const Task task = read_task(source_dir() + "/examples/tasks/pick_and_place.yaml", model);
   const auto files = verification_files(verify(model, task), {"svg"});
   ASSERT_EQ(files.size(), 1U);
   EXPECT_NE(files[0].bytes.find("<svg"), std::string::npos);

@@ -8,6 +8,7 @@
 #include "clearloci/mechanism.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -16,7 +17,7 @@ const std::vector<std::string> names = {"five_bar", "five_bar_generic", "five_ba
 
 /// Loci, zones and a verdict in words that tell different answers apart.
 std::string answers(const std::string& name) {
-  const Model model = Model::read(std::string(CLEARLOCI_SOURCE_DIR "/examples/") + name + ".yaml");
+  const Model model = Model::read(source_dir() + "/examples/" + name + ".yaml");
   std::ostringstream words;
   words.precision(17);
   const ZoneMap map = find_zones(model);

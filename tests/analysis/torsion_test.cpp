@@ -10,6 +10,7 @@
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/zones.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -159,7 +160,7 @@ TEST(Torsion, LeavesTheCurvesOfOthersAlone) {
 TEST(Torsion, CurvesBesideTheCutAreCertified) {
   for (const char* const name : {"torsion_at_an_elbow", "torsion_cut_meets_a_rim", "torsion_at_coaxial_bases"}) {
     SCOPED_TRACE(name);
-    const auto file = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/springs/" + name + ".yaml";
+    const auto file = source_dir() + "/tests/corpus/springs/" + name + ".yaml";
     const Validation validation = validate_loci(mechanism::read_mechanism(file), {}, {40, 40});
     EXPECT_EQ(validation.report.disputed, 0U);
     for (const LocusCurve& curve : validation.map.curves)

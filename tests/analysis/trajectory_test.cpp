@@ -14,11 +14,12 @@
 
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
-const std::string folder = CLEARLOCI_SOURCE_DIR "/examples/pick_and_place/";
+const std::string folder = source_dir() + "/examples/pick_and_place/";
 
 Model manipulator() { return Model::read(folder + "manipulator.yaml"); }
 
@@ -94,7 +95,7 @@ TEST(FollowTrajectory, RefusesWhatItCannotFollow) {
   refuses(manipulator(), {.min_force = -1});
   refuses(manipulator(), {.periods = {2, 1}});
   refuses(manipulator(), {.working_mode = {1}});
-  refuses(Model::read(CLEARLOCI_SOURCE_DIR "/examples/gough_stewart_slice.yaml"), {});
+  refuses(Model::read(source_dir() + "/examples/gough_stewart_slice.yaml"), {});
 }
 
 double at_time(const TrajectoryResult& result, const std::string& column, double time) {
@@ -108,11 +109,10 @@ double at_time(const TrajectoryResult& result, const std::string& column, double
 
 TEST(FollowTrajectory, ACrankTurnsAtConstantSpeed) {
   // Twice a second: 4 pi rad/s and no angular acceleration, from the first instant to the last.
-  const TrajectoryResult result =
-      follow_trajectory_text(Model::read(CLEARLOCI_SOURCE_DIR "/examples/slider_crank.yaml"),
-                             "format: 1\npath: {waypoints: [[0 deg], [360 deg]]}\n"
-                             "motion: {law: constant, speed: 120 rpm}\n",
-                             {.samples = 200});
+  const TrajectoryResult result = follow_trajectory_text(Model::read(source_dir() + "/examples/slider_crank.yaml"),
+                                                         "format: 1\npath: {waypoints: [[0 deg], [360 deg]]}\n"
+                                                         "motion: {law: constant, speed: 120 rpm}\n",
+                                                         {.samples = 200});
   EXPECT_EQ(result.law, "constant");
   EXPECT_NEAR(result.period, 0.5, 1e-15);
   EXPECT_EQ(result.distance_unit, "rad");
@@ -123,7 +123,7 @@ TEST(FollowTrajectory, ACrankTurnsAtConstantSpeed) {
 }
 
 TEST(FollowTrajectory, CoordinatesMayBeGivenInTime) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/slider_crank.yaml");
+  const Model model = Model::read(source_dir() + "/examples/slider_crank.yaml");
   const TrajectoryResult given = follow_trajectory_text(
       model, "format: 1\nmotion: {law: expression, coordinate: '6*sin(0.75*pi*t)'}\nperiod: 0.8\n", {.samples = 200});
   EXPECT_EQ(given.law, "expression");
@@ -152,7 +152,7 @@ std::array<double, 2> rocker_pin(double bx, double by, double coupler) {
 /// inverse or a linear step. Where the coupler loses its force it is along its line that its pins cross.
 TEST(FollowTrajectory, JumpsAsFarAsTheClosureOfBothSidesSays) {
   const TrajectoryResult result = follow_trajectory_text(
-      Model::read(CLEARLOCI_SOURCE_DIR "/examples/four_bar.yaml"),
+      Model::read(source_dir() + "/examples/four_bar.yaml"),
       "format: 1\npath: {waypoints: [[0], [360 deg]]}\nmotion: {law: constant, speed: 0.5}\n", {.samples = 400});
   int motors = 0, pins = 0;
   for (const ContactLoss& loss : result.losses) {
@@ -239,9 +239,9 @@ TEST(FollowTrajectory, ATableIsSplined) {
     table << t << ", " << std::sin(t) << "\n";
   }
   table.close();
-  const TrajectoryResult result = follow_trajectory_text(
-      Model::read(CLEARLOCI_SOURCE_DIR "/examples/slider_crank.yaml"),
-      "format: 1\nmotion: {law: table, file: motion.csv}\n", {.samples = 800}, (scratch / "motion.yaml").string());
+  const TrajectoryResult result = follow_trajectory_text(Model::read(source_dir() + "/examples/slider_crank.yaml"),
+                                                         "format: 1\nmotion: {law: table, file: motion.csv}\n",
+                                                         {.samples = 800}, (scratch / "motion.yaml").string());
   std::filesystem::remove_all(scratch);
   EXPECT_NEAR(result.period, 2 * std::numbers::pi, 1e-12);
   const std::vector<double>&times = result.samples.at("time"), &bend = result.samples.at("q_theta_acceleration");

@@ -12,11 +12,12 @@
 #include "check/check.hpp"
 #include "mechanism/read.hpp"
 #include "report/certificate.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::test {
 
 inline std::string example(const std::string& name) {
-  std::ifstream stream(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name, std::ios::binary);
+  std::ifstream stream(source_dir() + "/examples/" + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

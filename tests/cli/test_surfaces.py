@@ -163,8 +163,6 @@ class Surfaces(InOwnFolder):
     def test_a_time_limit(self):
         words = ("loci", SOURCE / "examples" / "three_rrr_orientation.yaml", "--quiet", "--time-limit", "0.9")
         self.run_program(*words, "-o", self.folder / "late", status=3)
-        if not (self.folder / "late" / "loci.json").exists():
-            return  # the limit ended the call while files were made: all of an answer, or none
         result = json.loads((self.folder / "late" / "loci.json").read_text(encoding="utf-8"))
         self.assertFalse(result["complete"])
 

@@ -12,11 +12,12 @@
 #include "tests/fuzz/mutate_text.hpp"
 #include "tests/fuzz/property.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::fuzz {
 namespace {
 
-const std::filesystem::path root = CLEARLOCI_SOURCE_DIR;
+const std::filesystem::path root = source_dir();
 
 struct Target {
   const char* name;

@@ -17,6 +17,7 @@
 #include "tests/laws/judged.hpp"
 #include "tests/laws/lattice_designs.hpp"
 #include "tests/laws/same_topology.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -141,7 +142,7 @@ const Place places[] = {{"Near", {Rational(1, 3), Rational(-1, 7), Rational(1, 9
                         {"VeryFar", {Rational(1000000), Rational(999999), Rational(-1000000)}}};
 
 Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 class AtPlaces : public testing::TestWithParam<Place> {};

@@ -11,6 +11,7 @@
 #include "analysis/zones.hpp"
 #include "loci/curves/arc_check.hpp"
 #include "tests/laws/same_topology.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -26,8 +27,7 @@ class BoxSides : public testing::TestWithParam<Case> {};
 
 TEST_P(BoxSides, ArcsStayInTheBoxAndZonesCoverTheWorkspace) {
   const Case& known = GetParam();
-  const auto mechanism =
-      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + known.file + ".yaml");
+  const auto mechanism = mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + known.file + ".yaml");
   const core::ZoneMap map = find_zones(mechanism);
   const core::LocusMap& loci = map.loci;
   for (const core::LocusCurve& curve : loci.curves) {
@@ -79,8 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
 class BothEngines : public testing::TestWithParam<const char*> {};
 
 TEST_P(BothEngines, TellTheSame) {
-  const auto mechanism =
-      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + GetParam() + ".yaml");
+  const auto mechanism = mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + GetParam() + ".yaml");
   LociRequest request;
   const core::LocusMap adaptive = trace_loci(mechanism, request);
   request.engine = loci::Engine::exact;
@@ -98,8 +97,8 @@ INSTANTIATE_TEST_SUITE_P(Corpus, BothEngines, testing::Values("three_rpr_leaves_
 // whole circles came out for arcs of that length.
 TEST(NearlyDegenerate, IsTraced) {
   for (const char* file : {"five_bar_tiny_crank", "near_coincident_bases"}) {
-    const core::LocusMap map = trace_loci(
-        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + file + ".yaml"));
+    const core::LocusMap map =
+        trace_loci(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + file + ".yaml"));
     EXPECT_FALSE(map.curves.empty()) << file;
     for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << file << ": " << curve.factor;
     for (const std::string& note : map.notes) EXPECT_EQ(note.find("withheld"), std::string::npos) << note;
@@ -108,7 +107,7 @@ TEST(NearlyDegenerate, IsTraced) {
 
 // The box lies all inside the workspace: its only ring is the box itself.
 TEST(BoxInsideTheWorkspace, IsItsOwnRing) {
-  const std::string path = std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml";
+  const std::string path = source_dir() + "/examples/five_bar.yaml";
   auto mechanism = mechanism::read_mechanism(path);
   mechanism.coordinates[0].lower = core::Rational(1, 4);
   mechanism.coordinates[0].upper = core::Rational(1, 2);
@@ -132,8 +131,7 @@ TEST(BoxInsideTheWorkspace, IsItsOwnRing) {
 class LastCheck : public testing::Test {
  protected:
   void SetUp() override {
-    traced_ =
-        trace_problem(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar_generic.yaml"));
+    traced_ = trace_problem(mechanism::read_mechanism(source_dir() + "/examples/five_bar_generic.yaml"));
   }
 
   /// An open arc of a reaction's curve.

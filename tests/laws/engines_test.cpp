@@ -13,6 +13,7 @@
 #include "analysis/loci.hpp"
 #include "tests/laws/design_texts.hpp"
 #include "tests/laws/same_topology.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -53,8 +54,7 @@ void expect_agreement(const mechanism::Mechanism& mechanism, LociRequest request
 class EnginesOnExamples : public testing::TestWithParam<std::string> {};
 
 TEST_P(EnginesOnExamples, Agree) {
-  const auto mechanism =
-      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + GetParam() + ".yaml");
+  const auto mechanism = mechanism::read_mechanism(source_dir() + "/examples/" + GetParam() + ".yaml");
   LociRequest request = all_modes(loci::Engine::adaptive);
   expect_agreement(mechanism, request);
   request.quantities = {core::Quantity::fx, core::Quantity::fy};
@@ -66,8 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Quick, EnginesOnExamples,
                          [](const auto& test) { return test.param; });
 
 TEST(Engines, AgreeOnMargins) {
-  const auto mechanism =
-      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar_generic.yaml");
+  const auto mechanism = mechanism::read_mechanism(source_dir() + "/examples/five_bar_generic.yaml");
   LociRequest request;
   request.engine = loci::Engine::adaptive;
   request.joints = {"B2"};
@@ -105,7 +104,7 @@ std::vector<double> lengths(const core::LocusMap& map, core::LocusKind kind,
 // Once wrong, each in one of the engines.
 TEST(Engines, AgreeOnDesignsOfTheCorpus) {
   const auto kept = [](const std::string& name) {
-    return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
+    return mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml");
   };
   const LociRequest request = all_modes(loci::Engine::adaptive_then_exact);
   for (const std::string name : {"five_bar_node_at_touching_rims", "five_bar_singularity_leaves_the_box",
@@ -135,10 +134,8 @@ TEST(Engines, AgreeOnDesignsOfTheCorpus) {
 // The line of the slider's reach runs through A2: where it crosses the circles of the other leg's ends, right above and
 // below A2, the couple in A2 vanishes.
 TEST(Engines, ArcsEndInCornersOfALineAndACircle) {
-  const core::LocusMap map =
-      trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
-                                           "/tests/corpus/loci/prrr_r_corner_of_rail_and_circle.yaml"),
-                 {});
+  const core::LocusMap map = trace_loci(
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/prrr_r_corner_of_rail_and_circle.yaml"), {});
   int ends = 0;
   for (const core::LocusCurve& curve : map.curves) {
     EXPECT_TRUE(curve.certified) << curve.id;
@@ -154,7 +151,7 @@ TEST(Engines, ArcsEndInCornersOfALineAndACircle) {
 // all roots are rational. And a branch leaves the base of a leg towards a corner between the charts around it.
 TEST(Engines, TheAdaptiveOneCertifiesWhatTouchesOnTheLattice) {
   const auto kept = [](const std::string& name) {
-    return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
+    return mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml");
   };
   LociRequest adaptive;
   adaptive.engine = loci::Engine::adaptive;
@@ -171,10 +168,8 @@ TEST(Engines, TheAdaptiveOneCertifiesWhatTouchesOnTheLattice) {
 // The rail touches the circle of the crank, and all lengths are 3/4: where S1 and B2 meet in that point, on the lower
 // half of the circle around it, |A| is never negative. The couple in A2 is beyond the exact engine there.
 TEST(Engines, CertifyWhereTheSingularityIsDouble) {
-  const core::LocusMap map =
-      trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
-                                           "/tests/corpus/loci/prrr_r_rail_touches_crank_circle.yaml"),
-                 {});
+  const core::LocusMap map = trace_loci(
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/prrr_r_rail_touches_crank_circle.yaml"), {});
   int open = 0;
   std::size_t vertices = 0;
   for (const core::LocusCurve& curve : map.curves) {
@@ -194,9 +189,8 @@ TEST(Engines, CertifyWhereTheSingularityIsDouble) {
 TEST(Engines, TheAdaptiveOneCertifiesWhereLegsOnLegsAreStretchedOrMeet) {
   LociRequest adaptive;
   adaptive.engine = loci::Engine::adaptive;
-  const core::LocusMap map = trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
-                                                                  "/tests/corpus/loci/coupler_base_on_a_boundary.yaml"),
-                                        adaptive);
+  const core::LocusMap map = trace_loci(
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/coupler_base_on_a_boundary.yaml"), adaptive);
   ASSERT_EQ(map.curves.size(), 6u);
   for (const core::LocusCurve& curve : map.curves) {
     EXPECT_TRUE(curve.certified) << curve.id;
@@ -207,8 +201,8 @@ TEST(Engines, TheAdaptiveOneCertifiesWhereLegsOnLegsAreStretchedOrMeet) {
 
 // Both rods are level at x = -1/2: two boundaries of the workspace on one line, along which cells can tell nothing.
 TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
-  const mechanism::Mechanism rails = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
-                                                               "/tests/corpus/loci/prrrp_boundaries_on_one_line.yaml");
+  const mechanism::Mechanism rails =
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/prrrp_boundaries_on_one_line.yaml");
   const core::LocusMap map = trace_loci(rails, {});
   int on_the_line = 0;
   for (const core::LocusCurve& curve : map.curves) {
@@ -223,9 +217,8 @@ TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
 // Dyads on dyads: enclosures of the upper ones' roots are tight where they are computed by ways and distances. Four of
 // these curves, and the places of three joints, had been left open after ten times as long.
 TEST(Engines, CertifyTwoDyadsOnAFiveBar) {
-  const core::LocusMap map = trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
-                                                                  "/tests/corpus/loci/five_bar_two_dyads_stacked.yaml"),
-                                        {});
+  const core::LocusMap map =
+      trace_loci(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/five_bar_two_dyads_stacked.yaml"), {});
   EXPECT_GE(map.curves.size(), 15u);
   for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id;
   EXPECT_TRUE(map.notes.empty()) << map.notes.front();
@@ -242,9 +235,7 @@ TEST(Engines, CertifyTwoDyadsOnAFiveBar) {
 // chain of four links above it is not told there: that is said, in seconds; everything else is proven.
 TEST(Engines, CertifyThreeDyadsButOnOneCircle) {
   const core::LocusMap map =
-      trace_loci(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
-                                           "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml"),
-                 {});
+      trace_loci(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml"), {});
   EXPECT_GE(map.curves.size(), 15u);
   EXPECT_FALSE(map.out_of_time);
   for (const core::LocusCurve& curve : map.curves)
@@ -304,7 +295,7 @@ TEST(AdaptiveEngine, CertifiesACurveThroughTheCornerOfTwoBoundaries) {
 
 // Leg 1 stands on the coupler and has equal lengths: where its ends meet, at no rational point, the sheet is a cone.
 TEST(AdaptiveEngine, CertifiesConesOfDyadsOnDyads) {
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar_coupler.yaml");
+  std::ifstream file(source_dir() + "/examples/five_bar_coupler.yaml");
   const std::string shipped((std::istreambuf_iterator<char>(file)), {});
   const auto with = [](std::string text, const std::string& old, const std::string& value) {
     const std::size_t at = text.find(old);
@@ -385,7 +376,7 @@ TEST(AdaptiveEngine, TracesADyadOnADyadThroughTheBaseOfTheLowerOne) {
 }
 
 TEST(AdaptiveEngine, MarksWhatADeadlineCutShort) {
-  const auto mechanism = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml");
+  const auto mechanism = mechanism::read_mechanism(source_dir() + "/examples/five_bar.yaml");
   core::LocusProblem problem = trace_problem(mechanism).problem;
   const core::LocusMap map =
       loci::trace(problem, {.engine = loci::Engine::adaptive, .deadline = std::chrono::steady_clock::now()});

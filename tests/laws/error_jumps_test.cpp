@@ -9,6 +9,7 @@
 
 #include "analysis/loci.hpp"
 #include "numeric/error_samples.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -17,7 +18,7 @@ using core::LocusKind;
 using core::Point2;
 
 mechanism::Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 struct Jump {

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "tests/laws/lattice_designs.hpp"
 #include "tests/laws/same_topology.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -55,7 +56,7 @@ TEST(ExactDesigns, PlatformsOnThreeTelescopes) {
 TEST(ExactDesigns, AComponentOverTwoAngles) {
   LociRequest request;
   request.quantities = {core::Quantity::fx};
-  const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/";
+  const std::string folder = source_dir() + "/tests/corpus/loci/";
   const mechanism::Mechanism mechanism = mechanism::read_mechanism(folder + "five_bar_angles_fx.yaml");
   request.engine = Engine::exact;
   const core::LocusMap exact = trace_loci(mechanism, request);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/loci.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using core::LocusKind;
 
 mechanism::Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 bool vanishes(const core::LocusCurve& curve, const std::string& joint, core::Quantity quantity) {

@@ -7,6 +7,7 @@
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/zones.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -126,7 +127,7 @@ TEST(Family, LeavesIrrationalValuesToTheUsualWay) {
 TEST(Family, LeavesWhatIsTooLongWithSymbolsToTheUsualWay) {
   for (const auto& [name, z] : {std::pair{"hexapod", "470"}}) {
     SCOPED_TRACE(name);
-    const Model family = Model::read(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+    const Model family = Model::read(source_dir() + "/examples/" + name + ".yaml");
     const Model member = family.with({{"z", z}});
     expect_same(trace_loci(member), trace_loci(Model::parse(member.text(), member.file(), member.values())));
   }

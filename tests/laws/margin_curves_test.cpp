@@ -12,6 +12,7 @@
 #include "numeric/reactions.hpp"
 #include "numeric/turns.hpp"
 #include "tests/laws/margin_designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -191,8 +192,7 @@ struct Kept {
 class KeptMarginCurves : public testing::TestWithParam<Kept> {};
 
 TEST_P(KeptMarginCurves, HoldEveryCrossing) {
-  EXPECT_TRUE(
-      hold(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/" + GetParam().file), GetParam().bound, 60));
+  EXPECT_TRUE(hold(mechanism::read_mechanism(source_dir() + "/" + GetParam().file), GetParam().bound, 60));
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, KeptMarginCurves,

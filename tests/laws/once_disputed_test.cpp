@@ -7,12 +7,13 @@
 
 #include "analysis/loci.hpp"
 #include "analysis/zones.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
 mechanism::Mechanism corpus(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/tests/corpus/" + name + ".yaml");
 }
 
 /// `certified`: every curve is to be.

@@ -12,6 +12,7 @@
 #include "mechanism/read_task.hpp"
 #include "tests/laws/judged.hpp"
 #include "tests/mechanism/five_bar_text.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 using core::LocusKind;
 using mechanism::with;
 
-const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/examples/";
+const std::string folder = source_dir() + "/examples/";
 
 mechanism::Mechanism example(const std::string& name) { return mechanism::read_mechanism(folder + name + ".yaml"); }
 mechanism::Mechanism parsed(const std::string& text) { return mechanism::parse_mechanism(text, "m.yaml"); }

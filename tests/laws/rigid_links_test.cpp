@@ -18,6 +18,7 @@
 #include "numeric/reactions.hpp"
 #include "symbolic/locus_problem.hpp"
 #include "tests/laws/judged.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -108,7 +109,7 @@ TEST(RigidLinks, KeepTheirLengthsAtEveryPoseThatIsReached) {
 
 TEST(RigidLinks, TheSideOnWhichOneBendsIsNoWorkspace) {
   const mechanism::Mechanism m =
-      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/modes/flipped_parallelogram.yaml");
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/modes/flipped_parallelogram.yaml");
   const numeric::NumericModel model = numeric::compile(m);
   const std::vector<int> mode = mechanism::working_mode(m);
   const numeric::Posture flipped = numeric::posture(model, std::vector<double>{0.65, -0.5}, mode);

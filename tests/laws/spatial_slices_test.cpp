@@ -13,6 +13,7 @@
 #include "tests/laws/judged.hpp"
 #include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -62,13 +63,11 @@ TEST(SpatialSlices, ElbowsAndCarriagesThatAreBuiltHoldAgainstTheWitness) {
 }
 
 TEST(SpatialSlices, SixElbowsHoldAgainstTheWitness) {
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/six_rus.yaml");
+  std::ifstream file(source_dir() + "/examples/six_rus.yaml");
   hold({std::istreambuf_iterator<char>(file), {}}, 40);
 }
 
-mechanism::Mechanism slice() {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/gough_stewart_slice.yaml");
-}
+mechanism::Mechanism slice() { return mechanism::read_mechanism(source_dir() + "/examples/gough_stewart_slice.yaml"); }
 
 std::size_t joint_index(const mechanism::Mechanism& m, const std::string& name) {
   for (std::size_t j = 0; j < m.joints.size(); ++j)

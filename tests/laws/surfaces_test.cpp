@@ -13,6 +13,7 @@
 
 #include "analysis/loci.hpp"
 #include "tests/numeric/solved.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -22,12 +23,12 @@ using core::Point2;
 using core::Point3;
 
 std::string text_of(const std::string& name) {
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  std::ifstream file(source_dir() + "/examples/" + name + ".yaml");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
 mechanism::Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 /// Everything is named alike over two coordinates and over three.

@@ -15,6 +15,7 @@
 #include "numeric/pose_error.hpp"
 #include "tests/laws/judged.hpp"
 #include "tests/report/scratch_folder.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -22,9 +23,7 @@ namespace {
 using core::Point2;
 using Values = std::vector<mechanism::Override>;
 
-std::string clearances() {
-  return report::fixture::read_file(CLEARLOCI_SOURCE_DIR "/examples/studies/clearances.yaml");
-}
+std::string clearances() { return report::fixture::read_file(source_dir() + "/examples/studies/clearances.yaml"); }
 
 /// With the one load's force replaced.
 std::string under(std::string text, const std::string& force) {
@@ -162,7 +161,7 @@ TEST(TaskPoseError, OfRandomMechanismsIsNotContradictedByPoses) {
 }
 
 TEST(TaskPoseError, OfAPistonCountsItsGuide) {
-  const std::string text = report::fixture::read_file(CLEARLOCI_SOURCE_DIR "/examples/prrrp.yaml");
+  const std::string text = report::fixture::read_file(source_dir() + "/examples/prrrp.yaml");
   const mechanism::Mechanism m = mechanism::parse_mechanism(text, "prrrp.yaml");
   constexpr Box task{0.2, 0, 0.15, 0.1};
   const Verification answer = test::decided(m, mechanism::parse_task(task.text() + "pose_error: 1e-3\n", "t.yaml", m));

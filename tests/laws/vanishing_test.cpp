@@ -7,6 +7,7 @@
 
 #include "analysis/loci.hpp"
 #include "core/locus_map.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -16,7 +17,7 @@ using core::LocusKind;
 using core::Quantity;
 
 mechanism::Mechanism corpus(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name);
+  return mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name);
 }
 
 bool names(const LocusCurve& curve, const std::string& joint, Quantity quantity) {

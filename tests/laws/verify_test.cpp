@@ -13,13 +13,12 @@
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_texts.hpp"
 #include "tests/laws/judged.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
-mechanism::Mechanism five_bar() {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml");
-}
+mechanism::Mechanism five_bar() { return mechanism::read_mechanism(source_dir() + "/examples/five_bar.yaml"); }
 
 Verification verified(const mechanism::Mechanism& mechanism, const std::string& task) {
   return test::judged(mechanism, mechanism::parse_task("format: 1\n" + task, "task.yaml", mechanism), {});
@@ -27,7 +26,7 @@ Verification verified(const mechanism::Mechanism& mechanism, const std::string& 
 
 TEST(Verify, ThePapersPathLiesInOneZone) {
   const mechanism::Mechanism mechanism = five_bar();
-  const std::string file = std::string(CLEARLOCI_SOURCE_DIR) + "/examples/tasks/pick_and_place.yaml";
+  const std::string file = source_dir() + "/examples/tasks/pick_and_place.yaml";
   const Verification result = test::judged(mechanism, mechanism::read_task(file, mechanism), {});
   EXPECT_TRUE(result.verified());
   EXPECT_EQ(result.zone, "z1");
@@ -67,12 +66,10 @@ TEST(Verify, HoldsTheLeastForce) {
   EXPECT_FALSE(verified(mechanism, box + "min_couple: 1000").verified());
 }
 
-mechanism::Mechanism kept(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/" + name);
-}
+mechanism::Mechanism kept(const std::string& name) { return mechanism::read_mechanism(source_dir() + "/" + name); }
 
 Verification decided(const mechanism::Mechanism& mechanism, const std::string& task, const LociRequest& request = {}) {
-  const std::string file = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/verify/" + task;
+  const std::string file = source_dir() + "/tests/corpus/verify/" + task;
   return test::decided(mechanism, mechanism::read_task(file, mechanism), request);
 }
 
@@ -104,8 +101,7 @@ TEST(Verify, HoldsTheLeastForceBetweenTheEndsOfARangeOfLoads) {
 TEST(Verify, DrawsWhatLociTracesWhereNothingIsDoubtful) {
   // Pictures and names come from a sketch: of these all is proven within its small budget, and it is the full map.
   for (const char* name : {"five_bar", "five_bar_generic", "three_rpr"}) {
-    const mechanism::Mechanism mechanism =
-        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+    const mechanism::Mechanism mechanism = mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
     const core::LocusMap full = trace_problem(mechanism).map;
     const core::LocusMap sketch = trace_problem(mechanism, {}, {}, TraceEffort::sketch).map;
     EXPECT_EQ(sketch.notes, full.notes) << name;
@@ -128,7 +124,7 @@ TEST(Verify, AnAxialClearanceIsTakenUpByItsOwnSize) {
 
 TEST(Verify, TellsOfToleratedLegsWhoseLengthsAreRoots) {
   const mechanism::Mechanism legs = kept("tests/corpus/verify/telescopes_with_couples.yaml");
-  const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/verify/";
+  const std::string folder = source_dir() + "/tests/corpus/verify/";
   const Verification result =
       test::judged(legs, mechanism::read_task(folder + "telescopes_with_couples_task.yaml", legs), {});
   EXPECT_NE(result.verdict, core::Verdict::undecided);

@@ -13,6 +13,7 @@
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/read.hpp"
 #include "numeric/reactions.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -139,8 +140,7 @@ class VirtualWork {
 class Examples : public testing::TestWithParam<const char*> {};
 
 TEST_P(Examples, DoNoWorkInAnyDisplacement) {
-  const Mechanism m =
-      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + GetParam() + ".yaml");
+  const Mechanism m = mechanism::read_mechanism(source_dir() + "/examples/" + GetParam() + ".yaml");
   const VirtualWork work(m);
   constexpr std::size_t poses = 200;
   int compared = 0;

@@ -14,12 +14,13 @@
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_texts.hpp"
 #include "tests/laws/task_designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
 mechanism::Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 bool inside(const core::Polyline& ring, const core::Point2& at) {
@@ -164,8 +165,8 @@ void expect_partition(const mechanism::Mechanism& mechanism, const core::ZoneMap
 TEST(Zones, OfTheCorpusAreCertified) {
   for (const std::string name : {"rrrpr_singularities_cross_at_base", "five_bar_long_coefficients", "minitaur_foot"}) {
     SCOPED_TRACE(name);
-    const core::ZoneMap map = find_zones(
-        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml"), {});
+    const core::ZoneMap map =
+        find_zones(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml"), {});
     EXPECT_TRUE(certified(map));
     EXPECT_FALSE(map.zones.empty());
   }
@@ -176,7 +177,7 @@ void expect_no_finer_loci(const std::vector<std::pair<std::string, std::size_t>>
   for (const auto& [name, zones] : designs) {
     SCOPED_TRACE(name);
     const mechanism::Mechanism mechanism =
-        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml");
+        mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml");
     const core::ZoneMap map = find_zones(mechanism);
     EXPECT_TRUE(certified(map));
     EXPECT_EQ(map.zones.size(), zones);
@@ -305,8 +306,8 @@ TEST(ZonesOfRandomDesigns, OfOtherFamiliesPartitionTheWorkspace) {
 // N of S2 vanishes on a ray from A2: a guide whose ends are not known loses no contact there, so the ray cuts no zone,
 // and the zones that it crosses have no sign of N.
 TEST(Zones, HaveNoSignOfWhatChangesInsideThem) {
-  const mechanism::Mechanism rprpr = mechanism::read_mechanism(
-      std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/rprpr_component_crosses_a_zone.yaml");
+  const mechanism::Mechanism rprpr =
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/rprpr_component_crosses_a_zone.yaml");
   LociRequest asked;
   asked.quantities = {core::Quantity::N, core::Quantity::T, core::Quantity::F, core::Quantity::f};
   for (const LociRequest& request : {asked, LociRequest{}}) {

@@ -10,12 +10,13 @@
 #include "mechanism/other_words.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/redundancy.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
 std::string refused_file(const std::string& name) {
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/refused/" + name);
+  std::ifstream file(source_dir() + "/tests/corpus/refused/" + name);
   std::stringstream text;
   text << file.rdbuf();
   return text.str();

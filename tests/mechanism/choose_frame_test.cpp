@@ -5,6 +5,7 @@
 
 #include "mechanism/frame.hpp"
 #include "mechanism/read.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -81,8 +82,7 @@ TEST_P(ChosenFrames, AreNotFarFromTheUsualOneNearTheOrigin) { EXPECT_FALSE(is_fa
 
 std::vector<std::string> examples() {
   std::vector<std::string> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(CLEARLOCI_SOURCE_DIR) / "examples"))
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(source_dir()) / "examples"))
     if (entry.path().extension() == ".yaml" && entry.path().stem().extension().empty())
       files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());

@@ -5,11 +5,12 @@
 #include <fstream>
 
 #include "mechanism/read.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
-const std::filesystem::path examples = std::filesystem::path(CLEARLOCI_SOURCE_DIR) / "examples";
+const std::filesystem::path examples = std::filesystem::path(source_dir()) / "examples";
 
 TEST(Examples, AllRead) {
   int count = 0;
@@ -30,7 +31,7 @@ TEST(Examples, FiveBarHasTheColumnsOfThePaper) {
 
 /// A point in the middle of a link is its centre of mass: two places of a link that are one stay together.
 TEST(Rigidity, TakesAPointInTheMiddleOfALinkWithAMass) {
-  const std::filesystem::path corpus = std::filesystem::path(CLEARLOCI_SOURCE_DIR) / "tests/corpus/mechanism";
+  const std::filesystem::path corpus = std::filesystem::path(source_dir()) / "tests/corpus/mechanism";
   for (const char* name : {"rigid_min.yaml", "watt2_187.yaml"})
     EXPECT_NO_THROW(read_mechanism((corpus / name).string())) << name;
 }

@@ -8,6 +8,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/read.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -22,7 +23,7 @@ Vector cross(const Vector& a, const Vector& b) {
 
 /// Of every dyad: |AB| and |BP| are its lengths, B is square to the axis beside A, and on the side that is asked for.
 void expect_dyads_close(const std::string& file) {
-  const Mechanism m = read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + file);
+  const Mechanism m = read_mechanism(source_dir() + "/examples/" + file);
   constexpr double rounding = 1e-9;  // of a few roots of differences, on lengths of a metre
   std::size_t checked = 0;
   const std::vector<PosturePoints> postures = sample_postures(m, 20);
@@ -48,7 +49,7 @@ TEST(Placement, DyadsOfThePlaneClose) { expect_dyads_close("five_bar.yaml"); }
 TEST(Placement, DyadsOfSpaceClose) { expect_dyads_close("three_ruu.yaml"); }
 
 TEST(Placement, HasNoPlaceBeyondTheReach) {
-  const Mechanism m = read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml");
+  const Mechanism m = read_mechanism(source_dir() + "/examples/five_bar.yaml");
   const auto placed = sample_points(m, {0.25, -5});
   for (std::size_t i = 0; i < m.points.size(); ++i)  // nor has what is placed between them
     EXPECT_EQ(placed[i].has_value(), std::holds_alternative<ExplicitPoint>(m.points[i].form)) << m.points[i].name;

@@ -6,12 +6,13 @@
 
 #include "five_bar_text.hpp"
 #include "mechanism/read.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
 std::string platform() {
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/three_upu.yaml");
+  std::ifstream file(source_dir() + "/examples/three_upu.yaml");
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

@@ -8,6 +8,7 @@
 #include "mechanism/frame.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/read.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -128,7 +129,7 @@ TEST(ReadLimits, KeepDistancesAndAngles) {
 }
 
 TEST(ReadSprings, EndTheWorkspaceWhereTheirEndsMeetAlongACurve) {
-  const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/springs/";
+  const std::string folder = source_dir() + "/tests/corpus/springs/";
   const Mechanism m = read_mechanism(folder + "gripper_spring_ends_meet.yaml");
   ASSERT_EQ(m.limits.size(), 1U);
   EXPECT_GT(m.limits[0].lower_value, 0);

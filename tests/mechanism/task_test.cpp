@@ -8,6 +8,7 @@
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
 #include "mechanism/write_task.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -16,8 +17,7 @@ const Mechanism& example(const std::string& name) {
   static std::map<std::string, Mechanism> known;
   const auto found = known.find(name);
   if (found != known.end()) return found->second;
-  return known.emplace(name, read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml"))
-      .first->second;
+  return known.emplace(name, read_mechanism(source_dir() + "/examples/" + name + ".yaml")).first->second;
 }
 
 core::Task parse(const std::string& text) { return parse_task("format: 1\n" + text, "task.yaml", example("five_bar")); }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanism/read.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -24,7 +25,7 @@ payload:
 )";
 
 const Mechanism& five_bar() {
-  static const Mechanism mechanism = read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml");
+  static const Mechanism mechanism = read_mechanism(source_dir() + "/examples/five_bar.yaml");
   return mechanism;
 }
 

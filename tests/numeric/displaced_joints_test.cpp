@@ -14,6 +14,7 @@
 #include "numeric/displaced.hpp"
 #include "numeric/wrench_rows.hpp"
 #include "tests/numeric/spatial_designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -22,7 +23,7 @@ using Eigen::Matrix3d;
 using mechanism::Mechanism;
 
 Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 Mechanism with_larger_clearances(Mechanism m, int times) {

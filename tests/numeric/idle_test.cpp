@@ -8,12 +8,13 @@
 
 #include "mechanism/read.hpp"
 #include "tests/numeric/solved.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
 std::string text_of(const std::string& name) {
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  std::ifstream file(source_dir() + "/examples/" + name + ".yaml");
   std::stringstream text;
   text << file.rdbuf();
   return text.str();

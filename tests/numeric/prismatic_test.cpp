@@ -8,12 +8,13 @@
 #include "mechanism/read.hpp"
 #include "numeric/dynamics.hpp"
 #include "numeric/pose_error.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::numeric {
 namespace {
 
 mechanism::Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 TEST(Prismatic, PoseErrorOfThePrrrpByHand) {

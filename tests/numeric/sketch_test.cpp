@@ -7,6 +7,7 @@
 #include "mechanism/read.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/numeric/designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -28,7 +29,7 @@ TEST(Sketch, ShowsLinksJointsAndLoadsButNoWeights) {
 
 TEST(Sketch, ShowsTelescopicLegsAndRails) {
   const auto example = [](const std::string& name) {
-    return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+    return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
   };
   const NumericModel telescopic = compile(example("three_rpr"));
   const auto legs = sketch(telescopic, std::array{0.1, 0.05}, {});
@@ -45,8 +46,7 @@ TEST(Sketch, ShowsTelescopicLegsAndRails) {
 }
 
 TEST(SamplePose, IsAmidTheBoxWhereNothingFolds) {
-  const NumericModel model =
-      compile(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/rprpr.yaml"));
+  const NumericModel model = compile(mechanism::read_mechanism(source_dir() + "/examples/rprpr.yaml"));
   const auto pose = sample_pose(model, {}, model.box);
   ASSERT_TRUE(pose.has_value());
   for (std::size_t c = 0; c < 2; ++c) {
@@ -74,8 +74,7 @@ TEST(SamplePose, IsReachableWellConditionedAndOpen) {
 /// A crank in line with its coupler shows nothing of either.
 TEST(SamplePose, FoldsNoCrankOverItsCoupler) {
   for (const char* name : {"four_bar", "slider_crank"}) {
-    const NumericModel model =
-        compile(mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml"));
+    const NumericModel model = compile(mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml"));
     const auto mode = mechanism::working_mode(model.mechanism);
     const auto pose = sample_pose(model, mode, model.box);
     ASSERT_TRUE(pose.has_value());

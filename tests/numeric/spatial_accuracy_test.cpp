@@ -11,6 +11,7 @@
 #include "numeric/error_map.hpp"
 #include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -23,7 +24,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr unsigned seed = 20260503;
 
 Mechanism example(const std::string& name, const std::vector<mechanism::Override>& values = {}) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml", values);
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml", values);
 }
 
 Mechanism parsed(const std::string& text) { return mechanism::parse_mechanism(text, "random.yaml"); }

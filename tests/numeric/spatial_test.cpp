@@ -10,6 +10,7 @@
 #include "numeric/reactions.hpp"
 #include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -20,7 +21,7 @@ using mechanism::Mechanism;
 constexpr unsigned seed = 20260501;
 
 Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 std::vector<double> random_pose(const Mechanism& m, std::mt19937& random) {

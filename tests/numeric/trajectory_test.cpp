@@ -10,6 +10,7 @@
 #include "mechanism/trajectory.hpp"
 #include "numeric/period_sweep.hpp"
 #include "tests/numeric/designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -401,7 +402,7 @@ TEST(PeriodSweep, IsTheErrorAtEveryPeriod) {
 
 /// The findings of the paper's section 3 about its own example, as far as it says where the path lies.
 TEST(PickAndPlace, LosesContactNearTheEndsOfTheStagesAtShortPeriodsOnly) {
-  const std::string folder = std::string(CLEARLOCI_SOURCE_DIR) + "/examples/pick_and_place/";
+  const std::string folder = source_dir() + "/examples/pick_and_place/";
   const auto m = mechanism::read_mechanism(folder + "manipulator.yaml");
   const Motion motion =
       compile_motion(m, mechanism::read_trajectory(folder + "path.yaml", m), mechanism::working_mode(m));

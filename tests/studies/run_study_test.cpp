@@ -10,13 +10,14 @@
 #include "clearloci/verify.hpp"
 #include "core/errors.hpp"
 #include "tests/report/scratch_folder.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
 
 using Status = StudyDesign::Status;
 
-Model five_bar() { return Model::read(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml"); }
+Model five_bar() { return Model::read(source_dir() + "/examples/five_bar.yaml"); }
 
 std::string study_text(const std::string& method, const std::string& more = "goal: {maximise: margin}") {
   return "format: 1\nvary: {L: [0.3, 0.7], d: [0.3, 0.7]}\n"
@@ -115,7 +116,7 @@ Verdict verdict_of(const Model& model, const StudyResult& result, const std::vec
 }
 
 TEST(Study, ParametersMayEnterByQuotientsAndCosines) {
-  std::string text = report::fixture::read_file(CLEARLOCI_SOURCE_DIR "/examples/five_bar.yaml");
+  std::string text = report::fixture::read_file(source_dir() + "/examples/five_bar.yaml");
   const auto change = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
   };
@@ -176,8 +177,8 @@ double stiffness_at_the_corner() {
 }
 
 TEST(Study, TheSoftestSpringIsThatOfTheClosedForm) {
-  const Model model = Model::read(CLEARLOCI_SOURCE_DIR "/examples/studies/preloaded.yaml");
-  const Study study = read_study(CLEARLOCI_SOURCE_DIR "/examples/studies/softest_spring.yaml", model);
+  const Model model = Model::read(source_dir() + "/examples/studies/preloaded.yaml");
+  const Study study = read_study(source_dir() + "/examples/studies/softest_spring.yaml", model);
   const StudyResult result = run_study(model, study, {.threads = 2});
   ASSERT_EQ(result.ranges.size(), 1U);
   const StudyRange& own = result.ranges.front();

@@ -9,12 +9,13 @@
 #include "symbolic/geometry.hpp"
 #include "symbolic/locus_problem.hpp"
 #include "symbolic/singular_modes.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
 mechanism::Mechanism corpus(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/modes/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/tests/corpus/modes/" + name + ".yaml");
 }
 
 /// x, y and the roots s of 1 - x^2 and t of 4 + y s.

@@ -9,12 +9,13 @@
 #include "mechanism/read.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
 mechanism::Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 const Determinant& numerator(const EquationSheet& sheet, const std::string& unknown) {

@@ -7,13 +7,14 @@
 #include "mechanism/read.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/locus_problem.hpp"
+#include "tests/source_dir.hpp"
 #include "tests/symbolic/witness.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
 mechanism::Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 class Families : public testing::TestWithParam<std::string> {};

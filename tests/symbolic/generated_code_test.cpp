@@ -8,6 +8,7 @@
 
 #include "mechanism/read.hpp"
 #include "symbolic/equation_sheet.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -19,8 +20,7 @@ std::filesystem::path scratch(const std::string& name) {
 }
 
 std::string program(const std::string& example, Language language, bool keep) {
-  const auto mechanism =
-      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + example + ".yaml");
+  const auto mechanism = mechanism::read_mechanism(source_dir() + "/examples/" + example + ".yaml");
   return format(equation_sheet(mechanism, {language, keep}));
 }
 

@@ -15,6 +15,7 @@
 #include "mechanism/read.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/equation_sheet.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -340,7 +341,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, GeneratedNames,
                          });
 
 TEST(GeneratedNamesOfExamples, CompileAndHaveTheirComments) {
-  const std::string source = std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/input/";
+  const std::string source = source_dir() + "/tests/corpus/input/";
   const auto written = [&](const std::string& name, Language language) {
     return format(equation_sheet(mechanism::read_mechanism(source + name), {language, true}));
   };
@@ -352,7 +353,7 @@ TEST(GeneratedNamesOfExamples, CompileAndHaveTheirComments) {
 }
 
 TEST(GeneratedNamesOfExamples, SymbolicThreeRprDeclaresPi) {
-  const auto mechanism = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/three_rpr.yaml");
+  const auto mechanism = mechanism::read_mechanism(source_dir() + "/examples/three_rpr.yaml");
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("clearloci_pi_" + std::to_string(::getpid()) + ".c");
   std::ofstream(file) << format(equation_sheet(mechanism, {Language::c, true}));

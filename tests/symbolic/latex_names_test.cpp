@@ -4,6 +4,7 @@
 #include "mechanism/read.hpp"
 #include "symbolic/code_names.hpp"
 #include "symbolic/equation_sheet.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -40,8 +41,7 @@ TEST(LatexNames, OfTwoParametersAreNeverTheSame) {
 }
 
 TEST(LatexNames, ReachThePolynomialsOfAngles) {
-  const mechanism::Mechanism m =
-      mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/four_bar.yaml");
+  const mechanism::Mechanism m = mechanism::read_mechanism(source_dir() + "/examples/four_bar.yaml");
   const std::string text = format(equation_sheet(m, {Language::latex}));
   EXPECT_NE(text.find(R"(\cos(\theta))"), std::string::npos);
   EXPECT_NE(text.find(R"(\tan(\theta/2)^{2})"), std::string::npos);

@@ -6,12 +6,13 @@
 
 #include "mechanism/read.hpp"
 #include "symbolic/equation_sheet.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
 mechanism::Mechanism example(const std::string& name) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
 }
 
 mechanism::Mechanism written(const std::string& yaml) { return mechanism::parse_mechanism(yaml, "model.yaml"); }

@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "mechanism/read.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -18,7 +19,7 @@ using core::LocusFactor;
 using core::Quantity;
 
 mechanism::Mechanism example(const std::string& name, const std::vector<mechanism::Override>& overrides = {}) {
-  return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml", overrides);
+  return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml", overrides);
 }
 
 bool has(const LocusFactor& factor, const std::string& joint, Quantity quantity) {
@@ -50,7 +51,7 @@ TEST(LocusProblem, OneFactorBearsEveryReactionOfTheUnloadedLeg) {
 
 // Under a load towards A1 a stretched leg is parallel to the load, too: the workspace ends there whatever the load is.
 TEST(LocusProblem, WorkspaceBoundariesAreNotNamedByLoads) {
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/five_bar.yaml");
+  std::ifstream file(source_dir() + "/examples/five_bar.yaml");
   std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::string vertical = "force: [0, -100]";
   text.replace(text.find(vertical), vertical.size(), "force: '30*(A1 - P)'");

@@ -4,14 +4,15 @@
 
 #include "mechanism/read.hpp"
 #include "symbolic/elimination.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
 // A link is as long in every pose; the way from its end to the frame is not, nor are its components.
 TEST(SharedCurves, TellsWhatIsTheSameInEveryPose) {
-  const mechanism::Mechanism m = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
-                                                           "/tests/corpus/loci/five_bar_two_dyads_stacked.yaml");
+  const mechanism::Mechanism m =
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/five_bar_two_dyads_stacked.yaml");
   const Geometry geometry(m, false);
   SharedCurves shared(geometry);
   const auto variable = [&](const std::string& name) {
@@ -31,8 +32,8 @@ TEST(SharedCurves, TellsWhatIsTheSameInEveryPose) {
 // Where A2, Q3 and C3 are aligned B2 stands still, and P is on a circle about it: components of links that turn then do
 // not vanish all along, whatever roots of upper dyads are in the field. What turns with B2 alone may.
 TEST(SharedCurves, TellsOfRootsThatStandOnOthersWhatVanishes) {
-  const mechanism::Mechanism m = mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) +
-                                                           "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml");
+  const mechanism::Mechanism m =
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml");
   const Geometry geometry(m, false);
   const Elimination elimination(geometry);
   SharedCurves shared(geometry);

@@ -13,6 +13,7 @@
 #include "symbolic/determinants.hpp"
 #include "symbolic/locus_problem.hpp"
 #include "tests/numeric/solved.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -21,7 +22,7 @@ using core::Quantity;
 using mechanism::Mechanism;
 
 std::string example_text(const std::string& name) {
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  std::ifstream file(source_dir() + "/examples/" + name + ".yaml");
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

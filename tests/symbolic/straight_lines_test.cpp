@@ -13,6 +13,7 @@
 
 #include "mechanism/read.hpp"
 #include "symbolic/locus_problem.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -111,9 +112,8 @@ class StraightLineForms : public testing::TestWithParam<std::string> {
     if (GetParam() == "seven_bar") return mechanism::parse_mechanism(seven_bar, "seven_bar.yaml");
     if (GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_two_dyads_stacked" ||
         GetParam() == "five_bar_three_dyads_stacked")
-      return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + GetParam() +
-                                       ".yaml");
-    return mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/examples/" + GetParam() + ".yaml");
+      return mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + GetParam() + ".yaml");
+    return mechanism::read_mechanism(source_dir() + "/examples/" + GetParam() + ".yaml");
   }
 };
 
@@ -188,8 +188,7 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
 // on dyads are computed by the lengths that they divide by, where their polynomials have hundreds of terms.
 TEST(StraightLinesOfTowers, AreShort) {
   const auto derived = [](const std::string& name) {
-    return locus_problem(
-        mechanism::read_mechanism(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/" + name + ".yaml"), {});
+    return locus_problem(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml"), {});
   };
   std::size_t longest = 0;
   for (const core::LocusFactor& factor : derived("seven_bar_on_both_legs").problem.factors)
@@ -206,7 +205,7 @@ TEST(StraightLinesOfTowers, AreShort) {
 // what is computed. On the sheets their product is a positive multiple of the root's square.
 TEST(StraightLinesOfTowers, TellTheRimsOfADyadOnDyadsApart) {
   // With a shorter last rod than the file's there are poses beyond it.
-  std::ifstream file(std::string(CLEARLOCI_SOURCE_DIR) + "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml");
+  std::ifstream file(source_dir() + "/tests/corpus/loci/five_bar_three_dyads_stacked.yaml");
   std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::string lengths = "[A5, Q5], lengths: [0.4, 0.6]";
   ASSERT_NE(text.find(lengths), std::string::npos);

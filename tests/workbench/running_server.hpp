@@ -9,12 +9,13 @@
 #include <string>
 #include <thread>
 
+#include "tests/source_dir.hpp"
 #include "workbench/server/server.hpp"
 
 namespace clearloci::workbench {
 
 inline std::string example(const std::string& name) {
-  std::ifstream file(CLEARLOCI_SOURCE_DIR "/examples/" + name);
+  std::ifstream file(source_dir() + "/examples/" + name);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

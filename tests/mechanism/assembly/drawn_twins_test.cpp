@@ -3,11 +3,12 @@
 #include <sstream>
 
 #include "tests/mechanism/assembly/assembly_text.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
-const std::filesystem::path root = CLEARLOCI_SOURCE_DIR;
+const std::filesystem::path root = source_dir();
 const std::filesystem::path twins = root / "tests/mechanism/assembly/twins";
 
 std::vector<std::string> names_of_unknowns(const Mechanism& m) {
