@@ -91,7 +91,6 @@ int lead(const DesignCommand& arguments, const StudyRanks* ranks, TimeLimit& lim
   const StudyDesign* best = result.best ? &result.designs[*result.best] : nullptr;
   const std::vector<Verification> proofs =
       best != nullptr ? proofs_of(design_model(model, result, *best), study, limit) : std::vector<Verification>{};
-  limit.writing();
   report::StagedFiles staged;
   std::vector<std::filesystem::path> files = report::stage_study(staged, result, folder, formats);
   if (best != nullptr) {
@@ -106,7 +105,7 @@ int lead(const DesignCommand& arguments, const StudyRanks* ranks, TimeLimit& lim
     files.push_back(folder / "report.html");
     staged.add(files.back(), report::study_page(result, proofs));
   }
-  staged.commit();
+  limit.commit(staged);
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::study_object(result)));
   } else if (!arguments.common.quiet) {

@@ -122,8 +122,7 @@ int run(const EquationsCommand& arguments, TimeLimit& limit) {
     if (write) staged.add(folder / fmt::format("equations.{}", language.ending), text);
     all += text;
   }
-  limit.writing();
-  staged.commit();
+  limit.commit(staged);
   if (!arguments.common.quiet) fmt::print("{}", all);
   return exit_done;
 }

@@ -67,8 +67,9 @@ int run_over_coordinate(const ErrorCommand& arguments, const std::set<std::strin
                                     .worst_case = !arguments.without_worst_case,
                                     .with_loci = !arguments.without_loci,
                                     .loci = loci_request(arguments.loci, mechanism, progress, limit)});
-  limit.writing();
-  const auto files = report::write_answer(errors, output_folder(arguments.common), formats);
+  report::StagedFiles staged;
+  const auto files = report::stage_answer(staged, errors, output_folder(arguments.common), formats);
+  limit.commit(staged);
   progress.clear();
   print(arguments, errors, report::coordinate_errors_object, report::coordinate_errors_text, files);
   if (!errors.loci.out_of_time) return exit_done;
@@ -108,9 +109,10 @@ int run_over_volume(const ErrorCommand& arguments, const std::set<std::string>& 
   const VolumeErrors errors =
       error_volume(mechanism, {.cells = cells, .worst_case = !arguments.without_worst_case, .loci = loci});
   progress.clear();
-  limit.writing();
+  report::StagedFiles staged;
   const auto files =
-      report::write_answer(report::VolumeSheet{errors, slices}, output_folder(arguments.common), formats);
+      report::stage_answer(staged, report::VolumeSheet{errors, slices}, output_folder(arguments.common), formats);
+  limit.commit(staged);
   print(arguments, errors, report::error_volume_object, report::error_volume_text, files);
   return exit_done;
 }
@@ -140,8 +142,9 @@ int run(const ErrorCommand& arguments, TimeLimit& limit) {
                                                 .with_zones = arguments.zones,
                                                 .loci = loci});
   progress.clear();
-  limit.writing();
-  const auto files = report::write_answer(errors, output_folder(arguments.common), formats);
+  report::StagedFiles staged;
+  const auto files = report::stage_answer(staged, errors, output_folder(arguments.common), formats);
+  limit.commit(staged);
   print(arguments, errors, report::error_object, report::error_text, files);
   if (!errors.loci.out_of_time) return exit_done;
   throw core::LimitReached("the time limit was reached; the loci in the pictures are incomplete, the errors are not");

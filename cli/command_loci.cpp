@@ -67,9 +67,12 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   core::Certificate certificate;
   const bool certify = !arguments.certificate.empty();
-  const core::LocusMap map = trace_loci(mechanism, request, certify ? &certificate : nullptr);
+  const auto traced =
+      std::make_shared<const core::LocusMap>(trace_loci(mechanism, request, certify ? &certificate : nullptr));
+  const core::LocusMap& map = *traced;
+  limit.known(
+      [common = arguments.common, traced] { write_incomplete(common, "loci.json", report::loci_object(*traced)); });
   progress.clear();
-  limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   std::optional<core::ZoneMap> zones;
@@ -78,7 +81,7 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   if (certify) stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate);
   const std::vector<std::filesystem::path> files =
       report::stage_loci(staged, {map, sample_sketches(mechanism, map), zones ? &*zones : nullptr}, folder, formats);
-  staged.commit();
+  limit.commit(staged);
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::loci_object(map)));
   } else if (!arguments.common.quiet) {

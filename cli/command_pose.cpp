@@ -40,8 +40,9 @@ int run_all_modes(const PoseCommand& arguments, const mechanism::Mechanism& mech
   if (std::none_of(poses.modes.begin(), poses.modes.end(), [](const ModePose& own) { return own.pose.has_value(); }))
     throw core::InputError({.file = "--at"}, "the pose is out of reach in every working mode",
                            "choose a pose inside the workspace");
-  limit.writing();
-  if (!arguments.common.output.empty()) report::write_answer(poses, output_folder(arguments.common));
+  report::StagedFiles staged;
+  if (!arguments.common.output.empty()) report::stage_answer(staged, poses, output_folder(arguments.common));
+  limit.commit(staged);
   if (arguments.common.json)
     fmt::print("{}", report::json_text(report::pose_in_modes_object(poses)));
   else if (!arguments.common.quiet)
@@ -74,8 +75,9 @@ int run(const PoseCommand& arguments, TimeLimit& limit) {
   });
   if (arguments.working_mode == "all") return run_all_modes(arguments, mechanism, limit);
   const Pose pose = solve(arguments, mechanism);
-  limit.writing();
-  if (!arguments.common.output.empty()) report::write_answer(pose, output_folder(arguments.common));
+  report::StagedFiles staged;
+  if (!arguments.common.output.empty()) report::stage_answer(staged, pose, output_folder(arguments.common));
+  limit.commit(staged);
   if (arguments.common.json)
     fmt::print("{}", report::json_text(report::pose_object(pose)));
   else if (!arguments.common.quiet)

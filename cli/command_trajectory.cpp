@@ -84,10 +84,12 @@ int run(const TrajectoryCommand& arguments, TimeLimit& limit) {
   Progress progress(arguments.common.quiet);
   progress.show(0, "dynamics");
   const TrajectoryResult result = follow_trajectory(mechanism, trajectory, request_of(arguments, mechanism));
-  limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
-  const std::vector<std::filesystem::path> files = report::write_trajectory(
-      result, folder, formats, [&](double fraction, std::string_view stage) { progress.show(fraction, stage); });
+  report::StagedFiles staged;
+  const std::vector<std::filesystem::path> files =
+      report::stage_trajectory(staged, result, folder, formats,
+                               [&](double fraction, std::string_view stage) { progress.show(fraction, stage); });
+  limit.commit(staged);
   progress.clear();
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::trajectory_object(result)));

@@ -60,9 +60,10 @@ int run(const ValidateCommand& arguments, TimeLimit& limit) {
   const numeric::GridSpec grid = grid_of(arguments, mechanism);
   const core::Validation validation = validate_loci(mechanism, std::move(request), grid);
   progress.clear();
-  limit.writing();
 
-  if (!arguments.common.output.empty()) report::write_answer(validation, output_folder(arguments.common));
+  report::StagedFiles staged;
+  if (!arguments.common.output.empty()) report::stage_answer(staged, validation, output_folder(arguments.common));
+  limit.commit(staged);
   if (arguments.common.json)
     fmt::print("{}", report::json_text(report::validation_object(validation)));
   else if (!arguments.common.quiet)

@@ -89,7 +89,6 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
   report::StagedFiles staged;
   if (!arguments.certificate.empty()) certify(arguments, mechanism, result, request.loci, staged);
   progress.clear();
-  limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   std::vector<std::filesystem::path> files = report::stage_answer(staged, result, folder, formats);
@@ -98,7 +97,7 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
     files.push_back(folder / moved_task);
     staged.add(files.back(), mechanism::task_text(result.task, mechanism));
   }
-  staged.commit();
+  limit.commit(staged);
   if (arguments.common.json)
     fmt::print("{}", report::json_text(report::verification_object(result)));
   else if (!arguments.common.quiet)

@@ -41,9 +41,10 @@ int run_over_poses(const ZonesCommand& arguments, const mechanism::Mechanism& me
   const core::PoseZones map =
       find_pose_zones(mechanism, loci_request(arguments.loci, mechanism, progress, limit), arguments.cells);
   progress.clear();
-  limit.writing();
   const std::filesystem::path folder = output_folder(arguments.common);
-  const std::vector<std::filesystem::path> files = report::write_answer(map, folder, formats);
+  report::StagedFiles staged;
+  const std::vector<std::filesystem::path> files = report::stage_answer(staged, map, folder, formats);
+  limit.commit(staged);
   if (arguments.common.json)
     fmt::print("{}", report::json_text(report::pose_zones_object(map)));
   else if (!arguments.common.quiet)
@@ -68,13 +69,12 @@ int run(const ZonesCommand& arguments, TimeLimit& limit) {
   const bool certify = !arguments.certificate.empty();
   const core::ZoneMap map = find_zones(mechanism, request, certify ? &certificate : nullptr);
   progress.clear();
-  limit.writing();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   report::StagedFiles staged;
   if (certify) stage_certificate(staged, arguments.certificate, "zones", arguments.common, certificate);
   const std::vector<std::filesystem::path> files = report::stage_answer(staged, map, folder, formats);
-  staged.commit();
+  limit.commit(staged);
   if (arguments.common.json) {
     fmt::print("{}", report::json_text(report::zones_object(map)));
   } else if (!arguments.common.quiet) {

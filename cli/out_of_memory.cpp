@@ -3,6 +3,7 @@
 #include <gmp.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <new>
@@ -13,6 +14,8 @@
 
 /// mimalloc's, where the program is linked with it: its `new` aborts without asking the new-handler.
 extern "C" [[gnu::weak]] void mi_register_error(void (*handler)(int error, void* argument), void* argument);
+/// What it would say on standard error besides.
+extern "C" [[gnu::weak]] void mi_register_output(void (*write)(const char* text, void* argument), void* argument);
 
 namespace clearloci::cli {
 namespace {
@@ -44,6 +47,7 @@ void on_error_of_allocator(int error, void*) {
 template <void (*end)()>
 void call_where_memory_ends() {
   if (mi_register_error != nullptr) ::mi_register_error(on_error_of_allocator<end>, nullptr);
+  if (mi_register_output != nullptr) ::mi_register_output([](const char*, void*) {}, nullptr);
   ::mp_set_memory_functions(gmp_allocate<end>, gmp_reallocate<end>, gmp_free);
 }
 
@@ -57,6 +61,9 @@ void end_where_memory_ends() {
 void throw_where_memory_ends() { call_where_memory_ends<throw_without_memory>(); }
 
 void end_without_memory() {
+  static std::atomic_flag ending;
+  if (ending.test_and_set())  // another thread says so and ends the process, this one with it
+    for (;;) ::pause();
   constexpr std::string_view line =
       "clearloci: out of memory; choose a coarser grid, mesh or tolerance, or fewer working modes\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());

@@ -12,7 +12,6 @@
 #include "cli/program.hpp"
 #include "cli/standard_streams.hpp"
 #include "core/errors.hpp"
-#include "report/files.hpp"
 #include "report/loci_json.hpp"
 
 namespace clearloci::cli {
@@ -47,6 +46,11 @@ TimeLimit::~TimeLimit() { stop(); }
 void TimeLimit::known(std::function<void()> write) {
   const std::lock_guard lock(mutex_);
   write_ = std::move(write);
+}
+
+void TimeLimit::commit(report::StagedFiles& staged) {
+  writing();
+  staged.commit();
 }
 
 std::function<void()> TimeLimit::stop() {

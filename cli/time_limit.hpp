@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "cli/arguments.hpp"
+#include "report/files.hpp"
 
 namespace clearloci::cli {
 
@@ -36,8 +37,12 @@ class TimeLimit {
   /// thread, or in this one by run_within, so it holds what it needs by value.
   void known(std::function<void()> write);
 
-  /// The result is complete and being written: nothing is known that would not be in it.
+  /// The result is whole and being printed: nothing is known that would not be in it.
   void writing() { known({}); }
+
+  /// The files of the result are made and take their places. Until here the limit still writes what was known, since
+  /// pictures may take longer than the work that they show.
+  void commit(report::StagedFiles& staged);
 
   /// Stops watching; what was last given to known().
   std::function<void()> stop();

@@ -282,16 +282,13 @@ std::vector<std::filesystem::path> write_loci(const LociSheet& loci, const std::
   return paths;
 }
 
-std::vector<std::filesystem::path> write_trajectory(const core::TrajectoryResult& result,
+std::vector<std::filesystem::path> stage_trajectory(StagedFiles& staged, const core::TrajectoryResult& result,
                                                     const std::filesystem::path& directory,
                                                     const std::set<std::string>& names,
                                                     const std::function<void(double, std::string_view)>& progress) {
-  StagedFiles staged;
-  std::vector<std::filesystem::path> paths = stage_wanted(staged, result, directory, named(names), [&](double part) {
+  return stage_wanted(staged, result, directory, named(names), [&](double part) {
     if (progress) progress(0.5 + 0.5 * part, "files");
   });
-  staged.commit();
-  return paths;
 }
 
 }  // namespace clearloci::report

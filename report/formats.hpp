@@ -138,8 +138,9 @@ std::vector<std::filesystem::path> stage_loci(StagedFiles& staged, const LociShe
 std::vector<std::filesystem::path> write_loci(const LociSheet& loci, const std::filesystem::path& directory,
                                               const std::set<std::string>& names);
 /// Likewise; `progress`: from 0.5 on.
-std::vector<std::filesystem::path> write_trajectory(
-    const core::TrajectoryResult& result, const std::filesystem::path& directory, const std::set<std::string>& names,
+std::vector<std::filesystem::path> stage_trajectory(
+    StagedFiles& staged, const core::TrajectoryResult& result, const std::filesystem::path& directory,
+    const std::set<std::string>& names,
     const std::function<void(double fraction, std::string_view stage)>& progress = {});
 
 }  // namespace clearloci::report

@@ -55,7 +55,8 @@ describe("the hand", () => {
   it("keeps the last posture where a pose is out of reach, and says so", async () => {
     const page = await start();
     await drag(page, (await pose(page)), [-0.45, 0.9]);
-    expect(await page.getByText("out of reach").textContent()).toContain("cannot be placed");
+    expect(await page.locator(".notice").textContent()).toContain("out of reach: B1 cannot be placed");
+    expect(await page.getByRole("alert").getByText("out of reach").textContent()).toContain("cannot be placed");
   });
 
   it("hears what lets go on a locus that it crosses", async () => {
