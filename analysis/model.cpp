@@ -19,7 +19,11 @@ std::string link_name(const mechanism::Mechanism& mechanism, mechanism::LinkInde
 }  // namespace
 
 SharedDesign::SharedDesign(std::string text, std::string file, mechanism::Mechanism first)
-    : text_(std::move(text)), file_(std::move(file)), first_(std::move(first)) {}
+    : text_(std::move(text)), file_(std::move(file)), first_(std::move(first)) {
+  // Each member has its own.
+  for (mechanism::Joint& joint : first_.joints)
+    if (joint.free_effort) joint.free_effort->given = true;
+}
 
 const symbolic::LocusFamily& SharedDesign::family() const {
   const std::lock_guard lock(mutex_);

@@ -4,6 +4,7 @@
 
 #include "analysis/loci.hpp"
 #include "analysis/model.hpp"
+#include "analysis/preload.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
 #include "clearloci/handed_files.hpp"
@@ -87,6 +88,8 @@ Verification verify(const Model& model, const Task& task, const VerifyRequest& r
   check_request(mechanism, request.loci);
   check_task(mechanism, task);
   require_answerable(mechanism, task, request);
+  if (!task.preload.empty()) return verify_preloaded(model, task, request);
+  if (!mechanism::joints_without_preload(mechanism).empty()) return verify_with_preload(model, task, request);
   Verification result = is_asked_of_tower(mechanism, task, request.fit) ? verify_by_tower(mechanism, task, request)
                                                                         : verify_by_statics(mechanism, task, request);
   result.mechanism = mechanism.name;

@@ -41,18 +41,17 @@ std::size_t parameter_of(const mechanism::OpenDesign& open, const mechanism::Des
 
 WidenedTask::WidenedTask(const Mechanism& mechanism, const core::Task& task)
     : poses_(mechanism.coordinates.size()), open_(opened(mechanism, task)) {
-  Ranges values;
   for (const core::Tolerance& own : task.tolerances) {
     const Rational& value = mechanism::parameter_named(mechanism, own.parameter)->value;
-    values[own.parameter] = core::range_of(value + own.below, value + own.above);
+    values_[own.parameter] = core::range_of(value + own.below, value + own.above);
     ranges_.emplace_back(core::to_double(value + own.below), core::to_double(value + own.above));
   }
   for (const Expression& length : open_.lengths)
-    if (!(enclosure(length, values).lower() > 0))
+    if (!(enclosure(length, values_).lower() > 0))
       throw core::InputError({task.file}, "a link has no length above zero within the tolerances",
                              "make the tolerances smaller");
   for (const mechanism::DesignVariable& variable : open_.variables) {
-    const Interval range = enclosure(variable.meaning, values);
+    const Interval range = enclosure(variable.meaning, values_);
     beside_.lower.push_back(range.lower());
     beside_.upper.push_back(range.upper());
   }
@@ -66,6 +65,18 @@ WidenedTask::WidenedTask(const Mechanism& mechanism, const core::Task& task)
                            "coordinates, tolerances and parts of loads are " + std::to_string(all) +
                                " together, and cells have room for " + std::to_string(most),
                            "verify the task with fewer tolerances and loads at a time");
+}
+
+loci::pose::PoseBeside WidenedTask::beside_with(const Ranges& parameters) const {
+  Ranges values = values_;
+  for (const auto& [name, range] : parameters) values[name] = range;
+  loci::pose::PoseBeside beside = beside_;
+  for (std::size_t v = 0; v < open_.variables.size(); ++v) {
+    const Interval range = enclosure(open_.variables[v].meaning, values);
+    beside.lower[v] = range.lower();
+    beside.upper[v] = range.upper();
+  }
+  return beside;
 }
 
 void WidenedTask::add_parts(const core::LoadWithin& within, const core::Task& task) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clearloci/verify.hpp"
+#include "core/enclosure.hpp"
 #include "loci/tasks/tasks.hpp"
 #include "mechanism/open_design.hpp"
 
@@ -25,6 +26,8 @@ class WidenedTask {
   /// Under the first and the last load, over all coordinates.
   const std::vector<mechanism::Mechanism>& loads() const { return loads_; }
   const loci::pose::PoseBeside& beside() const { return beside_; }
+  /// With some of the parameters within less than their tolerances.
+  loci::pose::PoseBeside beside_with(const Ranges& parameters) const;
 
   /// The pose of a place among all coordinates.
   std::vector<double> pose_of(const std::vector<double>& at) const;
@@ -39,6 +42,7 @@ class WidenedTask {
 
   std::size_t poses_;  ///< coordinates of the file
   mechanism::OpenDesign open_;
+  Ranges values_;                                  ///< what parameters may be
   std::vector<std::pair<double, double>> ranges_;  ///< of the open design's parameters
   std::vector<mechanism::Mechanism> loads_;
   loci::pose::PoseBeside beside_;

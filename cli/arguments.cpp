@@ -53,6 +53,15 @@ void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
   command.add_option("--set", arguments.overrides, "Override a parameter of the file: name=value (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--preload",
+          [&arguments](const std::vector<std::string>& words) {
+            for (const std::string& word : words) arguments.overrides.push_back("preload_" + word);
+          },
+          "Give a free effort of the file: joint=value, N m or N (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("JOINT=VALUE");
   command.add_option("-o,--output", arguments.output, "Folder for the files that are written")->type_name("DIR");
   command.add_flag("--quiet", arguments.quiet, "No table, no progress bar");
   command.add_flag("--json", arguments.json, "The result as JSON on standard output instead of the table");

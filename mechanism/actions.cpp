@@ -67,6 +67,14 @@ bool Action::needs_length(const Mechanism& mechanism) const {
   return std::any_of(names.begin(), names.end(), is_open) || value_of(free_length, mechanism) != 0;
 }
 
+void require_preload(const Mechanism& mechanism) {
+  for (const JointIndex j : joints_without_preload(mechanism)) {
+    const std::string& name = mechanism.joints[static_cast<std::size_t>(j)].name;
+    throw core::InputError({mechanism.file}, "the effort of joint " + name + " is free, and no value is given",
+                           "give it by --preload " + name + "=VALUE, or verify a task, which finds the values");
+  }
+}
+
 std::vector<Action> actions(const Mechanism& mechanism) {
   std::vector<Action> all;
   for (std::size_t i = 0; i < mechanism.springs.size(); ++i) all.push_back(action_of(mechanism.springs[i], i));

@@ -34,6 +34,9 @@ struct Action {
   std::string length_name() const { return source == Source::spring ? name : name + ".axis"; }
 };
 
+/// For whoever writes equations of forces: throws core::InputError where a free effort has no value.
+void require_preload(const Mechanism& mechanism);
+
 /// The springs in the file's order, then the actuators.
 std::vector<Action> actions(const Mechanism& mechanism);
 

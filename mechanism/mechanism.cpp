@@ -105,6 +105,26 @@ std::vector<PointIndex> dyad_points(const Mechanism& mechanism) {
   return indices;
 }
 
+namespace {
+
+template <class Wanted>
+std::vector<JointIndex> joints_where(const Mechanism& mechanism, const Wanted& wanted) {
+  std::vector<JointIndex> indices;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    if (wanted(mechanism.joints[j])) indices.push_back(static_cast<JointIndex>(j));
+  return indices;
+}
+
+}  // namespace
+
+std::vector<JointIndex> preloaded_joints(const Mechanism& mechanism) {
+  return joints_where(mechanism, [](const Joint& joint) { return joint.free_effort.has_value(); });
+}
+
+std::vector<JointIndex> joints_without_preload(const Mechanism& mechanism) {
+  return joints_where(mechanism, [](const Joint& joint) { return joint.free_effort && !joint.free_effort->given; });
+}
+
 std::vector<int> working_mode(const Mechanism& mechanism) {
   std::vector<int> signs;
   for (const Point& point : mechanism.points) {

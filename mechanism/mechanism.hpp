@@ -157,6 +157,14 @@ enum class JointType { revolute, prismatic, universal, spherical, cylindrical };
 /// "revolute", ..., the key of the file.
 std::string to_string(JointType type);
 
+/// Of an actuator whose effort is chosen and not determined: the preload (docs/preload.md). It is the value of a
+/// parameter, and there are no forces where none is given.
+struct FreeEffort {
+  std::string parameter;  ///< preload_ and the joint's name, N m or N
+  std::optional<std::pair<Rational, Rational>> within = {};  ///< what the motor can exert
+  bool given = false;
+};
+
 /// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical
 /// joint and of a spatial revolute one, two of a universal joint (the one fixed in `from` first), none otherwise. Their
 /// lengths are of no consequence.
@@ -171,6 +179,7 @@ struct Joint {
   core::SourcePosition where;
   /// Of an actuator of known effort, N m or N, on `to` along its axis: a load between the two links, and no unknown.
   std::optional<Expression> effort = {};
+  std::optional<FreeEffort> free_effort = {};  ///< with `effort`: the symbol of its parameter
 };
 
 /// Components are polynomials in the free coordinates (and cos, sin of an angle).
@@ -279,6 +288,11 @@ struct Mechanism {
   /// The frame that it is seen in, if not its own: expressions are printed in the coordinates outside it.
   std::optional<Frame> frame = {};
 };
+
+/// The joints whose effort is free.
+std::vector<JointIndex> preloaded_joints(const Mechanism& mechanism);
+/// Those of which no value is given: none has forces before.
+std::vector<JointIndex> joints_without_preload(const Mechanism& mechanism);
 
 /// A mass of a link and where it sits: that of its body and its point masses.
 struct Mass {

@@ -205,6 +205,8 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
       throw core::InputError({mechanism.file}, "there is no parameter '" + range.name + "' in the file",
                              "vary one of the parameters that it has");
     result.varied.push_back(range.name);
+    for (Joint& joint : result.mechanism.joints)
+      if (joint.free_effort && joint.free_effort->parameter == range.name) joint.free_effort->given = true;
   }
   Opening opening(mechanism, result.varied);
   const Change by = [&](const Expression& e) { return opening.opened(e); };

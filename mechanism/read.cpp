@@ -69,11 +69,16 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   mechanism.file = file;
   mechanism.name = name_of(root.find("name"), file);
   mechanism.units = read_units(root.find("units"));
-  read_parameters(mechanism, root.find("parameters"), overrides);
+  read_parameters(mechanism, root.find("parameters"), free_effort_parameters(root.at("joints")), overrides);
   read_workspace(mechanism, root.at("workspace"));
   read_points(mechanism, root.at("points"), root.find("frames"), root.find("links"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
+  for (Joint& joint : mechanism.joints)
+    if (joint.free_effort)
+      joint.free_effort->given = std::any_of(overrides.begin(), overrides.end(), [&](const Override& own) {
+        return own.first == joint.free_effort->parameter;
+      });
   fill_inertia(mechanism);
   read_end_effector(mechanism, root.at("end_effector"));
   read_loads(mechanism, root.find("loads"));

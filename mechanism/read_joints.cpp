@@ -155,15 +155,45 @@ void check_place(const Mechanism& mechanism, const Joint& joint, const Value& at
   refuse_joint_point(mechanism, joint, on_from ? joint.to : joint.from, at);
 }
 
-/// true, false, or {effort: 3.5} of an actuator whose effort is known.
+bool is_free_effort(const Value& effort) { return effort.is_scalar() && text_of(effort) == "free"; }
+
+std::string free_effort_parameter(const std::string& joint) { return "preload_" + joint; }
+
+/// [-5, 5]: what a motor can exert.
+std::pair<Rational, Rational> read_within(const Mechanism& mechanism, Value value, const std::string& field) {
+  value.field = field;
+  std::vector<Value> ends = elements(value, 2);
+  for (Value& end : ends) end.field = field;
+  const Rational lower = read_number(mechanism, ends[0], Sign::any).value,
+                 upper = read_number(mechanism, ends[1], Sign::any).value;
+  if (!(lower < upper))
+    throw InputError(value.where, value.what + " is empty or reversed", "write [least, most] with least below most");
+  return {lower, upper};
+}
+
+/// true, false, {effort: 3.5} of an actuator whose effort is known, or {effort: free, within: [-5, 5]}.
 void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint) {
   if (!value.is_map()) {
     joint.actuated = boolean_of(value);
     return;
   }
-  Value effort = Mapping(value, {"effort"}).at("effort");
+  const Mapping mapping(value, {"effort", "within"});
+  Value effort = mapping.at("effort");
+  auto within = mapping.find("within");
   effort.what = "the effort of joint " + joint.name;
   effort.field = traits(joint).actuator == core::Quantity::F ? "force" : "couple";
+  if (is_free_effort(effort)) {
+    joint.free_effort = FreeEffort{free_effort_parameter(joint.name)};
+    joint.effort = Expression::symbol(joint.free_effort->parameter);
+    if (within) {
+      within->what = "the range of the effort of joint " + joint.name;
+      joint.free_effort->within = read_within(mechanism, *within, effort.field);
+    }
+    return;
+  }
+  if (within)
+    throw InputError(within->where, "the effort of joint " + joint.name + " is given, and has a range",
+                     "write effort: free to have it chosen within the range, or leave the range out");
   joint.effort = read_varying(mechanism, effort);
 }
 
@@ -209,6 +239,28 @@ std::vector<Expression> read_varying_vector(const Mechanism& mechanism, const Va
 }
 
 }  // namespace
+
+std::vector<Entry> free_effort_parameters(const Value& joints) {
+  std::vector<Entry> parameters;
+  if (!joints.is_map()) return parameters;
+  for (const Entry& joint : entries(joints)) {
+    if (!joint.value.is_map()) continue;
+    bool slides = false;
+    std::optional<Value> actuated;
+    for (const Entry& own : entries(joint.value)) {
+      slides = slides || own.key == to_string(JointType::prismatic);
+      if (own.key == "actuated") actuated = own.value;
+    }
+    if (!actuated || !actuated->is_map()) continue;
+    for (const Entry& own : entries(*actuated)) {
+      if (own.key != "effort" || !is_free_effort(own.value)) continue;
+      Value none = own.value;
+      none.node = Node::scalar(slides ? "0 N" : "0 N m", own.where);
+      parameters.push_back({free_effort_parameter(joint.key), own.where, none});
+    }
+  }
+  return parameters;
+}
 
 void read_joints(Mechanism& mechanism, const Value& value) {
   for (const Entry& entry : entries(value)) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/task.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/open_design.hpp"
 #include "mechanism/reader.hpp"
 
@@ -13,9 +14,10 @@ namespace {
 
 using core::InputError;
 
-const std::vector<std::string> task_keys = {
-    "format", "name",         "box",       "circle",     "ball",       "polygon",    "path",         "mesh",
-    "margin", "angle_length", "min_force", "min_couple", "loads_from", "tolerances", "loads_within", "pose_error"};
+const std::vector<std::string> task_keys = {"format",     "name",       "box",        "circle",     "ball",
+                                            "polygon",    "path",       "mesh",       "margin",     "angle_length",
+                                            "min_force",  "min_couple", "loads_from", "tolerances", "loads_within",
+                                            "pose_error", "preload"};
 
 /// [[0, -80], [20, -100]]: of two components in the plane and of three in space.
 core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) {
@@ -101,6 +103,35 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
   return all;
 }
 
+/// constant, or {A4: 3.5}: what joints of free effort exert.
+std::vector<std::pair<std::string, Rational>> read_preload(const Mechanism& mechanism, const Value& value) {
+  std::vector<std::string> known;
+  for (const JointIndex j : preloaded_joints(mechanism))
+    known.push_back(mechanism.joints[static_cast<std::size_t>(j)].name);
+  if (known.empty())
+    throw InputError(value.where, "no joint of " + mechanism.file + " has a free effort",
+                     "write actuated: {effort: free} at a motor more than the mechanism needs");
+  if (value.is_scalar()) {
+    if (text_of(value) == "constant") return {};
+    throw InputError(
+        value.where, "the preload is '" + text_of(value) + "'",
+        "write constant, one choice for the whole task, or an effort for each joint: {" + known.front() + ": 3.5}");
+  }
+  std::vector<std::pair<std::string, Rational>> efforts;
+  for (Entry& entry : entries(value)) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+      throw InputError(entry.where, "no joint of free effort is called " + entry.key,
+                       suggest(entry.key, known, "joints of free effort"));
+    for (const Joint& joint : mechanism.joints)
+      if (joint.name == entry.key) {
+        entry.value.what = "the effort of " + entry.key;
+        entry.value.field = traits(joint).actuator == core::Quantity::F ? "force" : "couple";
+      }
+    efforts.emplace_back(entry.key, read_number(mechanism, entry.value, Sign::any).value);
+  }
+  return efforts;
+}
+
 }  // namespace
 
 core::Task task_of(const Value& document, const Mechanism& mechanism, const HandedFiles* handed) {
@@ -127,6 +158,7 @@ core::Task task_of(const Value& document, const Mechanism& mechanism, const Hand
   if (const auto loads = root.find("loads_from")) task.loads = read_loads_from(mechanism, *loads);
   if (const auto error = root.find("pose_error"))
     task.pose_error = read_number(mechanism, *error, Sign::positive).value;
+  if (const auto preload = root.find("preload")) task.preload = read_preload(mechanism, *preload);
   if (const auto all = root.find("tolerances")) task.tolerances = read_tolerances(mechanism, *all);
   if (const auto all = root.find("loads_within")) task.loads_within = read_loads_within(mechanism, *all);
   return task;

@@ -284,8 +284,15 @@ void check_label(const std::string& name, const SourcePosition& where, const std
     throw InputError(where, "'" + name + "' cannot name " + what, "use letters, digits and _ only");
 }
 
-void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Override>& overrides) {
-  const std::vector<Entry> parameters = value && !value->node.IsNull() ? entries(*value) : std::vector<Entry>{};
+void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Entry>& further,
+                     const std::vector<Override>& overrides) {
+  std::vector<Entry> parameters = value && !value->node.IsNull() ? entries(*value) : std::vector<Entry>{};
+  for (const Entry& own : further) {
+    for (const Entry& other : parameters)
+      if (other.key == own.key)
+        throw InputError(other.where, "'" + own.key + "' is the name of a free effort", "rename the parameter");
+    parameters.push_back(own);
+  }
   check_known_overrides(parameters, overrides);
   for (auto entry = parameters.begin(); entry != parameters.end(); ++entry) {
     check_identifier(entry->key, entry->where, "a parameter");

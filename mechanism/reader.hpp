@@ -47,7 +47,9 @@ void check_label(const std::string& name, const core::SourcePosition& where, con
 /// A value of a parameter, or a difference of two, in the file's own numbers. Throws for a plain number where the
 /// parameter carries a unit.
 Rational read_parameter_value(const Mechanism& mechanism, const Parameter& parameter, const Value& value);
-void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Override>& overrides);
+/// `further`: parameters that the file does not name as such.
+void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Entry>& further,
+                     const std::vector<Override>& overrides);
 void read_workspace(Mechanism& mechanism, const Value& value);
 
 // --- read_points.cpp
@@ -89,6 +91,8 @@ void fill_inertia(Mechanism& mechanism);
 
 // --- read_joints.cpp: joints, end effector, loads
 void read_joints(Mechanism& mechanism, const Value& value);
+/// A parameter for each motor whose effort is free, of joints as they are written.
+std::vector<Entry> free_effort_parameters(const Value& joints);
 void read_end_effector(Mechanism& mechanism, const Value& value);
 void read_loads(Mechanism& mechanism, const std::optional<Value>& value);
 void read_gravity(Mechanism& mechanism, const std::optional<Value>& value);

@@ -81,6 +81,7 @@ class ModelBuilder {
       const Triple force = load.force_vector ? geometry_.vector(*load.force_vector) : geometry_.components(load.force);
       all.push_back({load.link, load.at, force, couple});
     }
+    mechanism::require_preload(m_);
     for (const Action& action : mechanism::actions(m_)) add_action(action, all);
     if (!model.gravity) return all;
     for (const mechanism::Mass& body : mechanism::masses(m_)) {

@@ -50,7 +50,7 @@ Json cell_object(const StudyResult& result, const core::StudyCell& cell) {
 
 Json ranges_array(const StudyResult& result) {
   Json list = Json::array();
-  for (const core::StudyRange& own : result.ranges)
+  for (const core::ProvenRange& own : result.ranges)
     list.push_back({{"from", own.from}, {"to", own.to}, {"below", own.below}, {"above", own.above}});
   return list;
 }
@@ -204,7 +204,7 @@ std::string proof_text(const StudyResult& result) {
       out += fmt::format("{:<12}{:>9.4f} %  {}\n", to_string(status), 100 * part, words);
   }
   if (!result.complete) out += "\nincomplete: --resume goes on\n";
-  for (const core::StudyRange& own : result.ranges)
+  for (const core::ProvenRange& own : result.ranges)
     out += fmt::format("\n{} verifies from {} to {}\n", result.parameters.front(), end_words(own.from, own.below),
                        end_words(own.to, own.above));
   if (result.best)

@@ -108,7 +108,7 @@ std::string ranges_of(const StudyResult& result) {
   };
   const auto beyond = [](const std::string& reason) { return reason.empty() ? std::string() : "beyond: " + reason; };
   std::string rows = row(head(result.parameters.front() + " from") + head("to") + head("below") + head("above"));
-  for (const core::StudyRange& own : result.ranges)
+  for (const core::ProvenRange& own : result.ranges)
     rows += row(cell(enclosed(own.from)) + cell(enclosed(own.to)) + cell(beyond(own.below)) + cell(beyond(own.above)));
   return "<p>All values that verify, the ends enclosed:</p>\n" + table(rows);
 }

@@ -10,6 +10,7 @@
 #include "report/file_units.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
+#include "report/preload.hpp"
 #include "report/task_panels.hpp"
 #include "report/wording.hpp"
 
@@ -243,6 +244,7 @@ Json verification_object(const core::Verification& result) {
                              {"quantity", core::to_string(own.reaction.quantity)},
                              {"proven", own.proven},
                              {"met", own.met}});
+  if (result.preload) root["preload"] = preload_object(*result.preload);
   root["cells"] = result.cells;
   root["notes"] = result.notes;
   return root;
@@ -271,6 +273,8 @@ std::string verification_text(const core::Verification& result) {
   if (const std::size_t count = result.task.loads_within.size(); count > 0)
     of += (of.empty() ? "" : ", ") + ("every load within " + many(count, "ball"));
   if (!of.empty()) put("of", of);
+  if (result.preload)
+    for (const std::string& line : preload_lines(*result.preload, result.units)) put("preload", printable(line));
   if (!result.zone.empty()) put("zone", result.zone);
   const bool apart = result.margin && result.angle_margin;
   if (result.margin)

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "analysis/model.hpp"
+#include "analysis/proven_cells.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci {
@@ -14,9 +15,6 @@ using core::Rational;
 using core::StudyDesign;
 using Status = StudyDesign::Status;
 
-/// Large cells seldom come out as a whole: little is spent on them. The finest are asked in earnest.
-constexpr loci::DesignEffort of_coarse_cells = {.most_cells = 400, .most_cells_in_vain = 48};
-constexpr loci::DesignEffort of_finest_cells = {.most_cells = 4'000, .most_cells_in_vain = 400};
 constexpr loci::DesignEffort of_tolerances = {.most_cells = 40'000, .most_cells_in_vain = 2'000};
 
 }  // namespace
@@ -47,28 +45,6 @@ bool CellTree::is_finest(std::uint64_t path) const {
   return static_cast<std::size_t>(63 - std::countl_zero(path)) >= total_;
 }
 
-std::vector<core::StudyRange> joined_ranges(std::vector<core::StudyCell> cells) {
-  std::sort(cells.begin(), cells.end(),
-            [](const core::StudyCell& a, const core::StudyCell& b) { return a.lower[0] < b.lower[0]; });
-  const auto is = [&](std::size_t i, Status status) { return i < cells.size() && cells[i].status == status; };
-  std::vector<core::StudyRange> ranges;
-  for (std::size_t first = 0; first < cells.size(); ++first) {
-    if (!is(first, Status::feasible)) continue;
-    std::size_t last = first, before = first - 1;  // before the first cell: past all of them
-    while (is(last + 1, Status::feasible)) ++last;
-    std::size_t after = last + 1;
-    while (is(before, Status::undecided)) --before;
-    while (is(after, Status::undecided)) ++after;
-    core::StudyRange& own = ranges.emplace_back();
-    own.from = {before < cells.size() ? cells[before].upper[0] : cells.front().lower[0], cells[first].lower[0]};
-    own.to = {cells[last].upper[0], after < cells.size() ? cells[after].lower[0] : cells.back().upper[0]};
-    if (before < cells.size()) own.below = cells[before].reason;
-    if (after < cells.size()) own.above = cells[after].reason;
-    first = last;
-  }
-  return ranges;
-}
-
 CellJudge::CellJudge(const StudyProblem& problem) : problem_(problem), tree_(problem.study()) {
   for (const auto& task : problem.tasks()) judges_.push_back(task->judge());
 }
@@ -83,7 +59,7 @@ StudyDesign CellJudge::judge(std::uint64_t path) {
     cell.reason = "keep";
     return cell;
   }
-  const loci::DesignEffort& effort = tree_.is_finest(path) ? of_finest_cells : of_coarse_cells;
+  const loci::DesignEffort& effort = tree_.is_finest(path) ? effort_of_finest_cells : effort_of_coarse_cells;
   bool all = kept == StudyProblem::Kept::all;
   for (std::size_t t = 0; t < judges_.size(); ++t) {
     const DesignTask& task = *problem_.tasks()[t];

@@ -20,9 +20,6 @@ class CellTree {
   std::size_t total_ = 0;  ///< halvings down to the finest
 };
 
-/// Of cells over one parameter: those of designs that verify, joined, with what is undecided at their ends.
-std::vector<core::StudyRange> joined_ranges(std::vector<core::StudyCell> cells);
-
 /// One a thread.
 class CellJudge {
  public:

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "analysis/model.hpp"
+#include "analysis/proven_cells.hpp"
 #include "clearloci/study.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
@@ -122,7 +123,7 @@ void require_provable(const core::Study& study) {
 void choose_end(const core::Study& study, StudyResult& result) {
   if (study.goals.empty() || result.ranges.empty()) return;
   const bool most = study.goals.front().maximise;
-  const core::StudyRange& own = most ? result.ranges.back() : result.ranges.front();
+  const core::ProvenRange& own = most ? result.ranges.back() : result.ranges.front();
   const core::Rational low(own.from[1]), high(own.to[0]);
   const int exponent = static_cast<int>(std::floor(std::log10(own.to[0] - own.from[1]))) - 3;
   const core::Rational unit = core::rational_from_decimal("1e" + std::to_string(exponent));

@@ -169,6 +169,7 @@ class Equations {
   }
 
   void write_loads() {
+    mechanism::require_preload(m_);
     for (const mechanism::Load& load : m_.loads) {
       Vector c = components(load.couple_vector);
       if (m_.space == mechanism::Space::planar) c[2] = geometry_.expression(load.couple);

@@ -194,6 +194,7 @@ class StaticsBuilder {
       if (load.at && load.has_force())
         add_load(load.link, force_at(arm(*load.at), points_.vector(mechanism::force_of(load))), i);
     }
+    mechanism::require_preload(loaded);
     for (const mechanism::Action& action : mechanism::actions(loaded)) add_action(action, i);
     if (loaded.gravity.empty()) return;
     const Vector g = points_.components(loaded.gravity);

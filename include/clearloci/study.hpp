@@ -99,13 +99,6 @@ struct StudyCell {
   std::string reason = {};
 };
 
-/// Of a proof over one parameter: values that all verify, with an enclosure of either end. Beyond an enclosure designs
-/// fail, proven, or the study's range ends.
-struct StudyRange {
-  std::array<double, 2> from{}, to{};
-  std::string below = {}, above = {};  ///< why designs beyond fail; empty where the range of the study ends there
-};
-
 struct StudyResult {
   std::string mechanism;
   Study study;
@@ -115,7 +108,7 @@ struct StudyResult {
   std::optional<std::size_t> best;           ///< in `designs`, by the first goal; of a proof the only one there
   std::vector<std::size_t> front;            ///< in `designs`, with several goals: none is better in all
   std::vector<StudyCell> cells = {};         ///< of a proof
-  std::vector<StudyRange> ranges = {};       ///< of a proof over one parameter, in its order
+  std::vector<ProvenRange> ranges = {};      ///< of a proof over one parameter, in its order
   std::optional<StudyCell> tolerances = {};  ///< of a proof: the largest box around the file's design that is proven
   bool complete = true;
 };

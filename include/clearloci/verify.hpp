@@ -83,6 +83,8 @@ struct Task {
   std::vector<LoadWithin> loads_within = {};
   std::optional<Rational> pose_error = {};    ///< m, that the clearances may displace the end effector at most
   std::optional<Rational> angle_length = {};  ///< m a radian; without it margins are of lengths alone
+  /// Joints of free effort and what each exerts, N or N m. Of the others one choice for the whole task is looked for.
+  std::vector<std::pair<std::string, Rational>> preload = {};
 };
 
 /// What is not proven is never called refuted.
@@ -155,6 +157,27 @@ struct OpenTask {
   Reason reason = Reason::doubles;
 };
 
+/// Values of one quantity, joined, that all verify, with an enclosure of either end. Beyond an enclosure all fail,
+/// proven, or what was looked at ends.
+struct ProvenRange {
+  std::array<double, 2> from{}, to{};
+  std::string below = {}, above = {};  ///< why values beyond fail; empty where what was looked at ends there
+};
+
+/// Which constant efforts of the free actuators make a task verify (docs/preload.md). The size of a preload is the
+/// largest of its efforts, each as a part of the larger bound of its `within`, or of 1 N or 1 N m where it has none.
+struct PreloadAnswer {
+  std::vector<std::string> joints;   ///< of free effort, those without a value
+  std::vector<bool> forces;          ///< N, else N m
+  std::vector<double> lower, upper;  ///< where each was looked for
+  /// The smallest that was found: what the rest of the answer is of. None: no preload was found.
+  std::optional<std::vector<double>> value;
+  /// What the smallest size that verifies is at least and at most: proven. Without `value` the second is infinite.
+  std::array<double, 2> size{};
+  std::vector<ProvenRange> ranges;  ///< of one free effort: all that verify, in order
+  long cells = 0;                   ///< boxes of efforts that were looked at
+};
+
 struct Verification {
   Task task;  ///< as verified: moved and scaled where a place was looked for
   std::string mechanism;
@@ -172,9 +195,10 @@ struct Verification {
   std::optional<OpenTask> open;        ///< where undecided
   std::optional<RationalPose> moved_by;
   std::optional<Rational> scaled_by;
-  std::vector<LeastReaction> least;  ///< where verified by cells of poses
-  long cells = 0;                    ///< that were looked at for the verdict
-  WorkingMode mode;                  ///< of `map`
+  std::vector<LeastReaction> least;      ///< where verified by cells of poses
+  std::optional<PreloadAnswer> preload;  ///< where efforts are free and the task gives none
+  long cells = 0;                        ///< that were looked at for the verdict
+  WorkingMode mode;                      ///< of `map`
   ZoneMap map;  ///< over two lengths the loci (of the file's load) and zones, for pictures; may be empty
   std::vector<std::string> notes;
   Units units = {};  ///< of the mechanism file: what the text speaks in

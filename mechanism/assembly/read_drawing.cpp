@@ -52,7 +52,7 @@ class DrawingReader {
     m.file = document.where.file;
     m.units = read_units(section("units"));
     if (const auto space = section("space")) m.space = text_of(*space) == "spatial" ? Space::spatial : Space::planar;
-    read_parameters(m, section("parameters"), overrides);
+    read_parameters(m, section("parameters"), free_effort_parameters(required("joints")), overrides);
     result_.unit = length_unit();
     read_coordinates();
     read_points();

@@ -21,7 +21,7 @@ py::list cells_of(const StudyResult& result) {
 
 py::list ranges_of(const StudyResult& result) {
   py::list ranges;
-  for (const StudyRange& own : result.ranges) ranges.append(py::make_tuple(own.from, own.to, own.below, own.above));
+  for (const ProvenRange& own : result.ranges) ranges.append(py::make_tuple(own.from, own.to, own.below, own.above));
   return ranges;
 }
 

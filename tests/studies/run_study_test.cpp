@@ -181,7 +181,7 @@ TEST(Study, TheSoftestSpringIsThatOfTheClosedForm) {
   const Study study = read_study(source_dir() + "/examples/studies/softest_spring.yaml", model);
   const StudyResult result = run_study(model, study, {.threads = 2});
   ASSERT_EQ(result.ranges.size(), 1U);
-  const StudyRange& own = result.ranges.front();
+  const ProvenRange& own = result.ranges.front();
   const double closed_form = stiffness_at_the_corner();
   EXPECT_LE(own.from[0], closed_form);
   EXPECT_GE(own.from[1], closed_form);
@@ -200,7 +200,7 @@ TEST(Study, RangesEndWhereCellsFail) {
                                    "method: {prove: 1/1048576}\n",
                                    model));
   ASSERT_FALSE(result.ranges.empty());
-  for (const StudyRange& own : result.ranges) {
+  for (const ProvenRange& own : result.ranges) {
     EXPECT_LE(own.from[0], own.from[1]);
     EXPECT_LT(own.from[1], own.to[0]);
     EXPECT_LE(own.to[0], own.to[1]);

@@ -1,0 +1,88 @@
+#include "report/preload.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/shown_units.hpp"
+#include "report/table_json.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+constexpr int digits = 6;
+
+class Efforts {
+ public:
+  Efforts(const core::PreloadAnswer& preload, const core::Units& units) : preload_(preload), units_(units) {}
+
+  std::string told(std::size_t i, double value) const { return fmt::format("{} {}", number(i, value), unit(i).name); }
+
+  /// "[6.05, 6.15] N m (beyond: contact lost in A1)", and where nothing beyond was looked at the end alone.
+  std::string end(const std::array<double, 2>& own, const std::string& beyond) const {
+    if (beyond.empty() && own[0] == own[1]) return told(0, own[0]);
+    return fmt::format("[{}, {}] {}{}", number(0, own[0]), number(0, own[1]), unit(0).name,
+                       beyond.empty() ? "" : " (beyond: " + beyond + ")");
+  }
+
+ private:
+  core::ShownUnit unit(std::size_t i) const { return core::told_unit(preload_.forces[i] ? "N" : "N m", units_); }
+  std::string number(std::size_t i, double value) const { return engineering(value * unit(i).per_si, digits); }
+
+  const core::PreloadAnswer& preload_;
+  const core::Units& units_;
+};
+
+}  // namespace
+
+std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const core::Units& units) {
+  const Efforts efforts(preload, units);
+  std::vector<std::string> lines;
+  std::string looked_for;
+  for (std::size_t i = 0; i < preload.joints.size(); ++i)
+    looked_for += fmt::format("{}{} from {} to {}", i == 0 ? "" : ", ", preload.joints[i],
+                              efforts.told(i, preload.lower[i]), efforts.told(i, preload.upper[i]));
+  if (preload.value) {
+    std::string line;
+    bool none = true;
+    for (std::size_t i = 0; i < preload.joints.size(); ++i) {
+      line += fmt::format("{}{} = {}", i == 0 ? "" : ", ", preload.joints[i], efforts.told(i, (*preload.value)[i]));
+      none = none && (*preload.value)[i] == 0;
+    }
+    if (none)
+      line += ": none is needed";
+    else if (preload.size[0] == preload.size[1])
+      line += ": the smallest that verifies, smaller ones fail";
+    else
+      line +=
+          fmt::format(": verifies; sizes below {:.4g} fail, proven, and the smallest that verifies is at most {:.4g}",
+                      preload.size[0], preload.size[1]);
+    lines.push_back(line);
+  } else {
+    lines.push_back("none was found");
+  }
+  for (const core::ProvenRange& own : preload.ranges)
+    lines.push_back(fmt::format("{} verifies from {} to {}", preload.joints.front(), efforts.end(own.from, own.below),
+                                efforts.end(own.to, own.above)));
+  lines.push_back("looked for with " + looked_for);
+  return lines;
+}
+
+nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload) {
+  using Json = nlohmann::ordered_json;
+  Json looked_for = Json::object(), value = Json::object(), ranges = Json::array();
+  for (std::size_t i = 0; i < preload.joints.size(); ++i) {
+    looked_for[preload.joints[i]] = {preload.lower[i], preload.upper[i]};
+    if (preload.value) value[preload.joints[i]] = (*preload.value)[i];
+  }
+  for (const core::ProvenRange& own : preload.ranges)
+    ranges.push_back({{"from", own.from}, {"to", own.to}, {"below", own.below}, {"above", own.above}});
+  return {{"value", preload.value ? std::move(value) : Json(nullptr)},
+          {"size", {number_json(preload.size[0]), number_json(preload.size[1])}},
+          {"ranges", std::move(ranges)},
+          {"looked_for", std::move(looked_for)},
+          {"cells", preload.cells}};
+}
+
+}  // namespace clearloci::report

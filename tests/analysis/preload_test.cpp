@@ -1,0 +1,139 @@
+// Free efforts: which constant ones verify a task (docs/preload.md).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "clearloci/errors.hpp"
+#include "clearloci/loci.hpp"
+#include "clearloci/mechanism.hpp"
+#include "clearloci/verify.hpp"
+#include "tests/source_dir.hpp"
+
+namespace clearloci {
+namespace {
+
+std::string text_of(const std::string& name) {
+  std::ifstream file(source_dir() + "/examples/" + name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("the text has no " + from);
+  return text.replace(at, from.size(), to);
+}
+
+const std::string with_free_effort = text_of("studies/antagonistic.yaml");
+
+Model bounded(const std::string& within) {
+  return Model::parse(replaced(with_free_effort, "effort: free", "effort: free, within: " + within), "m.yaml");
+}
+
+Task task_of(const std::string& name, const Model& model) {
+  return read_task(source_dir() + "/examples/tasks/" + name + ".yaml", model);
+}
+
+Verdict verdict_with(const std::string& effort, const std::string& task) {
+  const Model model = Model::parse(with_free_effort, "m.yaml", {{"preload_B2", effort}});
+  return verify(model, task_of(task, model), {.depth = VerifyDepth::verdict}).verdict;
+}
+
+TEST(FreeEffort, AllConstantOnesThatVerifyAreFound) {
+  const Model model = Model::parse(with_free_effort, "m.yaml");
+  const Verification answer = verify(model, task_of("preload", model), {.depth = VerifyDepth::verdict});
+  EXPECT_TRUE(answer.verified());
+  ASSERT_TRUE(answer.preload);
+  const PreloadAnswer& preload = *answer.preload;
+  EXPECT_THAT(preload.joints, testing::ElementsAre("B2"));
+  ASSERT_EQ(preload.ranges.size(), 3U);
+  EXPECT_EQ(preload.ranges[0].from[0], preload.lower[0]);
+  EXPECT_THAT(preload.ranges[0].above, testing::StartsWith("contact lost"));
+  for (const auto& end : {preload.ranges[0].to, preload.ranges[1].from, preload.ranges[1].to})
+    EXPECT_LT(end[1] - end[0], 0.1);
+  // The smallest: beside it smaller ones fail.
+  ASSERT_TRUE(preload.value);
+  EXPECT_GE(-preload.value->front(), preload.size[0]);
+  EXPECT_NEAR(preload.size[1], 6.1, 0.1);
+  EXPECT_LE(preload.size[1] - preload.size[0], 0.1);
+}
+
+TEST(FreeEffort, TheRangesAreThoseOfGivenOnes) {
+  for (const char* effort : {"-60", "-10", "20", "60", "400"})
+    EXPECT_EQ(verdict_with(effort, "preload"), Verdict::verified);
+  for (const char* effort : {"-5", "0", "10", "100", "250"})
+    EXPECT_EQ(verdict_with(effort, "preload"), Verdict::refuted);
+  for (const char* effort : {"-40", "-20"}) EXPECT_EQ(verdict_with(effort, "pick_and_place"), Verdict::refuted);
+}
+
+TEST(FreeEffort, NoneIsTheSmallestWhereNoneIsNeeded) {
+  const Model model = Model::parse(with_free_effort, "m.yaml");
+  const Verification answer = verify(model, task_of("pick_and_place", model), {.depth = VerifyDepth::verdict});
+  EXPECT_TRUE(answer.verified());
+  ASSERT_TRUE(answer.preload && answer.preload->value);
+  EXPECT_EQ(answer.preload->value->front(), 0);
+  EXPECT_EQ(answer.preload->size[1], 0);
+}
+
+TEST(FreeEffort, IsLookedForWithinItsBounds) {
+  const Model weak = bounded("[-5, 12]");
+  const Verification none = verify(weak, task_of("preload", weak), {.depth = VerifyDepth::verdict});
+  EXPECT_EQ(none.verdict, Verdict::refuted);
+  EXPECT_TRUE(none.witness);
+  ASSERT_TRUE(none.preload);
+  EXPECT_FALSE(none.preload->value);
+  EXPECT_TRUE(none.preload->ranges.empty());
+  const Model one_way = bounded("[0, 40]");
+  const Verification some = verify(one_way, task_of("preload", one_way), {.depth = VerifyDepth::verdict});
+  ASSERT_TRUE(some.preload && some.preload->value);
+  EXPECT_NEAR(some.preload->value->front(), 15, 0.1);
+  EXPECT_NEAR(some.preload->size[1], 15.0 / 40, 0.01) << "a part of the larger bound";
+}
+
+TEST(FreeEffort, ATaskGivesIt) {
+  const Model model = Model::parse(with_free_effort, "m.yaml");
+  const std::string box = "format: 1\nbox: {x: [-0.05, 0.15], y: [0.45, 0.6]}\n";
+  EXPECT_TRUE(verify(model, parse_task(box + "preload: {B2: -20}\n", model)).verified());
+  EXPECT_EQ(verify(model, parse_task(box + "preload: {B2: 10}\n", model)).verdict, Verdict::refuted);
+  EXPECT_FALSE(verify(model, parse_task(box + "preload: {B2: -20}\n", model)).preload);
+  EXPECT_THROW(parse_task(box + "preload: {B1: -20}\n", model), InputError);
+  EXPECT_THROW(parse_task(box + "preload: sometimes\n", model), InputError);
+}
+
+TEST(FreeEffort, SeveralAreChosenTogether) {
+  const std::string text =
+      replaced(with_free_effort, "at: P,  clearance", "at: P, actuated: {effort: free}, clearance");
+  const Model model = Model::parse(text, "m.yaml");
+  const Verification answer = verify(model, task_of("preload", model), {.depth = VerifyDepth::verdict});
+  ASSERT_TRUE(answer.preload && answer.preload->value);
+  EXPECT_EQ(answer.preload->joints.size(), 2U);
+  EXPECT_TRUE(answer.verified());
+  EXPECT_LE(answer.preload->size[1], 6.2) << "with two motors no more than with one";
+  EXPECT_LE(answer.preload->size[0], answer.preload->size[1]);
+}
+
+TEST(FreeEffort, OtherQuestionsAskForAValue) {
+  const Model model = Model::parse(with_free_effort, "m.yaml");
+  try {
+    trace_loci(model);
+    FAIL() << "loci without a value";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the effort of joint B2 is free"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("--preload B2="));
+  }
+  EXPECT_FALSE(trace_loci(model.with({{"preload_B2", "-20"}})).curves.empty());
+}
+
+TEST(FreeEffort, WrongOnesAreRefusedByName) {
+  EXPECT_THROW(bounded("[5, -5]"), InputError);
+  EXPECT_THROW(Model::parse(replaced(with_free_effort, "effort: free", "effort: 3, within: [0, 5]"), "m.yaml"),
+               InputError);
+  EXPECT_THROW(Model::parse(replaced(with_free_effort, "d: L", "d: L\n  preload_B2: 3"), "m.yaml"), InputError);
+}
+
+}  // namespace
+}  // namespace clearloci
