@@ -12,6 +12,7 @@
 #include "analysis/pose.hpp"
 #include "analysis/preload_judges.hpp"
 #include "analysis/proven_cells.hpp"
+#include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
 #include "core/task.hpp"
@@ -65,18 +66,39 @@ Model with_efforts(const Model& model, const std::vector<Wanted>& wanted, const 
   return model.with(values);
 }
 
+/// The mechanism under its loads, and with each part of a load that a task lets differ as much larger as it may be.
+std::vector<Mechanism> under_larger_loads(const Mechanism& mechanism, const Task& task) {
+  std::vector<Mechanism> all = {mechanism};
+  if (task.loads)
+    for (Mechanism& own : under_loads_of(task, mechanism)) all.push_back(std::move(own));
+  const auto add = [&](std::size_t load, const Rational& by, const auto& part_of) {
+    Mechanism own = mechanism;
+    core::Expression& part = part_of(own.loads[load]);
+    part = core::Expression::apply(core::Expression::Kind::add, {part, core::Expression::number(by)});
+    all.push_back(std::move(own));
+  };
+  for (const core::LoadWithin& within : task.loads_within) {
+    for (std::size_t c = 0; c < mechanism.loads[within.load].force.size() && within.force > 0; ++c)
+      add(within.load, within.force, [c](mechanism::Load& load) -> core::Expression& { return load.force[c]; });
+    if (within.couple > 0)
+      add(within.load, within.couple, [](mechanism::Load& load) -> core::Expression& { return load.couple; });
+  }
+  return all;
+}
+
 /// Beyond which effort no reaction changes its sign at some poses of the task, times eight: reactions are linear in it.
 Rational range_without_bounds(const Model& model, const std::vector<Wanted>& wanted, std::size_t own, const Task& task,
                               const VerifyRequest& request) {
   std::vector<Rational> efforts(wanted.size(), 0);
-  const Model without = with_efforts(model, wanted, efforts);
+  const std::vector<Mechanism> without =
+      under_larger_loads(with_efforts(model, wanted, efforts).content().mechanism, task);
   efforts[own] = 1;
   const Model with_one = with_efforts(model, wanted, efforts);
   PoseRequest asked;
   asked.working_mode = requested_modes(model.content().mechanism, request.loci).front();
-  const auto reactions_of = [&](const Model& some, const core::RationalPose& at) {
+  const auto reactions_of = [&](const Mechanism& some, const core::RationalPose& at) {
     std::vector<double> list;
-    const Pose pose = solve_pose(some.content().mechanism, at, asked);
+    const Pose pose = solve_pose(some, at, asked);
     if (pose.unreachable.empty() && pose.beyond_limit.empty())
       for (const core::JointReaction& joint : pose.reactions)
         for (const core::ReactionComponent& part : joint.components) list.push_back(part.value);
@@ -88,12 +110,16 @@ Rational range_without_bounds(const Model& model, const std::vector<Wanted>& wan
     core::RationalPose at;
     for (std::size_t c = 0; c < corners[0].size(); ++c)
       at.push_back(corners[0][c] + (corners[1][c] - corners[0][c]) * (c % 2 == 0 ? first : second) / 4);
-    const std::vector<double> none = reactions_of(without, at), one = reactions_of(with_one, at);
-    if (none.size() != one.size()) continue;
+    const std::vector<double> one = reactions_of(with_one.content().mechanism, at);
+    const std::vector<double> none = reactions_of(without.front(), at);
     constexpr double no_bound = 1e9;
-    for (std::size_t r = 0; r < none.size(); ++r)
-      if (const double effort = std::abs(none[r] / (one[r] - none[r])); effort < no_bound)
-        most = std::max(most, effort);
+    for (const Mechanism& larger : without) {
+      const std::vector<double> reached = reactions_of(larger, at);
+      if (none.size() != one.size() || none.size() != reached.size()) continue;
+      for (std::size_t r = 0; r < none.size(); ++r)
+        if (const double effort = std::abs(reached[r] / (one[r] - none[r])); effort < no_bound)
+          most = std::max(most, effort);
+    }
   }
   return Rational(8 * std::exp2(std::ceil(std::log2(most))));
 }

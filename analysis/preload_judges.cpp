@@ -1,5 +1,6 @@
 #include "analysis/preload_judges.hpp"
 
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -87,20 +88,23 @@ class StaticsPreload : public PreloadJudge {
     Ranges ranges;
     for (std::size_t i = 0; i < wanted_.size(); ++i)
       ranges[wanted_[i].name] = core::range_of(efforts[i].first, efforts[i].second);
-    const loci::pose::PoseBeside beside = widened_.beside_with(ranges);
-    const PoseRegion region(task_.shape, metric_, beside);
-    BoxVerdict verdict;
+    const PoseRegion region(task_.shape, metric_, widened_.beside_with(ranges));
+    std::string reason;
     const auto all_fail = [&](const PoseSuspect& suspect) {
-      if (!suspect.other || suspect.kind != Doubt::demand) return false;
-      verdict.reason = turned(suspect, beside);
-      return !verdict.reason.empty();
+      reason = suspect.other && suspect.kind == Doubt::demand ? turned(suspect, ranges) : std::string();
+      return !reason.empty();
     };
-    for (const auto& [first, second] : turning_poses_)
-      if (all_fail({Doubt::demand, first.second, first.first, second})) return {Verdict::refuted, verdict.reason};
+    for (const PoseSuspect& known : turning_)
+      if (all_fail(known)) return {Verdict::refuted, reason};
+    bool too_small = false;
+    const std::vector<PoseSuspect> unlike = unlike_samples(region, too_small);
+    for (const PoseSuspect& own : unlike)
+      if (all_fail(own)) return {Verdict::refuted, reason};
+    if (!unlike.empty() || too_small) return {};  // the box as a whole does not verify
     constexpr long coarse = 2'000, fine = 40'000;
     const loci::pose::PoseEffort effort{.most_cells = finest ? fine : coarse, .deadline = request_.deadline};
-    verdict.verdict = loci::pose::prove_poses(statics_, region, margin_, all_fail, effort).verdict;
-    return verdict;
+    const Verdict verdict = loci::pose::prove_poses(statics_, region, margin_, all_fail, effort).verdict;
+    return {verdict, reason};
   }
 
  private:
@@ -112,33 +116,68 @@ class StaticsPreload : public PreloadJudge {
     return task;
   }
 
-  /// The sign of a demand of one component at a pose of the task, for all that is beside it; 0: not one.
-  int sign_at(const loci::pose::Pose& pose, int demand, const loci::pose::PoseBeside& beside) {
+  /// Of every demand of one component two samples of a region between which it turns, those farthest from zero.
+  /// `too_small`: set where a reaction is smaller at one than it has to be.
+  std::vector<PoseSuspect> unlike_samples(const PoseRegion& region, bool& too_small) {
+    struct Extreme {
+      double size = 0;
+      loci::pose::Pose at;
+    };
+    std::vector<std::array<Extreme, 2>> extremes(statics_.demands.size());
+    for (loci::pose::Pose pose : region.samples()) {
+      pose = widened_.settled(std::move(pose));
+      const auto at = cell_->at(pose);
+      if (!at) continue;
+      for (std::size_t d = 0; d < extremes.size(); ++d) {
+        const double size = PoseCell::size_of(at->components[d]);
+        too_small = too_small || size < core::to_double(statics_.demands[d].demand.least);
+        const int sign = sign_of(*at, d);
+        if (sign == 0) continue;
+        if (Extreme& own = extremes[d][sign > 0 ? 0 : 1]; own.at.empty() || size > own.size) own = {size, pose};
+      }
+    }
+    std::vector<PoseSuspect> unlike;
+    for (std::size_t d = 0; d < extremes.size(); ++d)
+      if (!extremes[d][0].at.empty() && !extremes[d][1].at.empty())
+        unlike.push_back({Doubt::demand, static_cast<int>(d), extremes[d][0].at, extremes[d][1].at});
+    return unlike;
+  }
+
+  /// The sign of a demand of one component at a pose, a load and a design, for all efforts of a box; 0: not one.
+  int sign_at(const loci::pose::Pose& somewhere, int demand, const Ranges& efforts) {
+    const loci::pose::Pose pose = widened_.settled(somewhere);
+    Ranges ranges = efforts;
+    for (const auto& [name, value] : widened_.design(pose)) ranges.emplace(name, core::Interval(value));
+    loci::pose::PoseBeside beside = widened_.beside_with(ranges);
     const std::size_t poses = metric_.weights.size() - beside.lower.size();
+    beside.balls.clear();
+    for (std::size_t i = widened_.variables(); i < beside.lower.size(); ++i)
+      beside.lower[i] = beside.upper[i] = pose[poses + i];
     core::RationalPose place;
     for (std::size_t c = 0; c < poses; ++c) place.emplace_back(pose[c]);
-    const auto pieces = PoseRegion(core::TaskBox{place, place}, metric_, beside).pieces(0);
     int sign = 0;
-    for (const loci::pose::PosePiece& piece : pieces) {
-      int own = 0;
-      switch (cell_->enter(piece.chart, piece.box)) {
-        case PoseCell::State::proven:
-          if (const auto at = cell_->at(piece.chart.at(loci::pose::middle_of(piece.box))))
-            own = sign_of(*at, static_cast<std::size_t>(demand));
-          break;
-        case PoseCell::State::in_doubt: {
-          const PoseCell::Known known = cell_->known();
-          if (static_cast<std::size_t>(demand) < known.signs.size())
-            own = known.signs[static_cast<std::size_t>(demand)];
-          break;
-        }
-        case PoseCell::State::outside:
-          break;
-      }
+    for (const loci::pose::PosePiece& piece :
+         PoseRegion(core::TaskBox{place, place}, metric_, std::move(beside)).pieces(0)) {
+      const int own = sign_in(piece, static_cast<std::size_t>(demand));
       if (own == 0 || (sign != 0 && own != sign)) return 0;
       sign = own;
     }
     return sign;
+  }
+
+  int sign_in(const loci::pose::PosePiece& piece, std::size_t demand) {
+    switch (cell_->enter(piece.chart, piece.box)) {
+      case PoseCell::State::proven:
+        if (const auto at = cell_->at(piece.chart.at(loci::pose::middle_of(piece.box)))) return sign_of(*at, demand);
+        return 0;
+      case PoseCell::State::in_doubt: {
+        const PoseCell::Known known = cell_->known();
+        return demand < known.signs.size() ? known.signs[demand] : 0;
+      }
+      case PoseCell::State::outside:
+        break;
+    }
+    return 0;
   }
 
   /// Under all loads.
@@ -154,13 +193,12 @@ class StaticsPreload : public PreloadJudge {
   }
 
   /// Which reaction turns between two poses, whatever the efforts; empty where that is not certain.
-  std::string turned(const PoseSuspect& suspect, const loci::pose::PoseBeside& beside) {
-    if (statics_.demands[static_cast<std::size_t>(suspect.demand)].demand.quantity == core::Quantity::f) return {};
-    const int here = sign_at(suspect.at, suspect.demand, beside);
-    if (here == 0 || sign_at(*suspect.other, suspect.demand, beside) != -here) return {};
-    constexpr std::size_t kept = 32;
-    if (turning_poses_.size() < kept) turning_poses_.push_back({{suspect.at, suspect.demand}, *suspect.other});
+  std::string turned(const PoseSuspect& suspect, const Ranges& efforts) {
     const core::TaskDemand& demand = statics_.demands[static_cast<std::size_t>(suspect.demand)].demand;
+    const int here = sign_at(suspect.at, suspect.demand, efforts);
+    if (here == 0 || sign_at(*suspect.other, suspect.demand, efforts) != -here) return {};
+    constexpr std::size_t kept = 32;
+    if (turning_.size() < kept) turning_.push_back(suspect);
     const bool effort = demand.quantity == core::Quantity::M || demand.quantity == core::Quantity::F;
     return (effort ? "backlash in " : "contact lost in ") + demand.joint;
   }
@@ -174,8 +212,7 @@ class StaticsPreload : public PreloadJudge {
   double margin_ = 0;
   core::PoseStatics statics_;
   std::optional<PoseCell> cell_;
-  /// Between which a demand was seen to turn for all efforts of some box: tried first of the next.
-  std::vector<std::pair<std::pair<loci::pose::Pose, int>, loci::pose::Pose>> turning_poses_;
+  std::vector<PoseSuspect> turning_;  ///< whose demand turned for all efforts of some box: tried first of the next
 };
 
 }  // namespace

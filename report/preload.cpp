@@ -52,12 +52,11 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
     }
     if (none)
       line += ": none is needed";
-    else if (preload.size[0] == preload.size[1])
-      line += ": the smallest that verifies, smaller ones fail";
     else
-      line +=
-          fmt::format(": verifies; sizes below {:.4g} fail, proven, and the smallest that verifies is at most {:.4g}",
-                      preload.size[0], preload.size[1]);
+      line += fmt::format(
+          ": verifies; {}the smallest size that verifies is at most {:.4g}",
+          preload.size[0] > 0 ? fmt::format("sizes below {:.4g} fail, proven, and ", preload.size[0]) : std::string(),
+          preload.size[1]);
     lines.push_back(line);
   } else {
     lines.push_back("none was found");

@@ -116,6 +116,28 @@ TEST(FreeEffort, SeveralAreChosenTogether) {
   EXPECT_LE(answer.preload->size[0], answer.preload->size[1]);
 }
 
+TEST(FreeEffort, IsFoundOverThreeCoordinates) {
+  const std::string text = text_of("studies/four_rrr.yaml");
+  const std::string box = "format: 1\nbox: {x: [-0.02, 0.02], y: [-0.02, 0.02], phi: [-2 deg, 2 deg]}\n";
+  const Model model = Model::parse(text, "m.yaml");
+  const Verification answer = verify(model, parse_task(box, model), {.depth = VerifyDepth::verdict});
+  EXPECT_TRUE(answer.verified());
+  ASSERT_TRUE(answer.preload);
+  const std::vector<ProvenRange>& ranges = answer.preload->ranges;
+  ASSERT_GE(ranges.size(), 3U);
+  // What is said of efforts inside and outside the ranges is said of each that is given.
+  const auto verdict = [&](double effort) {
+    const Model given = model.with({{"preload_A4", std::to_string(effort)}});
+    return verify(given, parse_task(box, given), {.depth = VerifyDepth::verdict}).verdict;
+  };
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    EXPECT_EQ(verdict(0.5 * (ranges[i].from[1] + ranges[i].to[0])), Verdict::verified) << i;
+    if (i > 0 && ranges[i].from[0] - ranges[i - 1].to[1] > 0.01) {
+      EXPECT_EQ(verdict(0.5 * (ranges[i - 1].to[1] + ranges[i].from[0])), Verdict::refuted) << i;
+    }
+  }
+}
+
 TEST(FreeEffort, OtherQuestionsAskForAValue) {
   const Model model = Model::parse(with_free_effort, "m.yaml");
   try {

@@ -93,6 +93,7 @@ class Results(InOwnFolder):
 
     def test_verify(self):
         task = EXAMPLES / "tasks" / "pick_and_place.yaml"
+        self.holds("verify", "verify", EXAMPLES / "studies" / "antagonistic.yaml", EXAMPLES / "tasks" / "preload.yaml")
         self.holds("verify", "verify", FIVE_BAR, task)
         refuted = self.folder / "task.yaml"
         refuted.write_text("format: 1\nbox: {x: [0.1, 0.4], y: [-0.8, -0.2]}\n", encoding="utf-8")
