@@ -227,8 +227,8 @@ Advice too_many(const Mechanism& m, std::size_t count) {
   if (!found->motors.empty()) {
     problem = named("motor", found->motors);
     mend = number +
-           "these motors (actuated: false), or give as many a known effort, which is a load (actuated: "
-           "{effort: 0})";
+           "these motors (actuated: false), or give as many a known effort (actuated: {effort: 0}), or one that is "
+           "chosen for a task (actuated: {effort: free})";
   }
   if (!found->rods.empty()) {
     problem += (problem.empty() ? "" : " and ") + named("rod", found->rods);

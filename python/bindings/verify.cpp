@@ -71,6 +71,26 @@ py::object open_of(const Verification& answer) {
                   py::arg("upper") = place(open.upper), py::arg("reason") = reason);
 }
 
+py::object preload_of(const Verification& answer) {
+  if (!answer.preload) return py::none();
+  const PreloadAnswer& preload = *answer.preload;
+  py::dict looked_for, value;
+  for (std::size_t i = 0; i < preload.joints.size(); ++i) {
+    looked_for[py::str(preload.joints[i])] = py::make_tuple(preload.lower[i], preload.upper[i]);
+    if (preload.value) value[py::str(preload.joints[i])] = (*preload.value)[i];
+  }
+  py::list ranges;
+  for (const ProvenRange& own : preload.ranges)
+    ranges.append(py::dict(py::arg("from") = own.from, py::arg("to") = own.to, py::arg("below") = own.below,
+                           py::arg("above") = own.above));
+  py::dict one;
+  one["value"] = preload.value ? py::object(value) : py::none();
+  one["size"] = py::make_tuple(preload.size[0], preload.size[1]);
+  one["ranges"] = ranges;
+  one["looked_for"] = looked_for;
+  return one;
+}
+
 py::dict dict_of(const Verification& answer) {
   py::list least;
   for (const LeastReaction& own : answer.least)
@@ -87,6 +107,7 @@ py::dict dict_of(const Verification& answer) {
   one["witness"] = witness_of(answer);
   one["nearest"] = nearest_of(answer);
   one["open"] = open_of(answer);
+  one["preload"] = preload_of(answer);
   one["least"] = least;
   one["cells"] = answer.cells;
   one["notes"] = in_python(answer.notes);

@@ -382,6 +382,9 @@ class Verification(Asked, _Answer):
     #: where undecided: "cells" that stayed open, the box around them from "lower" to "upper", and why ("reason": "time",
     #: "cells" or "doubles" ran out)
     open: dict[str, Any] | None
+    #: where efforts are free and none is given: the smallest that was found by joint ("value", of which the rest of the
+    #: answer is), what the smallest size is at least and at most ("size"), of one effort all that verify ("ranges")
+    preload: dict[str, Any] | None
     least: list[dict[str, Any]]  #: over other than two lengths what every reaction has at least, "proven" and as "met"
     cells: int
     notes: list[str]

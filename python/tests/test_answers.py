@@ -89,3 +89,20 @@ def test_surfaces_are_triangles():
     surface = loci.surfaces[0]
     assert surface.within_resolution and surface.certified == (not surface.open)
     assert surface.vertices.shape[1] == 3 and surface.triangles.max() < len(surface.vertices)
+
+
+def test_free_efforts_are_chosen():
+    import clearloci as cl
+    from conftest import EXAMPLES
+
+    model = cl.read(EXAMPLES / "studies" / "antagonistic.yaml")
+    task = {"box": {"x": [-0.05, 0.15], "y": [0.45, 0.6]}}
+    answer = model.verify(task)
+    assert answer and answer.preload is not None
+    assert answer.preload["value"]["B2"] == pytest.approx(-6.1, abs=0.1)
+    assert answer.preload["ranges"][0]["above"].startswith("contact lost")
+    given = model.verify({**task, "preload": {"B2": -20}})
+    assert given and given.preload is None
+    with pytest.raises(cl.InputError, match="the effort of joint B2 is free"):
+        model.loci()
+    assert len(model.with_parameters(preload_B2=-20).loci()) > 0
