@@ -84,7 +84,7 @@ class Documented(InOwnFolder):
                         self.assertIn(line + "\n", own.read_text(encoding="utf-8"))
 
     def test_commands_of_other_pages_run(self):
-        for page in ("certificates.md", "studies.md"):
+        for page in ("certificates.md", "preload.md", "studies.md"):
             text = (SOURCE / "docs" / page).read_text(encoding="utf-8")
             blocks = re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
             commands = [line for block in blocks for line in block.splitlines() if line.startswith("clearloci ")]
