@@ -348,9 +348,9 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
   if (!found && answer.size[0] < std::numeric_limits<double>::infinity()) {
     result.verdict = core::Verdict::undecided;
     result.witness.reset();
-    result.notes.push_back("no preload was found that verifies, and not all are proven to fail");
+    result.notes.emplace_back("no preload was found that verifies, and not all are proven to fail");
   } else if (!found) {
-    result.notes.push_back("no constant preload within these ranges verifies the task: each fails, proven");
+    result.notes.emplace_back("no constant preload within these ranges verifies the task: each fails, proven");
   }
   result.preload = std::move(answer);
   return result;

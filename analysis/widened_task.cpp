@@ -13,7 +13,6 @@ namespace clearloci {
 namespace {
 
 using core::Expression;
-using core::Interval;
 using core::Rational;
 using mechanism::Mechanism;
 

@@ -59,7 +59,7 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
           preload.size[1]);
     lines.push_back(line);
   } else {
-    lines.push_back("none was found");
+    lines.emplace_back("none was found");
   }
   for (const core::ProvenRange& own : preload.ranges)
     lines.push_back(fmt::format("{} verifies from {} to {}", preload.joints.front(), efforts.end(own.from, own.below),
