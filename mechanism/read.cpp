@@ -74,11 +74,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   read_points(mechanism, root.at("points"), root.find("frames"), root.find("links"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
-  for (Joint& joint : mechanism.joints)
-    if (joint.free_effort)
-      joint.free_effort->given = std::any_of(overrides.begin(), overrides.end(), [&](const Override& own) {
-        return own.first == joint.free_effort->parameter;
-      });
+  give_free_efforts(mechanism, overrides);
   fill_inertia(mechanism);
   read_end_effector(mechanism, root.at("end_effector"));
   read_loads(mechanism, root.find("loads"));

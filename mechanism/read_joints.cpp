@@ -171,6 +171,11 @@ std::pair<Rational, Rational> read_within(const Mechanism& mechanism, Value valu
   return {lower, upper};
 }
 
+[[noreturn]] void refuse_effort(const Joint& joint, const core::SourcePosition& where) {
+  throw InputError(where, "the effort of joint " + joint.name + " is beyond its range",
+                   "choose one that the motor can exert");
+}
+
 /// true, false, {effort: 3.5} of an actuator whose effort is known, or {effort: free, within: [-5, 5]}.
 void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint) {
   if (!value.is_map()) {
@@ -191,10 +196,13 @@ void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint)
     }
     return;
   }
-  if (within)
-    throw InputError(within->where, "the effort of joint " + joint.name + " is given, and has a range",
-                     "write effort: free to have it chosen within the range, or leave the range out");
   joint.effort = read_varying(mechanism, effort);
+  if (!within) return;
+  within->what = "the range of the effort of joint " + joint.name;
+  const auto [least, most] = read_within(mechanism, *within, effort.field);
+  if (!symbols(*joint.effort).empty()) return;
+  if (const Rational given = value_of(*joint.effort, mechanism); given < least || given > most)
+    refuse_effort(joint, within->where);
 }
 
 Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
@@ -240,26 +248,42 @@ std::vector<Expression> read_varying_vector(const Mechanism& mechanism, const Va
 
 }  // namespace
 
-std::vector<Entry> free_effort_parameters(const Value& joints) {
-  std::vector<Entry> parameters;
-  if (!joints.is_map()) return parameters;
+std::vector<Entry> written_free_efforts(const Value& joints) {
+  std::vector<Entry> efforts;
+  if (!joints.is_map()) return efforts;
   for (const Entry& joint : entries(joints)) {
     if (!joint.value.is_map()) continue;
-    bool slides = false;
-    std::optional<Value> actuated;
-    for (const Entry& own : entries(joint.value)) {
-      slides = slides || own.key == to_string(JointType::prismatic);
-      if (own.key == "actuated") actuated = own.value;
-    }
-    if (!actuated || !actuated->is_map()) continue;
-    for (const Entry& own : entries(*actuated)) {
-      if (own.key != "effort" || !is_free_effort(own.value)) continue;
-      Value none = own.value;
-      none.node = Node::scalar(slides ? "0 N" : "0 N m", own.where);
-      parameters.push_back({free_effort_parameter(joint.key), own.where, none});
+    const std::vector<Entry> keys = entries(joint.value);
+    const bool slides = std::any_of(keys.begin(), keys.end(),
+                                    [](const Entry& key) { return key.key == to_string(JointType::prismatic); });
+    for (const Entry& own : keys) {
+      if (own.key != "actuated" || !own.value.is_map()) continue;
+      for (Entry& effort : entries(own.value)) {
+        if (effort.key != "effort" || !is_free_effort(effort.value)) continue;
+        effort.value.field = slides ? "force" : "couple";
+        efforts.push_back({free_effort_parameter(joint.key), effort.where, effort.value});
+      }
     }
   }
+  return efforts;
+}
+
+std::vector<Entry> free_effort_parameters(const Value& joints) {
+  std::vector<Entry> parameters = written_free_efforts(joints);
+  for (Entry& own : parameters) own.value.node = Node::scalar(own.value.field == "force" ? "0 N" : "0 N m", own.where);
   return parameters;
+}
+
+void give_free_efforts(Mechanism& mechanism, const std::vector<Override>& overrides) {
+  for (Joint& joint : mechanism.joints) {
+    if (!joint.free_effort) continue;
+    FreeEffort& own = *joint.free_effort;
+    own.given = std::any_of(overrides.begin(), overrides.end(),
+                            [&](const Override& override) { return override.first == own.parameter; });
+    if (!own.given || !own.within) continue;
+    const Rational value = value_of(*joint.effort, mechanism);
+    if (value < own.within->first || value > own.within->second) refuse_effort(joint, joint.where);
+  }
 }
 
 void read_joints(Mechanism& mechanism, const Value& value) {

@@ -91,8 +91,12 @@ void fill_inertia(Mechanism& mechanism);
 
 // --- read_joints.cpp: joints, end effector, loads
 void read_joints(Mechanism& mechanism, const Value& value);
-/// A parameter for each motor whose effort is free, of joints as they are written.
+/// Of joints as they are written: the word `free` of every effort that is, by the name of its parameter.
+std::vector<Entry> written_free_efforts(const Value& joints);
+/// A parameter for each.
 std::vector<Entry> free_effort_parameters(const Value& joints);
+/// Those that have a value, which is within what the motor can exert.
+void give_free_efforts(Mechanism& mechanism, const std::vector<Override>& overrides);
 void read_end_effector(Mechanism& mechanism, const Value& value);
 void read_loads(Mechanism& mechanism, const std::optional<Value>& value);
 void read_gravity(Mechanism& mechanism, const std::optional<Value>& value);

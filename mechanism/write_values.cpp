@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mechanism/reader.hpp"
 #include "mechanism/yaml_input.hpp"
 
 namespace clearloci::mechanism {
@@ -41,15 +42,20 @@ std::string with_values(std::string text, const std::string& file, const std::ve
   const Value document = parse_document(text, file);
   std::vector<std::pair<Place, std::string>> changes;
   const std::vector<Entry> keys = entries(document);
-  const auto parameters = std::find_if(keys.begin(), keys.end(), [](const Entry& e) { return e.key == "parameters"; });
+  std::vector<Entry> places;
+  for (const Entry& key : keys) {
+    if (key.key == "parameters")
+      for (Entry& own : entries(key.value)) places.push_back(std::move(own));
+    if (key.key == "joints")
+      for (Entry& own : written_free_efforts(key.value)) places.push_back(std::move(own));
+  }
   for (const auto& [name, value] : values) {
     bool found = false;
-    if (parameters != keys.end())
-      for (const Entry& own : entries(parameters->value))
-        if (own.key == name) {
-          changes.emplace_back(place_of(text, own.value), value);
-          found = true;
-        }
+    for (const Entry& own : places)
+      if (own.key == name) {
+        changes.emplace_back(place_of(text, own.value), value);
+        found = true;
+      }
     if (!found)
       throw core::InputError({file}, "there is no parameter '" + name + "' in the file", "vary one that it has");
   }

@@ -152,8 +152,9 @@ TEST(FreeEffort, OtherQuestionsAskForAValue) {
 
 TEST(FreeEffort, WrongOnesAreRefusedByName) {
   EXPECT_THROW(bounded("[5, -5]"), InputError);
-  EXPECT_THROW(Model::parse(replaced(with_free_effort, "effort: free", "effort: 3, within: [0, 5]"), "m.yaml"),
+  EXPECT_THROW(Model::parse(replaced(with_free_effort, "effort: free", "effort: 8, within: [0, 5]"), "m.yaml"),
                InputError);
+  EXPECT_THROW(bounded("[-30, 30]").with({{"preload_B2", "-31"}}), InputError);
   EXPECT_THROW(Model::parse(replaced(with_free_effort, "d: L", "d: L\n  preload_B2: 3"), "m.yaml"), InputError);
 }
 

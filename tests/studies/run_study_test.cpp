@@ -137,6 +137,19 @@ TEST(Study, ParametersMayEnterByQuotientsAndCosines) {
   EXPECT_LT(feasible, 30U);
 }
 
+TEST(Study, VariesFreeEffortsAndWritesTheBest) {
+  const Model model = Model::read(source_dir() + "/examples/studies/antagonistic.yaml");
+  const std::string study =
+      "format: 1\nvary: {preload_B2: [-40 N m, -1 N m]}\ntask: {box: {x: [-0.05, 0.15], y: [0.45, 0.6]}}\n"
+      "goal: {maximise: preload_B2}\nmethod: {prove: 1/4096}\n";
+  const StudyResult result = run_study(model, parse_study(study, model));
+  ASSERT_EQ(result.ranges.size(), 1U);
+  EXPECT_NEAR(result.ranges.front().to[0], -6.09, 0.02);
+  ASSERT_TRUE(result.best);
+  const Model best = Model::parse(design_text(model, result, result.designs[*result.best]));
+  EXPECT_TRUE(verify(best, parse_task("format: 1\nbox: {x: [-0.05, 0.15], y: [0.45, 0.6]}\n", best)).verified());
+}
+
 TEST(Study, ProvesCellsOfDesigns) {
   const Model model = five_bar();
   const StudyResult result = run_study(model, parse_study(study_text("{prove: 1/16}", ""), model), {.threads = 2});
