@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
 #include "mechanism/notes.hpp"
+#include "mechanism/read_task.hpp"
 #include "numeric/error_map.hpp"
 
 namespace clearloci {
@@ -78,14 +79,16 @@ ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& re
   if (request.with_zones && !request.with_loci)
     throw core::InputError({mechanism.file}, "zones are bounded by the loci", "ask for the loci too");
   require_coordinates(mechanism, 2, 2, "maps of errors are drawn");
+  if (request.with_zones && !mechanism::is_plane(mechanism))
+    throw core::InputError({mechanism.file}, "errors zone by zone are those over two lengths", "ask without zones");
   if (const std::optional<Framed> own = framed_where_far(mechanism))
     return from_frame(error_map(own->mechanism, request), mechanism, own->frame);
   const numeric::NumericModel model = numeric::compile(mechanism);
   ErrorMap errors;
   errors.notes = mechanism::fit_notes(mechanism);
   for (std::string& note : mechanism::notes_of(mechanism)) errors.notes.push_back(std::move(note));
-  core::ZoneMap zones;
-  if (request.with_zones) zones = find_zones(mechanism, request.loci);
+  core::Zones zones;
+  if (request.with_zones) zones = find_zones(mechanism, {request.loci});
   errors.loci = request.with_zones ? with_modes(mechanism, std::move(zones.loci)) : loci_below(mechanism, request);
   for (const DyadSides& sides : regular_modes(mechanism, requested_modes(mechanism, request.loci), errors.loci.notes)) {
     if (request.loci.progress) request.loci.progress(0.9, "errors");

@@ -248,20 +248,24 @@ core::LocusMap from_frame(core::LocusMap map, const mechanism::Mechanism& mechan
   return map;
 }
 
-core::ZoneMap from_frame(core::ZoneMap map, const mechanism::Mechanism& mechanism, const Frame& frame) {
+core::Zones from_frame(core::Zones map, const mechanism::Mechanism& mechanism, const Frame& frame) {
   const Outward outward(mechanism, frame);
   map.loci = from_frame(std::move(map.loci), mechanism, frame);
-  for (core::ModeArea& area : map.areas) {
-    area.workspace = outward.size(outward.size(area.workspace));
-    area.in_doubt = outward.size(outward.size(area.in_doubt));
-  }
+  // By cells nothing is scaled.
+  const auto size = [&](double own) { return map.by_cells ? own : outward.size(outward.size(own)); };
+  for (core::ZonedMode& mode : map.modes)
+    for (double* const own : {&mode.workspace, &mode.outside, &mode.in_doubt}) *own = size(*own);
   for (core::Zone& zone : map.zones) {
-    zone.area = outward.size(outward.size(zone.area));
+    for (double* const own : {&zone.size, &zone.at_least, &zone.at_most}) *own = size(*own);
+    for (std::vector<double>* const at : {&zone.lower, &zone.upper, &zone.sample, &zone.ball.centre}) outward.move(*at);
+    zone.ball.radius = outward.size(zone.ball.radius);
+    for (core::ZoneBorder& border : zone.borders) border.length = outward.size(border.length);
+    for (core::ZoneEnd& end : zone.ends) end.at = outward.value(end.at, 0);
     outward.move(zone.outer);
     for (core::Polyline& hole : zone.holes) outward.move(hole);
-    zone.inscribed = {outward.place(zone.inscribed.centre), outward.size(zone.inscribed.radius)};
-    zone.sample = outward.place(zone.sample);
-    for (core::ZoneBorder& border : zone.borders) border.length = outward.size(border.length);
+    for (std::vector<core::Point3>& face : zone.faces)
+      for (core::Point3& at : face)
+        for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) at[i] = outward.value(at[i], i);
   }
   return map;
 }
@@ -321,24 +325,6 @@ TrajectoryResult from_frame(TrajectoryResult result, const mechanism::Mechanism&
   for (std::size_t i = 0; i < 3; ++i)
     for (const char* const point : {"p", "actual_p"}) move(point + std::string(1, "xyz"[i]), frame.origin[i]);
   return result;
-}
-
-core::PoseZones from_frame(core::PoseZones map, const mechanism::Mechanism& mechanism, const Frame& frame) {
-  const Outward outward(mechanism, frame);
-  for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
-    map.lower[i] = core::to_double(mechanism.coordinates[i].lower);
-    map.upper[i] = core::to_double(mechanism.coordinates[i].upper);
-  }
-  for (core::PoseZone& zone : map.zones) {
-    for (std::vector<double>* const at : {&zone.lower, &zone.upper, &zone.sample}) outward.move(*at);
-    for (core::PoseZoneEnd& end : zone.ends) end.at = outward.value(end.at, 0);
-    for (std::vector<core::Point3>& face : zone.faces)
-      for (core::Point3& at : face)
-        for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) at[i] = outward.value(at[i], i);
-    if (zone.ball) outward.move(zone.ball->centre);
-  }
-  for (std::string& note : map.notes) note = outward.note(note);
-  return map;
 }
 
 void move_from_frame(std::optional<core::TaskWitness>& witness, std::optional<core::OpenTask>& open,

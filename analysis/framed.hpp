@@ -7,7 +7,6 @@
 #include "analysis/loci.hpp"
 #include "clearloci/error.hpp"
 #include "clearloci/pose.hpp"
-#include "clearloci/pose_zones.hpp"
 #include "clearloci/trajectory.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
@@ -48,7 +47,7 @@ mechanism::Trajectory in_frame(mechanism::Trajectory trajectory, const mechanism
 /// `mechanism`: the one of the file. Vertices are rounded to doubles once more: far from the origin they hold to the
 /// spacing of doubles there.
 core::LocusMap from_frame(core::LocusMap map, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
-core::ZoneMap from_frame(core::ZoneMap map, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
+core::Zones from_frame(core::Zones map, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
 Pose from_frame(Pose pose, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
 ErrorMap from_frame(ErrorMap errors, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
 VolumeErrors from_frame(VolumeErrors errors, const mechanism::Mechanism& mechanism);
@@ -56,7 +55,6 @@ CoordinateErrors from_frame(CoordinateErrors errors, const mechanism::Mechanism&
                             const mechanism::Frame& frame);
 TrajectoryResult from_frame(TrajectoryResult result, const mechanism::Mechanism& mechanism,
                             const mechanism::Frame& frame);
-core::PoseZones from_frame(core::PoseZones map, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
 /// Where a task fails or stays open.
 void move_from_frame(std::optional<core::TaskWitness>& witness, std::optional<core::OpenTask>& open,
                      const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);

@@ -54,15 +54,6 @@ void check_mode_count(std::size_t dyads) {
         "name one at a time");
 }
 
-void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  const std::size_t dyads = mechanism::dyad_points(mechanism).size();
-  if (request.all_working_modes) check_mode_count(dyads);
-  for (const DyadSides& sides : request.working_modes)
-    if (sides.size() != dyads || std::any_of(sides.begin(), sides.end(), [](int s) { return s != 1 && s != -1; }))
-      throw core::InputError({}, "a working mode needs a side for each of the " + std::to_string(dyads) + " dyads",
-                             "give +1 (left) or -1 (right) for each");
-}
-
 /// The coordinates of the mechanism in place of those of the charts.
 void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map) {
   map.tower.coordinates.clear();
@@ -293,6 +284,15 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
 
 }  // namespace
 
+void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+  const std::size_t dyads = mechanism::dyad_points(mechanism).size();
+  if (request.all_working_modes) check_mode_count(dyads);
+  for (const DyadSides& sides : request.working_modes)
+    if (sides.size() != dyads || std::any_of(sides.begin(), sides.end(), [](int s) { return s != 1 && s != -1; }))
+      throw core::InputError({}, "a working mode needs a side for each of the " + std::to_string(dyads) + " dyads",
+                             "give +1 (left) or -1 (right) for each");
+}
+
 core::WorkingMode mode_of(const DyadSides& sides, const core::TowerNames& tower) {
   core::WorkingMode mode;
   std::size_t dyad = 0;
@@ -337,6 +337,7 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
     core::RootNames root;
     root.point = mechanism.points[static_cast<std::size_t>(dyad)].name;
     root.role = core::RootRole::working_mode;
+    root.sides = {mechanism::side_name(mechanism, dyad, 1), mechanism::side_name(mechanism, dyad, -1)};
     map.tower.roots.push_back(std::move(root));
   }
   return map;

@@ -65,6 +65,10 @@ core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::Lo
 void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t least, std::size_t most,
                          const std::string& what);
 
+/// Throws core::InputError where a mode of the request has not one side, +1 or -1, for each dyad, or where all modes
+/// are too many.
+void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& request);
+
 /// The working modes that a request means, as sides of the dyads: the file's own where it names none.
 std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, const LociRequest& request);
 

@@ -7,11 +7,13 @@
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
+#include "analysis/zones_by_cells.hpp"
 #include "core/errors.hpp"
 #include "loci/curves/curves.hpp"
 #include "loci/search/search.hpp"
 #include "loci/zones/zones.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/read_task.hpp"
 #include "numeric/line_witness.hpp"
 #include "numeric/reactions.hpp"
 #include "numeric/take_up.hpp"
@@ -48,7 +50,7 @@ bool keeps_sign_in_zones(const core::Vanishing& what, const LociRequest& request
 
 /// Signs of |A| and of every wanted couple and the like in the zones, by the independent witness at their samples.
 void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request,
-               const std::vector<core::Vanishing>& always_zero, core::ZoneMap& map) {
+               const std::vector<core::Vanishing>& always_zero, core::Zones& map) {
   const numeric::NumericModel model = numeric::compile(mechanism);
   const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request);
   const std::vector<numeric::JointColumns> columns_of_joints = numeric::joint_columns(model);
@@ -91,10 +93,10 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
 loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
   if (traced.sheets.empty()) return loci::zones(traced.problem, std::move(traced.map), false, may_leave);
   loci::CutZones all;
-  core::ZoneMap& joined = all.map;
+  core::Zones& joined = all.map;
   for (TracedSheet& sheet : traced.sheets) {
     loci::CutZones cut = loci::zones(sheet.problem, std::move(sheet.map));
-    core::ZoneMap& own = cut.map;
+    core::Zones& own = cut.map;
     all.finer_may_tell = all.finer_may_tell && cut.finer_may_tell;
     const std::vector<core::LocusCurve> curves = own.loci.curves;
     loci::drop_own_roots(own.loci);
@@ -105,6 +107,11 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
         if (curve == curves.end()) continue;
         const std::size_t place = static_cast<std::size_t>(curve - curves.begin());
         border.curve = loci::name_in(traced.map, own.loci.curves[place]);
+        const auto named = std::find_if(traced.map.curves.begin(), traced.map.curves.end(),
+                                        [&](const auto& c) { return c.id == border.curve; });
+        if (named == traced.map.curves.end()) continue;
+        border.kind = named->kind;
+        border.vanishing = named->vanishing;
       }
       for (int& point : zone.isolated_points)
         point = loci::place_in(traced.map, own.loci.isolated_points[static_cast<std::size_t>(point)]);
@@ -112,15 +119,16 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
       zone.mode.resize(traced.map.tower.roots.size(), 1);
       joined.zones.push_back(std::move(zone));
     }
-    for (core::ModeArea& area : own.areas) {
+    for (core::ZonedMode& area : own.modes) {
       area.mode.resize(traced.map.tower.roots.size(), 1);
-      const auto known = std::find_if(joined.areas.begin(), joined.areas.end(),
-                                      [&](const core::ModeArea& other) { return other.mode == area.mode; });
-      if (known == joined.areas.end()) {
-        joined.areas.push_back(area);
+      const auto known = std::find_if(joined.modes.begin(), joined.modes.end(),
+                                      [&](const core::ZonedMode& other) { return other.mode == area.mode; });
+      if (known == joined.modes.end()) {
+        joined.modes.push_back(area);
         continue;
       }
       known->workspace += area.workspace;
+      known->outside = std::max(0.0, known->outside - area.workspace);
       known->in_doubt += area.in_doubt;
     }
   }
@@ -128,7 +136,7 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
   std::vector<core::WorkingMode> modes;
   for (const core::WorkspaceRegion& region : joined.loci.workspace) modes.push_back(region.mode);
   const auto key = [&](const core::Zone& zone) {
-    return std::pair(std::find(modes.begin(), modes.end(), zone.mode) - modes.begin(), -zone.area);
+    return std::pair(std::find(modes.begin(), modes.end(), zone.mode) - modes.begin(), -zone.size);
   };
   std::stable_sort(joined.zones.begin(), joined.zones.end(),
                    [&](const core::Zone& a, const core::Zone& b) { return key(a) < key(b); });
@@ -137,8 +145,8 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
   return all;
 }
 
-core::ZoneMap cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                        core::Certificate* certificate, const symbolic::LocusFamily* family) {
+core::Zones cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& request, core::Certificate* certificate,
+                      const symbolic::LocusFamily* family) {
   constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
   LociRequest finer = request;
   loci::sheet::KnownSearches known;
@@ -149,7 +157,7 @@ core::ZoneMap cut_zones(const mechanism::Mechanism& mechanism, const LociRequest
     const Clock::time_point start = Clock::now();
     const std::vector<core::Vanishing> always_zero = traced.problem.always_zero;
     loci::CutZones cut = zones_of(std::move(traced), attempt < attempts);
-    core::ZoneMap& map = cut.map;
+    core::Zones& map = cut.map;
     const bool certified = std::all_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return z.certified; });
     if (cut.left || (!certified && cut.finer_may_tell && attempt < attempts)) {
       finer.tolerance /= 16;
@@ -164,19 +172,13 @@ core::ZoneMap cut_zones(const mechanism::Mechanism& mechanism, const LociRequest
 
 }  // namespace
 
-core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                         core::Certificate* certificate, const symbolic::LocusFamily* family) {
-  require_coordinates(mechanism, 2, 2, "zones are cut");
-  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
-    if (coordinate.angle)
-      throw core::InputError(
-          {mechanism.file},
-          "zones lie in the plane of two lengths, and the free coordinate '" + coordinate.name + "' is an angle",
-          "make it a parameter and vary it with --set; 'loci' and 'validate' take angles");
+core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest& request,
+                       core::Certificate* certificate, const symbolic::LocusFamily* family) {
+  if (request.by_cells || !mechanism::is_plane(mechanism)) return zones_by_cells(mechanism, request);
   const bool alone = family == nullptr || mechanism::is_far(mechanism);
   const std::optional<Framed> own = alone ? framed(mechanism) : std::nullopt;
-  core::ZoneMap map = own ? cut_zones(own->mechanism, in_frame(request, own->frame), certificate, nullptr)
-                          : cut_zones(mechanism, request, certificate, family);
+  core::Zones map = own ? cut_zones(own->mechanism, in_frame(request.loci, own->frame), certificate, nullptr)
+                        : cut_zones(mechanism, request.loci, certificate, family);
   if (certificate != nullptr) {
     certify(map.loci, own, *certificate);
     certificate->zones = map.zones;
@@ -184,9 +186,9 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
   return own ? from_frame(std::move(map), mechanism, own->frame) : map;
 }
 
-ZoneMap find_zones(const Model& model, const LociRequest& request) {
+Zones find_zones(const Model& model, const ZoneRequest& request) {
   const Model::Content& own = model.content();
-  check_request(own.mechanism, request);
+  check_request(own.mechanism, request.loci);
   return find_zones(own.mechanism, request, nullptr, own.member ? &own.shared->family() : nullptr);
 }
 

@@ -86,7 +86,7 @@ const Question questions[] = {
      [](const Drawn& drawn) { return std::string(certified(clearloci::trace_loci(Model::parse(drawn.model)))); }},
     {"zones",
      [](const Drawn& drawn) {
-       const clearloci::ZoneMap map = clearloci::find_zones(Model::parse(drawn.model));
+       const clearloci::Zones map = clearloci::find_zones(Model::parse(drawn.model));
        const bool all = std::all_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return z.certified; });
        return std::string(all ? certified(map.loci) : "not certified");
      }},

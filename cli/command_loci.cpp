@@ -44,10 +44,10 @@ void check_formats(const std::set<std::string>& formats, std::size_t coordinates
 }
 
 /// What the page shows besides the loci, over two lengths and as far as there is time.
-std::optional<core::ZoneMap> zones_of_page(const mechanism::Mechanism& mechanism, const LociRequest& request) {
+std::optional<core::Zones> zones_of_page(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   if (!mechanism::is_plane(mechanism)) return std::nullopt;
   try {
-    return find_zones(mechanism, request);
+    return find_zones(mechanism, {request});
   } catch (const core::InputError&) {  // there are none, as where every pose is singular
   } catch (const core::LimitReached&) {
   }
@@ -75,7 +75,7 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   progress.clear();
 
   const std::filesystem::path folder = output_folder(arguments.common);
-  std::optional<core::ZoneMap> zones;
+  std::optional<core::Zones> zones;
   if (formats.contains("html")) zones = zones_of_page(mechanism, request);
   report::StagedFiles staged;
   if (certify) stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate);

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "analysis/pose_zones.hpp"
 #include "analysis/zones.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
@@ -19,7 +18,6 @@
 #include "mechanism/read_task.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
-#include "report/pose_zones.hpp"
 #include "report/zones.hpp"
 
 namespace clearloci::cli {
@@ -33,41 +31,21 @@ struct ZonesCommand {
   long cells = 300'000;
 };
 
-/// Over one to three coordinates, not two lengths: by cells.
-int run_over_poses(const ZonesCommand& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
-  const std::set<std::string> formats =
-      parse_formats(arguments.formats, report::pose_zone_formats(mechanism.coordinates.size()));
-  Progress progress(arguments.common.quiet);
-  const core::PoseZones map =
-      find_pose_zones(mechanism, loci_request(arguments.loci, mechanism, progress, limit), arguments.cells);
-  progress.clear();
-  const std::filesystem::path folder = output_folder(arguments.common);
-  report::StagedFiles staged;
-  const std::vector<std::filesystem::path> files = report::stage_answer(staged, map, folder, formats);
-  limit.commit(staged);
-  if (arguments.common.json)
-    fmt::print("{}", report::json_text(report::pose_zones_object(map)));
-  else if (!arguments.common.quiet)
-    fmt::print("{}\n{}", report::pose_zones_table(map), written_words(folder, files));
-  return map.complete ? exit_done : exit_limit_reached;
-}
-
 int run(const ZonesCommand& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
-  const bool over_poses = !mechanism::is_plane(mechanism);
-  const std::set<std::string> formats =
-      over_poses ? std::set<std::string>{} : parse_formats(arguments.formats, report::format_names<core::ZoneMap>());
+  const std::set<std::string> formats = parse_formats(
+      arguments.formats, report::zone_formats(mechanism.coordinates.size(), !mechanism::is_plane(mechanism)));
   const std::future<void> letters = report::prepare_pictures(formats);
-  if (!arguments.certificate.empty()) require_certifiable(mechanism);
+  const bool certify = !arguments.certificate.empty();
+  if (certify) require_certifiable(mechanism);
   limit.known([common = arguments.common, name = mechanism.name] {
     write_incomplete(common, "zones.json", incomplete_body(name, "the zones were"));
   });
-  if (over_poses) return run_over_poses(arguments, mechanism, limit);
   Progress progress(arguments.common.quiet);
-  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   core::Certificate certificate;
-  const bool certify = !arguments.certificate.empty();
-  const core::ZoneMap map = find_zones(mechanism, request, certify ? &certificate : nullptr);
+  const core::Zones map =
+      find_zones(mechanism, {loci_request(arguments.loci, mechanism, progress, limit), arguments.cells},
+                 certify ? &certificate : nullptr);
   progress.clear();
 
   const std::filesystem::path folder = output_folder(arguments.common);
@@ -75,12 +53,10 @@ int run(const ZonesCommand& arguments, TimeLimit& limit) {
   if (certify) stage_certificate(staged, arguments.certificate, "zones", arguments.common, certificate);
   const std::vector<std::filesystem::path> files = report::stage_answer(staged, map, folder, formats);
   limit.commit(staged);
-  if (arguments.common.json) {
+  if (arguments.common.json)
     fmt::print("{}", report::json_text(report::zones_object(map)));
-  } else if (!arguments.common.quiet) {
-    fmt::print("{}\n", report::zones_table(map));
-    fmt::print("{}", written_words(folder, files));
-  }
+  else if (!arguments.common.quiet)
+    fmt::print("{}\n{}", report::zones_table(map), written_words(folder, files));
   return map.loci.complete ? exit_done : exit_limit_reached;
 }
 
@@ -92,13 +68,16 @@ Command add_zones_command(CLI::App& program) {
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
-  app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides zones.json, comma-separated: {}; by cells svg, png, pdf, vtk, stl",
-                              fmt::join(report::format_names<core::ZoneMap>(), ", ")))
+  app->add_option(
+         "--export", arguments->formats,
+         fmt::format("Files besides zones.json, comma-separated: {}; over other than two lengths {}",
+                     fmt::join(report::zone_formats(2, false), ", "), fmt::join(report::zone_formats(3, true), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
-  app->add_option("--cells", arguments->cells,
-                  "Over one to three coordinates that are not two lengths: cells to look at; more part zones sharper")
+  app->add_option(
+         "--cells", arguments->cells,
+         "Over one to three coordinates that are not two lengths: cells to look at in each mode; more part zones "
+         "sharper")
       ->check(CLI::Range(1L, 100'000'000L))
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate);

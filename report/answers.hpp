@@ -17,7 +17,7 @@ using Files = std::vector<File>;
 struct LociSheet {
   const core::LocusMap& map;
   const std::vector<core::ModeSketch>& sketches;  ///< may be empty or lack modes
-  const core::ZoneMap* zones = nullptr;           ///< that the page shows; may be null
+  const core::Zones* zones = nullptr;             ///< that the page shows; may be null
 };
 
 struct VolumeSheet {

@@ -243,7 +243,7 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
                                {"mode", mode_of(zone.mode)},
                                {"assembly_mode", zone.assembly_mode},
                                {"signs", std::move(signs)},
-                               {"area", zone.area},
+                               {"area", zone.size},
                                {"outer", points_list(zone.outer)},
                                {"holes", std::move(holes)},
                                {"sample", zone.sample},

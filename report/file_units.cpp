@@ -118,24 +118,22 @@ core::LocusMap in_file_units(core::LocusMap map) {
   return map;
 }
 
-core::ZoneMap in_file_units(core::ZoneMap map) {
+core::Zones in_file_units(core::Zones map) {
   if (!map.loci.units.declared) return map;
   const std::vector<bool> angles = map.loci.angles;
   const Scaling scaling(map.loci.units, angles);
   map.loci = in_file_units(std::move(map.loci));
   for (core::Zone& zone : map.zones) {
-    zone.area = scaling.area(zone.area);
+    for (double* const size : {&zone.size, &zone.at_least, &zone.at_most}) *size = scaling.area(*size);
     scaling.line(zone.outer);
     for (core::Polyline& hole : zone.holes) scaling.line(hole);
-    scaling.place(zone.inscribed.centre);
-    zone.inscribed.radius = scaling.length(zone.inscribed.radius);
-    scaling.place(zone.sample);
+    scaling.place(zone.ball.centre);
+    zone.ball.radius = scaling.length(zone.ball.radius);
+    for (std::vector<double>* const at : {&zone.lower, &zone.upper, &zone.sample}) scaling.place(*at);
     for (core::ZoneBorder& border : zone.borders) border.length = scaling.length(border.length);
   }
-  for (core::ModeArea& area : map.areas) {
-    area.workspace = scaling.area(area.workspace);
-    area.in_doubt = scaling.area(area.in_doubt);
-  }
+  for (core::ZonedMode& mode : map.modes)
+    for (double* const size : {&mode.workspace, &mode.outside, &mode.in_doubt}) *size = scaling.area(*size);
   return map;
 }
 

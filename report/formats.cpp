@@ -14,8 +14,6 @@
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/pose.hpp"
-#include "report/pose_zone_picture.hpp"
-#include "report/pose_zones.hpp"
 #include "report/trajectory.hpp"
 #include "report/trajectory_plots.hpp"
 #include "report/typesetting.hpp"
@@ -31,12 +29,6 @@ namespace {
 bool any(std::size_t) { return true; }
 bool curves(std::size_t coordinates) { return coordinates < 3; }
 bool surfaces(std::size_t coordinates) { return coordinates == 3; }
-
-/// "-left-right" where there are several modes.
-std::string which(const std::vector<core::WorkingMode>& modes, const core::TowerNames& tower,
-                  const core::WorkingMode& mode) {
-  return modes.size() > 1 ? "-" + mode_slug(tower, mode) : "";
-}
 
 /// The same of a mode's errors among several.
 std::string which(const auto& errors, const auto& own) {
@@ -59,7 +51,7 @@ Files loci_pictures(const LociSheet& loci) {
   for (const core::WorkingMode& mode : modes) {
     const auto sketch = std::find_if(loci.sketches.begin(), loci.sketches.end(),
                                      [&](const core::ModeSketch& one) { return one.mode == mode; });
-    files.push_back({"loci" + which(modes, loci.map.tower, mode) + ending_of(format),
+    files.push_back({"loci" + mode_suffix(modes, loci.map.tower, mode) + ending_of(format),
                      picture(loci.map, mode, sketch == loci.sketches.end() ? nullptr : &sketch->sketch, format,
                              sketch != loci.sketches.end() && sketch->beside)});
   }
@@ -67,12 +59,12 @@ Files loci_pictures(const LociSheet& loci) {
 }
 
 template <PictureFormat format>
-Files zone_pictures(const core::ZoneMap& map) {
+Files zone_pictures(const core::Zones& map) {
   Files files;
   const std::vector<core::WorkingMode> modes = modes_of_zones(map);
   for (const core::WorkingMode& mode : modes)
     files.push_back(
-        {"zones" + which(modes, map.loci.tower, mode) + ending_of(format), zone_picture(map, mode, format)});
+        {"zones" + mode_suffix(modes, map.loci.tower, mode) + ending_of(format), zone_picture(map, mode, format)});
   return files;
 }
 
@@ -82,7 +74,7 @@ Files verification_pictures(const core::Verification& result) {
 }
 
 Files loci_json(const LociSheet& loci) { return {{"loci.json", json_text(loci_object(loci.map))}}; }
-Files zones_json(const core::ZoneMap& map) { return {{"zones.json", json_text(zones_object(map))}}; }
+Files zones_json(const core::Zones& map) { return {{"zones.json", json_text(zones_object(map))}}; }
 Files verification_json(const core::Verification& result) {
   return {{"verify.json", json_text(verification_object(result))}};
 }
@@ -90,7 +82,7 @@ Files loci_csv(const LociSheet& loci) { return {{"loci.csv", csv(loci.map)}}; }
 Files loci_dxf(const LociSheet& loci) { return {{"loci.dxf", dxf(loci.map, DxfVersion::r2000)}}; }
 Files loci_dxf_r12(const LociSheet& loci) { return {{"loci-r12.dxf", dxf(loci.map, DxfVersion::r12)}}; }
 Files loci_geojson(const LociSheet& loci) { return {{"loci.geojson", geojson(loci.map)}}; }
-Files zones_in_geojson(const core::ZoneMap& map) { return {{"zones.geojson", zones_geojson(map)}}; }
+Files zones_in_geojson(const core::Zones& map) { return {{"zones.geojson", zones_geojson(map)}}; }
 Files loci_vtk(const LociSheet& loci) { return {{"loci.vtp", vtp(loci.map)}}; }
 Files loci_obj(const LociSheet& loci) { return {{"loci.mtl", mtl(loci.map)}, {"loci.obj", obj(loci.map)}}; }
 Files loci_stl(const LociSheet& loci) {
@@ -101,7 +93,7 @@ Files loci_stl(const LociSheet& loci) {
 }
 
 Files loci_html(const LociSheet& loci) { return {{"loci.html", html_page(loci)}}; }
-Files zones_html(const core::ZoneMap& map) { return {{"zones.html", html_page({map.loci, {}, &map})}}; }
+Files zones_html(const core::Zones& map) { return {{"zones.html", html_page({map.loci, {}, &map})}}; }
 
 /// The values of all fields of the answer that are to be compared with this one.
 std::vector<double> like(const core::ErrorMap& errors, const core::Field& field) {
@@ -184,12 +176,6 @@ Files validation_json(const core::Validation& validation) {
   return {{"validation.json", json_text(validation_object(validation))}};
 }
 template <PictureFormat format>
-Files pose_zones_pictures(const core::PoseZones& map) {
-  return {{std::string("zones") + ending_of(format), pose_zone_picture(map, format)}};
-}
-Files pose_zones_json(const core::PoseZones& map) { return {{"zones.json", json_text(pose_zones_object(map))}}; }
-
-template <PictureFormat format>
 Files volume_slices(const VolumeSheet& sheet) {
   return volume_pictures(sheet, format);
 }
@@ -202,7 +188,6 @@ Format pictures(std::string_view name) {
           any,
           loci_pictures<format>,
           zone_pictures<format>,
-          pose_zones_pictures<format>,
           verification_pictures<format>,
           error_pictures<format>,
           coordinate_pictures<format>,
@@ -215,8 +200,8 @@ Format pictures(std::string_view name) {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = [] {
     std::vector<Format> list = {
-        {"json", any, loci_json, zones_json, pose_zones_json, verification_json, error_json, coordinate_json,
-         volume_json, trajectory_json, pose_json, pose_in_modes_json, validation_json},
+        {"json", any, loci_json, zones_json, verification_json, error_json, coordinate_json, volume_json,
+         trajectory_json, pose_json, pose_in_modes_json, validation_json},
         {"csv", any, loci_csv, error_csv, coordinate_csv, volume_csv, trajectory_csv},
         pictures<PictureFormat::svg>("svg"),
         pictures<PictureFormat::png>("png"),
@@ -224,8 +209,8 @@ const std::vector<Format>& formats() {
         {"dxf", curves, loci_dxf},
         {"dxf-r12", curves, loci_dxf_r12},
         {"geojson", curves, loci_geojson, zones_in_geojson},
-        {"vtk", any, loci_vtk, pose_zones_vtk, error_vtk, volume_vti},
-        {"stl", surfaces, loci_stl, pose_zones_stl},
+        {"vtk", any, loci_vtk, zones_vtk, error_vtk, volume_vti},
+        {"stl", surfaces, loci_stl, zones_stl},
         {"obj", surfaces, loci_obj},
         {"html", any, loci_html, zones_html},
     };
@@ -234,6 +219,21 @@ const std::vector<Format>& formats() {
     return list;
   }();
   return all;
+}
+
+std::string mode_suffix(const std::vector<core::WorkingMode>& modes, const core::TowerNames& tower,
+                        const core::WorkingMode& mode) {
+  return modes.size() > 1 ? "-" + mode_slug(tower, mode) : "";
+}
+
+std::vector<std::string> zone_formats(std::size_t coordinates, bool by_cells) {
+  std::vector<std::string> names = format_names<core::Zones>();
+  std::erase_if(names, [&](const std::string& name) {
+    if (name == "geojson" || name == "html") return by_cells;
+    if (name == "vtk") return !by_cells || coordinates < 2;
+    return name == "stl" && (!by_cells || coordinates < 3);
+  });
+  return names;
 }
 
 bool can_hold(std::string_view name, std::size_t coordinates) {

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "clearloci/pose.hpp"
-#include "clearloci/pose_zones.hpp"
 #include "clearloci/trajectory.hpp"
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
@@ -47,9 +46,9 @@ class Format {
   }
 
  private:
-  std::tuple<Maker<LociSheet>, Maker<core::ZoneMap>, Maker<core::PoseZones>, Maker<core::Verification>,
-             Maker<core::ErrorMap>, Maker<core::CoordinateErrors>, Maker<VolumeSheet>, Maker<core::TrajectoryResult>,
-             Maker<core::Pose>, Maker<core::PoseInModes>, Maker<core::Validation>>
+  std::tuple<Maker<LociSheet>, Maker<core::Zones>, Maker<core::Verification>, Maker<core::ErrorMap>,
+             Maker<core::CoordinateErrors>, Maker<VolumeSheet>, Maker<core::TrajectoryResult>, Maker<core::Pose>,
+             Maker<core::PoseInModes>, Maker<core::Validation>>
       makers_ = {};
 };
 

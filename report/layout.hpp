@@ -71,10 +71,10 @@ struct Subject {
   core::WorkingMode mode;
   Groups groups;  ///< of this mode
   const core::Sketch* sketch = nullptr;
-  const FieldLayer* layer = nullptr;     ///< drawn in the place of the shaded workspace
-  const core::ZoneMap* zones = nullptr;  ///< likewise
-  const TaskMark* task = nullptr;        ///< may be null too
-  const core::Sketch* inset = nullptr;   ///< likewise: the mechanism in a space of its own, below the legend
+  const FieldLayer* layer = nullptr;    ///< drawn in the place of the shaded workspace
+  const core::Zones* zones = nullptr;   ///< likewise
+  const TaskMark* task = nullptr;       ///< may be null too
+  const core::Sketch* inset = nullptr;  ///< likewise: the mechanism in a space of its own, below the legend
 };
 
 Layout lay_out(const Subject& subject);

@@ -1,5 +1,10 @@
 #include "report/picture.hpp"
 
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "report/cell_zone_picture.hpp"
+
 #include "report/drawing.hpp"
 #include "report/file_units.hpp"
 #include "report/range_picture.hpp"
@@ -71,12 +76,19 @@ std::string field_picture(const core::LocusMap& in_si, const core::WorkingMode& 
   return drawn({&map, mode, groups_of_mode(group_loci(map), mode), nullptr, &layer, nullptr, nullptr}, format);
 }
 
-std::string zone_picture(const core::ZoneMap& in_si, const core::WorkingMode& mode, PictureFormat format) {
-  const core::ZoneMap map = in_file_units(in_si);
+std::string zone_picture(const core::Zones& in_si, const core::WorkingMode& mode, PictureFormat format) {
+  if (in_si.by_cells) {
+    const auto own =
+        std::find_if(in_si.modes.begin(), in_si.modes.end(), [&](const auto& m) { return m.mode == mode; });
+    if (own == in_si.modes.end())
+      throw core::InputError({}, "the zones are not of this working mode", "choose one of modes_of(zones)");
+    return cell_zone_picture(in_si, *own, format);
+  }
+  const core::Zones map = in_file_units(in_si);
   return drawn({&map.loci, mode, groups_of_mode(group_loci(map.loci), mode), nullptr, nullptr, &map, nullptr}, format);
 }
 
-std::string task_picture(const core::ZoneMap& map, const core::WorkingMode& mode, const TaskMark& task,
+std::string task_picture(const core::Zones& map, const core::WorkingMode& mode, const TaskMark& task,
                          PictureFormat format) {
   const Groups groups = groups_of_mode(group_loci(map.loci), mode);
   return drawn({&map.loci, mode, groups, nullptr, nullptr, &map, &task}, format);

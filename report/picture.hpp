@@ -30,11 +30,12 @@ std::string picture(const core::LocusMap& map, const core::WorkingMode& mode, co
 std::string field_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::FieldMap& fields,
                           const core::Field& field, PictureFormat format, const std::vector<double>& coloured_by = {});
 
-/// The zones of one working mode in colours, numbered, with their largest circles, the loci drawn over them.
-std::string zone_picture(const core::ZoneMap& map, const core::WorkingMode& mode, PictureFormat format);
+/// The zones of one working mode in colours, numbered; over two lengths with their largest circles, the loci drawn over
+/// them; by cells as cell_zone_picture.
+std::string zone_picture(const core::Zones& map, const core::WorkingMode& mode, PictureFormat format);
 
 /// The zones with a task over them.
-std::string task_picture(const core::ZoneMap& map, const core::WorkingMode& mode, const TaskMark& task,
+std::string task_picture(const core::Zones& map, const core::WorkingMode& mode, const TaskMark& task,
                          PictureFormat format);
 
 /// The legend's labels, unwrapped, in order: also the description inside the SVG.

@@ -16,7 +16,6 @@
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
 #include "report/pose.hpp"
-#include "report/pose_zones.hpp"
 #include "report/trajectory.hpp"
 #include "report/validation.hpp"
 #include "report/verification.hpp"
@@ -42,17 +41,13 @@ const LocusMap& told(const LocusMap& loci) {
   require(count > 0 && loci.lower.size() == count && loci.upper.size() == count, "the map of loci");
   return loci;
 }
-const ZoneMap& told(const ZoneMap& zones) {
+const Zones& told(const Zones& zones) {
   told(zones.loci);
   return zones;
 }
 const Verification& told(const Verification& answer) {
   require(!answer.coordinates.empty(), "the verification");
   return answer;
-}
-const PoseZones& told(const PoseZones& zones) {
-  require(!zones.coordinates.empty(), "the map of zones");
-  return zones;
 }
 template <class Errors>
 const Errors& told_errors(const Errors& errors) {
@@ -65,6 +60,10 @@ const VolumeErrors& told(const VolumeErrors& errors) { return told_errors(errors
 const TrajectoryResult& told(const TrajectoryResult& result) {
   require(!result.samples.columns.empty() && !result.samples.columns.front().empty(), "the trajectory");
   return result;
+}
+
+std::vector<std::string> formats_of(const Zones& zones) {
+  return report::zone_formats(zones.loci.tower.coordinates.size(), zones.by_cells);
 }
 
 using Paths = std::vector<std::filesystem::path>;
@@ -93,8 +92,9 @@ std::vector<std::string> loci_formats(std::size_t coordinates) {
   std::erase_if(names, [&](const std::string& name) { return !report::can_hold(name, coordinates); });
   return names;
 }
-std::vector<std::string> zone_formats() { return report::format_names<ZoneMap>(); }
-std::vector<std::string> pose_zone_formats(std::size_t coordinates) { return report::pose_zone_formats(coordinates); }
+std::vector<std::string> zone_formats(std::size_t coordinates, bool by_cells) {
+  return report::zone_formats(coordinates, by_cells || coordinates != 2);
+}
 std::vector<std::string> verification_formats() { return report::format_names<Verification>(); }
 std::vector<std::string> error_formats(std::size_t coordinates) {
   return coordinates == 1   ? report::format_names<CoordinateErrors>()
@@ -109,11 +109,8 @@ Paths export_loci(const Model& model, const LocusMap& loci, const std::filesyste
   check(formats, loci_formats(loci.tower.coordinates.size()));
   return report::write_loci({loci, sample_sketches(model.content().mechanism, loci)}, folder, formats);
 }
-Paths export_zones(const ZoneMap& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
-  return write_checked(told(zones), folder, formats);
-}
-Paths export_zones(const PoseZones& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
-  return write_checked(told(zones), folder, formats, pose_zone_formats(zones.coordinates.size()));
+Paths export_zones(const Zones& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
+  return write_checked(told(zones), folder, formats, formats_of(zones));
 }
 Paths export_verification(const Verification& answer, const std::filesystem::path& folder,
                           const std::set<std::string>& formats) {
@@ -139,11 +136,8 @@ std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, c
   const std::vector<core::ModeSketch> sketches = sample_sketches(model.content().mechanism, told(loci));
   return files_checked(report::LociSheet{loci, sketches}, formats, loci_formats(loci.tower.coordinates.size()));
 }
-std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats) {
-  return files_checked(told(zones), formats);
-}
-std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std::string>& formats) {
-  return files_checked(told(zones), formats, pose_zone_formats(zones.coordinates.size()));
+std::vector<ExportedFile> zone_files(const Zones& zones, const std::set<std::string>& formats) {
+  return files_checked(told(zones), formats, formats_of(zones));
 }
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats) {
   return files_checked(told(answer), formats);
@@ -164,8 +158,7 @@ std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const
 
 using report::json_text;
 std::string to_json(const LocusMap& loci) { return json_text(report::loci_object(told(loci))); }
-std::string to_json(const ZoneMap& zones) { return json_text(report::zones_object(told(zones))); }
-std::string to_json(const PoseZones& zones) { return json_text(report::pose_zones_object(told(zones))); }
+std::string to_json(const Zones& zones) { return json_text(report::zones_object(told(zones))); }
 std::string to_json(const Verification& answer) { return json_text(report::verification_object(told(answer))); }
 std::string to_json(const ErrorMap& errors) { return json_text(report::error_object(told(errors))); }
 std::string to_json(const CoordinateErrors& errors) {
@@ -178,8 +171,7 @@ std::string to_json(const PoseInModes& poses) { return json_text(report::pose_in
 std::string to_json(const Validation& validation) { return json_text(report::validation_object(validation)); }
 
 std::string to_table(const LocusMap& loci) { return report::loci_table(told(loci)); }
-std::string to_table(const ZoneMap& zones) { return report::zones_table(told(zones)); }
-std::string to_table(const PoseZones& zones) { return report::pose_zones_table(told(zones)); }
+std::string to_table(const Zones& zones) { return report::zones_table(told(zones)); }
 std::string to_text(const Verification& answer) { return report::verification_text(told(answer)); }
 std::string to_text(const ErrorMap& errors) { return report::error_text(told(errors)); }
 std::string to_text(const CoordinateErrors& errors) { return report::coordinate_errors_text(told(errors)); }
@@ -190,11 +182,12 @@ std::string to_text(const PoseInModes& poses) { return report::pose_in_modes_tex
 std::string to_text(const Validation& validation) { return report::validation_text(validation); }
 
 std::vector<WorkingMode> modes_of(const LocusMap& loci) { return report::modes_of(loci); }
+std::vector<WorkingMode> modes_of(const Zones& zones) { return report::modes_of_zones(zones); }
 
 std::string to_svg(const LocusMap& loci, const WorkingMode& mode) {
   return report::picture(told(loci), mode, nullptr, report::PictureFormat::svg);
 }
-std::string to_svg(const ZoneMap& zones, const WorkingMode& mode) {
+std::string to_svg(const Zones& zones, const WorkingMode& mode) {
   return report::zone_picture(told(zones), mode, report::PictureFormat::svg);
 }
 std::string to_svg(const Verification& answer) {

@@ -48,8 +48,8 @@ void draw_zones(const Context& context, const Subject& subject, const Layout& la
 void draw_zone_numbers(const Context& context, const Subject& subject, const Layout& layout, LabelPlaces& labels) {
   const bool circles = subject.task == nullptr;  // a task's picture tells of the task
   for_each_zone(subject, [&](const core::Zone& zone, std::size_t) {
-    const core::Point2 at = layout.page(zone.inscribed.centre);
-    const double radius = zone.inscribed.radius * layout.scale[0];
+    const core::Point2 at = layout.page({zone.ball.centre[0], zone.ball.centre[1]});
+    const double radius = zone.ball.radius * layout.scale[0];
     if (circles) {
       set_colour(context, circle_colour, 0.8);
       context->set_line_width(0.7);

@@ -12,6 +12,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/open_design.hpp"
 #include "mechanism/read.hpp"
+#include "mechanism/read_task.hpp"
 #include "mechanism/written_unit.hpp"
 
 namespace clearloci {
@@ -262,10 +263,12 @@ void StudyJudge::measure_zones(StudyDesign& design, const std::vector<Rational>&
   }
   double area = 0, circle = 0;
   try {
-    const core::ZoneMap map = find_zones(problem_.model().with(own));
+    const Model model = problem_.model().with(own);
+    // Figures of zones are those over two lengths.
+    const core::Zones map = mechanism::is_plane(model.content().mechanism) ? find_zones(model) : core::Zones{};
     for (const core::Zone& zone : map.zones) {
-      area = std::max(area, zone.area);
-      circle = std::max(circle, zone.inscribed.radius);
+      area = std::max(area, zone.size);
+      circle = std::max(circle, zone.ball.radius);
     }
   } catch (const core::InputError&) {  // singular everywhere, or not to be built: it has no zone
   }

@@ -19,7 +19,6 @@
 #include "clearloci/error.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/pose.hpp"
-#include "clearloci/pose_zones.hpp"
 #include "clearloci/trajectory.hpp"
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
@@ -27,11 +26,10 @@
 
 namespace clearloci {
 
-/// The formats that loci over so many free coordinates can be written in, those of zones over two lengths and by cells,
-/// of verifications, of errors over one to three coordinates, and of trajectories.
+/// The formats that loci over so many free coordinates can be written in, those of zones (over two coordinates by
+/// curves unless `by_cells`), of verifications, of errors over one to three coordinates, and of trajectories.
 std::vector<std::string> loci_formats(std::size_t coordinates = 2);
-std::vector<std::string> zone_formats();
-std::vector<std::string> pose_zone_formats(std::size_t coordinates);
+std::vector<std::string> zone_formats(std::size_t coordinates = 2, bool by_cells = false);
 std::vector<std::string> verification_formats();
 std::vector<std::string> error_formats(std::size_t coordinates = 2);
 std::vector<std::string> trajectory_formats();
@@ -42,9 +40,7 @@ std::vector<std::string> trajectory_formats();
 std::vector<std::filesystem::path> export_loci(const Model& model, const LocusMap& loci,
                                                const std::filesystem::path& folder,
                                                const std::set<std::string>& formats = {"svg", "png", "csv"});
-std::vector<std::filesystem::path> export_zones(const ZoneMap& zones, const std::filesystem::path& folder,
-                                                const std::set<std::string>& formats = {"svg", "png"});
-std::vector<std::filesystem::path> export_zones(const PoseZones& zones, const std::filesystem::path& folder,
+std::vector<std::filesystem::path> export_zones(const Zones& zones, const std::filesystem::path& folder,
                                                 const std::set<std::string>& formats = {"svg", "png"});
 std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
                                                        const std::set<std::string>& formats = {"svg", "png"});
@@ -67,8 +63,7 @@ struct ExportedFile {
 
 /// What the above would write in these formats alone, in memory.
 std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats);
-std::vector<ExportedFile> zone_files(const ZoneMap& zones, const std::set<std::string>& formats);
-std::vector<ExportedFile> zone_files(const PoseZones& zones, const std::set<std::string>& formats);
+std::vector<ExportedFile> zone_files(const Zones& zones, const std::set<std::string>& formats);
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats);
 std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats);
 std::vector<ExportedFile> error_files(const CoordinateErrors& errors, const std::set<std::string>& formats);
@@ -79,8 +74,7 @@ std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const
 /// The bytes of loci.json, zones.json, verify.json, error.json, trajectory.json, pose.json, validation.json. Required
 /// of a Pose: it is within reach, and where it was iterated it converged.
 std::string to_json(const LocusMap& loci);
-std::string to_json(const ZoneMap& zones);
-std::string to_json(const PoseZones& zones);
+std::string to_json(const Zones& zones);
 std::string to_json(const Verification& answer);
 std::string to_json(const ErrorMap& errors);
 std::string to_json(const CoordinateErrors& errors);
@@ -92,8 +86,7 @@ std::string to_json(const Validation& validation);
 
 /// The tables and texts of the program, in UTF-8.
 std::string to_table(const LocusMap& loci);
-std::string to_table(const ZoneMap& zones);
-std::string to_table(const PoseZones& zones);
+std::string to_table(const Zones& zones);
 std::string to_text(const Verification& answer);
 std::string to_text(const ErrorMap& errors);
 std::string to_text(const CoordinateErrors& errors);
@@ -103,12 +96,13 @@ std::string to_text(const Pose& pose);
 std::string to_text(const PoseInModes& poses);
 std::string to_text(const Validation& validation);
 
-/// The working modes that the map speaks of, each once.
+/// The working modes that the answer speaks of, each once.
 std::vector<WorkingMode> modes_of(const LocusMap& loci);
+std::vector<WorkingMode> modes_of(const Zones& zones);
 
-/// The picture of one working mode of the map, as SVG.
+/// The picture of one working mode of the answer, as SVG.
 std::string to_svg(const LocusMap& loci, const WorkingMode& mode);
-std::string to_svg(const ZoneMap& zones, const WorkingMode& mode);
+std::string to_svg(const Zones& zones, const WorkingMode& mode);
 std::string to_svg(const Verification& answer);
 
 }  // namespace clearloci

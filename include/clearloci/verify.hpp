@@ -199,7 +199,7 @@ struct Verification {
   std::optional<PreloadAnswer> preload;  ///< where efforts are free and the task gives none
   long cells = 0;                        ///< that were looked at for the verdict
   WorkingMode mode;                      ///< of `map`
-  ZoneMap map;  ///< over two lengths the loci (of the file's load) and zones, for pictures; may be empty
+  Zones map;  ///< over two lengths the loci (of the file's load) and zones, for pictures; may be empty
   std::vector<std::string> notes;
   Units units = {};  ///< of the mechanism file: what the text speaks in
 

@@ -97,8 +97,8 @@ void spread(std::vector<double>& squares, const std::vector<int>& n, std::size_t
 
 }  // namespace
 
-std::optional<ZoneBall> largest_ball(const CellZone& zone, std::size_t number, const std::vector<int>& raster,
-                                     const std::vector<int>& cells, const Pose& lower, const Pose& upper) {
+std::optional<core::ZoneBall> largest_ball(const CellZone& zone, std::size_t number, const std::vector<int>& raster,
+                                           const std::vector<int>& cells, const Pose& lower, const Pose& upper) {
   const std::size_t n = cells.size();
   if (n < 2 || zone.faces.empty()) return std::nullopt;
   const int label = static_cast<int>(number) + 1;
@@ -135,7 +135,7 @@ std::optional<ZoneBall> largest_ball(const CellZone& zone, std::size_t number, c
       }
     if (!better) step *= 0.5;
   }
-  return ZoneBall{{centre.begin(), centre.begin() + static_cast<std::ptrdiff_t>(n)}, radius * (1 - 1e-12)};
+  return core::ZoneBall{{centre.begin(), centre.begin() + static_cast<std::ptrdiff_t>(n)}, radius * (1 - 1e-12)};
 }
 
 }  // namespace clearloci::loci::pose

@@ -4,20 +4,16 @@
 #include <optional>
 #include <vector>
 
-#include "loci/zones/pose_zones.hpp"
+#include "clearloci/zones.hpp"
+#include "loci/zones/cell_zones.hpp"
 
 namespace clearloci::loci::pose {
-
-struct ZoneBall {
-  Pose centre;
-  double radius = 0;
-};
 
 /// Around a place of the raster that is far from everything else, moved while it grows: its centre is of the zone, and
 /// no face of the zone is nearer than its radius, so that all of it is. That no other is larger is not proven.
 /// `number`: of the zone in the raster, less one. Nothing over one coordinate, and where no place of the raster is in
 /// the zone.
-std::optional<ZoneBall> largest_ball(const CellZone& zone, std::size_t number, const std::vector<int>& raster,
-                                     const std::vector<int>& cells, const Pose& lower, const Pose& upper);
+std::optional<core::ZoneBall> largest_ball(const CellZone& zone, std::size_t number, const std::vector<int>& raster,
+                                           const std::vector<int>& cells, const Pose& lower, const Pose& upper);
 
 }  // namespace clearloci::loci::pose

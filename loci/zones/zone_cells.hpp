@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "loci/zones/pose_zones.hpp"
+#include "loci/zones/cell_zones.hpp"
 
 namespace clearloci::loci::pose {
 

@@ -46,7 +46,7 @@ class ModeZones {
   bool is_cut_certified() const { return cut_.certified; }
 
   /// The mode's zones go to `map`, which holds the loci that this was made from.
-  void find(core::ZoneMap& map) {
+  void find(core::Zones& map) {
     PlaneGraph& graph = cut_.graph;
     for (const GraphEdge& edge : graph.edges) beside_.push_back(area_beside_chords(edge.points, form_of(edge)));
     std::vector<Face> faces;
@@ -63,7 +63,7 @@ class ModeZones {
     for (const Face& face : faces) {
       if (auto zone = describe(measured(face.walks))) found.push_back(std::move(*zone));
     }
-    std::stable_sort(found.begin(), found.end(), [](const Zone& a, const Zone& b) { return a.area > b.area; });
+    std::stable_sort(found.begin(), found.end(), [](const Zone& a, const Zone& b) { return a.size > b.size; });
     account_for(found, map);
     for (Zone& zone : found) map.zones.push_back(std::move(zone));
     if (sketch_) return;
@@ -87,9 +87,10 @@ class ModeZones {
 
   /// Holds the zones against the workspace, found without them and without any locus: what they do not cover, or cover
   /// twice, and what is not certified is in doubt.
-  void account_for(std::vector<Zone>& found, core::ZoneMap& map) {
-    core::ModeArea account;
+  void account_for(std::vector<Zone>& found, core::Zones& map) {
+    core::ZonedMode account;
     account.mode = mode_;
+    const double box = box_size();
     account.workspace = workspace_faces(problem_, mode_, map_).area;
     if (!sketch_) {
       const AreaBounds bounds = workspace_area(problem_, mode_);
@@ -97,7 +98,7 @@ class ModeZones {
         account.workspace = bounds.most;  // the boundary has gaps: what is certain is only what enclosures tell
     }
     double covered = 0;
-    for (const Zone& zone : found) covered += zone.area;
+    for (const Zone& zone : found) covered += zone.size;
     const double amiss = std::abs(account.workspace - covered);
     if (amiss > area_slack * account.workspace) {
       account.in_doubt = amiss;
@@ -106,10 +107,17 @@ class ModeZones {
                            std::to_string(account.workspace) + " m^2");
       for (Zone& zone : found) zone.certified = false;
     }
-    for (const Zone& zone : found) account.in_doubt += zone.certified ? 0 : zone.area;
+    for (const Zone& zone : found) account.in_doubt += zone.certified ? 0 : zone.size;
     account.in_doubt = std::min(account.in_doubt, std::max(account.workspace, covered));
-    map.areas.push_back(std::move(account));
+    account.outside = std::max(0.0, box - account.workspace);
+    for (Zone& zone : found) {
+      zone.at_least = zone.certified ? zone.size : 0;
+      zone.at_most = zone.certified ? zone.size : box;
+    }
+    map.modes.push_back(std::move(account));
   }
+
+  double box_size() const { return core::to_double((map_.upper[0] - map_.lower[0]) * (map_.upper[1] - map_.lower[1])); }
 
   Polyline isolated() const {
     Polyline list;
@@ -191,7 +199,7 @@ class ModeZones {
   std::optional<Zone> describe(Face face) {
     Zone zone;
     zone.mode = mode_;
-    zone.area = face.area;
+    zone.size = face.area;
     zone.outer = std::move(face.outer);
     zone.holes = std::move(face.holes);
     const auto inside = [&](const Point2& at) {
@@ -203,16 +211,27 @@ class ModeZones {
     const Polyline inner = points_in_face(rings);
     if (!workspace_.holds_one_of(inner)) return std::nullopt;
     const std::optional<Circle> circle = largest_circle(face.walks, zone, inside);
-    zone.inscribed = circle ? *circle : Circle{inner.front(), 0};
-    zone.sample = zone.inscribed.centre;
+    const Circle inscribed = circle ? *circle : Circle{inner.front(), 0};
+    zone.ball = {{inscribed.centre[0], inscribed.centre[1]}, inscribed.radius};
     // The ends of a leg may meet amid the circle, where the mechanism is not defined.
-    if (!workspace_.holds(zone.sample).value_or(false)) zone.sample = inner.front();
+    const Point2 sample = workspace_.holds(inscribed.centre).value_or(false) ? inscribed.centre : inner.front();
+    zone.sample = {sample[0], sample[1]};
+    put_box_around(zone);
     zone.borders = borders(face.walks);
     for (const int i : points_) {
       if (inside(place(i))) zone.isolated_points.push_back(i);
     }
-    zone.certified = cut_.certified && !holds_open_point(inside) && is_one(rings, zone.area);
+    zone.certified = cut_.certified && !holds_open_point(inside) && is_one(rings, zone.size);
     return zone;
+  }
+
+  static void put_box_around(Zone& zone) {
+    zone.lower = zone.upper = {zone.outer.front()[0], zone.outer.front()[1]};
+    for (const Point2& at : zone.outer)
+      for (std::size_t c = 0; c < 2; ++c) {
+        zone.lower[c] = std::min(zone.lower[c], at[c]);
+        zone.upper[c] = std::max(zone.upper[c], at[c]);
+      }
   }
 
   /// Whether isolated points of a contact loss may be inside that nothing was proven of. Their boxes are tiny.
@@ -255,19 +274,25 @@ class ModeZones {
   }
 
   std::vector<core::ZoneBorder> borders(const GraphFace& face) const {
-    std::map<std::string, double> lengths;
+    std::map<int, double> lengths;  // by owner
     const auto add = [&](const std::vector<HalfEdge>& walk) {
       for (const HalfEdge half : walk) {
         const GraphEdge& edge = cut_.graph.edges[static_cast<std::size_t>(half.edge)];
-        for (const int owner : edge.owners)
-          lengths[owner == box_owner ? "box" : map_.curves[static_cast<std::size_t>(owner)].id] +=
-              length_of(edge.points);
+        for (const int owner : edge.owners) lengths[owner] += length_of(edge.points);
       }
     };
     add(face.outer);
     for (const auto& walk : face.inner) add(walk);
     std::vector<core::ZoneBorder> list;
-    for (const auto& [curve, length] : lengths) list.push_back({curve, length});
+    for (const auto& [owner, length] : lengths) {
+      if (owner == box_owner) {
+        list.push_back({"box", length});
+        continue;
+      }
+      const core::LocusCurve& curve = map_.curves[static_cast<std::size_t>(owner)];
+      list.push_back({curve.id, length, curve.kind, curve.vanishing});
+    }
+    std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.curve < b.curve; });
     std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.length > b.length; });
     return list;
   }
@@ -286,7 +311,7 @@ class ModeZones {
     add(face.outer);
     for (const auto& walk : face.inner) add(walk);
     const Polyline points = isolated();
-    const double width = 2 * zone.area / length;
+    const double width = 2 * zone.size / length;
     const double step =
         sketch_ ? std::max(width / 4, length / most_sites_of_a_sketch) : std::max(width / 8, length / most_sites);
     Polyline sites = points;
@@ -377,7 +402,7 @@ class ModeZones {
 CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch, bool may_leave) {
   core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
   CutZones cut;
-  core::ZoneMap& map = cut.map;
+  core::Zones& map = cut.map;
   map.loci = std::move(traced);
   std::deque<ModeZones> modes;
   bool is_certified = true;

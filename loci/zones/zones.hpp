@@ -1,19 +1,19 @@
 // The door of zones/: the parts of the workspace that are free of discontinuities. Over two coordinates faces of the
 // graph of curves that were traced, of every mode of a map (method.md section 9); over one to three, cells that are
-// proven free (pose_zones.hpp, method.md section 13).
+// proven free (cell_zones.hpp, method.md section 13).
 #pragma once
 
 #include "clearloci/zones.hpp"
 #include "core/locus_factor.hpp"
+#include "loci/zones/cell_zones.hpp"
 #include "loci/zones/largest_ball.hpp"
 #include "loci/zones/plane_graph.hpp"
-#include "loci/zones/pose_zones.hpp"
 #include "loci/zones/workspace_rings.hpp"
 
 namespace clearloci::loci {
 
 struct CutZones {
-  core::ZoneMap map;
+  core::Zones map;
   bool finer_may_tell = true;  ///< where zones are not certified, finer polylines of the loci may change that
   bool left = false;           ///< finer polylines are wanted: there is nothing else
 };

@@ -24,7 +24,6 @@ void bind_loci(py::module_& module);
 void bind_zones(py::module_& module);
 void bind_verify(py::module_& module);
 void bind_motion(py::module_& module);
-void bind_poses(py::module_& module);
 void bind_design(py::module_& module);
 
 /// A copy of vertices as an array (n, 2) of float64.

@@ -90,6 +90,5 @@ PYBIND11_MODULE(_clearloci, module) {
   bind_zones(module);
   bind_verify(module);
   bind_motion(module);
-  bind_poses(module);
   bind_design(module);
 }

@@ -1,3 +1,4 @@
+// Zones over one to three coordinates.
 #include "clearloci/zones.hpp"
 
 #include "bindings/bindings.hpp"
@@ -5,61 +6,114 @@
 #include "clearloci/export.hpp"
 
 namespace clearloci::python {
+namespace {
+
+py::list borders_of(const Zones& map, const Zone& zone) {
+  py::list borders;
+  for (const ZoneBorder& own : zone.borders) {
+    py::dict one;
+    if (!map.by_cells) one["curve"] = own.curve;
+    one["kind"] = own.kind ? to_string(*own.kind) : "box";
+    one["vanishing"] = names_of(own.vanishing);
+    if (!map.by_cells) one["length"] = own.length;
+    borders.append(one);
+  }
+  return borders;
+}
+
+py::list ends_of(const Zone& zone) {
+  py::list ends;
+  for (const ZoneEnd& own : zone.ends) {
+    py::dict one(py::arg("at") = own.at, py::arg("kind") = to_string(own.kind),
+                 py::arg("vanishing") = names_of(own.vanishing), py::arg("jumps") = own.jump.has_value());
+    if (own.jump) put_error(one, *own.jump);
+    ends.append(one);
+  }
+  return ends;
+}
+
+py::list faces_of(const Zone& zone) {
+  py::list faces;
+  for (const auto& own : zone.faces) {
+    py::array_t<double> corners({static_cast<py::ssize_t>(own.size()), py::ssize_t{3}});
+    double* to = corners.mutable_data();
+    for (const auto& corner : own) to = std::copy(corner.begin(), corner.end(), to);
+    faces.append(corners);
+  }
+  return faces;
+}
+
+py::dict zone_dict(const Zones& map, const Zone& zone) {
+  py::list holes;
+  for (const Polyline& hole : zone.holes) holes.append(array_of(hole));
+  py::dict signs, one;
+  for (const auto& [reaction, sign] : zone.signs) signs[py::str(name_of(reaction))] = sign;
+  one["id"] = zone.id;
+  one["working_mode"] = mode_of(map.loci.tower, zone.mode);
+  one["assembly_mode"] = zone.assembly_mode;
+  one["signs"] = signs;
+  one["size"] = zone.size;
+  one["at_least"] = zone.at_least;
+  one["at_most"] = zone.at_most;
+  one["certified"] = zone.certified;
+  one["perhaps_one_with"] = zone.perhaps_one_with;
+  one["lower"] = zone.lower;
+  one["upper"] = zone.upper;
+  one["sample"] = py::tuple(py::cast(zone.sample));
+  one["ball"] = zone.ball.centre.empty() ? py::object(py::none())
+                                         : py::make_tuple(py::tuple(py::cast(zone.ball.centre)), zone.ball.radius);
+  one["borders"] = borders_of(map, zone);
+  one["ends"] = ends_of(zone);
+  one["polygon"] = map.by_cells ? py::object(py::none()) : py::object(array_of(zone.outer));
+  one["holes"] = holes;
+  one["faces"] = faces_of(zone);
+  return one;
+}
+
+py::dict mode_dict(const Zones& map, const ZonedMode& mode) {
+  py::dict one;
+  one["working_mode"] = mode_of(map.loci.tower, mode.mode);
+  one["workspace"] = mode.workspace;
+  one["outside"] = mode.outside;
+  one["in_doubt"] = mode.in_doubt;
+  one["cells"] = mode.cells;
+  one["labels"] = py::none();
+  if (!map.by_cells) return one;
+  // The last coordinate first, as images and volumes are indexed.
+  const std::vector<py::ssize_t> shape(map.grid.rbegin(), map.grid.rend());
+  py::array_t<int> labels(shape);
+  std::copy(mode.labels.begin(), mode.labels.end(), labels.mutable_data());
+  one["labels"] = labels;
+  return one;
+}
+
+py::dict zones_dict(const Zones& map) {
+  py::list zones, modes;
+  for (const Zone& zone : map.zones) zones.append(zone_dict(map, zone));
+  for (const ZonedMode& mode : map.modes) modes.append(mode_dict(map, mode));
+  py::dict all;
+  all["zones"] = zones;
+  all["modes"] = modes;
+  all["by_cells"] = map.by_cells;
+  all["loci"] = dict_of(map.loci);
+  return all;
+}
+
+}  // namespace
 
 void bind_zones(py::module_& module) {
-  py::class_<ZoneMap>(module, "ZoneMap", "Discontinuity-free zones as the library holds them.")
-      .def("data",
-           [](const ZoneMap& map) {
-             py::list zones;
-             for (const Zone& zone : map.zones) {
-               py::list holes;
-               for (const Polyline& hole : zone.holes) holes.append(array_of(hole));
-               py::dict signs, one;
-               for (const auto& [reaction, sign] : zone.signs) signs[py::str(name_of(reaction))] = sign;
-               py::list borders;
-               for (const ZoneBorder& border : zone.borders)
-                 borders.append(py::make_tuple(border.curve, border.length));
-               one["id"] = zone.id;
-               one["working_mode"] = mode_of(map.loci.tower, zone.mode);
-               one["assembly_mode"] = zone.assembly_mode;
-               one["signs"] = signs;
-               one["area"] = zone.area;
-               one["polygon"] = array_of(zone.outer);
-               one["holes"] = holes;
-               one["inscribed_circle"] = py::make_tuple(
-                   py::make_tuple(zone.inscribed.centre[0], zone.inscribed.centre[1]), zone.inscribed.radius);
-               one["sample"] = py::make_tuple(zone.sample[0], zone.sample[1]);
-               one["borders"] = borders;
-               one["certified"] = zone.certified;
-               zones.append(one);
-             }
-             py::list areas;
-             for (const ModeArea& area : map.areas) {
-               py::dict one;
-               one["working_mode"] = mode_of(map.loci.tower, area.mode);
-               one["workspace"] = area.workspace;
-               one["in_doubt"] = area.in_doubt;
-               areas.append(one);
-             }
-             py::dict all;
-             all["zones"] = zones;
-             all["areas"] = areas;
-             all["loci"] = dict_of(map.loci);
-             return all;
-           })
-      .def("json", [](const ZoneMap& map) { return to_json(map); })
-      .def("table", [](const ZoneMap& map) { return to_table(map); })
-      .def("svgs",
-           [](const ZoneMap& map) {
-             std::vector<std::string> pictures;
-             for (const WorkingMode& mode : modes_of(map.loci)) pictures.push_back(to_svg(map, mode));
-             return pictures;
-           })
-      .def("export", [](const ZoneMap& map, const Model&, const std::string& folder,
-                        const std::set<std::string>& formats) { return names_of(export_zones(map, folder, formats)); });
-  module.def("find_zones", [](const Model& model, const py::kwargs& options) {
+  auto answer = bind_answer<Zones>(
+      module, "Zones", [](const Zones& own) { return zones_dict(own); }, &export_zones);
+  answer.def("svgs", [](const Zones& map) {
+    std::vector<std::string> pictures;
+    for (const WorkingMode& mode : modes_of(map)) pictures.push_back(to_svg(map, mode));
+    return pictures;
+  });
+  module.def("find_zones", [](const Model& model, long cells, bool by_cells, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
-    return unlocked(request, [&](const LociRequest& own) { return find_zones(model, own); });
+    return unlocked(request, [&](const LociRequest& own) {
+      return find_zones(model, {.loci = own, .cells = cells, .by_cells = by_cells});
+    });
   });
 }
 

@@ -16,11 +16,10 @@ their values as attributes, print `table()`, give `json()` and write files by `e
 
 from . import _needs  # first: says in a line what is missing
 from ._clearloci import InputError, LimitReached, __version__
-from .answers import Curve, Loci, Surface, Validation, Verification, Zone, Zones
+from .answers import Curve, Loci, Surface, Validation, Verification, Zone, ZonedMode, Zones
 from .design import Designs, design
 from .model import Model, NormalizedFile, parse, read
 from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
-from .poses import PoseZone, PoseZones
 
 __all__ = [
     "CoordinateErrors",
@@ -34,13 +33,12 @@ __all__ = [
     "Model",
     "NormalizedFile",
     "Pose",
-    "PoseZone",
-    "PoseZones",
     "Surface",
     "Trajectory",
     "Validation",
     "Verification",
     "Zone",
+    "ZonedMode",
     "Zones",
     "__version__",
     "design",

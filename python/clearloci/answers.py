@@ -109,10 +109,17 @@ class Interval:
 
 
 @dataclass(frozen=True)
-class ModeArea:
+class ZonedMode:
+    """How much of the box the zones of a mode account for; sizes are products of the coordinates' units."""
+
     working_mode: dict[str, str]
-    workspace: float  #: m^2
-    in_doubt: float  #: m^2 of that in zones that are not certified, in none, or in several
+    workspace: float  #: what the mode reaches; by cells all that is not proven to be out of reach
+    outside: float  #: the rest of the box
+    in_doubt: float  #: of the workspace: in zones that are not certified, in none, or in several
+    cells: int  #: that were looked at, by cells
+    #: By cells, in the middles of a grid over the box, the last coordinate first: 1 for the first of the zones, 2, ...,
+    #: 0 in doubt, -1 out of reach; over two lengths None.
+    labels: np.ndarray | None = field(repr=False)
 
 
 class Written:
@@ -305,22 +312,42 @@ class Loci(_Answer):
 
 @dataclass(frozen=True)
 class Zone:
-    """A face of the workspace that no locus crosses."""
+    """A part of the workspace that no locus crosses. Sizes are products of the coordinates' units: m^2 over two lengths,
+    rad over one angle, m^3 over three lengths."""
 
     id: str
     working_mode: dict[str, str]
     assembly_mode: int  #: sign of ``|A|``
     signs: dict[str, int]  #: of couples, axial and normal forces: {"M_A1": 1}
-    area: float  #: m^2
-    polygon: np.ndarray = field(repr=False)  #: (n, 2), m, counter-clockwise, first point repeated
+    size: float  #: over two lengths the area; by cells `at_least`
+    at_least: float  #: a proven bound from below; 0 of a zone over two lengths that is not certified
+    at_most: float
+    certified: bool  #: its borders are proven; by cells: it is proven to be another zone than all others
+    perhaps_one_with: list[str]  #: by cells: zones of the same signs that only doubt parts from it
+    lower: list[float]  #: the box around it, by cells around what is proven; over one coordinate the zone
+    upper: list[float]
+    sample: tuple[float, ...]
+    ball: tuple[tuple[float, ...], float] | None  #: the largest inside that was found: centre, radius
+    borders: list[dict[str, Any]] = field(repr=False)  #: "kind", what is "vanishing"; over two lengths "curve", "length"
+    ends: list[dict[str, Any]] = field(repr=False)  #: over one coordinate
+    polygon: np.ndarray | None = field(repr=False)  #: over two lengths (n, 2), counter-clockwise, first point repeated
     holes: list[np.ndarray] = field(repr=False)
-    inscribed_circle: tuple[tuple[float, float], float]  #: centre and radius, m
-    sample: tuple[float, float]
-    borders: list[tuple[str, float]] = field(repr=False)  #: curve and length, m
-    certified: bool
+    faces: list[np.ndarray] = field(repr=False)  #: by cells convex polygons (corners, 3), over two coordinates segments
+
+    @property
+    def area(self) -> float:
+        """`size`, of a zone over two lengths, m^2."""
+        return self.size
+
+    @property
+    def inscribed_circle(self) -> tuple[tuple[float, ...], float] | None:
+        """`ball`, of a zone over two lengths: centre and radius, m."""
+        return self.ball
 
     def contains(self, at: tuple[float, float]) -> bool:
-        """Whether a point, m, lies inside, by the zone's polygons."""
+        """Whether a point, m, lies inside a zone over two lengths, by its polygons."""
+        if self.polygon is None:
+            raise ValueError(f"{self.id} was found by cells and has no polygon; see `faces` and the labels of its mode")
         return _inside(self.polygon, at) and not any(_inside(hole, at) for hole in self.holes)
 
 
@@ -333,18 +360,24 @@ def _inside(ring: np.ndarray, at: tuple[float, float]) -> bool:
 
 
 class Zones(_Answer):
-    """The discontinuity-free zones of a model: a sequence, by mode, then area, largest first."""
+    """The discontinuity-free zones of a model: a sequence, by mode, then size, largest first."""
 
-    def __init__(self, model: Model, options: dict[str, Any]) -> None:
+    def __init__(self, model: Model, cells: int, by_cells: bool, options: dict[str, Any]) -> None:
         self.model, self.options = model, dict(options)
+        self._cells = cells, by_cells
         data = self._held.data()
+        self.by_cells: bool = data["by_cells"]  #: else the faces between curves, over two lengths
         self._zones = [Zone(**own) for own in data["zones"]]
-        self.areas = [ModeArea(**own) for own in data["areas"]]
+        self.modes = [ZonedMode(**own) for own in data["modes"]]
+        self.coordinates: list[str] = data["loci"]["coordinates"]
+        self.box: list[tuple[float, float]] = data["loci"]["box"]
+        self.complete: bool = data["loci"]["complete"]  #: False where something is open, or a time limit came first
+        self.open = [OpenRegion(**own) for own in data["loci"]["open"]]
         self.notes: list[str] = data["loci"]["notes"]
         self.curves = [Curve(**own) for own in data["loci"]["curves"]]
 
     def _ask(self) -> Any:
-        return _clearloci.find_zones(self.model._handle, **self.options)
+        return _clearloci.find_zones(self.model._handle, *self._cells, **self.options)
 
     def __len__(self) -> int:
         return len(self._zones)
@@ -356,7 +389,9 @@ class Zones(_Answer):
         return iter(self._zones)
 
     def plot(self, ax: Axes | None = None, working_mode: dict[str, str] | None = None) -> Axes:
-        """The zones of one working mode (the first), in the Axes given or in new ones."""
+        """The zones of one working mode (the first) over two lengths, in the Axes given or in new ones."""
+        if self.by_cells:
+            raise ValueError("zones by cells have no polygons to plot; `export` and notebooks show their picture")
         from .plots import plot_zones
 
         return plot_zones(self, ax, working_mode)

@@ -13,7 +13,6 @@ from . import _clearloci
 from ._arguments import Names, Number, Value, WorkingMode
 from .answers import Loci, Validation, Verification, Zones, ask, validation_of
 from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
-from .poses import PoseZone, PoseZones
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -158,11 +157,18 @@ class Model:
         tolerance: float | None = None,
         engine: Engine | None = None,
         time_limit: float | None = None,
+        cells: int = 300_000,
+        by_cells: bool = False,
     ) -> Zones:
-        """The discontinuity-free zones, over two lengths: the pieces into which the loci cut the workspace. Over other
-        coordinates: `pose_zones`."""
+        """The discontinuity-free zones, over one to three coordinates: the parts into which the loci cut the workspace.
+
+        Over two lengths they are the faces between curves; over other coordinates they are found by so many `cells` in
+        each mode, with proven bounds of their sizes. `by_cells`: over two lengths, too.
+        """
         return Zones(
             self,
+            arguments.count("cells", cells),
+            bool(by_cells),
             arguments.options(
                 self,
                 working_mode=working_mode,
@@ -201,33 +207,6 @@ class Model:
             self, working_mode=working_mode, joint=joint, tolerance=tolerance, engine=engine, time_limit=time_limit
         )
         return ask(lambda own: Verification(**own), "verify", self, text, file, fit or "", **given)
-
-    def pose_zones(
-        self,
-        cells: int = 300_000,
-        *,
-        working_mode: WorkingMode | None = None,
-        joint: Names | None = None,
-        quantity: Names | None = None,
-        min_force: Number | None = None,
-        min_couple: Number | None = None,
-        time_limit: float | None = None,
-    ) -> PoseZones:
-        """The discontinuity-free zones over one to three coordinates, angles among them, by so many cells."""
-
-        def zones_of(answer: dict[str, Any]) -> PoseZones:
-            return PoseZones(**{**answer, "zones": [PoseZone(**own) for own in answer["zones"]]})
-
-        given = arguments.options(
-            self,
-            working_mode=working_mode,
-            joint=joint,
-            quantity=quantity,
-            min_force=min_force,
-            min_couple=min_couple,
-            time_limit=time_limit,
-        )
-        return ask(zones_of, "find_pose_zones", self, arguments.count("cells", cells), **given)
 
     def validate(
         self,

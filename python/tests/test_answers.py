@@ -39,7 +39,7 @@ def test_zones_are_polygons(five_bar):
     area = (x[:-1] @ y[1:] - x[1:] @ y[:-1]) / 2
     if not zone.holes:
         assert area == pytest.approx(zone.area, rel=1e-4)  # chords within the tolerance
-    assert zones.areas[0].in_doubt == 0
+    assert zones.modes[0].in_doubt == 0
 
 
 def test_tasks_are_files_dictionaries_or_arrays(five_bar):

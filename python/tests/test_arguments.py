@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from conftest import EXAMPLES
 
-QUESTIONS = ("loci", "zones", "verify", "pose_zones", "validate", "pose", "reactions", "error_map",
+QUESTIONS = ("loci", "zones", "verify", "validate", "pose", "reactions", "error_map",
              "error_volume", "coordinate_errors", "trajectory")  # fmt: skip
 
 

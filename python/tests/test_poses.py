@@ -21,33 +21,44 @@ def upu():
 
 
 def test_zones_of_volumes_are_those_of_statics(upu):
-    zones = upu.pose_zones(cells=6000)
-    assert zones.complete and zones.labels.shape == (64, 64, 64)
-    assert zones[0].at_least == max(zone.at_least for zone in zones.zones)
-    total = zones.in_doubt + zones.outside + sum(zone.at_least for zone in zones.zones)
-    assert total == pytest.approx(np.prod(np.subtract(zones.upper, zones.lower)))
-    for zone in zones.zones:
+    zones = upu.zones(cells=6000)
+    assert zones.complete and zones.modes[0].labels.shape == (64, 64, 64)
+    assert zones[0].at_least == max(zone.at_least for zone in zones)
+    total = zones.modes[0].in_doubt + zones.modes[0].outside + sum(zone.at_least for zone in zones)
+    assert total == pytest.approx(np.prod(np.diff(zones.box)))
+    for zone in zones:
         forces = upu_forces(zone.sample)
         assert [zone.signs[f"F_S{leg}"] for leg in (1, 2, 3)] == list(np.sign(forces))
         assert zone.at_least <= zone.at_most and zone.ball[1] > 0
         assert all(face.shape[1] == 3 for face in zone.faces)
     # The volume indexed by z, y, x.
-    widths = np.subtract(zones.upper, zones.lower) / 64
-    for z, y, x in np.argwhere(zones.labels > 0)[::20011]:
-        place = zones.lower + (np.array([x, y, z]) + 0.5) * widths
-        zone = zones[zones.labels[z, y, x] - 1]
+    lower, upper = np.array(zones.box).T
+    widths, labels = (upper - lower) / 64, zones.modes[0].labels
+    for z, y, x in np.argwhere(labels > 0)[::20011]:
+        place = lower + (np.array([x, y, z]) + 0.5) * widths
+        zone = zones[labels[z, y, x] - 1]
         assert [zone.signs[f"F_S{leg}"] for leg in (1, 2, 3)] == list(np.sign(upu_forces(place)))
-    assert pickle.loads(pickle.dumps(zones)).labels.shape == (64, 64, 64)
+    assert pickle.loads(pickle.dumps(zones)).modes[0].labels.shape == (64, 64, 64)
 
 
 def test_intervals_have_ends():
-    zones = cl.read(EXAMPLES / "four_bar.yaml").pose_zones()
-    assert len(zones) == 5 and sum(zone.at_least for zone in zones.zones) == pytest.approx(2 * math.pi)
-    assert all(zone.ends and zone.ball is None for zone in zones.zones)
+    zones = cl.read(EXAMPLES / "four_bar.yaml").zones()
+    assert len(zones) == 5 and sum(zone.at_least for zone in zones) == pytest.approx(2 * math.pi)
+    assert all(zone.ends and zone.ball is None for zone in zones)
+    assert zones.by_cells and zones._repr_svg_().startswith("<?xml")
+    with pytest.raises(ValueError):
+        zones[0].contains((0, 0))
+
+
+def test_zones_by_cells_bound_those_between_curves(five_bar):
+    faces, cells = five_bar.zones(), five_bar.zones(cells=20000, by_cells=True)
+    assert not faces.by_cells and cells.by_cells
+    assert cells[0].at_least <= faces[0].size <= cells[0].at_most
+    assert faces[0].at_least == faces[0].at_most == faces[0].area
 
 
 def test_tasks_of_poses(upu):
-    centre, radius = upu.pose_zones(cells=6000)[0].ball
+    centre, radius = upu.zones(cells=6000)[0].ball
     lower, upper = np.array(centre) - radius / 4, np.array(centre) + radius / 4
     box = {"box": {name: list(ends) for name, *ends in zip("xyz", lower, upper)}}
     answer = upu.verify(box)

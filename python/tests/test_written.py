@@ -41,7 +41,7 @@ def test_answers_are_written(tmp_path, five_bar, four_bar):
         errors.export(tmp_path, ["dxf"])
     over_one = four_bar.coordinate_errors(steps=36)
     assert any(path.endswith("error.csv") for path in over_one.export(tmp_path / "one", ["csv"]))
-    zones = four_bar.pose_zones()
+    zones = four_bar.zones()
     again = pickle.loads(pickle.dumps(zones))
     assert again.json() == zones.json() and len(again) == len(zones)
     assert any(path.endswith("zones.svg") for path in again.export(tmp_path / "zones", ["svg"]))

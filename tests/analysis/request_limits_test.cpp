@@ -22,7 +22,7 @@ TEST(RequestLimits, ATolerancesIsOneThatDoublesCanKeep) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double tolerance : {std::nan(""), -1e-5, 0.0, 1e-300, infinity, -infinity}) {
     EXPECT_THROW(trace_loci(model, {.tolerance = tolerance}), InputError) << tolerance;
-    EXPECT_THROW(find_zones(model, {.tolerance = tolerance}), InputError) << tolerance;
+    EXPECT_THROW(find_zones(model, {{.tolerance = tolerance}}), InputError) << tolerance;
     EXPECT_THROW(coordinate_errors(example("four_bar.yaml"), {.loci = {.tolerance = tolerance}}), InputError);
   }
 }
@@ -62,7 +62,7 @@ TEST(RequestLimits, AGridIsOneThatMemoryHolds) {
 TEST(AnEmptyAnswer, IsNotWritten) {
   const Model model = example("five_bar.yaml");
   EXPECT_THROW(loci_files(model, LocusMap{}, {"svg"}), InputError);
-  EXPECT_THROW(zone_files(ZoneMap{}, {"svg"}), InputError);
+  EXPECT_THROW(zone_files(Zones{}, {"svg"}), InputError);
   EXPECT_THROW(verification_files(Verification{}, {"pdf"}), InputError);
   EXPECT_THROW(error_files(ErrorMap{}, {"png"}), InputError);
   EXPECT_THROW(error_files(VolumeErrors{}, {"png"}), InputError);

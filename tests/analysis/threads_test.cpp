@@ -20,11 +20,11 @@ std::string answers(const std::string& name) {
   const Model model = Model::read(source_dir() + "/examples/" + name + ".yaml");
   std::ostringstream words;
   words.precision(17);
-  const ZoneMap map = find_zones(model);
+  const Zones map = find_zones(model);
   for (const LocusCurve& curve : map.loci.curves)
     words << curve.id << " " << to_string(curve.implicit, map.loci.tower.coordinates) << " " << curve.arcs.size()
           << "\n";
-  for (const Zone& zone : map.zones) words << zone.id << " " << zone.area << " " << zone.certified << "\n";
+  for (const Zone& zone : map.zones) words << zone.id << " " << zone.size << " " << zone.certified << "\n";
   const Point2 at = map.zones.front().sample;
   std::ostringstream task;
   task << "format: 1\npath: [[" << at[0] << ", " << at[1] << "], [" << at[0] + 0.01 << ", " << at[1] << "]]\n";

@@ -126,11 +126,11 @@ TEST(Torsion, HasItsCurvesTracedAndCertified) {
   }
   EXPECT_EQ(curves, 1);
   // Nothing is missing: the signs of zones are those of the couple at their samples, and of neighbours in them.
-  const ZoneMap zones =
+  const Zones zones =
       find_zones(five_bar("[0.1, 0.6]", "[-0.9, -0.3]", "{name: T, joint: A1, stiffness: 20, rest: 150 deg}"));
   EXPECT_GE(zones.zones.size(), 3U);
   double area = 0;
-  for (const Zone& zone : zones.zones) area += zone.area;
+  for (const Zone& zone : zones.zones) area += zone.size;
   int inside = 0;
   constexpr int n = 200;
   for (int i = 0; i < n; ++i)

@@ -25,7 +25,7 @@ inline std::string certificate_of(const std::string& model, const LociRequest& r
   const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model, "model.yaml");
   core::Certificate certificate;
   if (zones) {
-    find_zones(mechanism, request, &certificate);
+    find_zones(mechanism, {request}, &certificate);
     return report::certificate_text({"zones", model, {}}, certificate);
   }
   trace_loci(mechanism, request, &certificate);

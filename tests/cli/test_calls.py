@@ -36,7 +36,8 @@ class WrongCalls(InOwnFolder):
         self.assertIn("--slice: ", self.complaint("error", examples / "three_upu.yaml", "--slice", "w=0.1"))
         self.assertIn("--grid: ", self.complaint("error", examples / "three_upu.yaml", "--grid", "40x40"))
         self.assertIn("--grid: ", self.complaint("validate", FOUR_BAR, "--grid", "40x40"))
-        self.assertIn("--working-mode: ", self.complaint("zones", FOUR_BAR, "--working-mode", "all"))
+        self.assertIn("unknown format 'geojson'", self.complaint("zones", FOUR_BAR, "--export", "geojson"))
+        self.assertIn("unknown format 'vtk'", self.complaint("zones", FIVE_BAR, "--export", "vtk"))
         self.assertIn("dxf does not hold loci over 3 free coordinates",
                       self.complaint("loci", examples / "three_upu.yaml", "--export", "dxf"))
         self.assertIn("stl does not hold loci over 2 free coordinates", self.complaint("loci", FIVE_BAR, "--export", "stl"))

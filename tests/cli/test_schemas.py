@@ -89,6 +89,7 @@ class Results(InOwnFolder):
     def test_zones(self):
         self.holds("zones", "zones", FIVE_BAR)
         self.holds("zones", "zones", FOUR_BAR)
+        self.holds("zones", "zones", FOUR_BAR, "--working-mode", "all")
         self.holds("zones", "zones", EXAMPLES / "three_upu.yaml", "--cells", "5000")
 
     def test_verify(self):

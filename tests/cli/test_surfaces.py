@@ -86,6 +86,19 @@ class Surfaces(InOwnFolder):
                 x, y, z = vertices[face[0]]
                 self.assertAlmostEqual(eval(polynomial, {}, {"x": x, "y": y, "z": z}), 0, 9)
 
+    def test_zones_of_all_modes(self):
+        out = self.folder / "modes"
+        self.run_program("zones", SOURCE / "examples" / "slider_crank.yaml", "--quiet", "--working-mode", "all", "-o", out)
+        result = json.loads((out / "zones.json").read_text(encoding="utf-8"))
+        modes = [own["working_mode"] for own in result["areas"]]
+        self.assertEqual(modes, [{"C": "ahead"}, {"C": "behind"}])
+        self.assertEqual([zone["id"] for zone in result["zones"]], [f"z{k + 1}" for k in range(len(result["zones"]))])
+        for area in result["areas"]:
+            sizes = [zone["at_least"] for zone in result["zones"] if zone["working_mode"] == area["working_mode"]]
+            self.assertAlmostEqual(sum(sizes) + area["outside"] + area["in_doubt"], 2 * math.pi)
+            side = area["working_mode"]["C"]
+            self.assertTrue((out / f"zones-{side}.svg").exists())
+
     def test_zones_of_three_coordinates(self):
         out = self.folder / "out"
         self.run_program("zones", SOURCE / "examples" / "three_upu.yaml", "--quiet", "--cells", "8000", "-o", out,

@@ -8,7 +8,6 @@
 #include "analysis/framed.hpp"
 #include "analysis/loci.hpp"
 #include "analysis/pose.hpp"
-#include "analysis/pose_zones.hpp"
 #include "analysis/zones.hpp"
 #include "check/check.hpp"
 #include "mechanism/read.hpp"
@@ -158,15 +157,15 @@ TEST_P(AtPlaces, Loci) {
 TEST_P(AtPlaces, Zones) {
   const Mechanism m = example("five_bar_generic");
   const Frame frame = moved_by(m, GetParam().by);
-  const core::ZoneMap a = find_zones(m), b = from_frame(find_zones(moved(m, frame)), m, frame);
+  const core::Zones a = find_zones(m), b = from_frame(find_zones(moved(m, frame)), m, frame);
   expect_same(a.loci, b.loci, within(m, frame));
   ASSERT_EQ(a.zones.size(), b.zones.size());
   for (std::size_t z = 0; z < a.zones.size(); ++z) {
     EXPECT_EQ(a.zones[z].id, b.zones[z].id);
     EXPECT_EQ(a.zones[z].signs, b.zones[z].signs);
     EXPECT_EQ(a.zones[z].certified, b.zones[z].certified);
-    EXPECT_NEAR(a.zones[z].area, b.zones[z].area, within(m, frame));
-    EXPECT_NEAR(a.zones[z].inscribed.radius, b.zones[z].inscribed.radius, within(m, frame));
+    EXPECT_NEAR(a.zones[z].size, b.zones[z].size, within(m, frame));
+    EXPECT_NEAR(a.zones[z].ball.radius, b.zones[z].ball.radius, within(m, frame));
     expect_near(a.zones[z].outer, b.zones[z].outer, within(m, frame));
   }
 }
@@ -253,9 +252,8 @@ TEST_P(AtPlaces, TasksAndZonesOverPoses) {
   if (a.margin && b.margin) {
     EXPECT_NEAR(*a.margin, *b.margin, 1e-9);
   }
-  const core::PoseZones c = find_pose_zones(example("slider_crank")),
-                        d = find_pose_zones(
-                            moved(example("slider_crank"), moved_by(example("slider_crank"), GetParam().by)));
+  const core::Zones c = find_zones(example("slider_crank")),
+                    d = find_zones(moved(example("slider_crank"), moved_by(example("slider_crank"), GetParam().by)));
   ASSERT_EQ(c.zones.size(), d.zones.size());
   for (std::size_t z = 0; z < c.zones.size(); ++z) {
     EXPECT_EQ(c.zones[z].lower, d.zones[z].lower);

@@ -28,7 +28,7 @@ class BoxSides : public testing::TestWithParam<Case> {};
 TEST_P(BoxSides, ArcsStayInTheBoxAndZonesCoverTheWorkspace) {
   const Case& known = GetParam();
   const auto mechanism = mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + known.file + ".yaml");
-  const core::ZoneMap map = find_zones(mechanism);
+  const core::Zones map = find_zones(mechanism);
   const core::LocusMap& loci = map.loci;
   for (const core::LocusCurve& curve : loci.curves) {
     EXPECT_TRUE(curve.certified) << curve.factor;
@@ -45,15 +45,15 @@ TEST_P(BoxSides, ArcsStayInTheBoxAndZonesCoverTheWorkspace) {
   double zones = 0;
   for (const core::Zone& zone : map.zones) {
     EXPECT_TRUE(zone.certified) << zone.id;
-    zones += zone.area;
+    zones += zone.size;
   }
   EXPECT_NEAR(zones, known.area, known.doubt);
   if (known.zones != 0) {
     EXPECT_EQ(map.zones.size(), known.zones);
   }
-  ASSERT_EQ(map.areas.size(), 1u);
-  EXPECT_NEAR(map.areas[0].workspace, zones, 1e-5 * zones);
-  EXPECT_EQ(map.areas[0].in_doubt, 0);
+  ASSERT_EQ(map.modes.size(), 1u);
+  EXPECT_NEAR(map.modes[0].workspace, zones, 1e-5 * zones);
+  EXPECT_EQ(map.modes[0].in_doubt, 0);
   ASSERT_EQ(loci.workspace.size(), 1u);
   double rings = 0;
   for (const core::Polyline& ring : loci.workspace[0].rings)

@@ -69,12 +69,12 @@ void expect_as_from_scratch(const Model& family, const std::vector<Model::Value>
   const Model member = family.with(values);
   const Model alone = Model::parse(member.text(), member.file(), member.values());
   expect_same(trace_loci(member), trace_loci(alone));
-  const ZoneMap zones = find_zones(member), fresh = find_zones(alone);
+  const Zones zones = find_zones(member), fresh = find_zones(alone);
   expect_same(zones.loci, fresh.loci);
   ASSERT_EQ(zones.zones.size(), fresh.zones.size());
   for (std::size_t i = 0; i < zones.zones.size(); ++i) {
     EXPECT_EQ(zones.zones[i].outer, fresh.zones[i].outer);
-    EXPECT_EQ(zones.zones[i].area, fresh.zones[i].area);
+    EXPECT_EQ(zones.zones[i].size, fresh.zones[i].size);
     EXPECT_EQ(zones.zones[i].signs, fresh.zones[i].signs);
     EXPECT_EQ(zones.zones[i].certified, fresh.zones[i].certified);
   }

@@ -67,21 +67,21 @@ TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
     }
   EXPECT_NEAR(length, 6.71, 0.01);
   // Zones are no more certain than the curves that cut them.
-  const core::ZoneMap map = find_zones(corpus("witness/prrr_r_node_on_the_rim"), request);
+  const core::Zones map = find_zones(corpus("witness/prrr_r_node_on_the_rim"), {request});
   EXPECT_FALSE(map.zones.empty());
   for (const core::Zone& zone : map.zones) EXPECT_FALSE(zone.certified) << zone.id;
-  EXPECT_GE(map.areas.front().in_doubt, map.areas.front().workspace);
+  EXPECT_GE(map.modes.front().in_doubt, map.modes.front().workspace);
 }
 
 // Two zones that meet in one point, where a side of the box touches the boundary, were one with a wrong sign.
 TEST(OnceDisputed, ZonesThatASideOfTheBoxTellsApart) {
-  const core::ZoneMap map = find_zones(corpus("witness/prrr_r_pinched_by_a_side"), {});
+  const core::Zones map = find_zones(corpus("witness/prrr_r_pinched_by_a_side"), {});
   EXPECT_EQ(map.zones.size(), 7u);
   for (const core::Zone& zone : map.zones) EXPECT_TRUE(zone.certified) << zone.id;
   // Left and right of (0, -1/4).
   const auto area_about = [&](double area) {
     return std::any_of(map.zones.begin(), map.zones.end(),
-                       [&](const core::Zone& zone) { return std::abs(zone.area - area) < 1e-6; });
+                       [&](const core::Zone& zone) { return std::abs(zone.size - area) < 1e-6; });
   };
   EXPECT_TRUE(area_about(0.134880093));
   EXPECT_TRUE(area_about(0.014809826));
@@ -178,7 +178,7 @@ TEST(OnceDisputed, WhatAGuidesForcesShareOverTheRoots) {
 // A guide beside its pin changes sides where the pin passes through the point that it is placed by.
 TEST(OnceDisputed, AFoldOfAnOffset) {
   hold("witness/prrrp_guide_beside_its_pin", true);
-  const core::ZoneMap map = find_zones(corpus("witness/prrrp_guide_beside_its_pin"), {});
+  const core::Zones map = find_zones(corpus("witness/prrrp_guide_beside_its_pin"), {});
   const auto fold = std::find_if(map.loci.curves.begin(), map.loci.curves.end(), [](const core::LocusCurve& curve) {
     return curve.cause == "R on S1, where K has no place";
   });
@@ -189,7 +189,7 @@ TEST(OnceDisputed, AFoldOfAnOffset) {
   EXPECT_NEAR(length, std::acos(0.1) / 2 - std::acos(0.8) / 2, 1e-6);  // of the circle, y from -0.4 to -0.05, x > 0
   for (const core::Zone& zone : map.zones) {
     EXPECT_TRUE(zone.certified) << zone.id;
-    area += zone.area;
+    area += zone.size;
   }
   EXPECT_NEAR(area, 1.2 * 0.35, 1e-6);
 }

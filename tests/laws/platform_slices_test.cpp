@@ -158,8 +158,14 @@ TEST(PlatformSlices, CurvesRunOnOverTheSeamsOfAnAngle) {
 
 TEST(PlatformSlices, TwoAnglesHoldAgainstTheWitness) { hold(read(tilting()), 30); }
 
-TEST(PlatformSlices, ZonesOverAnAngleAreRefused) {
-  EXPECT_THROW(find_zones(read(turning("[0, 40 deg]"))), core::InputError);
+TEST(PlatformSlices, ZonesOverAnAngleAreByCells) {
+  const core::Zones map = find_zones(read(turning("[0, 40 deg]")), {.cells = 2000});
+  ASSERT_TRUE(map.by_cells);
+  const core::ZonedMode& mode = map.modes.front();
+  double sum = mode.outside + mode.in_doubt, box = 1;
+  for (const core::Zone& zone : map.zones) sum += zone.at_least;
+  for (std::size_t c = 0; c < 2; ++c) box *= core::to_double(map.loci.upper[c] - map.loci.lower[c]);
+  EXPECT_NEAR(sum, box, 1e-9 * box);
 }
 
 /// The two senses of a leg's least force cross where the force and |A| vanish together.

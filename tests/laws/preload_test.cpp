@@ -83,7 +83,7 @@ const std::string limits = R"(limits:
 TEST(Limits, BoundTheWorkspace) {
   // |A1 P| = sin(angle / 2): from 50 deg on the angle asks for more than 0.31 m.
   const mechanism::Mechanism m = parsed(mechanism::five_bar_text + limits);
-  const core::ZoneMap map = find_zones(m);
+  const core::Zones map = find_zones(m);
   for (const core::LocusCurve& curve : map.loci.curves) {
     if (curve.kind != LocusKind::workspace_boundary || curve.cause.rfind("limit", 0) != 0) continue;
     const double radius = curve.cause == "limit: distance A1-P at 0.92 m" ? 0.92 : std::sin(25 * M_PI / 180);
@@ -92,7 +92,7 @@ TEST(Limits, BoundTheWorkspace) {
   }
   // The part of the ring about A1 that lies in the circle of radius 1 about A2, counted on a grid.
   double area = 0, counted = 0;
-  for (const core::Zone& zone : map.zones) area += zone.area;
+  for (const core::Zone& zone : map.zones) area += zone.size;
   constexpr int steps = 1500;
   const double hx = 1.5 / steps, hy = 2.0 / steps;
   for (int i = 0; i < steps; ++i)

@@ -114,10 +114,10 @@ double distance_to(const core::Polyline& line, const core::Point2& at) {
 
 /// At random poses one LU of the orthonormal form finds the signs of the zone that the pose lies in.
 void expect_one_sign_a_zone(const mechanism::Mechanism& m, std::mt19937& random) {
-  const core::ZoneMap map = find_zones(m);
+  const core::Zones map = find_zones(m);
   ASSERT_FALSE(map.zones.empty());
   double area = 0;
-  for (const core::Zone& zone : map.zones) area += zone.area;
+  for (const core::Zone& zone : map.zones) area += zone.size;
   EXPECT_NEAR(area, 0.64, 1e-6);
   int seen = 0;
   for (int i = 0; i < 100; ++i) {

@@ -154,7 +154,7 @@ void judge_certificate(Subject& s) {
   try {
     const report::CertificateSource source{with_zones ? "zones" : "loci", s.design.text, {}};
     if (with_zones) {
-      s.report.in_patience([&] { return find_zones(s.mechanism, s.request, &certificate); });
+      s.report.in_patience([&] { return find_zones(s.mechanism, {s.request}, &certificate); });
     } else {
       s.report.in_patience([&] { return trace_loci(s.mechanism, s.request, &certificate); });
     }

@@ -220,25 +220,25 @@ TEST_P(Changes, MoveTheLociAlong) {
 
 TEST_P(Changes, MoveTheZonesAlong) {
   const Change& change = GetParam();
-  const core::ZoneMap a = find_zones(parsed(base()), request(false)),
-                      b = find_zones(parsed(changed(base(), change)), request(true));
+  const core::Zones a = find_zones(parsed(base()), {request(false)}),
+                    b = find_zones(parsed(changed(base(), change)), {request(true)});
   ASSERT_EQ(a.zones.size(), b.zones.size());
   const double k = core::to_double(change.scale);
   for (std::size_t i = 0; i < a.zones.size(); ++i) {
-    EXPECT_NEAR(a.zones[i].area, b.zones[i].area / (k * k), 2e-5) << i;
+    EXPECT_NEAR(a.zones[i].size, b.zones[i].size / (k * k), 2e-5) << i;
     EXPECT_EQ(a.zones[i].certified, b.zones[i].certified);
     // Either search for the largest circle ends within 1e-3 of its radius (loci/zones/largest_circle.cpp).
-    EXPECT_NEAR(a.zones[i].inscribed.radius, b.zones[i].inscribed.radius / k, 2e-3 * a.zones[i].inscribed.radius);
+    EXPECT_NEAR(a.zones[i].ball.radius, b.zones[i].ball.radius / k, 2e-3 * a.zones[i].ball.radius);
   }
 }
 
 TEST_P(Changes, MoveTheVerdictsAlong) {
   const Change& change = GetParam();
-  const core::ZoneMap zones = find_zones(parsed(base()), request(false));
+  const core::Zones zones = find_zones(parsed(base()), {request(false)});
   const core::Zone& zone = zones.zones.front();
   const Place centre = {core::Rational(zone.sample[0]), core::Rational(zone.sample[1])};
   for (const double part : {0.8, 1.2}) {
-    const core::Rational radius(part * zone.inscribed.radius);
+    const core::Rational radius(part * zone.ball.radius);
     core::Task task, moved;
     const Place moved_centre = change.place(centre);
     task.shape = core::TaskBall{{centre[0], centre[1]}, radius};
@@ -247,8 +247,7 @@ TEST_P(Changes, MoveTheVerdictsAlong) {
                        b = test::judged(parsed(changed(base(), change)), moved, request(true));
     EXPECT_EQ(a.verified(), part < 1);
     EXPECT_EQ(b.verdict, a.verdict);
-    EXPECT_NEAR(a.margin.value_or(0), b.margin.value_or(0) / core::to_double(change.scale),
-                1e-3 * zone.inscribed.radius);
+    EXPECT_NEAR(a.margin.value_or(0), b.margin.value_or(0) / core::to_double(change.scale), 1e-3 * zone.ball.radius);
   }
 }
 

@@ -34,7 +34,7 @@ std::pair<double, double> sampled_area(const Subject& s, const std::vector<int>&
 }
 
 /// Away from everything drawn a reachable pose lies in one zone, and has its signs; another one lies in none.
-void one_zone_a_pose(Subject& s, const core::ZoneMap& zones, const core::WorkingMode& mode,
+void one_zone_a_pose(Subject& s, const core::Zones& zones, const core::WorkingMode& mode,
                      const std::vector<int>& sides) {
   const double away = 1e-3 * s.size();
   const auto beside_an_arc = [&](const Point2& at) {
@@ -134,9 +134,9 @@ void judge_margins(Subject& s) {
   if (!s.is_plane() || (!s.request.min_force && !s.request.min_couple)) return;
   const std::optional<core::LocusMap> map = loci_of(s);
   if (!map) return;
-  core::ZoneMap zones;
+  core::Zones zones;
   try {
-    zones = s.report.in_patience([&] { return find_zones(s.mechanism, s.request); });
+    zones = s.report.in_patience([&] { return find_zones(s.mechanism, {s.request}); });
   } catch (const core::LimitReached&) {
     return s.report.late();
   } catch (const core::InputError& refused) {
@@ -173,9 +173,9 @@ void judge_margins(Subject& s) {
 
 void judge_zones(Subject& s) {
   if (!s.is_plane()) return;
-  core::ZoneMap zones;
+  core::Zones zones;
   try {
-    zones = s.report.in_patience([&] { return find_zones(s.mechanism, s.request); });
+    zones = s.report.in_patience([&] { return find_zones(s.mechanism, {s.request}); });
   } catch (const core::LimitReached&) {
     return s.report.late();
   } catch (const core::InputError& refused) {
@@ -197,10 +197,10 @@ void judge_zones(Subject& s) {
     if (std::abs(std::abs(rings) - sampled) > doubt && region.rings.size() < 2 && !said)
       Report::Line(s.report) << region.rings.size() << " rings of " << rings << " m^2, sampled " << sampled << " +- "
                              << doubt;
-    for (const core::Zone& zone : zones.zones) total += zone.mode == region.mode ? zone.area : 0;
+    for (const core::Zone& zone : zones.zones) total += zone.mode == region.mode ? zone.size : 0;
     if (certified && std::abs(total - sampled) > doubt)
       Report::Line(s.report) << what << " of " << total << " m^2, sampled " << sampled << " +- " << doubt;
-    for (const core::ModeArea& account : zones.areas) {
+    for (const core::ZonedMode& account : zones.modes) {
       if (account.mode != region.mode) continue;
       if (std::abs(account.workspace - sampled) > doubt + account.in_doubt)
         Report::Line(s.report) << "a workspace of " << account.workspace << " m^2, sampled " << sampled << " +- "

@@ -49,28 +49,28 @@ double distance_to(const core::Polyline& line, const core::Point2& at) {
   return least;
 }
 
-double total_area(const core::ZoneMap& map, const core::WorkingMode& mode) {
+double total_area(const core::Zones& map, const core::WorkingMode& mode) {
   double total = 0;
-  for (const core::Zone& zone : map.zones) total += zone.mode == mode ? zone.area : 0;
+  for (const core::Zone& zone : map.zones) total += zone.mode == mode ? zone.size : 0;
   return total;
 }
 
-bool certified(const core::ZoneMap& map) {
+bool certified(const core::Zones& map) {
   return std::all_of(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) { return zone.certified; });
 }
 
 /// At random poses of every zone the independent witness finds the zone's signs, and the inscribed circle is inside.
-void expect_one_sign_a_zone(const mechanism::Mechanism& mechanism, const core::ZoneMap& map, std::mt19937& random) {
+void expect_one_sign_a_zone(const mechanism::Mechanism& mechanism, const core::Zones& map, std::mt19937& random) {
   const numeric::NumericModel model = numeric::compile(mechanism);
   for (const core::Zone& zone : map.zones) {
     SCOPED_TRACE(zone.id);
     EXPECT_NE(zone.assembly_mode, 0);
-    EXPECT_TRUE(inside(zone, zone.sample));
+    EXPECT_TRUE(inside(zone, {zone.sample[0], zone.sample[1]}));
     // A zone no wider than a few tolerances may be too thin for a circle.
     double border = 0;
     for (const core::ZoneBorder& part : zone.borders) border += part.length;
-    EXPECT_TRUE(zone.inscribed.radius > 0 || zone.area < 4 * map.loci.tolerance * border);
-    EXPECT_NEAR(distance_to(zone.outer, zone.inscribed.centre), zone.inscribed.radius,
+    EXPECT_TRUE(zone.ball.radius > 0 || zone.size < 4 * map.loci.tolerance * border);
+    EXPECT_NEAR(distance_to(zone.outer, {zone.ball.centre[0], zone.ball.centre[1]}), zone.ball.radius,
                 zone.holes.empty() && zone.isolated_points.empty() ? 3 * map.loci.tolerance : 10);
     const std::vector<int> sides = numeric::dyad_signs(model, map.loci.tower, zone.mode);
     core::Point2 low = zone.outer.front(), high = low;
@@ -111,12 +111,12 @@ void expect_one_sign_a_zone(const mechanism::Mechanism& mechanism, const core::Z
 
 /// The zones of each mode, and what is said to be in doubt, make up its workspace as reached poses of a grid measure
 /// it; a pose that is not beside a curve lies in one zone if it is reached, and in none if not.
-void expect_partition(const mechanism::Mechanism& mechanism, const core::ZoneMap& map, std::mt19937& random) {
+void expect_partition(const mechanism::Mechanism& mechanism, const core::Zones& map, std::mt19937& random) {
   const numeric::NumericModel model = numeric::compile(mechanism);
   const core::LocusMap& loci = map.loci;
   core::Point2 low{}, high{};
   for (std::size_t c = 0; c < 2; ++c) low[c] = core::to_double(loci.lower[c]), high[c] = core::to_double(loci.upper[c]);
-  for (const core::ModeArea& account : map.areas) {
+  for (const core::ZonedMode& account : map.modes) {
     const std::vector<int> sides = numeric::dyad_signs(model, loci.tower, account.mode);
     const auto reached = [&](const core::Point2& at) { return numeric::reachable(model, at, sides); };
     // The error of counting nodes is half a cell for every cell that the rim crosses, and on the average far less.
@@ -165,7 +165,7 @@ void expect_partition(const mechanism::Mechanism& mechanism, const core::ZoneMap
 TEST(Zones, OfTheCorpusAreCertified) {
   for (const std::string name : {"rrrpr_singularities_cross_at_base", "five_bar_long_coefficients", "minitaur_foot"}) {
     SCOPED_TRACE(name);
-    const core::ZoneMap map =
+    const core::Zones map =
         find_zones(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml"), {});
     EXPECT_TRUE(certified(map));
     EXPECT_FALSE(map.zones.empty());
@@ -178,7 +178,7 @@ void expect_no_finer_loci(const std::vector<std::pair<std::string, std::size_t>>
     SCOPED_TRACE(name);
     const mechanism::Mechanism mechanism =
         mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml");
-    const core::ZoneMap map = find_zones(mechanism);
+    const core::Zones map = find_zones(mechanism);
     EXPECT_TRUE(certified(map));
     EXPECT_EQ(map.zones.size(), zones);
     EXPECT_EQ(map.loci.tolerance, LociRequest().tolerance);
@@ -203,7 +203,7 @@ TEST(Zones, OfSliversAndBehindATouchNeedNoFinerLoci) {
 }
 
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
-  const core::ZoneMap map = find_zones(example("five_bar"));
+  const core::Zones map = find_zones(example("five_bar"));
   const auto home = std::find_if(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) {
     return inside(zone, {0.25, -0.7});
   });
@@ -215,7 +215,7 @@ TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
 }
 
 TEST(PaperZones, AreasAndCirclesAreThoseOfTheCircles) {
-  const core::ZoneMap map = find_zones(example("five_bar"));
+  const core::Zones map = find_zones(example("five_bar"));
   // The lens of two unit circles, 1/2 apart.
   const double lens = 2 * std::acos(0.25) - 0.25 * std::sqrt(4 - 0.25);
   EXPECT_NEAR(total_area(map, map.zones.front().mode), lens, 1e-6 * lens);
@@ -236,7 +236,7 @@ TEST_P(ZonesOfExamples, HaveOneSignEachInEveryMode) {
   const mechanism::Mechanism mechanism = example(GetParam());
   LociRequest request;
   request.all_working_modes = true;
-  const core::ZoneMap map = find_zones(mechanism, request);
+  const core::Zones map = find_zones(mechanism, {request});
   ASSERT_FALSE(map.zones.empty());
   EXPECT_TRUE(certified(map));
   std::mt19937 random(20110577);
@@ -245,7 +245,7 @@ TEST_P(ZonesOfExamples, HaveOneSignEachInEveryMode) {
   // However many loci cut it, a workspace has one area.
   request.joints = {mechanism.joints.front().name};
   request.quantities = {core::Quantity::M};
-  const core::ZoneMap coarse = find_zones(mechanism, request);
+  const core::Zones coarse = find_zones(mechanism, {request});
   for (const core::Zone& zone : map.zones) {
     const double area = total_area(map, zone.mode);
     EXPECT_NEAR(total_area(coarse, zone.mode), area, 1e-6 * area);
@@ -266,7 +266,7 @@ TEST(ZonesOfRandomDesigns, PartitionTheWorkspaceAndHaveOneSignEach) {
     const test::FiveBarDesign design = test::random_five_bar(random, i % 4 == 3);
     SCOPED_TRACE(design.text());
     const mechanism::Mechanism mechanism = mechanism::parse_mechanism(design.text(), "random.yaml");
-    const core::ZoneMap map = find_zones(mechanism);
+    const core::Zones map = find_zones(mechanism);
     if (certified(map))
       ++proven, expect_one_sign_a_zone(mechanism, map, random), expect_partition(mechanism, map, random);
   }
@@ -288,7 +288,7 @@ TEST(ZonesOfRandomDesigns, OfOtherFamiliesPartitionTheWorkspace) {
       const mechanism::Mechanism mechanism = mechanism::parse_mechanism(text, "random.yaml");
       LociRequest request;
       request.deadline = std::chrono::steady_clock::now() + std::chrono::seconds(15);
-      const core::ZoneMap map = find_zones(mechanism, request);
+      const core::Zones map = find_zones(mechanism, {request});
       if (!map.loci.complete || !certified(map)) continue;
       ++proven;
       expect_one_sign_a_zone(mechanism, map, random);
@@ -311,7 +311,7 @@ TEST(Zones, HaveNoSignOfWhatChangesInsideThem) {
   LociRequest asked;
   asked.quantities = {core::Quantity::N, core::Quantity::T, core::Quantity::F, core::Quantity::f};
   for (const LociRequest& request : {asked, LociRequest{}}) {
-    const core::ZoneMap map = find_zones(rprpr, request);
+    const core::Zones map = find_zones(rprpr, {request});
     ASSERT_GE(map.zones.size(), 3u);
     for (const core::Zone& zone : map.zones) {
       const auto told = [&](core::Quantity quantity) {

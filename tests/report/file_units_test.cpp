@@ -53,13 +53,14 @@ TEST(FileUnits, AreThoseOfTablesCsvAndDrawings) {
 
 /// Columns align whatever the signs are, and a reaction that nothing loads is told by its note alone.
 TEST(ZonesTable, AlignsAndLeavesOutWhatNothingLoads) {
-  core::ZoneMap map;
+  core::Zones map;
   map.loci = line_in_mm();
   map.loci.notes = {"NS is zero in every pose: no load reaches it"};
   core::Zone zone;
   zone.id = "z1";
   zone.assembly_mode = 1;
-  zone.area = 0.125;
+  zone.size = 0.125;
+  zone.ball.centre = {0, 0};
   zone.certified = true;
   zone.signs = {{{"S", core::Quantity::N}, 0}};
   for (const char* joint : {"A1", "A2", "A3", "A4"}) zone.signs.push_back({{joint, core::Quantity::M}, -1});

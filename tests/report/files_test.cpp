@@ -182,7 +182,12 @@ TEST(Formats, HoldWhatTheySay) {
   EXPECT_FALSE(can_hold("dxf", 3));
   EXPECT_TRUE(can_hold("stl", 3));
   EXPECT_FALSE(can_hold("stl", 2));
-  EXPECT_EQ(format_names<core::ZoneMap>(), (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson", "html"}));
+  EXPECT_EQ(format_names<core::Zones>(),
+            (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson", "vtk", "stl", "html"}));
+  EXPECT_EQ(zone_formats(2, false), (std::vector<std::string>{"json", "svg", "png", "pdf", "geojson", "html"}));
+  EXPECT_EQ(zone_formats(1, true), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
+  EXPECT_EQ(zone_formats(2, true), (std::vector<std::string>{"json", "svg", "png", "pdf", "vtk"}));
+  EXPECT_EQ(zone_formats(3, true), (std::vector<std::string>{"json", "svg", "png", "pdf", "vtk", "stl"}));
   EXPECT_EQ(format_names<core::Verification>(), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
   EXPECT_EQ(format_names<core::ErrorMap>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
   EXPECT_EQ(format_names<core::CoordinateErrors>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
@@ -191,7 +196,6 @@ TEST(Formats, HoldWhatTheySay) {
   EXPECT_EQ(format_names<core::PoseInModes>(), (std::vector<std::string>{"json"}));
   EXPECT_EQ(format_names<core::Validation>(), (std::vector<std::string>{"json"}));
   EXPECT_EQ(format_names<VolumeSheet>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
-  EXPECT_EQ(format_names<core::PoseZones>(), (std::vector<std::string>{"json", "svg", "png", "pdf", "vtk", "stl"}));
 }
 
 }  // namespace

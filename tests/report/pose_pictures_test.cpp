@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/pose_zone_picture.hpp"
-#include "report/pose_zones.hpp"
+#include "report/picture.hpp"
 #include "report/task_panels.hpp"
+#include "report/zones.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -74,42 +74,43 @@ TEST(PoseTaskPicture, DrawsEveryShapeInEveryFormat) {
   expect_drawn("box");
 }
 
-core::PoseZones two_intervals() {
-  core::PoseZones map;
-  map.mechanism = "a crank";
-  map.coordinates = {"theta"};
-  map.angles = {true};
-  map.lower = {0}, map.upper = {std::numbers::pi};
+core::Zones two_intervals() {
+  core::Zones map;
+  map.by_cells = true;
+  map.loci.mechanism = "a crank";
+  map.loci.tower.coordinates = {"theta"};
+  map.loci.angles = {true};
+  map.loci.lower = {0}, map.loci.upper = {Rational(std::numbers::pi)};
   map.grid = {8};
-  map.labels = {1, 1, 1, 1, 2, 2, 2, 2};
-  core::PoseZoneEnd end{0.5 * std::numbers::pi, core::LocusKind::backlash, {{"O", core::Quantity::M, 1}}};
+  map.modes = {{.labels = {1, 1, 1, 1, 2, 2, 2, 2}}};
+  core::ZoneEnd end{0.5 * std::numbers::pi, core::LocusKind::backlash, {{"O", core::Quantity::M, 1}}};
   end.jump = core::PoseError{{1e-5, 0}, {0}};
-  core::PoseZone zone;
+  core::Zone zone;
   zone.id = "z1", zone.assembly_mode = 1, zone.lower = {0}, zone.upper = {end.at - 1e-9}, zone.ends = {end};
   zone.ends.front().at = zone.upper.front();
   map.zones.push_back(zone);
-  zone.id = "z2", zone.lower = {end.at + 1e-9}, zone.upper = map.upper, zone.ends = {end};
+  zone.id = "z2", zone.lower = {end.at + 1e-9}, zone.upper = {std::numbers::pi}, zone.ends = {end};
   zone.ends.front().at = zone.lower.front();
   map.zones.push_back(zone);
   return map;
 }
 
-TEST(PoseZonePicture, OfAnIntervalTellsEachEndOnceWithItsJump) {
-  const core::PoseZones map = two_intervals();
-  const std::vector<std::string> lines = zone_end_lines(map);
+TEST(CellZonePicture, OfAnIntervalTellsEachEndOnceWithItsJump) {
+  const core::Zones map = two_intervals();
+  const std::vector<std::string> lines = zone_end_lines(map, {});
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines.front().substr(0, 6), "89.999");
   EXPECT_TRUE(has(lines.front(), "backlash M_O; the end effector jumps by (10, 0) µm and 0 deg"));
-  const std::string svg = pose_zone_picture(map, PictureFormat::svg);
+  const std::string svg = zone_picture(map, {}, PictureFormat::svg);
   EXPECT_TRUE(has(svg, "backlash M_O; the end effector jumps"));
 }
 
-TEST(PoseZonePicture, NamesDoubtWhereThereIsAny) {
-  core::PoseZones map = two_intervals();
-  EXPECT_FALSE(has(pose_zone_picture(map, PictureFormat::svg), "in doubt"));
-  map.labels[3] = 0;
-  map.labels[7] = -1;
-  const std::string svg = pose_zone_picture(map, PictureFormat::svg);
+TEST(CellZonePicture, NamesDoubtWhereThereIsAny) {
+  core::Zones map = two_intervals();
+  EXPECT_FALSE(has(zone_picture(map, {}, PictureFormat::svg), "in doubt"));
+  map.modes.front().labels[3] = 0;
+  map.modes.front().labels[7] = -1;
+  const std::string svg = zone_picture(map, {}, PictureFormat::svg);
   EXPECT_TRUE(has(svg, "in doubt\n"));
   EXPECT_TRUE(has(svg, "white: out of reach\n"));
 }

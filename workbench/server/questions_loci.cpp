@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "clearloci/errors.hpp"
 #include "clearloci/export.hpp"
 #include "clearloci/handed_files.hpp"
 #include "clearloci/verify.hpp"
@@ -32,6 +33,13 @@ bool over_two_lengths(const Model& model) {
   return own.size() == 2 && std::none_of(own.begin(), own.end(), [](const auto& one) { return one.angle; });
 }
 
+/// That the page can draw.
+Zones zones_in_plane(const Model& model, const LociRequest& request) {
+  if (!over_two_lengths(model))
+    throw InputError({}, "the workbench draws zones over two lengths", "ask 'clearloci zones' for those over others");
+  return find_zones(model, {request});
+}
+
 /// `task`: the text of a task file.
 Verification verification(const Fields& fields, const Watch& watch) {
   const Model model = model_of(fields);
@@ -57,7 +65,7 @@ Json answer_loci(const Json& body, const Watch& watch) {
 Json answer_zones(const Json& body, const Watch& watch) {
   const Fields fields(body);
   const Model model = model_of(fields);
-  const ZoneMap map = find_zones(model, watched(loci_request(fields, model), watch));
+  const Zones map = zones_in_plane(model, watched(loci_request(fields, model), watch));
   Json answer = report::zones_object(map);
   if (fields.flag("with_loci")) answer["picture"] = loci_json(map.loci);
   return answer;
@@ -78,7 +86,7 @@ Json answer_export(const Json& body, const Watch& watch) {
   if (what == "verification") return files_json(verification_files(verification(fields, watch), formats));
   const Model model = model_of(fields);
   const LociRequest request = watched(loci_request(fields, model), watch);
-  if (what == "zones") return files_json(zone_files(find_zones(model, request), formats));
+  if (what == "zones") return files_json(zone_files(zones_in_plane(model, request), formats));
   if (what == "loci") return files_json(loci_files(model, trace_loci(model, request), formats));
   throw Refusal(400, "'what' is to be loci, zones or verification");
 }

@@ -49,33 +49,33 @@ LocusProblem problem_of(const std::vector<Polynomial>& curves) {
   return problem;
 }
 
-core::ZoneMap zones_between(const std::vector<Polynomial>& curves) {
+core::Zones zones_between(const std::vector<Polynomial>& curves) {
   const LocusProblem problem = problem_of(curves);
   return zones(problem, trace(problem)).map;
 }
 
-double whole_area(const core::ZoneMap& map) {
+double whole_area(const core::Zones& map) {
   return std::accumulate(map.zones.begin(), map.zones.end(), 0.0,
-                         [](double sum, const core::Zone& zone) { return sum + zone.area; });
+                         [](double sum, const core::Zone& zone) { return sum + zone.size; });
 }
 
 /// Largest first, as the map sorts them.
-void expect_areas(const core::ZoneMap& map, std::vector<double> areas) {
+void expect_areas(const core::Zones& map, std::vector<double> areas) {
   constexpr double accuracy = 1e-6;  // what zones promise, of a box of 16 m^2
   std::sort(areas.begin(), areas.end(), std::greater<>());
   ASSERT_EQ(map.zones.size(), areas.size());
-  for (std::size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(map.zones[i].area, areas[i], 16 * accuracy) << i;
+  for (std::size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(map.zones[i].size, areas[i], 16 * accuracy) << i;
   EXPECT_NEAR(whole_area(map), 16, 16 * accuracy);
   for (const core::Zone& zone : map.zones) EXPECT_TRUE(zone.certified) << zone.id;
 }
 
 TEST(ZonesBetween, ACircle) {
-  const core::ZoneMap map = zones_between({circle(0, 0, 1)});
+  const core::Zones map = zones_between({circle(0, 0, 1)});
   expect_areas(map, {16 - std::numbers::pi, std::numbers::pi});
   EXPECT_EQ(map.zones[0].holes.size(), 1U);
-  EXPECT_NEAR(map.zones[1].inscribed.radius, 1, 1e-6);
+  EXPECT_NEAR(map.zones[1].ball.radius, 1, 1e-6);
   // In a corner between two sides and the circle: r (1 + sqrt 2) + 1 = 2 sqrt 2.
-  EXPECT_NEAR(map.zones[0].inscribed.radius, (2 * std::sqrt(2) - 1) / (1 + std::sqrt(2)), 1e-5);
+  EXPECT_NEAR(map.zones[0].ball.radius, (2 * std::sqrt(2) - 1) / (1 + std::sqrt(2)), 1e-5);
 }
 
 TEST(ZonesBetween, TwoCirclesThatCross) {
@@ -107,7 +107,7 @@ TEST(ZonesBetween, AFigureOfEight) {
 
 TEST(ZonesBetween, ThreeLinesThroughOnePoint) {
   const std::vector<Polynomial> lines = {x - y, x + y, y};
-  const core::ZoneMap map = zones_between(lines);
+  const core::Zones map = zones_between(lines);
   expect_areas(map, {4, 4, 2, 2, 2, 2});
 }
 
@@ -122,23 +122,24 @@ TEST(ZonesBetween, ASketchHasTheSameZones) {
   };
   for (const std::vector<Polynomial>& curves : all) {
     const LocusProblem problem = problem_of(curves);
-    const core::ZoneMap certified = zones(problem, trace(problem)).map;
-    const core::ZoneMap sketch = zones(problem, trace(problem), true).map;
+    const core::Zones certified = zones(problem, trace(problem)).map;
+    const core::Zones sketch = zones(problem, trace(problem), true).map;
     ASSERT_EQ(sketch.zones.size(), certified.zones.size());
     for (std::size_t i = 0; i < sketch.zones.size(); ++i) {
       const core::Zone &own = sketch.zones[i], &other = certified.zones[i];
-      EXPECT_NEAR(own.area, other.area, 1e-3 * other.area) << i;
-      const bool is_sliver = other.inscribed.radius < 0.02;
-      EXPECT_LT(own.inscribed.radius, 1.001 * other.inscribed.radius) << i;
-      EXPECT_GT(own.inscribed.radius, (is_sliver ? 0.3 : 0.95) * other.inscribed.radius) << i;
-      EXPECT_TRUE(inside_ring(own.outer, own.sample)) << i;
-      for (const core::Polyline& ring : own.holes) EXPECT_FALSE(inside_ring(ring, own.sample)) << i;
+      EXPECT_NEAR(own.size, other.size, 1e-3 * other.size) << i;
+      const bool is_sliver = other.ball.radius < 0.02;
+      EXPECT_LT(own.ball.radius, 1.001 * other.ball.radius) << i;
+      EXPECT_GT(own.ball.radius, (is_sliver ? 0.3 : 0.95) * other.ball.radius) << i;
+      EXPECT_TRUE(inside_ring(own.outer, Point2{own.sample[0], own.sample[1]})) << i;
+      for (const core::Polyline& ring : own.holes)
+        EXPECT_FALSE(inside_ring(ring, Point2{own.sample[0], own.sample[1]})) << i;
     }
   }
 }
 
 TEST(ZonesBetween, AnOvalBesideABranch) {
-  const core::ZoneMap map = zones_between({y * y - x * x * x + x});
+  const core::Zones map = zones_between({y * y - x * x * x + x});
   ASSERT_EQ(map.zones.size(), 3U);
   EXPECT_NEAR(whole_area(map), 16, 1e-5);
 }
@@ -232,14 +233,14 @@ TEST(OpenPlaces, LeaveZonesInDoubtWhetherOrNotTheCurveIsDrawn) {
   core::LocusMap map = trace(problem);
   for (const bool drawn : {true, false}) {
     if (!drawn) map.curves.clear();
-    const core::ZoneMap found = zones(problem, map).map;
+    const core::Zones found = zones(problem, map).map;
     ASSERT_FALSE(found.zones.empty());
     for (const core::Zone& zone : found.zones) EXPECT_FALSE(zone.certified);
-    EXPECT_NEAR(found.areas.at(0).in_doubt, 16, 1e-9);
+    EXPECT_NEAR(found.modes.at(0).in_doubt, 16, 1e-9);
   }
   // What cuts no zone leaves none in doubt.
   for (core::OpenRegion& region : map.open) region.kind = core::LocusKind::component;
-  const core::ZoneMap whole = zones(problem, map).map;
+  const core::Zones whole = zones(problem, map).map;
   ASSERT_EQ(whole.zones.size(), 1u);
   EXPECT_TRUE(whole.zones[0].certified);
 }

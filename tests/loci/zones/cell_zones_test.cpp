@@ -1,6 +1,6 @@
 // Cells of poses, and the zones made of them, of a system of two equations whose solution is known:
 //     x w1 + y w2 = 1,   -y w1 + x w2 = 0:   |A| = r^2,   w1 = x / r^2,   w2 = y / r^2,   within reach where r < 2.
-#include "loci/zones/pose_zones.hpp"
+#include "loci/zones/cell_zones.hpp"
 
 #include <gtest/gtest.h>
 

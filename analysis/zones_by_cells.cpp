@@ -1,4 +1,4 @@
-#include "analysis/pose_zones.hpp"
+#include "analysis/zones_by_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,16 +6,15 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
-#include "analysis/model.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/pose_demands.hpp"
-#include "analysis/request_limits.hpp"
-#include "analysis/side_names.hpp"
+#include "analysis/singular_modes.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "loci/zones/zones.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/posture_sample.hpp"
+#include "mechanism/written_unit.hpp"
 #include "numeric/error_samples.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/pose_statics.hpp"
@@ -23,21 +22,21 @@
 namespace clearloci {
 namespace {
 
-using core::PoseZone;
-using core::PoseZones;
+using core::Zone;
+using core::Zones;
 using loci::pose::Doubt;
 using loci::pose::PoseCell;
 
-core::PoseZoneBound bound_of(const core::PoseStatics& statics, Doubt doubt, int demand) {
-  if (doubt == Doubt::workspace) return {core::LocusKind::workspace_boundary, {}};
-  if (doubt == Doubt::singularity) return {core::LocusKind::direct_singularity, {}};
+core::ZoneBorder border_of(const core::PoseStatics& statics, Doubt doubt, int demand) {
+  if (doubt == Doubt::workspace) return {.kind = core::LocusKind::workspace_boundary};
+  if (doubt == Doubt::singularity) return {.kind = core::LocusKind::direct_singularity};
   const core::TaskDemand& own = statics.demands[static_cast<std::size_t>(demand)].demand;
-  return {locus_kind_of(own), {{own.joint, own.quantity, 1}}};
+  return {.kind = locus_kind_of(own), .vanishing = {{own.joint, own.quantity, 1}}};
 }
 
 /// Of |A| and of what has one component, at the zone's sample: they are those of all of it.
 void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& model, const DyadSides& sides,
-               PoseCell& cell, PoseZone& zone) {
+               PoseCell& cell, Zone& zone) {
   const auto at = cell.at(zone.sample);
   if (!at) return;
   const numeric::Bounded determinant = numeric::bounded_numerators(model, zone.sample, sides).determinant;
@@ -76,12 +75,12 @@ class Ends {
     jumps_ = clearances && all_loaded;
   }
 
-  void add(const loci::pose::CellZone& cells, const PoseZones& map, PoseZone& zone) {
-    const double width = map.upper[0] - map.lower[0];
+  void add(const loci::pose::CellZone& cells, const std::array<double, 2>& range, Zone& zone) {
+    const double width = range[1] - range[0];
     for (std::size_t end = 0; end < 2; ++end) {
       if (cells.at_ends[end].empty()) continue;
       const double at = end == 0 ? zone.lower[0] : zone.upper[0];
-      if (at <= map.lower[0] || at >= map.upper[0]) continue;
+      if (at <= range[0] || at >= range[1]) continue;
       zone.ends.push_back(end_at(at, beside * width, cells.at_ends[end]));
     }
   }
@@ -89,8 +88,8 @@ class Ends {
  private:
   static constexpr double beside = 1e-8;  ///< of the range: more than the finest cells
 
-  core::PoseZoneEnd end_at(double at, double apart, const std::set<std::pair<Doubt, int>>& open) {
-    core::PoseZoneEnd own;
+  core::ZoneEnd end_at(double at, double apart, const std::set<std::pair<Doubt, int>>& open) {
+    core::ZoneEnd own;
     own.at = at;
     const std::vector<double> before = {at - apart}, behind = {at + apart};
     const auto holds = [&](Doubt doubt) {
@@ -106,13 +105,13 @@ class Ends {
     }
     bool first = true;
     for (const bool turning : {true, false}) {
-      if (!own.reactions.empty()) break;
+      if (!own.vanishing.empty()) break;
       // Of those that only may vanish none is told where others do.
       for (const auto& [doubt, demand] : open) {
         if (turning && !turns(cell_, before, behind, demand)) continue;
-        const core::PoseZoneBound bound = bound_of(statics_, doubt, demand);
-        own.reactions.push_back(bound.reactions.front());
-        own.kind = first ? bound.kind : std::min(own.kind, bound.kind);
+        const core::ZoneBorder border = border_of(statics_, doubt, demand);
+        own.vanishing.push_back(border.vanishing.front());
+        own.kind = first ? *border.kind : std::min(own.kind, *border.kind);
         first = false;
       }
     }
@@ -120,7 +119,7 @@ class Ends {
     return own;
   }
 
-  void add_jump(core::PoseZoneEnd& own, double before, double behind) const {
+  void add_jump(core::ZoneEnd& own, double before, double behind) const {
     if (!jumps_ || (own.kind != core::LocusKind::contact_loss && own.kind != core::LocusKind::backlash)) return;
     const std::array<double, 2> poses = {before, behind};
     const numeric::ErrorSamples errors = numeric::error_samples(model_, poses, sides_, true, false);
@@ -181,90 +180,121 @@ void leave_rigid(loci::pose::CellZones& found, const numeric::NumericModel& mode
 }
 
 /// A crank that turns on: where the range is a full turn, its first and last zone are one.
-void note_meeting_ends(PoseZones& map) {
+void note_meeting_ends(const core::WorkingMode& mode, const std::array<double, 2>& range, Zones& map) {
   constexpr double of_turn = 1e-12;  // roundings of the range's ends
-  if (std::abs(map.upper[0] - map.lower[0] - 2 * std::numbers::pi) > of_turn) return;
-  const PoseZone *first = nullptr, *last = nullptr;
-  for (const PoseZone& zone : map.zones) {
-    if (zone.lower[0] == map.lower[0]) first = &zone;
-    if (zone.upper[0] == map.upper[0]) last = &zone;
+  if (std::abs(range[1] - range[0] - 2 * std::numbers::pi) > of_turn) return;
+  const Zone *first = nullptr, *last = nullptr;
+  for (const Zone& zone : map.zones) {
+    if (zone.mode != mode) continue;
+    if (zone.lower[0] == range[0]) first = &zone;
+    if (zone.upper[0] == range[1]) last = &zone;
   }
   if (first != nullptr && last != nullptr && first != last)
-    map.notes.push_back("the range is a full turn: " + first->id + " and " + last->id + " meet where it begins anew");
+    map.loci.notes.push_back("the range is a full turn: " + first->id + " and " + last->id +
+                             " meet where it begins anew");
+}
+
+/// What is the same in every mode.
+struct Ground {
+  const mechanism::Mechanism& mechanism;
+  const ZoneRequest& request;
+  const std::vector<numeric::NumericModel>& models;  // one
+  std::vector<double> lower = {}, upper = {};
+};
+
+std::string zone_name(std::size_t place) { return "z" + std::to_string(place + 1); }
+
+/// `before`: zones of other modes.
+Zone zone_of(const loci::pose::CellZone& cells, const core::PoseStatics& statics, std::size_t before) {
+  Zone zone;
+  zone.size = zone.at_least = cells.at_least;
+  zone.at_most = cells.at_most;
+  zone.lower = cells.lower;
+  zone.upper = cells.upper;
+  zone.sample = cells.sample;
+  for (const std::size_t other : cells.perhaps) zone.perhaps_one_with.push_back(zone_name(before + other));
+  zone.certified = zone.perhaps_one_with.empty();
+  zone.faces = cells.faces;
+  for (const auto& [doubt, demand] : cells.bounds) zone.borders.push_back(border_of(statics, doubt, demand));
+  if (cells.at_side) zone.borders.push_back({.curve = "box"});
+  return zone;
+}
+
+void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
+  const LociRequest& request = ground.request.loci;
+  const numeric::NumericModel& model = ground.models.front();
+  constexpr std::size_t poses = 24;
+  const std::vector<core::TaskDemand> wanted = demands_of(ground.mechanism, request);
+  const core::PoseStatics statics = symbolic::pose_statics(
+      {&ground.mechanism}, sides,
+      loaded_demands(ground.models, sides, wanted, mechanism::spread_poses(ground.mechanism, poses), map.loci.notes));
+  loci::pose::CellZoneEffort effort;
+  effort.most_cells = ground.request.cells;
+  effort.deadline = request.deadline;
+  // The ends of intervals are as good as points; of more coordinates, bounds are wanted that are close enough.
+  if (ground.lower.size() == 1) effort.enough_doubt = 0;
+  effort.raster = map.grid;
+  loci::pose::CellZones found = loci::pose::cell_zones(statics, ground.lower, ground.upper, effort);
+  leave_rigid(found, model, sides);
+  core::ZonedMode own;
+  own.mode = mode_of(sides, map.loci.tower);
+  own.outside = found.outside;
+  own.in_doubt = found.in_doubt;
+  own.cells = found.cells;
+  own.workspace = found.in_doubt;
+  for (const loci::pose::CellZone& cells : found.zones) own.workspace += cells.at_least;
+  if (found.out_of_time) map.loci.complete = false, map.loci.out_of_time = true;
+  const std::size_t before = map.zones.size();
+  PoseCell cell(statics);
+  Ends ends(ground.mechanism, statics, model, sides, statics.demands.size() == wanted.size());
+  for (std::size_t z = 0; z < found.zones.size(); ++z) {
+    Zone zone = zone_of(found.zones[z], statics, before);
+    zone.id = zone_name(before + z);
+    zone.mode = own.mode;
+    if (const auto ball =
+            loci::pose::largest_ball(found.zones[z], z, found.raster, map.grid, ground.lower, ground.upper))
+      zone.ball = *ball;
+    add_signs(statics, model, sides, cell, zone);
+    if (ground.lower.size() == 1) ends.add(found.zones[z], {ground.lower[0], ground.upper[0]}, zone);
+    map.zones.push_back(std::move(zone));
+  }
+  own.labels = std::move(found.raster);
+  for (int& label : own.labels)
+    if (label > 0) label += static_cast<int>(before);
+  if (ground.lower.size() == 1 && ground.mechanism.coordinates.front().angle)
+    note_meeting_ends(own.mode, {ground.lower[0], ground.upper[0]}, map);
+  map.modes.push_back(std::move(own));
 }
 
 }  // namespace
 
-PoseZones find_pose_zones(const mechanism::Mechanism& mechanism, const LociRequest& request, long cells) {
+Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& request) {
   if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
-    return from_frame(find_pose_zones(own->mechanism, request, cells), mechanism, own->frame);
+    return from_frame(zones_by_cells(own->mechanism, request), mechanism, own->frame);
   require_coordinates(mechanism, 1, 3, "zones are cut");
-  if (request.all_working_modes || request.working_modes.size() > 1)
-    throw core::InputError({.file = "--working-mode"}, "zones by cells are those of one working mode",
-                           "give one side for each dyad, and ask once for each mode");
-  const DyadSides sides = requested_modes(mechanism, request).front();
-  PoseZones result;
-  result.mechanism = mechanism.name;
-  result.units = mechanism.units;
-  result.notes = mechanism::notes_of(mechanism);
-  for (const mechanism::Coordinate& c : mechanism.coordinates) {
-    result.coordinates.push_back(c.name);
-    result.angles.push_back(c.angle);
-    result.lower.push_back(core::to_double(c.lower));
-    result.upper.push_back(core::to_double(c.upper));
-  }
-  result.working_mode = side_names(mechanism, sides);
-  constexpr std::size_t poses = 24;
+  check_sides(mechanism, request.loci);
+  Zones map;
+  map.by_cells = true;
+  map.loci = empty_map(mechanism);
+  for (const mechanism::Parameter& own : mechanism.parameters)
+    map.loci.parameters.emplace_back(own.name, mechanism::value_words(own, mechanism));
+  map.loci.notes = mechanism::notes_of(mechanism);
   std::vector<numeric::NumericModel> models;
   models.push_back(numeric::compile(mechanism));
-  const std::vector<core::TaskDemand> wanted = demands_of(mechanism, request);
-  const core::PoseStatics statics = symbolic::pose_statics(
-      {&mechanism}, sides,
-      loaded_demands(models, sides, wanted, mechanism::spread_poses(mechanism, poses), result.notes));
-  if (request.progress) request.progress(0, "cells");
-  loci::pose::CellZoneEffort effort;
-  effort.most_cells = cells;
-  effort.deadline = request.deadline;
-  // The ends of intervals are as good as points; of more coordinates, bounds are wanted that are close enough.
-  if (result.lower.size() == 1) effort.enough_doubt = 0;
-  effort.raster.assign(result.lower.size(), raster_of(result.lower.size()));
-  loci::pose::CellZones found = loci::pose::cell_zones(statics, result.lower, result.upper, effort);
-  leave_rigid(found, models.front(), sides);
-  result.outside = found.outside;
-  result.in_doubt = found.in_doubt;
-  result.cells = found.cells;
-  result.complete = !found.out_of_time;
-  result.grid = effort.raster;
-  PoseCell cell(statics);
-  Ends ends(mechanism, statics, models.front(), sides, statics.demands.size() == wanted.size());
-  for (std::size_t z = 0; z < found.zones.size(); ++z) {
-    loci::pose::CellZone& own = found.zones[z];
-    PoseZone zone;
-    zone.id = "z" + std::to_string(z + 1);
-    zone.at_least = own.at_least;
-    zone.at_most = own.at_most;
-    zone.lower = own.lower;
-    zone.upper = own.upper;
-    zone.sample = own.sample;
-    zone.at_side = own.at_side;
-    for (const std::size_t other : own.perhaps) zone.perhaps_one_with.push_back("z" + std::to_string(other + 1));
-    if (const auto ball = loci::pose::largest_ball(own, z, found.raster, effort.raster, result.lower, result.upper))
-      zone.ball = core::PoseZoneBall{ball->centre, ball->radius};
-    zone.faces = std::move(own.faces);
-    for (const auto& [doubt, demand] : own.bounds) zone.bounds.push_back(bound_of(statics, doubt, demand));
-    add_signs(statics, models.front(), sides, cell, zone);
-    if (result.coordinates.size() == 1) ends.add(own, result, zone);
-    result.zones.push_back(std::move(zone));
+  Ground ground{mechanism, request, models};
+  for (const mechanism::Coordinate& c : mechanism.coordinates) {
+    ground.lower.push_back(core::to_double(c.lower));
+    ground.upper.push_back(core::to_double(c.upper));
   }
-  result.labels = std::move(found.raster);
-  if (result.coordinates.size() == 1 && result.angles.front()) note_meeting_ends(result);
-  return result;
-}
-
-PoseZones find_pose_zones(const Model& model, const LociRequest& request, long cells) {
-  const mechanism::Mechanism& mechanism = model.content().mechanism;
-  check_request(mechanism, request);
-  return find_pose_zones(mechanism, request, cells);
+  map.grid.assign(ground.lower.size(), raster_of(ground.lower.size()));
+  std::vector<DyadSides> modes = requested_modes(mechanism, request.loci);
+  if (modes.size() > 1) modes = regular_modes(mechanism, modes, map.loci.notes);
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    if (request.loci.progress)
+      request.loci.progress(static_cast<double>(m) / static_cast<double>(modes.size()), "cells");
+    add_mode(ground, modes[m], map);
+  }
+  return map;
 }
 
 }  // namespace clearloci

@@ -1,5 +1,5 @@
 // Zones by cells, held against grids over statics of the tests' own and against the loci.
-#include "clearloci/pose_zones.hpp"
+#include "clearloci/zones.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +25,9 @@ constexpr long few_cells = 40'000;  // enough to tell the zones of these example
 
 Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name + ".yaml"); }
 
+double lower(const Zones& map, std::size_t c) { return to_double(map.loci.lower[c]); }
+double upper(const Zones& map, std::size_t c) { return to_double(map.loci.upper[c]); }
+
 /// Signs of the three legs' forces.
 using Signs = std::array<int, 3>;
 
@@ -34,7 +37,7 @@ Signs signs_of(const Eigen::Vector3d& forces) {
   return signs;
 }
 
-Signs signs_of(const PoseZone& zone) {
+Signs signs_of(const Zone& zone) {
   Signs signs{};
   for (const auto& [reaction, sign] : zone.signs)
     if (reaction.quantity == Quantity::F) signs[static_cast<std::size_t>(reaction.joint[1] - '1')] = sign;
@@ -67,85 +70,86 @@ Eigen::Vector3d rpr_forces(double x, double y, double phi, double r) {
 
 /// What a grid says of the share of each combination of signs, against the bounds of all zones that have it.
 template <class Forces>
-void expect_grid_within(const PoseZones& map, const Forces& forces) {
+void expect_grid_within(const Zones& map, const Forces& forces) {
   constexpr int n = 70;
   std::map<Signs, double> grid, least, most;
   double cell = 1;
-  for (std::size_t c = 0; c < 3; ++c) cell *= (map.upper[c] - map.lower[c]) / n;
-  const auto at = [&](std::size_t c, int i) { return map.lower[c] + (i + 0.5) / n * (map.upper[c] - map.lower[c]); };
+  for (std::size_t c = 0; c < 3; ++c) cell *= (upper(map, c) - lower(map, c)) / n;
+  const auto at = [&](std::size_t c, int i) { return lower(map, c) + (i + 0.5) / n * (upper(map, c) - lower(map, c)); };
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k) grid[signs_of(forces(at(0, i), at(1, j), at(2, k)))] += cell;
-  for (const PoseZone& zone : map.zones) {
+  for (const Zone& zone : map.zones) {
     least[signs_of(zone)] += zone.at_least;
     most[signs_of(zone)] += zone.at_most;
     EXPECT_EQ(signs_of(zone), signs_of(forces(zone.sample[0], zone.sample[1], zone.sample[2]))) << zone.id;
   }
   double whole = 1;
-  for (std::size_t c = 0; c < 3; ++c) whole *= map.upper[c] - map.lower[c];
+  for (std::size_t c = 0; c < 3; ++c) whole *= upper(map, c) - lower(map, c);
   const double fuzzy = 0.002 * whole;  // of a grid's own count
   for (const auto& [signs, size] : grid) {
     if (least.count(signs) == 0) {
-      EXPECT_LT(size, map.in_doubt + fuzzy);
+      EXPECT_LT(size, map.modes.front().in_doubt + fuzzy);
       continue;
     }
     EXPECT_LE(least[signs], size + fuzzy);
     EXPECT_GE(most[signs], size - fuzzy);
   }
-  double total = map.in_doubt + map.outside;
-  for (const PoseZone& zone : map.zones) total += zone.at_least;
+  double total = map.modes.front().in_doubt + map.modes.front().outside;
+  for (const Zone& zone : map.zones) total += zone.at_least;
   EXPECT_NEAR(total, whole, 1e-9 * whole) << "nothing is counted twice or left out";
 }
 
-TEST(PoseZones, OfA3UpuAgreeWithAGrid) {
-  const PoseZones map = find_pose_zones(example("three_upu"), {}, few_cells);
-  EXPECT_TRUE(map.complete);
+TEST(ZonesByCells, OfA3UpuAgreeWithAGrid) {
+  const Zones map = find_zones(example("three_upu"), {.cells = few_cells});
+  EXPECT_TRUE(map.loci.complete);
   std::set<Signs> kinds;
-  for (const PoseZone& zone : map.zones) kinds.insert(signs_of(zone));
+  for (const Zone& zone : map.zones) kinds.insert(signs_of(zone));
   EXPECT_EQ(kinds.size(), 7U) << "every combination but the legs that all pull";
-  EXPECT_LT(map.in_doubt, 0.06 * 0.384);
+  EXPECT_LT(map.modes.front().in_doubt, 0.06 * 0.384);
   expect_grid_within(map, upu_forces);
   // The ball of a zone has its signs all over.
-  for (const PoseZone& zone : map.zones) {
-    ASSERT_TRUE(zone.ball) << zone.id;
-    const Eigen::Vector3d centre(zone.ball->centre[0], zone.ball->centre[1], zone.ball->centre[2]);
-    EXPECT_GT(zone.ball->radius, 0.2 * std::cbrt(zone.at_least * 3 / (4 * std::numbers::pi))) << zone.id;
+  for (const Zone& zone : map.zones) {
+    ASSERT_GT(zone.ball.radius, 0) << zone.id;
+    const Eigen::Vector3d centre(zone.ball.centre[0], zone.ball.centre[1], zone.ball.centre[2]);
+    EXPECT_GT(zone.ball.radius, 0.2 * std::cbrt(zone.at_least * 3 / (4 * std::numbers::pi))) << zone.id;
     for (int i = 0; i < 400; ++i) {
       const double height = -1 + 2 * (i + 0.5) / 400, turn = 2.39996 * i, flat = std::sqrt(1 - height * height);
       const Eigen::Vector3d p =
-          centre + zone.ball->radius * Eigen::Vector3d(flat * std::cos(turn), flat * std::sin(turn), height);
+          centre + zone.ball.radius * Eigen::Vector3d(flat * std::cos(turn), flat * std::sin(turn), height);
       EXPECT_EQ(signs_of(upu_forces(p[0], p[1], p[2])), signs_of(zone)) << zone.id;
     }
   }
 }
 
-TEST(PoseZones, OfA3RprWithFreeOrientationAgreeWithAGrid) {
+TEST(ZonesByCells, OfA3RprWithFreeOrientationAgreeWithAGrid) {
   const Model model = example("three_rpr_orientation");
   double r = 0;
   for (const Model::Parameter& own : model.parameters())
     if (own.name == "r") r = own.value;
-  const PoseZones map = find_pose_zones(model, {}, few_cells);
-  EXPECT_LT(map.in_doubt, 0.4 * 1.44 * std::numbers::pi) << "many surfaces meet here, and most is told apart";
+  const Zones map = find_zones(model, {.cells = few_cells});
+  EXPECT_LT(map.modes.front().in_doubt, 0.4 * 1.44 * std::numbers::pi)
+      << "many surfaces meet here, and most is told apart";
   // The grid of labels against statics at its places: a zone's signs are those there.
   std::size_t labelled = 0;
-  for (std::size_t i = 0; i < map.labels.size(); i += 7) {
-    if (map.labels[i] <= 0) continue;
+  for (std::size_t i = 0; i < map.modes.front().labels.size(); i += 7) {
+    if (map.modes.front().labels[i] <= 0) continue;
     const std::size_t n = 64;
     const std::array<std::size_t, 3> cell = {i % n, i / n % n, i / n / n};
     std::array<double, 3> at{};
     for (std::size_t c = 0; c < 3; ++c)
-      at[c] = map.lower[c] + (static_cast<double>(cell[c]) + 0.5) / n * (map.upper[c] - map.lower[c]);
+      at[c] = lower(map, c) + (static_cast<double>(cell[c]) + 0.5) / n * (upper(map, c) - lower(map, c));
     EXPECT_EQ(signs_of(rpr_forces(at[0], at[1], at[2], r)),
-              signs_of(map.zones[static_cast<std::size_t>(map.labels[i] - 1)]));
+              signs_of(map.zones[static_cast<std::size_t>(map.modes.front().labels[i] - 1)]));
     ++labelled;
   }
-  EXPECT_GT(labelled, map.labels.size() / 7 / 2);
+  EXPECT_GT(labelled, map.modes.front().labels.size() / 7 / 2);
   expect_grid_within(map, [r](double x, double y, double phi) { return rpr_forces(x, y, phi, r); });
 }
 
-TEST(PoseZones, ThatEndAtTheWorkspaceBoundaryAgreeWithTheWitness) {
+TEST(ZonesByCells, ThatEndAtTheWorkspaceBoundaryAgreeWithTheWitness) {
   const Model model = example("three_rrr_orientation");
-  const PoseZones map = find_pose_zones(model, {}, 20'000);
+  const Zones map = find_zones(model, {.cells = 20'000});
   // A leg of two halves of 0.5 m reaches as far as 1 m.
   const auto reachable = [](double x, double y, double phi) {
     const std::array<Eigen::Vector2d, 3> feet = {Eigen::Vector2d(-0.7, -0.4), {0.7, -0.4}, {0, 0.8}};
@@ -161,23 +165,23 @@ TEST(PoseZones, ThatEndAtTheWorkspaceBoundaryAgreeWithTheWitness) {
   std::vector<double> poses;
   std::vector<int> labels;
   double outside = 0, all = 0;
-  for (std::size_t i = 0; i < map.labels.size(); i += 5) {
+  for (std::size_t i = 0; i < map.modes.front().labels.size(); i += 5) {
     std::array<double, 3> at{};
     std::size_t rest = i;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto n = static_cast<std::size_t>(map.grid[c]);
-      at[c] = map.lower[c] + (static_cast<double>(rest % n) + 0.5) / map.grid[c] * (map.upper[c] - map.lower[c]);
+      at[c] = lower(map, c) + (static_cast<double>(rest % n) + 0.5) / map.grid[c] * (upper(map, c) - lower(map, c));
       rest /= n;
     }
     ++all;
     if (!reachable(at[0], at[1], at[2])) {
       ++outside;
-      ASSERT_LE(map.labels[i], 0) << "no zone is out of reach";
+      ASSERT_LE(map.modes.front().labels[i], 0) << "no zone is out of reach";
       continue;
     }
-    ASSERT_GE(map.labels[i], 0) << "what is out of reach is so";
+    ASSERT_GE(map.modes.front().labels[i], 0) << "what is out of reach is so";
     poses.insert(poses.end(), at.begin(), at.end());
-    labels.push_back(map.labels[i]);
+    labels.push_back(map.modes.front().labels[i]);
   }
   const Reactions found = reactions(model, poses);
   std::map<Signs, double> sampled, least, most;
@@ -193,9 +197,9 @@ TEST(PoseZones, ThatEndAtTheWorkspaceBoundaryAgreeWithTheWitness) {
         ASSERT_EQ(sign, signs[static_cast<std::size_t>(reaction.joint[1] - '1')]);
       }
   }
-  double whole = 1, told = map.outside + map.in_doubt;
-  for (std::size_t c = 0; c < 3; ++c) whole *= map.upper[c] - map.lower[c];
-  for (const PoseZone& zone : map.zones) {
+  double whole = 1, told = map.modes.front().outside + map.modes.front().in_doubt;
+  for (std::size_t c = 0; c < 3; ++c) whole *= upper(map, c) - lower(map, c);
+  for (const Zone& zone : map.zones) {
     Signs signs{};
     for (const auto& [reaction, sign] : zone.signs)
       if (reaction.quantity == Quantity::M) signs[static_cast<std::size_t>(reaction.joint[1] - '1')] = sign;
@@ -205,8 +209,8 @@ TEST(PoseZones, ThatEndAtTheWorkspaceBoundaryAgreeWithTheWitness) {
   }
   EXPECT_NEAR(told, whole, 1e-9 * whole);
   const double fuzzy = 0.004;  // of the samples' own count
-  EXPECT_LT(map.outside / whole, outside / all + fuzzy);
-  EXPECT_GT((map.outside + map.in_doubt) / whole, outside / all - fuzzy);
+  EXPECT_LT(map.modes.front().outside / whole, outside / all + fuzzy);
+  EXPECT_GT((map.modes.front().outside + map.modes.front().in_doubt) / whole, outside / all - fuzzy);
   for (const auto& [signs, count] : sampled) {
     EXPECT_LT(least[signs] / whole, count / all + fuzzy);
     if (least[signs] > 0) {
@@ -216,17 +220,17 @@ TEST(PoseZones, ThatEndAtTheWorkspaceBoundaryAgreeWithTheWitness) {
 }
 
 // What is tried first must not depend on the thread that a cell falls to.
-TEST(PoseZones, AreTheSameInEveryRun) {
+TEST(ZonesByCells, AreTheSameInEveryRun) {
   const Model model = example("three_rpr_orientation");
-  const double first = find_pose_zones(model, {}, 6'000).in_doubt;
-  for (int run = 0; run < 3; ++run) EXPECT_EQ(find_pose_zones(model, {}, 6'000).in_doubt, first);
+  const double first = find_zones(model, {.cells = 6'000}).modes.front().in_doubt;
+  for (int run = 0; run < 3; ++run) EXPECT_EQ(find_zones(model, {.cells = 6'000}).modes.front().in_doubt, first);
 }
 
-TEST(PoseZones, OfThreeCoordinatesHaveClosedSurfaces) {
-  const PoseZones map = find_pose_zones(example("three_upu"), {}, 5000);
+TEST(ZonesByCells, OfThreeCoordinatesHaveClosedSurfaces) {
+  const Zones map = find_zones(example("three_upu"), {.cells = 5000});
   ASSERT_FALSE(map.zones.empty());
   // By Gauss: the volume inside from the faces alone.
-  for (const PoseZone& zone : map.zones) {
+  for (const Zone& zone : map.zones) {
     double volume = 0;
     for (const auto& corners : zone.faces) {
       const auto point = [&](std::size_t i) { return Eigen::Vector3d(corners[i][0], corners[i][1], corners[i][2]); };
@@ -237,14 +241,14 @@ TEST(PoseZones, OfThreeCoordinatesHaveClosedSurfaces) {
   }
 }
 
-TEST(PoseZones, OfAFourBarEndAtItsLoci) {
+TEST(ZonesByCells, OfAFourBarEndAtItsLoci) {
   const Model model = example("four_bar");
-  const PoseZones map = find_pose_zones(model);
+  const Zones map = find_zones(model);
   const LocusMap loci = trace_loci(model);
   std::set<double> cuts = {0, 2 * std::numbers::pi};
   for (const IsolatedPoint& point : loci.isolated_points) cuts.insert(point.at.front());
   ASSERT_EQ(map.zones.size() + 1, cuts.size());
-  for (const PoseZone& zone : map.zones) {
+  for (const Zone& zone : map.zones) {
     for (const double end : {zone.lower[0], zone.upper[0]}) {
       double least = 10;
       for (const double cut : cuts) least = std::min(least, std::abs(cut - end));
@@ -254,16 +258,16 @@ TEST(PoseZones, OfAFourBarEndAtItsLoci) {
     EXPECT_FALSE(zone.ends.empty());
   }
   // The end effector jumps where the rocker is upright, and its couple changes its sign in every zone.
-  const auto jumps = std::count_if(map.zones.begin(), map.zones.end(), [](const PoseZone& zone) {
+  const auto jumps = std::count_if(map.zones.begin(), map.zones.end(), [](const Zone& zone) {
     return std::any_of(zone.ends.begin(), zone.ends.end(),
-                       [](const PoseZoneEnd& end) { return end.jump && end.jump->displacement[0] != 0; });
+                       [](const ZoneEnd& end) { return end.jump && end.jump->displacement[0] != 0; });
   });
   EXPECT_GE(jumps, 3);
 }
 
 /// F = -10 (q - 1/3); the ends bear (5 -+ 20 (q - 1/3))/2 under it: zero at q = 1/3 -+ 1/4. All unknowns are
 /// eliminated.
-TEST(PoseZones, OfASlideEndWhereItsReactionsVanish) {
+TEST(ZonesByCells, OfASlideEndWhereItsReactionsVanish) {
   const Model model = Model::parse(R"(
 format: 1
 space: planar
@@ -278,25 +282,25 @@ loads:
   - {link: slide, at: T, force: ['10*(q - 1/3)', -5]}
 )",
                                    "slide.yaml");
-  const PoseZones map = find_pose_zones(model);
+  const Zones map = find_zones(model);
   std::set<double> ends;
-  for (const PoseZone& zone : map.zones) ends.insert({zone.lower[0], zone.upper[0]});
+  for (const Zone& zone : map.zones) ends.insert({zone.lower[0], zone.upper[0]});
   for (const double cut : {1.0 / 12, 1.0 / 3, 7.0 / 12})
     EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), [&](double end) { return std::abs(end - cut) < 1e-8; })) << cut;
   EXPECT_EQ(map.zones.size(), 4U);
 }
 
 /// Eight bars on one crank: no locus is traced for it, which takes minutes.
-TEST(PoseZones, OfAJansenLegEndWhereItsReactionsTurn) {
+TEST(ZonesByCells, OfAJansenLegEndWhereItsReactionsTurn) {
   const Model model = example("jansen_leg");
-  const PoseZones map = find_pose_zones(model);
+  const Zones map = find_zones(model);
   EXPECT_GT(map.zones.size(), 4U);
-  EXPECT_LT(map.in_doubt, 1e-5);
+  EXPECT_LT(map.modes.front().in_doubt, 1e-5);
   int told = 0;
-  for (const PoseZone& zone : map.zones)
-    for (const PoseZoneEnd& end : zone.ends) {
+  for (const Zone& zone : map.zones)
+    for (const ZoneEnd& end : zone.ends) {
       const Pose before = solve_pose(model, {end.at - 1e-6}), behind = solve_pose(model, {end.at + 1e-6});
-      for (const Vanishing& own : end.reactions) {
+      for (const Vanishing& own : end.vanishing) {
         double together = 0;
         for (std::size_t j = 0; j < before.reactions.size(); ++j) {
           if (before.reactions[j].joint != own.joint) continue;
@@ -313,9 +317,57 @@ TEST(PoseZones, OfAJansenLegEndWhereItsReactionsTurn) {
   EXPECT_GT(told, 8);
 }
 
-TEST(PoseZones, WantThreeCoordinatesAtMost) {
-  EXPECT_THROW(find_pose_zones(example("gough_stewart_poses")), InputError);
+/// A slider-crank, over its crank's angle and over both of its modes: each has the zones that it has alone.
+TEST(ZonesByCells, OfAllModesAreThoseOfEachAlone) {
+  const Model model = example("slider_crank");
+  const Zones all = find_zones(model, {{.all_working_modes = true}});
+  ASSERT_GT(all.modes.size(), 1U);
+  std::size_t before = 0;
+  for (const ZonedMode& mode : all.modes) {
+    const Zones alone = find_zones(model, {{.working_modes = {mode.mode}}});
+    ASSERT_EQ(alone.modes.size(), 1U);
+    EXPECT_EQ(alone.modes.front().mode, mode.mode);
+    EXPECT_EQ(alone.modes.front().outside, mode.outside);
+    for (std::size_t z = 0; z < alone.zones.size(); ++z) {
+      ASSERT_LT(before + z, all.zones.size());
+      const Zone &one = alone.zones[z], &other = all.zones[before + z];
+      EXPECT_EQ(other.mode, mode.mode);
+      EXPECT_EQ(other.id, "z" + std::to_string(before + z + 1)) << "numbers go on over the modes";
+      EXPECT_EQ(one.lower, other.lower);
+      EXPECT_EQ(one.upper, other.upper);
+      EXPECT_EQ(one.signs, other.signs);
+    }
+    for (std::size_t i = 0; i < mode.labels.size(); ++i) {
+      const int label = alone.modes.front().labels[i];
+      EXPECT_EQ(mode.labels[i], label > 0 ? label + static_cast<int>(before) : label);
+    }
+    before += alone.zones.size();
+  }
+  EXPECT_EQ(before, all.zones.size());
 }
+
+/// The faces of the arrangement lie between the bounds that cells give of them.
+TEST(ZonesByCells, OverTwoLengthsBoundTheFaces) {
+  const Model model = example("five_bar");
+  const Zones faces = find_zones(model), cells = find_zones(model, {.cells = 20'000, .by_cells = true});
+  ASSERT_FALSE(faces.by_cells);
+  ASSERT_TRUE(cells.by_cells);
+  const ZonedMode &exact = faces.modes.front(), &bounded = cells.modes.front();
+  EXPECT_GE(bounded.workspace, exact.workspace * (1 - 1e-5));
+  EXPECT_LE(bounded.workspace - bounded.in_doubt, exact.workspace * (1 + 1e-5));
+  for (const Zone& zone : faces.zones) {
+    EXPECT_TRUE(zone.certified) << zone.id;
+    EXPECT_EQ(zone.at_least, zone.size) << zone.id;
+    EXPECT_EQ(zone.at_most, zone.size) << zone.id;
+  }
+  const Zone &largest = faces.zones.front(), &by_cells = cells.zones.front();
+  EXPECT_LE(by_cells.at_least, largest.size * (1 + 1e-5));
+  EXPECT_GE(by_cells.at_most, largest.size * (1 - 1e-5));
+  EXPECT_GT(by_cells.at_least, 0.8 * largest.size);
+  EXPECT_EQ(by_cells.assembly_mode, largest.assembly_mode);
+}
+
+TEST(ZonesByCells, WantThreeCoordinatesAtMost) { EXPECT_THROW(find_zones(example("gough_stewart_poses")), InputError); }
 
 }  // namespace
 }  // namespace clearloci

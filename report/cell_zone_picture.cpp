@@ -1,4 +1,4 @@
-#include "report/pose_zone_picture.hpp"
+#include "report/cell_zone_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -12,12 +12,12 @@
 #include "report/file_units.hpp"
 #include "report/mechanism_drawing.hpp"
 #include "report/page_head.hpp"
-#include "report/pose_zones.hpp"
 #include "report/surface.hpp"
 #include "report/theme.hpp"
 #include "report/typesetting.hpp"
 #include "report/wording.hpp"
 #include "report/wrap.hpp"
+#include "report/zones.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -41,12 +41,12 @@ struct Scale {
   }
 };
 
-Scale scale_of(const core::PoseZones& map, std::size_t c) {
-  const bool angle = map.angles[c];
+Scale scale_of(const core::LocusMap& map, std::size_t c) {
+  const bool angle = angles_of(map)[c];
   const ShownUnit length = shown_unit("m", map.units);
   const double factor = angle ? 180 / std::numbers::pi : length.per_si;
-  return {printable(map.coordinates[c]) + (angle ? " (deg)" : " (" + length.name + ")"), map.lower[c] * factor,
-          map.upper[c] * factor, angle};
+  return {printable(map.tower.coordinates[c]) + (angle ? " (deg)" : " (" + length.name + ")"),
+          core::to_double(map.lower[c]) * factor, core::to_double(map.upper[c]) * factor, angle};
 }
 
 Colour colour_of(int zone) { return zone_colour(static_cast<std::size_t>(zone - 1)); }
@@ -58,21 +58,21 @@ struct Layer {
   std::vector<int> labels;
 };
 
-std::vector<Layer> layers_of(const core::PoseZones& map) {
+std::vector<Layer> layers_of(const core::Zones& map, const std::vector<int>& labels) {
   const int columns = map.grid.front(), rows = map.grid.size() > 1 ? map.grid[1] : 1;
   const auto size = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  const std::size_t all = map.labels.size() / size, drawn = std::min(all, layers_drawn);
+  const std::size_t all = labels.size() / size, drawn = std::min(all, layers_drawn);
   std::vector<Layer> layers;
   for (std::size_t k = 0; k < drawn; ++k) {
     const std::size_t layer = (2 * k + 1) * all / (2 * drawn);
-    const auto first = map.labels.begin() + static_cast<std::ptrdiff_t>(layer * size);
+    const auto first = labels.begin() + static_cast<std::ptrdiff_t>(layer * size);
     Layer own{"", columns, rows, {first, first + static_cast<std::ptrdiff_t>(size)}};
     if (map.grid.size() > 2) {
-      const Scale third = scale_of(map, 2);
+      const Scale third = scale_of(map.loci, 2);
       const double at =
           third.lower + (static_cast<double>(layer) + 0.5) / static_cast<double>(all) * (third.upper - third.lower);
-      own.title = fmt::format("{} = {:.4g}", printable(map.coordinates[2]), at) +
-                  (third.angle ? " deg" : " " + shown_unit("m", map.units).name);
+      own.title = fmt::format("{} = {:.4g}", printable(map.loci.tower.coordinates[2]), at) +
+                  (third.angle ? " deg" : " " + shown_unit("m", map.loci.units).name);
     }
     layers.push_back(std::move(own));
   }
@@ -176,13 +176,14 @@ void draw_axes(const Context& context, const Box& box, const Scale& x, const Sca
   write_text(context, y->label, box.x - 4, box.y - 5, label_font, Align::right);
 }
 
-/// Where zones over one coordinate end: a line, heavy at a singularity.
-void draw_ends(const Context& context, const core::PoseZones& map, const Box& box) {
-  const double width = map.upper[0] - map.lower[0];
-  for (const core::PoseZone& zone : map.zones)
-    for (const core::PoseZoneEnd& end : zone.ends) {
+/// Where zones of the mode over one coordinate end: a line, heavy at a singularity.
+void draw_ends(const Context& context, const core::Zones& map, const core::WorkingMode& mode, const Box& box) {
+  const double lower = core::to_double(map.loci.lower[0]), width = core::to_double(map.loci.upper[0]) - lower;
+  for (const core::Zone& zone : map.zones)
+    for (const core::ZoneEnd& end : zone.ends) {
+      if (zone.mode != mode) continue;
       const bool singular = end.kind == core::LocusKind::direct_singularity;
-      const double x = box.x + (end.at - map.lower[0]) / width * box.width;
+      const double x = box.x + (end.at - lower) / width * box.width;
       set_colour(context, light_theme.ink);
       context->set_line_width(singular ? 2.4 : 1.2);
       context->move_to(x, box.y - 4);
@@ -196,51 +197,54 @@ struct LegendRow {
   std::vector<std::string> lines;
 };
 
-std::vector<LegendRow> legend_of(const core::PoseZones& map) {
+std::vector<LegendRow> legend_of(const core::Zones& map, const core::ZonedMode& mode) {
   std::vector<LegendRow> rows;
   const auto add = [&](const Colour& colour, const std::string& text) {
     rows.push_back({colour, wrap(text, legend_width - 16, measure_in(legend_font))});
   };
   constexpr std::size_t most = 24;
-  for (std::size_t z = 0; z < map.zones.size() && z < most; ++z) {
-    const core::PoseZone& zone = map.zones[z];
+  std::size_t count = 0;
+  for (std::size_t z = 0; z < map.zones.size(); ++z) {
+    const core::Zone& zone = map.zones[z];
+    if (zone.mode != mode.mode || ++count > most) continue;
     std::string signs;
     for (const auto& [reaction, sign] : zone.signs)
       signs += " " + reaction_name(reaction) + (sign > 0 ? "+" : sign < 0 ? "\u2212" : "?");
     add(colour_of(static_cast<int>(z) + 1),
         fmt::format("{} |A|{}{}", zone.id, zone.assembly_mode > 0 ? "+" : "\u2212", signs));
   }
-  if (map.zones.size() > most) rows.push_back({std::nullopt, {fmt::format("and {} more", map.zones.size() - most)}});
-  if (std::find(map.labels.begin(), map.labels.end(), 0) != map.labels.end()) add(doubtful, "in doubt");
-  if (std::find(map.labels.begin(), map.labels.end(), -1) != map.labels.end())
-    rows.push_back({std::nullopt, {"white: out of reach"}});
+  if (count > most) rows.push_back({std::nullopt, {fmt::format("and {} more", count - most)}});
+  const auto any = [&](int label) {
+    return std::find(mode.labels.begin(), mode.labels.end(), label) != mode.labels.end();
+  };
+  if (any(0)) add(doubtful, "in doubt");
+  if (any(-1)) rows.push_back({std::nullopt, {"white: out of reach"}});
   return rows;
 }
 
 }  // namespace
 
-std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) {
-  const std::vector<Layer> layers = layers_of(map);
-  const Scale x = scale_of(map, 0);
+std::string cell_zone_picture(const core::Zones& map, const core::ZonedMode& mode, PictureFormat format) {
+  const std::vector<Layer> layers = layers_of(map, mode.labels);
+  const Scale x = scale_of(map.loci, 0);
   std::optional<Scale> y;
-  if (map.grid.size() > 1) y = scale_of(map, 1);
+  if (map.grid.size() > 1) y = scale_of(map.loci, 1);
   const bool many = layers.size() > 1;
   const double width = many ? 190 : 420, height = !y ? 40 : many ? 190 : 420;
   const std::size_t columns = std::min(columns_of_layers, layers.size());
   const std::size_t rows = (layers.size() + columns - 1) / columns;
   const double left = page_margin + 36;
   const double legend_x = left + static_cast<double>(columns) * (width + gap) - gap + 24;
-  const std::vector<LegendRow> legend = legend_of(map);
+  const std::vector<LegendRow> legend = legend_of(map, mode);
   std::vector<std::string> ends;
   if (!y)
-    for (const std::string& words : zone_end_lines(map))
+    for (const std::string& words : zone_end_lines(map, mode.mode))
       for (const std::string& line : wrap(printable(words), width + legend_width, measure_in(legend_font)))
         ends.push_back(line);
-  std::string mode;
-  for (const auto& [point, side] : map.working_mode) mode += (mode.empty() ? "" : ", ") + point + " " + side;
+  const std::string sides = mode_words(map.loci.tower, mode.mode);
   const double page_width = legend_x + legend_width + page_margin;
-  const PageHead page = page_head(map.mechanism, "Discontinuity-free zones" + (mode.empty() ? "" : "; " + mode), left,
-                                  page_width - left - page_margin);
+  const PageHead page = page_head(map.loci.mechanism, "Discontinuity-free zones" + (sides.empty() ? "" : "; " + sides),
+                                  left, page_width - left - page_margin);
   const double head = page.bottom + (y ? 12 : 0);  // above the layers stand the names of their upright axes
   double legend_height = 0;
   for (const LegendRow& row : legend) legend_height += legend_line_height * static_cast<double>(row.lines.size()) + 4;
@@ -250,7 +254,7 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
   for (const LegendRow& row : legend)
     for (const std::string& line : row.lines) description += line + "\n";
   for (const std::string& line : ends) description += line + "\n";
-  const std::string title = printable(map.mechanism);
+  const std::string title = printable(map.loci.mechanism);
 
   const auto draw = [&](const Context& context) {
     draw_page_head(context, page);
@@ -259,7 +263,7 @@ std::string pose_zone_picture(const core::PoseZones& map, PictureFormat format) 
       const Box box{left + static_cast<double>(k % columns) * (width + gap),
                     head + static_cast<double>(row) * (height + gap), width, height};
       draw_layer(context, layers[k], box);
-      if (!y) draw_ends(context, map, box);
+      if (!y) draw_ends(context, map, mode.mode, box);
       draw_axes(context, box, x, y ? &*y : nullptr);
       set_colour(context, light_theme.ink);
       write_text(context, layers[k].title, box.x + 0.5 * box.width, box.y - 5, legend_font, Align::centre);

@@ -1,4 +1,4 @@
-#include "loci/zones/pose_zones.hpp"
+#include "loci/zones/cell_zones.hpp"
 
 #include <algorithm>
 #include <map>

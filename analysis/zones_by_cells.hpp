@@ -1,0 +1,13 @@
+// Zones over one to three coordinates by cells:
+//     Mechanism -> symbolic::pose_statics -> loci::pose::cell_zones -> Zones
+// Private to analysis/: callers ask find_zones.
+#pragma once
+
+#include "analysis/loci.hpp"
+#include "clearloci/zones.hpp"
+
+namespace clearloci {
+
+core::Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& request);
+
+}  // namespace clearloci
