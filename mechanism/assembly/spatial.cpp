@@ -633,6 +633,7 @@ class SpatialConstruction : public Construction {
     if (!points_of(joint.axes[which]).empty() || holder == ground || (both && joint.to == ground)) return "";
     const auto axis = drawn_axis(index, which);
     if (!axis || keeps_constructions(holder) || (both && keeps_constructions(joint.to))) return "";
+    if (is_hinge_axis(holder, *axis) || (both && is_hinge_axis(joint.to, *axis))) return "";
     for (const LinkIndex link : {holder, both ? joint.to : holder}) {
       if (!is_turned(link) || (attitudes_[static_cast<std::size_t>(link)]->by_shape)) continue;
       return image(link, *axis).is_constant() ? "" : direction_text(link, *axis);
@@ -662,11 +663,24 @@ class SpatialConstruction : public Construction {
                            "write it over points, such as axis: B - A or 'cross([0, 1, 0], B - A)'");
   }
 
-  /// A link whose points all keep their own constructions keeps its axes as they are written too.
+  /// What is along the axis by which a link turns on the ground stands still, whatever decimals its points are drawn by.
+  bool is_hinge_axis(LinkIndex link, const Amounts& axis) const {
+    const auto hinge = hinge_of(link);
+    return hinge && other_of(d_.joint(*hinge), link) == ground && is_parallel(axis, *drawn_axis(*hinge));
+  }
+
+  /// A link whose points all keep their own constructions, or are told by coordinates, keeps its axes as written too.
   bool keeps_constructions(LinkIndex link) const {
     if (link == ground) return false;
+    const auto is_told = [&](PointIndex point) {
+      return std::any_of(d_.coordinates.begin(), d_.coordinates.end(), [&](const DrawnCoordinate& own) {
+        return own.kind == DrawnCoordinate::Kind::place && own.point == point;
+      });
+    };
+    const auto is_built = [&](PointIndex point) { return d_.at(point).built && d_.at(point).moves; };
     const auto& points = d_.link(link).points;
-    return std::all_of(points.begin(), points.end(), [&](PointIndex p) { return d_.at(p).built && d_.at(p).moves; });
+    return std::any_of(points.begin(), points.end(), is_built) &&
+           std::all_of(points.begin(), points.end(), [&](PointIndex p) { return is_built(p) || is_told(p); });
   }
 
   std::string words_of_axis(JointIndex joint, std::size_t which) const {
