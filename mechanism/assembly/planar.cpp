@@ -532,11 +532,22 @@ class PlanarConstruction : public Construction {
     }
   }
 
+  /// A joint at the point goes from one of its links to the other, and so does the dyad; else they go as in the file.
+  bool comes_first(PointIndex point, const Locus& one, const Locus& other) const {
+    const auto& joints = d_.mechanism.joints;
+    return one.link != ground && other.link != ground &&
+           std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
+             return joint.at == point && joint.from == one.link && joint.to == other.link;
+           });
+  }
+
   bool put_where_loci_meet(PointIndex point) {
     const std::vector<Locus> all = loci(point);
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t k = i + 1; k < all.size(); ++k)
-        if (all[i].source != all[k].source && meet(point, all[i], all[k])) return true;
+        if (all[i].source != all[k].source &&
+            (comes_first(point, all[k], all[i]) ? meet(point, all[k], all[i]) : meet(point, all[i], all[k])))
+          return true;
     return false;
   }
 
