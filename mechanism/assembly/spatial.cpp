@@ -663,7 +663,8 @@ class SpatialConstruction : public Construction {
                            "write it over points, such as axis: B - A or 'cross([0, 1, 0], B - A)'");
   }
 
-  /// What is along the axis by which a link turns on the ground stands still, whatever decimals its points are drawn by.
+  /// What is along the axis by which a link turns on the ground stands still, whatever decimals its points are drawn
+  /// by.
   bool is_hinge_axis(LinkIndex link, const Amounts& axis) const {
     const auto hinge = hinge_of(link);
     return hinge && other_of(d_.joint(*hinge), link) == ground && is_parallel(axis, *drawn_axis(*hinge));
