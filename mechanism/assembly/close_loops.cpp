@@ -76,6 +76,8 @@ class LoopClosure {
     const LinkIndex link = joint.from == ground ? joint.to : joint.from;
     const auto u = sample_vector(d_.mechanism, joint.axes.front(), spread_poses(d_.mechanism, 1).front());
     if (!u || link == ground) return;
+    // Given lengths move the other points of a block across its guide.
+    const bool is_drawn = d_.lengths[static_cast<std::size_t>(link)].empty();
     std::vector<PointAt> across;
     if (joint.type == JointType::prismatic) {
       if (!d_.is_spatial())
@@ -89,8 +91,9 @@ class LoopClosure {
       const double size = std::hypot(v[0], v[1], v[2]);
       if (!(size > 0)) continue;
       for (const PointIndex point : d_.link(link).points)
-        kept_.push_back({link, static_cast<std::size_t>(point), static_cast<std::size_t>(point), 0,
-                         PointAt{v[0] / size, v[1] / size, v[2] / size}});
+        if (point == joint.at || is_drawn || joint.type == JointType::revolute)
+          kept_.push_back({link, static_cast<std::size_t>(point), static_cast<std::size_t>(point), 0,
+                           PointAt{v[0] / size, v[1] / size, v[2] / size}});
     }
   }
 

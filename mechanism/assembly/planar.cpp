@@ -573,13 +573,16 @@ class PlanarConstruction : public Construction {
     if (!(std::hypot(q[0] - p[0], q[1] - p[1]) > 1e-9 * d_.size)) return false;
     const double turn = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     if (std::abs(turn) <= 1e-9 * size) refuse_stretched(point, a, b);
-    const auto radius = [](const Locus& own) { return own.radius_text.empty() ? own.radius.text() : own.radius_text; };
     put(point,
         map({{"dyad", list({known(from).name, known(to).name})},
-             {"lengths", list({radius(a), radius(b)})},
+             {"lengths", list({radius_of(a), radius_of(b)})},
              {"side", text(turn > 0 ? "left" : "right")}}),
         comment);
     return true;
+  }
+
+  static std::string radius_of(const Locus& circle) {
+    return circle.radius_text.empty() ? circle.radius.text() : circle.radius_text;
   }
 
   Node line(Handle base, const Locus& own) const {
@@ -587,11 +590,6 @@ class PlanarConstruction : public Construction {
   }
 
   void put_slider(PointIndex point, const Locus& guide, const Locus& circle, const std::string& comment) {
-    if (!circle.radius_text.empty())
-      throw core::InputError(d_.mechanism.points[static_cast<std::size_t>(point)].where,
-                             "point " + d_.name(point) + " is where a leg of the length " + circle.radius_text +
-                                 " meets the " + guide.source + ", for which there is no construction",
-                             "name another coordinate, such as the stroke along the guide");
     const Handle base = guide.base(), from = circle.base();
     require_place(from);
     const auto &c = known(from).posture, &r = d_.place(point);
@@ -601,7 +599,7 @@ class PlanarConstruction : public Construction {
     put(point,
         map({{"slider", line(base, guide)},
              {"from", text(known(from).name)},
-             {"length", text(circle.radius.text())},
+             {"length", text(radius_of(circle))},
              {"side", text(along > 0 ? "ahead" : "behind")}}),
         comment);
   }

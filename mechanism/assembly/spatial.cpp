@@ -22,8 +22,6 @@ constexpr double aligned = 1e-9;  // of vectors' lengths: what a drawing means t
 /// The same of drawn decimals that stand for irrational places, where a length is given besides.
 constexpr double meant = 1e-6;
 
-double size_of(const Amounts& v) { return std::hypot(v[0].value(), v[1].value(), v[2].value()); }
-
 bool is_parallel(const Amounts& a, const Amounts& b) {
   return size_of(cross(a, b)) <= aligned * size_of(a) * size_of(b);
 }
@@ -338,6 +336,7 @@ class SpatialConstruction : public Construction {
       }
       if (!is_turned(link) || bases.empty()) continue;
       const Attitude& own = *attitudes_[l];
+      if (own.triad && !own.by_shape && !shape(link).is_drawn()) refuse_about_axis(link, point);
       if (!own.frame.empty()) {
         for (const PointIndex base : bases)
           if (handle(base) == own.origin) {
@@ -357,6 +356,14 @@ class SpatialConstruction : public Construction {
       return true;
     }
     return false;
+  }
+
+  /// Lengths fix a shape, and not where an axis passes it.
+  [[noreturn]] void refuse_about_axis(LinkIndex link, PointIndex point) const {
+    throw core::InputError(d_.link(link).where,
+                           "the lengths of link " + d_.link(link).name + " do not tell how " + d_.name(point) +
+                               " lies about the axis of its joint",
+                           "give none, for the shape that is drawn, or write a construction of " + d_.name(point));
   }
 
   struct Stroke {

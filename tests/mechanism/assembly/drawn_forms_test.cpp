@@ -190,6 +190,22 @@ TEST(DrawnForm, TakesStrokes) {
   EXPECT_LT(apart(out->at("B"), {0.030, 0.040, 0}), 1e-12);
 }
 
+/// A cylinder swings on its pin, and its rod pushes a block along a rail.
+TEST(DrawnForm, PutsALegOnAGuide) {
+  const Mechanism m = drawn(
+      "format: 1\nunits: {length: mm}\nworkspace: {q: {stroke: [300, 600], of: S}}\n"
+      "drawn: {A: [0, 300], B: [250, 0]}\n"
+      "links: {cylinder: {points: [A]}, rod: {points: [B]}, block: {points: [B]}}\n"
+      "joints:\n"
+      "  A: {revolute: [ground, cylinder], at: A}\n"
+      "  S: {prismatic: [cylinder, rod], at: B, axis: [A, B], actuated: true}\n"
+      "  B: {revolute: [rod, block], at: B}\n"
+      "  G: {prismatic: [ground, block], at: B, axis: [1, 0]}\n"
+      "end_effector: {link: block, at: B}\n");
+  EXPECT_LT(apart(places_at(m, {0.500})->at("B"), {0.400, 0, 0}), 1e-12);
+  EXPECT_FALSE(places_at(m, {0.2999}).has_value());
+}
+
 /// Parameters stay: lengths of the drawing are expressions in them.
 TEST(DrawnForm, KeepsParameters) {
   std::string text = with_line(drawn_four_bar(), "D: [100, 0]", "D: [base, 0]");
