@@ -122,14 +122,17 @@ class PlanarConstruction : public PlanarTurning {
       if (!slides(joint, link)) continue;
       const LinkIndex guide = other_of(joint, link);
       const auto axis = drawn_axis(static_cast<JointIndex>(j));
-      if (!is_placed(guide) || !axis || !d_.at(point).is_exact) continue;
+      // The joint's own point stays on the guide where lengths are given that beat the drawing.
+      const PointIndex on_guide = !shape(link).is_drawn() && shape(link).has(joint.at) ? joint.at : point;
+      if (!is_placed(guide) || !axis || !d_.at(on_guide).is_exact) continue;
       Locus line;
       line.way = turned_in_posture(guide, *axis);
       line.link = link;
       line.source = "guide " + joint.name;
       line.along = axis_text(static_cast<JointIndex>(j), guide, *axis);
-      line.base = [this, guide, point, axis = *axis, name = joint.name] {
-        return base_of_line(guide, point, axis, name);
+      line.base = [this, link, guide, point, on_guide, axis = *axis, name = joint.name] {
+        const Handle base = base_of_line(guide, on_guide, axis, name);
+        return on_guide == point ? base : carried_along(link, base, on_guide, point);
       };
       all.push_back(std::move(line));
     }
@@ -153,23 +156,24 @@ class PlanarConstruction : public PlanarTurning {
     return text_of(image(guide, axis), 2);
   }
 
+  /// What keeps a point of a link that does not turn on its own, for another one.
+  Handle carried_along(LinkIndex link, Handle from, PointIndex other, PointIndex point) {
+    const WrittenVector by = image_of_shape(link, shape(link).way(other, point));
+    std::optional<WrittenVector> place;
+    const Node form = form_at(from, by, place);
+    std::array<double, 3> posture = known(from).posture;
+    for (std::size_t i = 0; i < 2; ++i) posture[i] += d_.place(point)[i] - d_.place(other)[i];
+    return put_extra(known(from).name + "_" + d_.name(point), form, posture, "carried along by " + d_.link(link).name,
+                     std::move(place));
+  }
+
   /// A link that does not turn on its own carries what keeps its other points over to this one.
   void add_translated(LinkIndex link, PointIndex point, std::vector<Locus>& all) {
     for (const PointIndex other : d_.link(link).points) {
       if (other == point || is_known(other) || !shape(link).has(other) || d_.at(other).built) continue;
       for (Locus& own : loci(other, 1)) {
         if (own.link == link) continue;
-        const Amounts way = shape(link).way(other, point);
-        own.base = [this, link, way, base = own.base, point, other] {
-          const Handle from = base();
-          const WrittenVector by = image_of_shape(link, way);
-          std::optional<WrittenVector> place;
-          const Node form = form_at(from, by, place);
-          std::array<double, 3> posture = known(from).posture;
-          for (std::size_t i = 0; i < 2; ++i) posture[i] += d_.place(point)[i] - d_.place(other)[i];
-          return put_extra(known(from).name + "_" + d_.name(point), form, posture,
-                           "carried along by " + d_.link(link).name, std::move(place));
-        };
+        own.base = [this, link, base = own.base, point, other] { return carried_along(link, base(), other, point); };
         all.push_back(std::move(own));
       }
     }

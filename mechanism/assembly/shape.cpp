@@ -73,6 +73,7 @@ std::optional<Amounts> Shape::place_from(const Drawing& d, const Link& link, Poi
     return std::hypot(own.second[1].value(), own.second[2].value()) <= 1e-9 * std::abs(own.second[0].value());
   });
   if (bases.size() < (is_first ? 2U : 3U)) return std::nullopt;
+  if (is_first) bases.resize(2);
   const auto length_to = [&](PointIndex base) { return given_between(given_, base, point)->length; };
   // From base 0 along u to base 1, at a from the one and b from the other.
   const Amounts& origin = at_.at(bases[0]);
@@ -84,15 +85,13 @@ std::optional<Amounts> Shape::place_from(const Drawing& d, const Link& link, Poi
     if (square.value() < -1e-12 * a.value() * a.value()) {
       std::vector<std::string> names;
       for (const PointIndex base : bases) names.push_back(d.name(base));
-      refuse(d, link,
-             "make no " + std::string(is_first ? "triangle" : "corner") + " of " + listed(names) + " and " +
-                 d.name(point));
+      names.push_back(d.name(point));
+      refuse(d, link, "make no " + std::string(is_first ? "triangle" : "corner") + " of " + listed(names));
     }
     return square.value() <= 0 ? Amount() : square_root(square);
   };
   const Amounts unit = (Amount(core::Rational(1)) / c) * u;
   if (is_first) {
-    bases.resize(2);
     const bool is_right = !d.is_spatial() && turn_of(d, bases[0], bases[1], point) < 0;
     const Amount beside = is_right ? -root(rest) : root(rest);
     return origin + along * unit + beside * Amounts{-unit[1], unit[0], {}};
