@@ -1,5 +1,5 @@
-// How the links of a planar drawing are turned: by a coordinate, by two points, as their guide is. Private to
-// mechanism/.
+// How the links of a planar drawing are turned: by a coordinate, by two points, as their guide is.
+// Private to mechanism/.
 #pragma once
 
 #include "mechanism/assembly/part_by_part.hpp"
