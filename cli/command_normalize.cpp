@@ -48,7 +48,7 @@ Command add_normalize_command(CLI::App& program) {
   command->add_option("-o,--output", arguments->output, "File to write; without it the text is printed");
   command->add_option("--set", arguments->overrides, "Another value of a parameter: name=value");
   command->add_flag("--json", arguments->json, "Print text and notes as JSON");
-  command->add_flag("-q,--quiet", arguments->quiet, "Print nothing but what is asked for");
+  command->add_flag("--quiet", arguments->quiet, "Print nothing but what is asked for");
   command->footer("Example: clearloci normalize sketch.yaml -o own.yaml\nThe drawn form: docs/drawn-form.md.");
   return {command, [arguments] { return run(*arguments); }};
 }

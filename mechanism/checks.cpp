@@ -77,7 +77,10 @@ std::set<std::string> coordinates_of(const Mechanism& mechanism, PointIndex poin
   std::vector<Expression> own;
   if (const auto* fixed = std::get_if<ExplicitPoint>(&form)) own = fixed->coordinates;
   if (const auto* dyad = std::get_if<DyadPoint>(&form)) own = {dyad->from_length, dyad->to_length};
-  if (const auto* slider = std::get_if<SliderPoint>(&form)) own = numbers_of(slider->along);
+  if (const auto* slider = std::get_if<SliderPoint>(&form)) {
+    own = numbers_of(slider->along);
+    own.push_back(slider->length);
+  }
   if (const auto* shifted = std::get_if<ShiftedPoint>(&form)) own = numbers_of(shifted->by);
   if (const auto* crossing = std::get_if<CrossingPoint>(&form)) {
     own = numbers_of(crossing->along_first);

@@ -205,7 +205,7 @@ SliderPoint read_slider(const Mechanism& mechanism, const Value& value) {
   slider.from = read_point_name(mechanism, mapping.at("from"));
   Value length = mapping.at("length");
   length.what = "the length of " + value.what;
-  slider.length = read_number(mechanism, length, Sign::positive).expression;
+  slider.length = read_length(mechanism, length);
   const Value side = mapping.at("side");
   const std::string side_text = text_of(side);
   if (side_text != "ahead" && side_text != "behind")

@@ -148,4 +148,6 @@ Amount length(const Amounts& a) {
   return square_root(dot(a, a));
 }
 
+double size_of(const Amounts& a) { return std::hypot(a[0].value(), a[1].value(), a[2].value()); }
+
 }  // namespace clearloci::mechanism

@@ -50,6 +50,8 @@ Amount dot(const Amounts& a, const Amounts& b);
 Amounts cross(const Amounts& a, const Amounts& b);
 /// Of a way along x the x itself.
 Amount length(const Amounts& a);
+/// The length in doubles.
+double size_of(const Amounts& a);
 
 /// A rational number as people write it: 0.25, but 1/3.
 std::string decimal_text(const core::Rational& value);

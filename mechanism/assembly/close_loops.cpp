@@ -8,6 +8,7 @@
 #include <queue>
 
 #include "mechanism/assembly/drawing.hpp"
+#include "mechanism/assembly/shape.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/posture_sample.hpp"
 
@@ -41,7 +42,10 @@ class LoopClosure {
     constexpr int most_steps = 60;
     const double closed = 1e-12 * d_.size;
     for (int step = 0; step < most_steps && worst() > closed; ++step) advance();
-    if (worst() > 1e-9 * d_.size) refuse();
+    if (worst() > 1e-9 * d_.size) {
+      settle();
+      refuse();
+    }
     note();
   }
 
@@ -76,6 +80,8 @@ class LoopClosure {
     const LinkIndex link = joint.from == ground ? joint.to : joint.from;
     const auto u = sample_vector(d_.mechanism, joint.axes.front(), spread_poses(d_.mechanism, 1).front());
     if (!u || link == ground) return;
+    // Given lengths move the other points of a block across its guide.
+    const bool is_drawn = d_.lengths[static_cast<std::size_t>(link)].empty();
     std::vector<PointAt> across;
     if (joint.type == JointType::prismatic) {
       if (!d_.is_spatial())
@@ -89,8 +95,9 @@ class LoopClosure {
       const double size = std::hypot(v[0], v[1], v[2]);
       if (!(size > 0)) continue;
       for (const PointIndex point : d_.link(link).points)
-        kept_.push_back({link, static_cast<std::size_t>(point), static_cast<std::size_t>(point), 0,
-                         PointAt{v[0] / size, v[1] / size, v[2] / size}});
+        if (point == joint.at || is_drawn || joint.type == JointType::revolute)
+          kept_.push_back({link, static_cast<std::size_t>(point), static_cast<std::size_t>(point), 0,
+                           PointAt{v[0] / size, v[1] / size, v[2] / size}});
     }
   }
 
@@ -107,7 +114,30 @@ class LoopClosure {
     return most;
   }
 
-  void advance() {
+  /// Where the lengths do not close: the posture of least squares, by Levenberg's steps.
+  void settle() {
+    const auto squares = [&] {
+      double sum = 0;
+      for (const Kept& own : kept_) sum += residual(own) * residual(own);
+      return sum;
+    };
+    constexpr int most_steps = 300;
+    double damping = 1e-3, sum = squares();
+    for (int step = 0; step < most_steps && damping < 1e6; ++step) {
+      const std::vector<PointAt> before = d_.posture;
+      advance(damping);
+      const double now = squares();
+      if (now < sum) {
+        sum = now;
+        damping = std::max(damping / 3, 1e-6);
+      } else {
+        d_.posture = before;
+        damping *= 10;
+      }
+    }
+  }
+
+  void advance(double damping = 1e-11) {
     const std::size_t rows = kept_.size(), columns = 3 * unknowns_;
     std::vector<std::vector<double>> jacobian(rows, std::vector<double>(columns));
     std::vector<double> right(rows);
@@ -127,7 +157,7 @@ class LoopClosure {
           jacobian[r][3 * static_cast<std::size_t>(unknown_[own.second]) + i] -= u[i];
       }
     }
-    const std::vector<double> force = solved(jacobian, right);
+    const std::vector<double> force = solved(jacobian, right, damping);
     double most = 0;
     std::vector<double> step(columns);
     for (std::size_t c = 0; c < columns; ++c) {
@@ -141,10 +171,10 @@ class LoopClosure {
           d_.posture[p][i] += shorter * step[3 * static_cast<std::size_t>(unknown_[p]) + i];
   }
 
-  /// (J J^T + little) x = b by Cholesky's method.
-  static std::vector<double> solved(const std::vector<std::vector<double>>& jacobian, std::vector<double> right) {
+  /// (J J^T + little) x = b by Cholesky's method. `little`: of rows of length one: what keeps dependent rows apart.
+  static std::vector<double> solved(const std::vector<std::vector<double>>& jacobian, std::vector<double> right,
+                                    double little) {
     const std::size_t n = right.size();
-    constexpr double little = 1e-11;  // of rows of length one: what keeps dependent rows apart
     std::vector<std::vector<double>> a(n, std::vector<double>(n));
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j <= i; ++j) {
@@ -205,17 +235,27 @@ class LoopClosure {
   }
 
   [[noreturn]] void refuse() const {
-    const auto found = std::max_element(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) {
-      return std::abs(residual(a)) < std::abs(residual(b));
-    });
+    // Where the lengths do not close, all links give way a little: the fault is one of a link of given lengths.
+    const auto fault = [&](const Kept& own) {
+      const double off = std::abs(residual(own));
+      return std::pair(off > 1e-9 * d_.size && !d_.lengths[static_cast<std::size_t>(own.link)].empty(), off);
+    };
+    const auto found =
+        std::max_element(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) { return fault(a) < fault(b); });
     const auto name = [&](std::size_t point) { return d_.name(static_cast<PointIndex>(point)); };
-    const std::string what =
-        found->along ? name(found->first) + " leaves its guide by " + in_units(std::abs(residual(*found)))
-                     : name(found->first) + " and " + name(found->second) + " come " +
-                           in_units(std::abs(residual(*found))) + (residual(*found) > 0 ? " too far" : " too near");
+    // All links of the loop give way: what is missing is the sum.
+    const std::vector<std::string> loop = loop_of(found->link);
+    double missing = 0;
+    for (const Kept& own : kept_)
+      if (!own.along && std::find(loop.begin(), loop.end(), d_.name_of(own.link)) != loop.end())
+        missing += std::abs(residual(own));
+    const std::string what = found->along
+                                 ? name(found->first) + " leaves its guide by " + in_units(std::abs(residual(*found)))
+                                 : name(found->first) + " and " + name(found->second) + " come " + in_units(missing) +
+                                       (residual(*found) > 0 ? " too far" : " too near");
     const auto& given = d_.lengths[static_cast<std::size_t>(found->link)];
     throw InputError(given.empty() ? d_.link(found->link).where : given.front().where,
-                     "the loop of " + listed(loop_of(found->link)) + " does not close with the lengths given: " + what,
+                     "the loop of " + listed(loop) + " does not close with the lengths given: " + what,
                      "correct the lengths, or leave out those that the drawing has");
   }
 
@@ -246,7 +286,10 @@ class LoopClosure {
 void close_loops(Drawing& drawing) {
   const bool any =
       std::any_of(drawing.lengths.begin(), drawing.lengths.end(), [](const auto& own) { return !own.empty(); });
-  if (any) LoopClosure(drawing).run();
+  if (!any) return;
+  for (std::size_t l = 0; l < drawing.mechanism.links.size(); ++l)
+    (void)Shape(drawing, static_cast<LinkIndex>(l));  // throws where lengths make no triangle
+  LoopClosure(drawing).run();
 }
 
 }  // namespace clearloci::mechanism

@@ -5,8 +5,7 @@
 #include <map>
 #include <set>
 
-#include "mechanism/assembly/drawing.hpp"
-#include "mechanism/dependence.hpp"
+#include "mechanism/assembly/drawn_pose.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
@@ -16,17 +15,6 @@ namespace clearloci::mechanism {
 namespace {
 
 using core::InputError;
-using CoordinateKind = DrawnCoordinate::Kind;
-
-const std::vector<std::string> axis_names = {"x", "y", "z"};
-
-Node text_node(const std::string& text, const core::SourcePosition& where) { return Node::scalar(text, where); }
-
-Node list_node(const std::vector<std::string>& texts, const core::SourcePosition& where) {
-  std::vector<Node> items;
-  for (const std::string& text : texts) items.push_back(text_node(text, where));
-  return Node::sequence(std::move(items), where);
-}
 
 /// Every word in a node's values that could be a name.
 void add_words(const Node& node, std::set<std::string>& words) {
@@ -54,14 +42,15 @@ class DrawingReader {
     if (const auto space = section("space")) m.space = text_of(*space) == "spatial" ? Space::spatial : Space::planar;
     read_parameters(m, section("parameters"), free_effort_parameters(required("joints")), overrides);
     result_.unit = length_unit();
-    read_coordinates();
+    coordinates_.emplace(section("workspace"), required("joints"), document.where, result_);
+    plain_.workspace = coordinates_->plain_workspace();
+    read_workspace(m, {plain_.workspace, "'workspace'", plain_.workspace.where(), "workspace"});
     read_points();
     read_links();
     read_joints(m, required("joints"));
     check_size();
     place_axes();
-    for (DrawnCoordinate& coordinate : result_.coordinates) resolve(coordinate);
-    check_order_of_turns();
+    coordinates_->resolve();
   }
 
   Drawing take() { return std::move(result_); }
@@ -92,177 +81,6 @@ class DrawingReader {
                        "the drawing has " + std::to_string(result_.mechanism.links.size()) + " links and " +
                            std::to_string(result_.points.size()) + " points",
                        "draw 60 links and 200 points at most, or write constructions");
-  }
-
-  // --- coordinates
-
-  /// The workspace without what its coordinates are of; the motors' own where there is none.
-  void read_coordinates() {
-    std::vector<Node::Pair> pairs;
-    const auto workspace = section("workspace");
-    if (!workspace || workspace->node.IsNull()) {
-      add_motors(pairs);
-    } else {
-      for (const Entry& entry : entries(*workspace)) {
-        written_.push_back(entry);
-        pairs.emplace_back(text_node(entry.key, entry.where), plain_coordinate(entry));
-      }
-    }
-    plain_.workspace = Node::map(std::move(pairs), workspace ? workspace->where : document_.where);
-    Value value{plain_.workspace, "'workspace'", plain_.workspace.where(), "workspace"};
-    read_workspace(result_.mechanism, value);
-  }
-
-  Node plain_coordinate(const Entry& entry) {
-    DrawnCoordinate& own = result_.coordinates.emplace_back();
-    own.name = entry.key;
-    own.where = entry.where;
-    if (!entry.value.is_map()) return entry.value.node;
-    Value value = entry.value;
-    value.what = "coordinate " + entry.key;
-    const auto range_of = [&](const Mapping& mapping, const char* key) {
-      Value range = mapping.at(key);
-      (void)elements(range, 2);
-      return range.node;
-    };
-    const auto angle = [&](const Node& range) {
-      return Node::map({{text_node("angle", entry.where), range}}, entry.value.where);
-    };
-    if (value.node.has("place")) {
-      own.kind = CoordinateKind::place;
-      return range_of(Mapping(value, {"place", "of", "within"}), "within");
-    }
-    if (value.node.has("stroke")) {
-      own.kind = CoordinateKind::stroke;
-      return range_of(Mapping(value, {"stroke", "of"}), "stroke");
-    }
-    if (value.node.has("turn")) {
-      own.kind = CoordinateKind::turn;
-      return angle(range_of(Mapping(value, {"turn", "of", "within"}), "within"));
-    }
-    if (!value.node.has("of")) return entry.value.node;
-    own.kind = CoordinateKind::direction;
-    return angle(range_of(Mapping(value, {"angle", "of"}), "angle"));
-  }
-
-  void add_motors(std::vector<Node::Pair>& pairs) {
-    const Value joints = required("joints");
-    for (const Entry& entry : entries(joints)) {
-      if (!entry.value.is_map()) continue;
-      bool actuated = false;
-      std::string type;
-      Node links;
-      for (const Entry& part : entries(entry.value)) {
-        if (part.key == "actuated" && part.value.is_scalar()) actuated = boolean_of(part.value);
-        if (part.key == "revolute" || part.key == "prismatic" || part.key == "cylindrical") {
-          type = part.key;
-          links = part.value.node;
-        }
-      }
-      if (!actuated) continue;
-      if (type != "revolute")
-        throw InputError(entry.where, "the motor " + entry.key + " is a coordinate without a range",
-                         "write workspace: {" + entry.key + ": {stroke: [least, greatest], of: " + entry.key + "}}");
-      DrawnCoordinate& own = result_.coordinates.emplace_back();
-      own.name = entry.key;
-      own.where = entry.where;
-      own.kind = CoordinateKind::direction;
-      written_.push_back(
-          {entry.key,
-           entry.where,
-           {Node::map({{text_node("of", entry.where), links}}, entry.where), "coordinate " + entry.key, entry.where}});
-      pairs.emplace_back(
-          text_node(entry.key, entry.where),
-          Node::map({{text_node("angle", entry.where), list_node({"0", "360 deg"}, entry.where)}}, entry.where));
-    }
-    if (pairs.empty())
-      throw InputError(document_.where, "there is no workspace, and no joint is actuated",
-                       "write workspace: {theta: {angle: [0, 360 deg], of: a link}}, or actuated: true at a joint");
-  }
-
-  LinkIndex link_named(const Value& value, const DrawnCoordinate& own, bool or_ground) const {
-    Value name = value;
-    name.what = "coordinate " + own.name;
-    const LinkIndex link = read_link_name(result_.mechanism, name, or_ground);
-    if (link != ground && result_.mechanism.space == Space::planar && result_.link(link).points.size() < 2)
-      throw InputError(value.where,
-                       "coordinate " + own.name + " is the direction of link " + result_.link(link).name +
-                           ", which has a single point",
-                       "name a link of two points, or add a second point to it");
-    return link;
-  }
-
-  void resolve(DrawnCoordinate& own) const {
-    if (own.kind == CoordinateKind::plain) return;
-    const auto index = static_cast<std::size_t>(&own - result_.coordinates.data());
-    Value value = written_[index].value;
-    value.what = "coordinate " + own.name;
-    const Mapping mapping(value, {"angle", "place", "stroke", "turn", "of", "within"});
-    Value of = mapping.at("of");
-    if (own.kind == CoordinateKind::direction) {
-      if (of.is_sequence()) {
-        const std::vector<Value> pair = elements(of, 2);
-        own.other = link_named(pair[0], own, true);
-        own.link = link_named(pair[1], own, true);
-        if (own.link == ground) std::swap(own.link, own.other);
-        if (own.link == own.other)
-          throw InputError(of.where, "coordinate " + own.name + " is the angle of a link from itself",
-                           "name two different links");
-      } else {
-        own.link = link_named(of, own, false);
-      }
-    } else if (own.kind == CoordinateKind::place) {
-      const Value axis = mapping.at("place");
-      const auto found = std::find(axis_names.begin(), axis_names.end(), text_of(axis));
-      own.axis = static_cast<std::size_t>(found - axis_names.begin());
-      if (own.axis >= dimension(result_.mechanism))
-        throw InputError(axis.where, "coordinate " + own.name + ": the place is '" + text_of(axis) + "'",
-                         dimension(result_.mechanism) == 2 ? "write place: x or y" : "write place: x, y or z");
-      own.point = read_point_name(result_.mechanism, of);
-    } else if (own.kind == CoordinateKind::stroke) {
-      own.joint = joint_named(of, own);
-    } else {
-      own.link = link_named(of, own, false);
-      read_turn(mapping.at("turn"), own);
-    }
-  }
-
-  JointIndex joint_named(const Value& of, const DrawnCoordinate& own) const {
-    std::vector<std::string> known;
-    for (std::size_t j = 0; j < result_.mechanism.joints.size(); ++j) {
-      const Joint& joint = result_.mechanism.joints[j];
-      if (joint.type != JointType::prismatic && joint.type != JointType::cylindrical) continue;
-      if (joint.name == text_of(of)) return static_cast<JointIndex>(j);
-      known.push_back(joint.name);
-    }
-    throw InputError(of.where, "coordinate " + own.name + ": there is no prismatic joint '" + text_of(of) + "'",
-                     suggest(text_of(of), known, "prismatic joints"));
-  }
-
-  static void read_turn(const Value& turn, DrawnCoordinate& own) {
-    const std::string text = text_of(turn);
-    std::string sorted = text.substr(0, 3);
-    std::sort(sorted.begin(), sorted.end());
-    if (text.size() != 5 || sorted != "xyz" || text[3] != '.' || text[4] < '1' || text[4] > '3')
-      throw InputError(turn.where, "coordinate " + own.name + ": the turn is '" + text + "'",
-                       "write such as turn: zyx.1, the first angle of the order z, y, x");
-    own.order = text.substr(0, 3);
-    own.axis = static_cast<std::size_t>(text[4] - '1');
-  }
-
-  void check_order_of_turns() const {
-    for (const DrawnCoordinate& own : result_.coordinates) {
-      if (own.kind != CoordinateKind::turn) continue;
-      if (!result_.is_spatial())
-        throw InputError(own.where, "coordinate " + own.name + " is a turn in space, but the mechanism is planar",
-                         "write {angle: [...], of: " + result_.name_of(own.link) + "}");
-      for (const DrawnCoordinate& other : result_.coordinates)
-        if (other.kind == CoordinateKind::turn && other.link == own.link && other.order != own.order)
-          throw InputError(other.where,
-                           "coordinates " + own.name + " and " + other.name + " turn link " +
-                               result_.name_of(own.link) + " in two orders",
-                           "write one order for all of its angles");
-    }
   }
 
   // --- points
@@ -381,7 +199,7 @@ class DrawingReader {
   /// Where constructions put their points, the others being drawn.
   void place_built() {
     const Mechanism& m = result_.mechanism;
-    const std::vector<double> pose = drawn_pose();
+    const std::vector<double> pose = pose_of_drawing(result_, *coordinates_);
     const auto placed = sample_points(m, pose);
     for (std::size_t p = 0; p < result_.points.size(); ++p) {
       if (!placed[p] && result_.points[p].has_place)
@@ -389,135 +207,6 @@ class DrawingReader {
                          "draw its base points within reach of each other");
       result_.posture.push_back(placed[p].value_or(std::array<double, 3>{}));
     }
-  }
-
-  /// The pose in which points that are written over the coordinates are where they are drawn: least squares. Points
-  /// that move with it have their places then.
-  std::vector<double> drawn_pose() {
-    Mechanism as_built = result_.mechanism;
-    std::vector<std::size_t> both;
-    for (std::size_t p = 0; p < result_.points.size(); ++p) {
-      if (!result_.points[p].built || !result_.points[p].is_exact) continue;
-      Value form{result_.points[p].form, "point " + as_built.points[p].name, result_.points[p].form.where(), "points"};
-      if (!form.is_sequence() && !form.node.has("in")) continue;
-      PointForm own = read_point_form(result_.mechanism, form);
-      if (!std::holds_alternative<ExplicitPoint>(own)) continue;
-      as_built.points[p].form = std::move(own);
-      result_.points[p].held = true;
-      result_.points[p].moves = !coordinates_of(as_built, static_cast<PointIndex>(p)).empty();
-      if (result_.points[p].moves) both.push_back(p);
-    }
-    std::vector<double> middle = spread_poses(as_built, 1).front();
-    const bool all_placed = put_drawn_places(middle);
-    if (both.empty()) {
-      if (all_placed)
-        for (DrawnPoint& point : result_.points) point.has_place = true;
-      return middle;
-    }
-    std::vector<double> best;
-    double least = 0;
-    for (std::vector<double> pose : spread_poses(as_built, 8)) {
-      (void)put_drawn_places(pose);
-      const double off = fit(as_built, both, pose);
-      if (best.empty() || off < least) best = std::move(pose), least = off;
-    }
-    check_fit(as_built, both, best);
-    for (DrawnPoint& point : result_.points) point.has_place = true;
-    return best;
-  }
-
-  /// Coordinates that are the place of a drawn point; returns whether all of them are.
-  bool put_drawn_places(std::vector<double>& pose) const {
-    bool all = true;
-    const auto& points = result_.mechanism.points;
-    for (std::size_t c = 0; c < result_.coordinates.size() && c < pose.size(); ++c) {
-      bool found = false;
-      if (result_.coordinates[c].kind == CoordinateKind::place) {
-        std::string axis, of;
-        for (const Entry& part : entries(written_[c].value)) {
-          if (part.key == "place") axis = text_of(part.value);
-          if (part.key == "of") of = text_of(part.value);
-        }
-        const auto which =
-            static_cast<std::size_t>(std::find(axis_names.begin(), axis_names.end(), axis) - axis_names.begin());
-        for (const Point& point : points) {
-          const auto* form = std::get_if<ExplicitPoint>(&point.form);
-          if (point.name != of || form == nullptr || which >= form->coordinates.size()) continue;
-          pose[c] = core::to_double(value_of(form->coordinates[which], result_.mechanism));
-          found = true;
-        }
-      }
-      all = all && found;
-    }
-    return all;
-  }
-
-  using Places = std::vector<double>;
-  /// Drawn places minus those of the constructions.
-  Places offsets(const Mechanism& as_built, const std::vector<std::size_t>& both,
-                 const std::vector<double>& pose) const {
-    const auto built = sample_points(as_built, pose), drawn = sample_points(result_.mechanism, pose);
-    Places all;
-    for (const std::size_t p : both)
-      for (std::size_t i = 0; i < 3; ++i) all.push_back((*drawn[p])[i] - (*built[p])[i]);
-    return all;
-  }
-
-  double fit(const Mechanism& as_built, const std::vector<std::size_t>& both, std::vector<double>& pose) const {
-    constexpr int steps = 40;
-    constexpr double difference = 1e-6;  // m and rad: of a quotient that only points the way
-    const std::size_t n = pose.size();
-    const auto square = [](const Places& own) {
-      double sum = 0;
-      for (const double part : own) sum += part * part;
-      return sum;
-    };
-    double off = square(offsets(as_built, both, pose));
-    for (int step = 0; step < steps && off > 0; ++step) {
-      const Places now = offsets(as_built, both, pose);
-      std::vector<Places> slopes;
-      for (std::size_t c = 0; c < n; ++c) {
-        std::vector<double> near = pose;
-        near[c] += difference;
-        slopes.push_back(offsets(as_built, both, near));
-        for (std::size_t r = 0; r < now.size(); ++r) slopes[c][r] = (now[r] - slopes[c][r]) / difference;
-      }
-      Matrix a(n, std::vector<double>(n + 1));
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j)
-          for (std::size_t r = 0; r < now.size(); ++r) a[i][j] += slopes[i][r] * slopes[j][r];
-        for (std::size_t r = 0; r < now.size(); ++r) a[i][n] += slopes[i][r] * now[r];
-        a[i][i] += 1e-14;  // coordinates that move none of these points stay
-      }
-      for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t i = 0; i < n; ++i) {
-          if (i == k || a[k][k] == 0) continue;
-          const double factor = a[i][k] / a[k][k];
-          for (std::size_t j = k; j <= n; ++j) a[i][j] -= factor * a[k][j];
-        }
-      std::vector<double> next = pose;
-      for (std::size_t k = 0; k < n; ++k)
-        if (a[k][k] != 0) next[k] += a[k][n] / a[k][k];
-      const double then = square(offsets(as_built, both, next));
-      if (!(then < off)) break;
-      pose = std::move(next);
-      off = then;
-    }
-    return off;
-  }
-
-  void check_fit(const Mechanism& as_built, const std::vector<std::size_t>& both,
-                 const std::vector<double>& pose) const {
-    const auto built = sample_points(as_built, pose), drawn = sample_points(result_.mechanism, pose);
-    double size = 0;
-    for (const auto& p : drawn)
-      for (const auto& q : drawn)
-        if (p && q) size = std::max(size, distance(*p, *q));
-    for (const std::size_t p : both)
-      if (distance(*built[p], *drawn[p]) > 1e-6 * size)
-        throw InputError(as_built.points[p].where,
-                         "point " + as_built.points[p].name + " is not drawn where its construction can put it",
-                         "correct one of them, or leave it out of drawn or points");
   }
 
   // --- links
@@ -604,8 +293,8 @@ class DrawingReader {
   const Value& document_;
   PlainSections& plain_;
   std::map<std::string, Value> sections_;
-  std::vector<Entry> written_;  ///< coordinates
   Drawing result_;
+  std::optional<CoordinateReader> coordinates_;
 };
 
 }  // namespace

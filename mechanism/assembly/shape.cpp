@@ -19,6 +19,18 @@ double turn_of(const Drawing& d, PointIndex a, PointIndex b, PointIndex c) {
   return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
+/// Six times the signed volume of a tetrahedron in the posture.
+double corner_of(const Drawing& d, PointIndex a, PointIndex b, PointIndex c, PointIndex e) {
+  const auto way = [&](PointIndex to) {
+    const auto &p = d.place(a), &q = d.place(to);
+    return std::array<double, 3>{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+  };
+  const auto u = way(b), v = way(c), w = way(e);
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+Amount two() { return Amount(core::Rational(2)); }
+
 }  // namespace
 
 Shape::Shape(const Drawing& drawing, LinkIndex link) : given_(drawing.lengths[static_cast<std::size_t>(link)]) {
@@ -33,43 +45,82 @@ Shape::Shape(const Drawing& drawing, LinkIndex link) : given_(drawing.lengths[st
 void Shape::place_by_lengths(const Drawing& d, LinkIndex index) {
   const Link& link = d.link(index);
   drawn_ = false;
-  const auto refuse = [&](const std::string& problem) {
-    throw core::InputError(
-        given_.front().where, "the lengths of link " + link.name + " " + problem,
-        "give the distances of every point from two others, as of a triangle after the other, or none");
-  };
   const PointIndex first = given_.front().first, second = given_.front().second;
   at_.emplace(first, Amounts{});
   at_.emplace(second, Amounts{given_.front().length, {}, {}});
-  if (d.is_spatial() && link.points.size() > 3) refuse("are of more than three points, which fix no shape in space");
   for (bool more = true; more;) {
     more = false;
     for (const PointIndex point : link.points) {
       if (at_.contains(point)) continue;
-      std::vector<const GivenLength*> to;
-      std::vector<PointIndex> base;
-      for (const auto& [known, place] : at_)
-        if (const GivenLength* own = given_between(given_, known, point); own != nullptr && to.size() < 2) {
-          to.push_back(own);
-          base.push_back(known);
-        }
-      if (to.size() < 2) continue;
-      // From base 0 along u to base 1, at a from the one and b from the other.
-      const Amounts u = at_.at(base[1]) - at_.at(base[0]);
-      const Amount c = mechanism::length(u), a = to[0]->length, b = to[1]->length;
-      const Amount along = (a * a + c * c - b * b) / (Amount(core::Rational(2)) * c);
-      const Amount square = a * a - along * along;
-      if (square.value() < -1e-12 * a.value() * a.value())
-        refuse("make no triangle of " + d.name(base[0]) + ", " + d.name(base[1]) + " and " + d.name(point));
-      Amount beside = square.value() <= 0 ? Amount() : square_root(square);
-      if (turn_of(d, base[0], base[1], point) < 0) beside = -beside;
-      const Amounts unit = (Amount(core::Rational(1)) / c) * u, left = {-unit[1], unit[0], {}};
-      at_.emplace(point, at_.at(base[0]) + along * unit + beside * left);
-      more = true;
+      std::vector<PointIndex> bases;
+      for (const PointIndex known : link.points)
+        if (at_.contains(known) && given_between(given_, known, point) != nullptr) bases.push_back(known);
+      if (const auto place = place_from(d, link, point, bases)) {
+        at_.emplace(point, *place);
+        more = true;
+      }
     }
   }
   for (const PointIndex point : link.points)
-    if (!at_.contains(point) && !d.at(point).built) refuse("leave " + d.name(point) + " without a place in it");
+    if (!at_.contains(point) && !d.at(point).built)
+      refuse(d, link, "leave " + d.name(point) + " without a place in it");
+}
+
+/// By two points in the plane; in space by three, but for the first that is off the line of two.
+std::optional<Amounts> Shape::place_from(const Drawing& d, const Link& link, PointIndex point,
+                                         std::vector<PointIndex> bases) const {
+  const bool is_first = !d.is_spatial() || std::all_of(at_.begin(), at_.end(), [](const auto& own) {
+    return std::hypot(own.second[1].value(), own.second[2].value()) <= 1e-9 * std::abs(own.second[0].value());
+  });
+  if (bases.size() < (is_first ? 2U : 3U)) return std::nullopt;
+  if (is_first) bases.resize(2);
+  const auto length_to = [&](PointIndex base) { return given_between(given_, base, point)->length; };
+  // From base 0 along u to base 1, at a from the one and b from the other.
+  const Amounts& origin = at_.at(bases[0]);
+  const Amounts u = at_.at(bases[1]) - origin;
+  const Amount c = mechanism::length(u), a = length_to(bases[0]), b = length_to(bases[1]);
+  const Amount along = (a * a + c * c - b * b) / (two() * c);
+  const Amount rest = a * a - along * along;
+  const auto root = [&](const Amount& square) {
+    if (square.value() < -1e-12 * a.value() * a.value()) {
+      std::vector<std::string> names;
+      for (const PointIndex base : bases) names.push_back(d.name(base));
+      names.push_back(d.name(point));
+      refuse(d, link, "make no " + std::string(is_first ? "triangle" : "corner") + " of " + listed(names));
+    }
+    return square.value() <= 0 ? Amount() : square_root(square);
+  };
+  const Amounts unit = (Amount(core::Rational(1)) / c) * u;
+  if (is_first) {
+    const bool is_right = !d.is_spatial() && turn_of(d, bases[0], bases[1], point) < 0;
+    const Amount beside = is_right ? -root(rest) : root(rest);
+    return origin + along * unit + beside * Amounts{-unit[1], unit[0], {}};
+  }
+  // Off the line of the first two the third, at f along it and g beside it; then v beside and w above their plane.
+  const auto third = std::find_if(bases.begin() + 2, bases.end(), [&](PointIndex base) {
+    const Amounts way = at_.at(base) - origin;
+    return size_of(mechanism::cross(u, way)) > 1e-9 * size_of(u) * size_of(way);
+  });
+  if (third == bases.end()) return std::nullopt;
+  std::iter_swap(bases.begin() + 2, third);
+  bases.resize(3);
+  const Amounts way = at_.at(bases[2]) - origin;
+  const Amount f = dot(way, unit);
+  const Amounts off = way - f * unit;
+  const Amount g = mechanism::length(off), e = length_to(bases[2]);
+  const Amounts v = (Amount(core::Rational(1)) / g) * off, w = mechanism::cross(unit, v);
+  const Amount beside = (a * a + f * f + g * g - e * e - two() * along * f) / (two() * g);
+  const Amount height = root(rest - beside * beside);
+  const bool is_below = corner_of(d, bases[0], bases[1], bases[2], point) < 0;
+  return origin + along * unit + beside * v + (is_below ? -height : height) * w;
+}
+
+void Shape::refuse(const Drawing& d, const Link& link, const std::string& problem) const {
+  throw core::InputError(
+      given_.front().where, "the lengths of link " + link.name + " " + problem,
+      d.is_spatial() ? "give the distances of three points from each other and of every other from three, or none"
+                     : "give the distances of every point from two others, as of a triangle after the other, or "
+                       "none");
 }
 
 Amount Shape::distance(PointIndex a, PointIndex b) const {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "mechanism/assembly/drawing.hpp"
@@ -23,6 +25,10 @@ class Shape {
 
  private:
   void place_by_lengths(const Drawing& drawing, LinkIndex link);
+  /// `bases`: points with a place whose distances from this one are given. Nothing where they are too few.
+  std::optional<Amounts> place_from(const Drawing& drawing, const Link& link, PointIndex point,
+                                    std::vector<PointIndex> bases) const;
+  [[noreturn]] void refuse(const Drawing& drawing, const Link& link, const std::string& problem) const;
 
   std::map<PointIndex, Amounts> at_;
   std::vector<GivenLength> given_;

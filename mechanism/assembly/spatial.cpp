@@ -10,40 +10,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism/assembly/construction.hpp"
+#include "mechanism/assembly/spatial_turning.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
-constexpr double aligned = 1e-9;  // of vectors' lengths: what a drawing means to be parallel or square
+constexpr double close = 1e-9;  // of vectors' lengths: what a drawing means to be in line
 
-/// The same of drawn decimals that stand for irrational places, where a length is given besides.
+/// Of drawn decimals that stand for irrational places, where a length is given besides.
 constexpr double meant = 1e-6;
-
-double size_of(const Amounts& v) { return std::hypot(v[0].value(), v[1].value(), v[2].value()); }
-
-bool is_parallel(const Amounts& a, const Amounts& b) {
-  return size_of(cross(a, b)) <= aligned * size_of(a) * size_of(b);
-}
-bool is_square(const Amounts& a, const Amounts& b) {
-  return std::abs(dot(a, b).value()) <= aligned * size_of(a) * size_of(b);
-}
-
-/// Three vectors that turn with a link, as drawn and as written; any other is a sum of them.
-struct Triad {
-  std::array<Amounts, 3> drawn;
-  std::array<WrittenVector, 3> written;
-};
-
-/// The orientation of a link: a triad, or the points of a frame of the file.
-struct Attitude {
-  std::optional<Triad> triad;  ///< none: not turned from the drawing, or by a frame
-  std::string frame;           ///< of the file; else empty
-  int origin = -1;             ///< handle of the frame's
-  bool by_shape = false;       ///< the triad is of the link's shape alone
-};
 
 struct SpaceLocus {
   enum class Kind { sphere, circle, line } kind = Kind::sphere;
@@ -54,276 +31,17 @@ struct SpaceLocus {
   std::string source;
 };
 
-class SpatialConstruction : public Construction {
+class SpatialConstruction : public SpatialTurning {
  public:
-  explicit SpatialConstruction(const Drawing& drawing)
-      : Construction(drawing), attitudes_(drawing.mechanism.links.size()), one_(core::Rational(1)) {}
-
-  FoundConstruction run() {
-    while (!is_complete()) {
-      while (turn_one()) {
-      }
-      if (!place_one()) refuse_rest(d_, open_links());
-    }
-    while (turn_one()) {
-    }
-    for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) write_axes(static_cast<JointIndex>(j));
-    return std::move(found_);
-  }
+  using SpatialTurning::SpatialTurning;
 
  private:
   using Kind = SpaceLocus::Kind;
 
-  bool is_turned(LinkIndex link) const {
-    return link == ground || attitudes_[static_cast<std::size_t>(link)].has_value();
-  }
-  bool is_placed(LinkIndex link) const { return link == ground || (is_turned(link) && !known_points(link).empty()); }
-  static LinkIndex other_of(const Joint& joint, LinkIndex link) { return joint.from == link ? joint.to : joint.from; }
-  bool joins(const Joint& joint, LinkIndex link) const { return joint.from == link || joint.to == link; }
-
-  // --- vectors that turn with a link
-
-  static std::array<Amount, 3> parts(const Amounts& v, const std::array<Amounts, 3>& base) {
-    const Amount volume = dot(base[0], cross(base[1], base[2]));
-    return {dot(v, cross(base[1], base[2])) / volume, dot(v, cross(base[2], base[0])) / volume,
-            dot(v, cross(base[0], base[1])) / volume};
-  }
-
-  /// v as drawn (by shape: of the link's shape).
-  WrittenVector image(LinkIndex link, const Amounts& v) {
-    if (link == ground) return constant_vector(v);
-    const Attitude& own = *attitudes_[static_cast<std::size_t>(link)];
-    if (own.triad) {
-      const std::array<Amount, 3> part = parts(v, own.triad->drawn);
-      WrittenVector result;
-      for (std::size_t i = 0; i < 3; ++i) result += part[i] * own.triad->written[i];
-      return result;
-    }
-    if (own.frame.empty()) return constant_vector(v);
-    return way_between(known(own.origin).name, in_frame(own, v));
-  }
-
-  /// A cross product of two ways is a length more than a way: over one, in the file's units.
-  Amount per_length() const { return Amount(1 / d_.unit); }
-
-  /// A vector as an axis: components, a sum of ways, or else the way to a point that is put at it.
-  std::string direction_text(LinkIndex link, const Amounts& v) {
-    const WrittenVector vector = image(link, v);
-    const bool mixed =
-        !std::all_of(vector.components.begin(), vector.components.end(), [](const Terms& t) { return t.empty(); });
-    const bool crossed = std::any_of(vector.ways.begin(), vector.ways.end(),
-                                     [](const Term& own) { return own.factor.find("cross") != std::string::npos; });
-    if (vector.ways.empty() || (!mixed && !crossed)) return text_of(vector, 3);
-    const PointIndex base = known_points(link).front();
-    const std::string key = std::to_string(link) + " " + v[0].text() + " " + v[1].text() + " " + v[2].text();
-    auto found = extras_.find(key);
-    if (found == extras_.end()) {
-      std::array<double, 3> posture = d_.place(base);
-      for (std::size_t i = 0; i < 3; ++i) posture[i] += v[i].value() * core::to_double(d_.unit);
-      std::optional<WrittenVector> place;
-      const Node form = form_at(handle(base), vector, place);
-      const Handle end = put_extra(d_.link(link).name + "_axis", form, posture, "a direction of " + d_.link(link).name,
-                                   std::move(place));
-      found = extras_.emplace(key, known(end).name).first;
-    }
-    return found->second + " - " + known(handle(base)).name;
-  }
-
-  /// A point of the frame at a way from its origin.
-  std::string in_frame(const Attitude& own, const Amounts& way) {
-    const std::string key = own.frame + " " + way[0].text() + " " + way[1].text() + " " + way[2].text();
-    const auto found = extras_.find(key);
-    if (found != extras_.end()) return found->second;
-    std::array<double, 3> posture = known(own.origin).posture;
-    for (std::size_t i = 0; i < 3; ++i) posture[i] += way[i].value() * core::to_double(d_.unit);
-    const Handle handle = put_extra(own.frame + "_to", frame_form(own, way), posture, "a direction of " + own.frame);
-    return extras_.emplace(key, known(handle).name).first->second;
-  }
-  Node frame_form(const Attitude& own, const Amounts& way) const {
-    return map({{"in", text(own.frame)}, {"place", list({way[0].text(), way[1].text(), way[2].text()})}});
-  }
-
-  // --- orientations
-
-  bool turn_one() {
-    for (std::size_t l = 0; l < attitudes_.size(); ++l)
-      if (!attitudes_[l] && turn(static_cast<LinkIndex>(l))) return true;
-    return false;
-  }
-
-  bool turn(LinkIndex link) {
-    return turn_by_frame(link) || turn_by_guide(link) || turn_by_angle(link) || turn_by_points(link) ||
-           turn_by_axis(link);
-  }
-
-  void set(LinkIndex link, Attitude attitude) { attitudes_[static_cast<std::size_t>(link)] = std::move(attitude); }
-
-  /// Its angles in some order, at a point whose coordinates are written out.
-  bool turn_by_frame(LinkIndex link) {
-    std::array<const DrawnCoordinate*, 3> angles{};
-    for (const DrawnCoordinate& own : d_.coordinates)
-      if (own.kind == DrawnCoordinate::Kind::turn && own.link == link) angles[own.axis] = &own;
-    if (angles[0] == nullptr && angles[1] == nullptr && angles[2] == nullptr) return false;
-    const std::vector<PointIndex> points = known_points(link);
-    const auto origin =
-        std::find_if(points.begin(), points.end(), [&](PointIndex p) { return known(handle(p)).place.has_value(); });
-    if (origin == points.end() || !shape(link).is_drawn()) return false;
-    std::string order;
-    std::map<char, std::string> by_axis;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (angles[i] != nullptr) order = angles[i]->order;
-    for (std::size_t i = 0; i < 3; ++i) by_axis[order[i]] = angles[i] != nullptr ? angles[i]->name : "0";
-    Attitude own;
-    own.frame = new_name(d_.link(link).name + "_frame");
-    own.origin = handle(*origin);
-    found_.frames.push_back({own.frame,
-                             map({{"at", text(known(own.origin).name)},
-                                  {"turned", list({by_axis['x'], by_axis['y'], by_axis['z']})},
-                                  {"order", text(order)}}),
-                             ""});
-    set(link, std::move(own));
-    return true;
-  }
-
-  bool turn_by_guide(LinkIndex link) {
-    for (const Joint& joint : d_.mechanism.joints) {
-      if (joint.type != JointType::prismatic || !joins(joint, link)) continue;
-      const LinkIndex guide = other_of(joint, link);
-      if (!is_turned(guide) || !shape(link).is_drawn()) continue;
-      Attitude own;
-      if (guide != ground) own = *attitudes_[static_cast<std::size_t>(guide)];
-      if (own.by_shape) continue;
-      set(link, std::move(own));
-      return true;
-    }
-    return false;
-  }
-
-  /// The revolute joint by which a link turns about a known one.
-  std::optional<JointIndex> hinge_of(LinkIndex link) const {
-    for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) {
-      const Joint& joint = d_.mechanism.joints[j];
-      if (joint.type == JointType::revolute && joins(joint, link) && is_turned(other_of(joint, link)) &&
-          drawn_axis(static_cast<JointIndex>(j)))
-        return static_cast<JointIndex>(j);
-    }
-    return std::nullopt;
-  }
-
-  /// The angle about its axis, 0 as drawn: v = (n.v) n + cos(angle) v' + sin(angle) n x v.
-  bool turn_by_angle(LinkIndex link) {
-    if (!shape(link).is_drawn()) return false;
-    for (const DrawnCoordinate& c : d_.coordinates) {
-      if (c.kind != DrawnCoordinate::Kind::direction || (c.link != link && c.other != link)) continue;
-      for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) {
-        const Joint& joint = d_.mechanism.joints[j];
-        const LinkIndex base = other_of(joint, link);
-        if (joint.type != JointType::revolute || !joins(joint, link) || !is_turned(base)) continue;
-        if (c.other != ground && base != (c.link == link ? c.other : c.link)) continue;
-        const auto axis = drawn_axis(static_cast<JointIndex>(j));
-        if (!axis) continue;
-        const Amounts n = (one_ / length(*axis)) * *axis;
-        const bool forward = joint.to == link;
-        Triad triad;
-        for (std::size_t i = 0; i < 3; ++i) {
-          Amounts v;
-          v[i] = one_;
-          triad.drawn[i] = v;
-          const Amounts along = (dot(*axis, v) / dot(*axis, *axis)) * *axis, beside = v - along,
-                        across = (forward ? one_ : -one_) * cross(n, v);
-          triad.written[i] = image(base, along) + times("cos(" + c.name + ")", image(base, beside)) +
-                             times("sin(" + c.name + ")", image(base, across));
-        }
-        Attitude own;
-        own.triad = std::move(triad);
-        set(link, std::move(own));
-        return true;
-      }
-    }
-    return false;
-  }
-
-  bool turn_by_points(LinkIndex link) {
-    const std::vector<PointIndex> points = known_points(link);
-    for (std::size_t k = 2; k < points.size(); ++k) {
-      const Amounts a = shape(link).way(points[0], points[1]), b = shape(link).way(points[0], points[k]);
-      if (is_parallel(a, b)) continue;
-      const std::string p = known(handle(points[0])).name, q = known(handle(points[1])).name,
-                        r = known(handle(points[k])).name;
-      Triad triad;
-      triad.drawn = {a, b, cross(a, b)};
-      triad.written = {way_between(p, q), way_between(p, r), WrittenVector{}};
-      triad.written[2].ways.push_back({per_length(), "cross(" + q + " - " + p + ", " + r + " - " + p + ")"});
-      Attitude own;
-      own.triad = std::move(triad);
-      own.by_shape = !shape(link).is_drawn();
-      set(link, std::move(own));
-      return true;
-    }
-    return false;
-  }
-
-  /// The axis about which it turns on a known link, and a way that is not along it.
-  bool turn_by_axis(LinkIndex link) {
-    const auto hinge = hinge_of(link);
-    const std::vector<PointIndex> points = known_points(link);
-    if (!hinge || points.size() < 2) return false;
-    const Amounts n = *drawn_axis(*hinge);
-    for (std::size_t k = 1; k < points.size(); ++k) {
-      if (!d_.at(points[0]).is_exact || !d_.at(points[k]).is_exact) continue;
-      const Amounts way = d_.at(points[k]).at - d_.at(points[0]).at;
-      if (is_parallel(n, way)) continue;
-      const std::string p = known(handle(points[0])).name, q = known(handle(points[k])).name;
-      Triad triad;
-      triad.drawn = {n, way, cross(n, way)};
-      const std::string axis = direction_text(other_of(d_.joint(*hinge), link), n);
-      const Amount drawn_part =
-          shape(link).is_drawn() ? one_ : length(way) / shape(link).distance(points[0], points[k]);
-      triad.written = {WrittenVector{}, drawn_part * way_between(p, q), WrittenVector{}};
-      if (axis.front() == '[')
-        triad.written[0] = image(other_of(d_.joint(*hinge), link), n);
-      else
-        triad.written[0].ways.push_back({one_, "(" + axis + ")"});
-      triad.written[2].ways.push_back({drawn_part * per_length(), "cross(" + axis + ", " + q + " - " + p + ")"});
-      Attitude own;
-      own.triad = std::move(triad);
-      set(link, std::move(own));
-      return true;
-    }
-    return false;
-  }
-
-  // --- points
-
-  bool place_one() {
-    const auto count = static_cast<PointIndex>(d_.points.size());
-    for (PointIndex point = 0; point < count; ++point)
-      if (!is_known(point) && place(point)) return true;
-    return false;
-  }
-
-  bool place(PointIndex point) {
-    if (put_given(point)) return true;
-    if (d_.at(point).built) return false;
-    return put_by_coordinates(point) || put_on_link(point) || put_by_stroke(point) || put_where_loci_meet(point);
-  }
-
-  bool put_by_coordinates(PointIndex point) {
-    WrittenVector place;
-    for (const DrawnCoordinate& own : d_.coordinates)
-      if (own.kind == DrawnCoordinate::Kind::place && own.point == point)
-        place.components[own.axis].push_back({one_, own.name});
-    if (std::any_of(place.components.begin(), place.components.end(), [](const Terms& t) { return t.empty(); }))
-      return false;
-    put(point, explicit_form(place), "", place);
-    return true;
-  }
-
-  bool put_on_link(PointIndex point) {
-    for (std::size_t l = 0; l < attitudes_.size(); ++l) {
+  bool put_on_link(PointIndex point) override {
+    for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l) {
       const auto link = static_cast<LinkIndex>(l);
-      const auto& points = d_.link(link).points;
-      if (std::find(points.begin(), points.end(), point) == points.end() || !shape(link).has(point)) continue;
+      if (!has_point(link, point)) continue;
       const std::vector<PointIndex> bases = known_points(link);
       const std::string comment = "a point of " + d_.link(link).name;
       if (bases.size() > 1) {
@@ -337,7 +55,8 @@ class SpatialConstruction : public Construction {
         }
       }
       if (!is_turned(link) || bases.empty()) continue;
-      const Attitude& own = *attitudes_[l];
+      const Attitude& own = attitude(link);
+      if (own.triad && !own.by_shape && !shape(link).is_drawn()) refuse_about_axis(link, point);
       if (!own.frame.empty()) {
         for (const PointIndex base : bases)
           if (handle(base) == own.origin) {
@@ -345,71 +64,27 @@ class SpatialConstruction : public Construction {
             return true;
           }
       }
-      PointIndex base = bases.front();
-      for (const PointIndex other : bases)
-        if (known(handle(other)).place) {
-          base = other;
-          break;
-        }
-      std::optional<WrittenVector> place;
-      const Node form = form_at(handle(base), image(link, shape(link).way(base, point)), place);
-      put(point, form, comment, std::move(place));
+      put_from(bases, point, comment, [&](PointIndex base) { return image(link, shape(link).way(base, point)); });
       return true;
     }
     return false;
   }
 
-  struct Stroke {
-    const DrawnCoordinate* coordinate = nullptr;
-    LinkIndex carried = ground, base = ground;
-    std::optional<PointIndex> origin;
-    Amounts axis;
-  };
-  std::vector<Stroke> strokes_at(PointIndex point) const {
-    std::vector<Stroke> all;
-    for (const DrawnCoordinate& own : d_.coordinates) {
-      if (own.kind != DrawnCoordinate::Kind::stroke || d_.joint(own.joint).at != point) continue;
-      const Joint& joint = d_.joint(own.joint);
-      const auto axis = drawn_axis(own.joint);
-      if (!axis || !d_.at(point).is_exact) continue;
-      const bool to_holds = joint.to != ground && is_on_link(d_.mechanism, joint.at, joint.to);
-      Stroke stroke{&own, to_holds ? joint.to : joint.from, ground, {}, *axis};
-      stroke.base = other_of(joint, stroke.carried);
-      if (stroke.base != ground) stroke.origin = d_.link(stroke.base).points.front();
-      if (!stroke.origin || (is_known(*stroke.origin) && d_.at(*stroke.origin).is_exact))
-        all.push_back(std::move(stroke));
-    }
-    return all;
-  }
-
-  bool put_by_stroke(PointIndex point) {
-    for (const Stroke& own : strokes_at(point)) {
-      if (!is_placed(own.base)) continue;
-      const Amounts unit = (one_ / length(own.axis)) * own.axis;
-      const Amounts way = own.origin ? d_.at(point).at - d_.at(*own.origin).at : d_.at(point).at;
-      const Amounts beside = way - (dot(way, own.axis) / dot(own.axis, own.axis)) * own.axis;
-      const WrittenVector by = image(own.base, beside) + times(own.coordinate->name, image(own.base, unit));
-      const std::string comment = "out by " + own.coordinate->name;
-      if (own.origin) {
-        std::optional<WrittenVector> place;
-        const Node form = form_at(handle(*own.origin), by, place);
-        put(point, form, comment, std::move(place));
-      } else {
-        put(point, explicit_form(by), comment, by);
-      }
-      return true;
-    }
-    return false;
+  /// Lengths fix a shape, and not where an axis passes it.
+  [[noreturn]] void refuse_about_axis(LinkIndex link, PointIndex point) const {
+    throw core::InputError(d_.link(link).where,
+                           "the lengths of link " + d_.link(link).name + " do not tell how " + d_.name(point) +
+                               " lies about the axis of its joint",
+                           "give none, for the shape that is drawn, or write a construction of " + d_.name(point));
   }
 
   // --- spheres, circles and lines
 
   std::vector<SpaceLocus> loci(PointIndex point) {
     std::vector<SpaceLocus> all;
-    for (std::size_t l = 0; l < attitudes_.size(); ++l) {
+    for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l) {
       const auto link = static_cast<LinkIndex>(l);
-      const auto& points = d_.link(link).points;
-      if (std::find(points.begin(), points.end(), point) == points.end() || !shape(link).has(point)) continue;
+      if (!has_point(link, point)) continue;
       if (is_turned(link)) {
         if (known_points(link).empty()) add_line(link, point, all);
         continue;
@@ -482,19 +157,11 @@ class SpatialConstruction : public Construction {
            std::abs(dot(axis, way).value()) <= meant * size_of(axis) * size_of(way);
   }
 
-  std::string written_axis(JointIndex joint) const {
-    const Node& written = d_.axes[static_cast<std::size_t>(joint)].front();
-    if (written.IsScalar()) return written.Scalar();
-    std::string words;
-    for (const Node& item : written.items()) words += (words.empty() ? "[" : ", ") + item.Scalar();
-    return words + "]";
-  }
-
   template <typename Shift>
   void set_circle(SpaceLocus& own, PointIndex at, const Amounts& way, const Shift& shift) {
     const Amounts along = (dot(way, own.direction) / dot(own.direction, own.direction)) * own.direction;
     own.radius = length(way - along).text();
-    const bool in_plane = size_of(along) <= aligned * size_of(way);
+    const bool in_plane = size_of(along) <= close * size_of(way);
     own.base = [this, at, along, shift, in_plane] { return in_plane ? handle(at) : shift(along); };
   }
 
@@ -526,27 +193,7 @@ class SpatialConstruction : public Construction {
     }
   }
 
-  Handle base_of_line(LinkIndex guide, PointIndex point, const Amounts& axis, const std::string& joint) {
-    const auto on_line = [&](PointIndex other) {
-      return other != point && is_known(other) && d_.at(other).is_exact &&
-             (!is_apart(other, point) || is_parallel(axis, d_.at(other).at - d_.at(point).at));
-    };
-    if (guide == ground) {
-      for (PointIndex other = 0; other < static_cast<PointIndex>(d_.points.size()); ++other)
-        if (fixed_[static_cast<std::size_t>(other)] && on_line(other)) return handle(other);
-      const WrittenVector place = constant_vector(d_.at(point).at);
-      return put_extra(d_.name(point) + "_guide", explicit_form(place), d_.place(point), "on the guide of " + joint,
-                       place);
-    }
-    for (const PointIndex other : known_points(guide))
-      if (on_line(other)) return handle(other);
-    const PointIndex base = known_points(guide).front();
-    std::optional<WrittenVector> place;
-    const Node form = form_at(handle(base), image(guide, d_.at(point).at - d_.at(base).at), place);
-    return put_extra(d_.name(point) + "_guide", form, d_.place(point), "on the guide of " + joint, std::move(place));
-  }
-
-  bool put_where_loci_meet(PointIndex point) {
+  bool put_where_loci_meet(PointIndex point) override {
     const std::vector<SpaceLocus> all = loci(point);
     for (const SpaceLocus& first : all)
       for (const SpaceLocus& second : all)
@@ -571,8 +218,8 @@ class SpatialConstruction : public Construction {
     const auto rod = minus(r, c), way = minus(c, a), arm = minus(r, a);
     if (first.kind == Kind::line) {
       const double ahead = product(rod, n);
-      if (std::abs(ahead) <= aligned * std::sqrt(product(rod, rod) * product(n, n)))
-        refuse_stretched(point, first, sphere);
+      if (std::abs(ahead) <= close * std::sqrt(product(rod, rod) * product(n, n)))
+        refuse_stretched(point, first.source, sphere.source);
       put(point,
           map({{"slider", Node::sequence({text(known(base).name), vector_node(first.axis)}, {})},
                {"from", text(known(from).name)},
@@ -585,8 +232,8 @@ class SpatialConstruction : public Construction {
     const std::array<double, 3> across = {way[1] * arm[2] - way[2] * arm[1], way[2] * arm[0] - way[0] * arm[2],
                                           way[0] * arm[1] - way[1] * arm[0]};
     const double turn = product(n, across);
-    if (std::abs(turn) <= aligned * std::sqrt(product(n, n) * product(way, way) * product(arm, arm)))
-      refuse_stretched(point, first, sphere);
+    if (std::abs(turn) <= close * std::sqrt(product(n, n) * product(way, way) * product(arm, arm)))
+      refuse_stretched(point, first.source, sphere.source);
     put(point,
         map({{"dyad", list({known(base).name, known(from).name})},
              {"lengths", list({first.radius, sphere.radius})},
@@ -594,13 +241,6 @@ class SpatialConstruction : public Construction {
              {"side", text(turn > 0 ? "left" : "right")}}),
         comment);
     return true;
-  }
-
-  [[noreturn]] void refuse_stretched(PointIndex point, const SpaceLocus& a, const SpaceLocus& b) const {
-    throw core::InputError(d_.mechanism.points[static_cast<std::size_t>(point)].where,
-                           "point " + d_.name(point) + " is drawn where " + a.source + " and " + b.source +
-                               " are at the end of their reach, which chooses no side",
-                           "draw the mechanism in another posture");
   }
 
   // --- axes
@@ -617,7 +257,7 @@ class SpatialConstruction : public Construction {
     return std::nullopt;
   }
 
-  void write_axes(JointIndex index) {
+  void write_axes(JointIndex index) override {
     const Joint& joint = d_.joint(index);
     std::vector<std::string> written(joint.axes.size());
     for (std::size_t which = 0; which < joint.axes.size(); ++which) written[which] = axis_in_all_poses(index, which);
@@ -633,8 +273,9 @@ class SpatialConstruction : public Construction {
     if (!points_of(joint.axes[which]).empty() || holder == ground || (both && joint.to == ground)) return "";
     const auto axis = drawn_axis(index, which);
     if (!axis || keeps_constructions(holder) || (both && keeps_constructions(joint.to))) return "";
+    if (is_hinge_axis(holder, *axis) || (both && is_hinge_axis(joint.to, *axis))) return "";
     for (const LinkIndex link : {holder, both ? joint.to : holder}) {
-      if (!is_turned(link) || (attitudes_[static_cast<std::size_t>(link)]->by_shape)) continue;
+      if (!is_turned(link) || attitude(link).by_shape) continue;
       return image(link, *axis).is_constant() ? "" : direction_text(link, *axis);
     }
     for (const LinkIndex link : {holder, both ? joint.to : holder}) {
@@ -662,24 +303,31 @@ class SpatialConstruction : public Construction {
                            "write it over points, such as axis: B - A or 'cross([0, 1, 0], B - A)'");
   }
 
-  /// A link whose points all keep their own constructions keeps its axes as they are written too.
+  /// What is along the axis by which a link turns on the ground stands still, whatever decimals its points are drawn
+  /// by.
+  bool is_hinge_axis(LinkIndex link, const Amounts& axis) const {
+    const auto hinge = hinge_of(link);
+    return hinge && other_of(d_.joint(*hinge), link) == ground && is_parallel(axis, *drawn_axis(*hinge));
+  }
+
+  /// A link whose points all keep their own constructions, or are told by coordinates, keeps its axes as written too.
   bool keeps_constructions(LinkIndex link) const {
     if (link == ground) return false;
+    const auto is_told = [&](PointIndex point) {
+      return std::any_of(d_.coordinates.begin(), d_.coordinates.end(), [&](const DrawnCoordinate& own) {
+        return own.kind == DrawnCoordinate::Kind::place && own.point == point;
+      });
+    };
+    const auto is_built = [&](PointIndex point) { return d_.at(point).built && d_.at(point).moves; };
     const auto& points = d_.link(link).points;
-    return std::all_of(points.begin(), points.end(), [&](PointIndex p) { return d_.at(p).built && d_.at(p).moves; });
+    return std::any_of(points.begin(), points.end(), is_built) &&
+           std::all_of(points.begin(), points.end(), [&](PointIndex p) { return is_built(p) || is_told(p); });
   }
 
   std::string words_of_axis(JointIndex joint, std::size_t which) const {
-    const Node& written = d_.axes[static_cast<std::size_t>(joint)][which];
-    if (written.IsScalar()) return "(" + written.Scalar() + ")";
-    std::string words;
-    for (const Node& item : written.items()) words += (words.empty() ? "[" : ", ") + item.Scalar();
-    return words + "]";
+    const std::string words = written_axis(joint, which);
+    return words.front() == '[' ? words : "(" + words + ")";
   }
-
-  std::vector<std::optional<Attitude>> attitudes_;
-  std::map<std::string, std::string> extras_;
-  Amount one_;
 };
 
 }  // namespace

@@ -190,6 +190,42 @@ TEST(DrawnForm, TakesStrokes) {
   EXPECT_LT(apart(out->at("B"), {0.030, 0.040, 0}), 1e-12);
 }
 
+/// A cylinder swings on its pin, and its rod pushes a block along a rail.
+TEST(DrawnForm, PutsALegOnAGuide) {
+  const Mechanism m = drawn(
+      "format: 1\nunits: {length: mm}\nworkspace: {q: {stroke: [300, 600], of: S}}\n"
+      "drawn: {A: [0, 300], B: [250, 0]}\n"
+      "links: {cylinder: {points: [A]}, rod: {points: [B]}, block: {points: [B]}}\n"
+      "joints:\n"
+      "  A: {revolute: [ground, cylinder], at: A}\n"
+      "  S: {prismatic: [cylinder, rod], at: B, axis: [A, B], actuated: true}\n"
+      "  B: {revolute: [rod, block], at: B}\n"
+      "  G: {prismatic: [ground, block], at: B, axis: [1, 0]}\n"
+      "end_effector: {link: block, at: B}\n");
+  EXPECT_LT(apart(places_at(m, {0.500})->at("B"), {0.400, 0, 0}), 1e-12);
+  EXPECT_FALSE(places_at(m, {0.2999}).has_value());
+}
+
+/// The length of a block beats the drawing: the joint's point stays on its rail, the other one moves.
+TEST(DrawnForm, KeepsABlockOnItsGuide) {
+  const Mechanism m = drawn(
+      "format: 1\nunits: {length: mm}\nworkspace: {theta: {angle: [0, 360 deg], of: AB}}\n"
+      "drawn: {A: [0, 0], B: [30, 40], C: [150, 30], G: [150, 0]}\n"
+      "links: {AB: {points: [A, B]}, BC: {points: [B, C]}, block: {points: [G, C], length: 33}}\n"
+      "joints:\n"
+      "  A: {revolute: [ground, AB], at: A, actuated: true}\n"
+      "  B: {revolute: [AB, BC], at: B}\n"
+      "  C: {revolute: [BC, block], at: C}\n"
+      "  G: {prismatic: [ground, block], at: G, axis: [1, 0]}\n"
+      "end_effector: {link: block, at: G}\n");
+  for (const double theta : {0.3, 1.7, 4.0}) {
+    const auto places = places_at(m, {theta});
+    ASSERT_TRUE(places.has_value());
+    EXPECT_NEAR(places->at("G")[1], 0, 1e-15);
+    EXPECT_NEAR(places->at("C")[1], 0.033, 1e-15);
+  }
+}
+
 /// Parameters stay: lengths of the drawing are expressions in them.
 TEST(DrawnForm, KeepsParameters) {
   std::string text = with_line(drawn_four_bar(), "D: [100, 0]", "D: [base, 0]");

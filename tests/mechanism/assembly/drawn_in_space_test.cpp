@@ -105,5 +105,44 @@ TEST(DrawnInSpace, ClosesASliderCrank) {
   }
 }
 
+/// Three points of a plate tell where its fourth is, at the lengths given, on the side on which it is drawn.
+TEST(DrawnInSpace, BuildsATetrahedronByItsLengths) {
+  const std::string text =
+      header +
+      "workspace: {x: {place: x, of: P, within: [-50, 50]}}\n"
+      "drawn: {P: [0, 0, 0], Q: [30, 0, 0], R: [0, 40, 0], T: [11, 9, -19]}\n"
+      "points: {P: [x, 0, 0], Q: [x + 30, 0, 0], R: [x, 40, 0]}\n"
+      "links: {plate: {points: [P, Q, R, T], lengths: {P-Q: 30, P-R: 40, Q-R: 50, P-T: sqrt(600), Q-T: 30, R-T: "
+      "sqrt(1400)}}}\n"
+      "joints: {G: {prismatic: [ground, plate], at: P, axis: [1, 0, 0], actuated: true}}\n"
+      "end_effector: {link: plate, at: T}\n";
+  EXPECT_LT(apart(places_at(parse_mechanism(text, "sketch.yaml"), {0.007})->at("T"), {0.017, 0.010, -0.020}), 1e-12);
+  const Mechanism above = parse_mechanism(with_line(text, "T: [11, 9, -19]", "T: [11, 9, 19]"), "sketch.yaml");
+  EXPECT_LT(apart(places_at(above, {0.007})->at("T"), {0.017, 0.010, 0.020}), 1e-12);
+}
+
+/// Lengths of a rocker's points do not tell how the third lies about its axis: refused, not guessed.
+TEST(DrawnInSpace, RefusesLengthsAboutAnAxis) {
+  const std::string text = header +
+                           "drawn: {A: [0, 0, 0], B: [0, 30, 40], C: [200, 60, 0], D: [200, 0, 0], E: [230, 60, 30]}\n"
+                           "links: {crank: {points: [A, B]}, rod: {points: [B, C]}, "
+                           "rocker: {points: [D, C, E], lengths: {D-C: 60, D-E: sqrt(5400), C-E: sqrt(1800)}}}\n"
+                           "joints:\n"
+                           "  A: {revolute: [ground, crank], at: A, axis: [1, 0, 0], actuated: true}\n"
+                           "  B: {spherical: [crank, rod], at: B}\n"
+                           "  C: {spherical: [rod, rocker], at: C}\n"
+                           "  D: {revolute: [ground, rocker], at: D, axis: [0, 0, 1]}\n"
+                           "end_effector: {link: rocker, at: E}\n";
+  try {
+    (void)parse_mechanism(text, "sketch.yaml");
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(error.problem().find("lengths of link rocker do not tell how E lies about the axis"), std::string::npos)
+        << error.what();
+  }
+  const std::string drawn = with_line(text, ", lengths: {D-C: 60, D-E: sqrt(5400), C-E: sqrt(1800)}", "");
+  EXPECT_LT(apart(places_at(parse_mechanism(drawn, "sketch.yaml"), {0})->at("E"), {0.230, 0.060, 0.030}), 1e-12);
+}
+
 }  // namespace
 }  // namespace clearloci::mechanism

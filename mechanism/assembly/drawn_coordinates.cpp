@@ -1,0 +1,209 @@
+#include "mechanism/assembly/drawn_coordinates.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+
+using core::InputError;
+using CoordinateKind = DrawnCoordinate::Kind;
+
+Node text_node(const std::string& text, const core::SourcePosition& where) { return Node::scalar(text, where); }
+
+namespace {
+
+Node list_node(const std::vector<std::string>& texts, const core::SourcePosition& where) {
+  std::vector<Node> items;
+  for (const std::string& text : texts) items.push_back(text_node(text, where));
+  return Node::sequence(std::move(items), where);
+}
+
+}  // namespace
+
+CoordinateReader::CoordinateReader(const std::optional<Value>& workspace, const Value& joints,
+                                   const core::SourcePosition& file, Drawing& drawing)
+    : drawing_(drawing), file_(file) {
+  std::vector<Node::Pair> pairs;
+  if (!workspace || workspace->node.IsNull()) {
+    add_motors(joints, pairs);
+  } else {
+    for (const Entry& entry : entries(*workspace)) {
+      written_.push_back(entry);
+      pairs.emplace_back(text_node(entry.key, entry.where), plain_coordinate(entry));
+    }
+  }
+  workspace_ = Node::map(std::move(pairs), workspace ? workspace->where : file);
+}
+
+std::size_t CoordinateReader::axis_of(const std::string& name) {
+  static const std::array<std::string, 3> names = {"x", "y", "z"};
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+std::optional<std::pair<std::string, std::string>> CoordinateReader::place_of(std::size_t coordinate) const {
+  if (drawing_.coordinates[coordinate].kind != CoordinateKind::place) return std::nullopt;
+  std::pair<std::string, std::string> place;
+  for (const Entry& part : entries(written_[coordinate].value)) {
+    if (part.key == "place") place.first = text_of(part.value);
+    if (part.key == "of") place.second = text_of(part.value);
+  }
+  return place;
+}
+
+void CoordinateReader::resolve() const {
+  for (std::size_t c = 0; c < drawing_.coordinates.size(); ++c) resolve(drawing_.coordinates[c], written_[c].value);
+  check_order_of_turns();
+}
+
+Node CoordinateReader::plain_coordinate(const Entry& entry) {
+  DrawnCoordinate& own = drawing_.coordinates.emplace_back();
+  own.name = entry.key;
+  own.where = entry.where;
+  if (!entry.value.is_map()) return entry.value.node;
+  Value value = entry.value;
+  value.what = "coordinate " + entry.key;
+  const auto range_of = [&](const Mapping& mapping, const char* key) {
+    Value range = mapping.at(key);
+    (void)elements(range, 2);
+    return range.node;
+  };
+  const auto angle = [&](const Node& range) {
+    return Node::map({{text_node("angle", entry.where), range}}, entry.value.where);
+  };
+  if (value.node.has("place")) {
+    own.kind = CoordinateKind::place;
+    return range_of(Mapping(value, {"place", "of", "within"}), "within");
+  }
+  if (value.node.has("stroke")) {
+    own.kind = CoordinateKind::stroke;
+    return range_of(Mapping(value, {"stroke", "of"}), "stroke");
+  }
+  if (value.node.has("turn")) {
+    own.kind = CoordinateKind::turn;
+    return angle(range_of(Mapping(value, {"turn", "of", "within"}), "within"));
+  }
+  if (!value.node.has("of")) return entry.value.node;
+  own.kind = CoordinateKind::direction;
+  return angle(range_of(Mapping(value, {"angle", "of"}), "angle"));
+}
+
+void CoordinateReader::add_motors(const Value& joints, std::vector<Node::Pair>& pairs) {
+  for (const Entry& entry : entries(joints)) {
+    if (!entry.value.is_map()) continue;
+    bool actuated = false;
+    std::string type;
+    Node links;
+    for (const Entry& part : entries(entry.value)) {
+      if (part.key == "actuated" && part.value.is_scalar()) actuated = boolean_of(part.value);
+      if (part.key == "revolute" || part.key == "prismatic" || part.key == "cylindrical") {
+        type = part.key;
+        links = part.value.node;
+      }
+    }
+    if (!actuated) continue;
+    if (type != "revolute")
+      throw InputError(entry.where, "the motor " + entry.key + " is a coordinate without a range",
+                       "write workspace: {" + entry.key + ": {stroke: [least, greatest], of: " + entry.key + "}}");
+    DrawnCoordinate& own = drawing_.coordinates.emplace_back();
+    own.name = entry.key;
+    own.where = entry.where;
+    own.kind = CoordinateKind::direction;
+    written_.push_back(
+        {entry.key,
+         entry.where,
+         {Node::map({{text_node("of", entry.where), links}}, entry.where), "coordinate " + entry.key, entry.where}});
+    pairs.emplace_back(
+        text_node(entry.key, entry.where),
+        Node::map({{text_node("angle", entry.where), list_node({"0", "360 deg"}, entry.where)}}, entry.where));
+  }
+  if (pairs.empty())
+    throw InputError(file_, "there is no workspace, and no joint is actuated",
+                     "write workspace: {theta: {angle: [0, 360 deg], of: a link}}, or actuated: true at a joint");
+}
+
+LinkIndex CoordinateReader::link_named(const Value& value, const DrawnCoordinate& own, bool or_ground) const {
+  Value name = value;
+  name.what = "coordinate " + own.name;
+  const LinkIndex link = read_link_name(drawing_.mechanism, name, or_ground);
+  if (link != ground && drawing_.mechanism.space == Space::planar && drawing_.link(link).points.size() < 2)
+    throw InputError(value.where,
+                     "coordinate " + own.name + " is the direction of link " + drawing_.link(link).name +
+                         ", which has a single point",
+                     "name a link of two points, or add a second point to it");
+  return link;
+}
+
+void CoordinateReader::resolve(DrawnCoordinate& own, const Value& written) const {
+  if (own.kind == CoordinateKind::plain) return;
+  Value value = written;
+  value.what = "coordinate " + own.name;
+  const Mapping mapping(value, {"angle", "place", "stroke", "turn", "of", "within"});
+  Value of = mapping.at("of");
+  if (own.kind == CoordinateKind::direction) {
+    if (of.is_sequence()) {
+      const std::vector<Value> pair = elements(of, 2);
+      own.other = link_named(pair[0], own, true);
+      own.link = link_named(pair[1], own, true);
+      if (own.link == ground) std::swap(own.link, own.other);
+      if (own.link == own.other)
+        throw InputError(of.where, "coordinate " + own.name + " is the angle of a link from itself",
+                         "name two different links");
+    } else {
+      own.link = link_named(of, own, false);
+    }
+  } else if (own.kind == CoordinateKind::place) {
+    const Value axis = mapping.at("place");
+    own.axis = axis_of(text_of(axis));
+    if (own.axis >= dimension(drawing_.mechanism))
+      throw InputError(axis.where, "coordinate " + own.name + ": the place is '" + text_of(axis) + "'",
+                       dimension(drawing_.mechanism) == 2 ? "write place: x or y" : "write place: x, y or z");
+    own.point = read_point_name(drawing_.mechanism, of);
+  } else if (own.kind == CoordinateKind::stroke) {
+    own.joint = joint_named(of, own);
+  } else {
+    own.link = link_named(of, own, false);
+    read_turn(mapping.at("turn"), own);
+  }
+}
+
+JointIndex CoordinateReader::joint_named(const Value& of, const DrawnCoordinate& own) const {
+  std::vector<std::string> known;
+  for (std::size_t j = 0; j < drawing_.mechanism.joints.size(); ++j) {
+    const Joint& joint = drawing_.mechanism.joints[j];
+    if (joint.type != JointType::prismatic && joint.type != JointType::cylindrical) continue;
+    if (joint.name == text_of(of)) return static_cast<JointIndex>(j);
+    known.push_back(joint.name);
+  }
+  throw InputError(of.where, "coordinate " + own.name + ": there is no prismatic joint '" + text_of(of) + "'",
+                   suggest(text_of(of), known, "prismatic joints"));
+}
+
+void CoordinateReader::read_turn(const Value& turn, DrawnCoordinate& own) {
+  const std::string text = text_of(turn);
+  std::string sorted = text.substr(0, 3);
+  std::sort(sorted.begin(), sorted.end());
+  if (text.size() != 5 || sorted != "xyz" || text[3] != '.' || text[4] < '1' || text[4] > '3')
+    throw InputError(turn.where, "coordinate " + own.name + ": the turn is '" + text + "'",
+                     "write such as turn: zyx.1, the first angle of the order z, y, x");
+  own.order = text.substr(0, 3);
+  own.axis = static_cast<std::size_t>(text[4] - '1');
+}
+
+void CoordinateReader::check_order_of_turns() const {
+  for (const DrawnCoordinate& own : drawing_.coordinates) {
+    if (own.kind != CoordinateKind::turn) continue;
+    if (!drawing_.is_spatial())
+      throw InputError(own.where, "coordinate " + own.name + " is a turn in space, but the mechanism is planar",
+                       "write {angle: [...], of: " + drawing_.name_of(own.link) + "}");
+    for (const DrawnCoordinate& other : drawing_.coordinates)
+      if (other.kind == CoordinateKind::turn && other.link == own.link && other.order != own.order)
+        throw InputError(other.where,
+                         "coordinates " + own.name + " and " + other.name + " turn link " + drawing_.name_of(own.link) +
+                             " in two orders",
+                         "write one order for all of its angles");
+  }
+}
+
+}  // namespace clearloci::mechanism

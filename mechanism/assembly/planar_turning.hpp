@@ -1,0 +1,58 @@
+// How the links of a planar drawing are turned: by a coordinate, by two points, as their guide is.
+// Private to mechanism/.
+#pragma once
+
+#include "mechanism/assembly/part_by_part.hpp"
+
+namespace clearloci::mechanism {
+
+/// How a link is turned: where a vector of the drawing is in a pose.
+struct Orientation {
+  enum class Means {
+    vectors,  ///< by the images of the reference's direction and of its left
+    points,   ///< two points of a link, a constant distance apart
+    way       ///< two points whose distance varies
+  };
+  Means means = Means::vectors;
+  /// The same direction in the link's shape and in the drawing.
+  Amounts reference = {Amount(core::Rational(1)), {}, {}}, drawn = reference;
+  WrittenVector first, second;  ///< unit vectors, of `vectors`
+  int from = -1, to = -1;       ///< handles, of `points` and `way`
+  std::string angle;            ///< where `first` is (cos angle, sin angle)
+};
+
+class PlanarTurning : public PartByPart {
+ public:
+  explicit PlanarTurning(const Drawing& drawing);
+
+ protected:
+  using Means = Orientation::Means;
+
+  bool is_turned(LinkIndex link) const override { return orientation(link) != nullptr; }
+  bool turn(LinkIndex link) override;
+  WrittenVector image(LinkIndex link, const Amounts& drawn) override;
+  /// Where a vector of a link's shape is.
+  WrittenVector image_of_shape(LinkIndex link, const Amounts& v);
+
+  /// Null where it is not known.
+  const Orientation* orientation(LinkIndex link) const;
+  static bool slides(const Joint& joint, LinkIndex link);
+  static Amounts left(const Amounts& v) { return {-v[1], v[0], {}}; }
+  /// v by its parts along a reference and to its left, each over `length` of the reference where `over_square`.
+  static std::array<Amount, 2> parts(const Amounts& v, const Amounts& reference, bool over_square);
+
+ private:
+  WrittenVector image(const Orientation& own, const Amounts& v, const Amounts& reference);
+  std::string extra(const Orientation& own, const std::string& suffix, std::size_t which);
+  std::optional<Amounts> pointer(LinkIndex link) const;
+  Amounts drawn_pointer(LinkIndex link) const;
+  bool orient_by_angle(LinkIndex link, const DrawnCoordinate& c);
+  bool orient_by_points(LinkIndex link);
+  bool orient_by_guide(LinkIndex link);
+  bool orient_by_way(LinkIndex link);
+
+  Orientation ground_;
+  std::vector<std::optional<Orientation>> orientations_;
+};
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,71 @@
+"""Drawings against the examples that they draw: loci, zones and verdicts, number by number."""
+
+import json
+import unittest
+
+from program import SOURCE, InOwnFolder
+
+EXAMPLES = SOURCE / "examples"
+TWINS = SOURCE / "tests" / "mechanism" / "assembly" / "twins"
+#: What says how long it took, and how it closed.
+BESIDE = {"timing", "notes"}
+
+
+#: What calls the sides of dyads by their names, which are those of the construction that is found.
+SIDES = {"working_mode", "factor"}
+
+
+def differences(one, other, where="", beside=BESIDE):
+    """Places at which two answers differ: numbers by more than 1e-9 of their size."""
+    if isinstance(one, (int, float)) and isinstance(other, (int, float)) and not isinstance(one, bool):
+        return [] if abs(one - other) <= 1e-9 * max(1, abs(one)) else [where]
+    if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
+        return [d for i, (a, b) in enumerate(zip(one, other)) for d in differences(a, b, f"{where}[{i}]", beside)]
+    if isinstance(one, dict) and isinstance(other, dict) and set(one) - beside == set(other) - beside:
+        return [d for key in set(one) - beside for d in differences(one[key], other[key], f"{where}.{key}", beside)]
+    return [] if one == other else [where]
+
+
+class Twins(InOwnFolder):
+    def answers(self, *words, status=0):
+        """Of the example and of its drawing; a word EXAMPLE/... stands for either."""
+        for folder in (EXAMPLES, TWINS):
+            own = [folder / word[8:] if isinstance(word, str) and word.startswith("EXAMPLE/") else word for word in words]
+            yield json.loads(self.run_program(*own, "--json", status=status).stdout)
+
+    def assert_equal(self, *words, status=0, beside=BESIDE):
+        one, other = self.answers(*words, status=status)
+        self.assertEqual(differences(one, other, beside=beside), [], words)
+
+    def test_loci(self):
+        for name in ["five_bar", "five_bar_preloaded", "prrrp", "rprpr", "slider_crank", "watt_six_bar", "squeezer"]:
+            self.assert_equal("loci", f"EXAMPLE/{name}.yaml")
+
+    def test_loci_of_other_constructions(self):
+        for name in ["gripper", "klann_leg", "toggle_press"]:
+            self.assert_equal("loci", f"EXAMPLE/{name}.yaml", beside=BESIDE | SIDES)
+
+    def test_zones(self):
+        for name in ["five_bar", "four_bar"]:
+            self.assert_equal("zones", f"EXAMPLE/{name}.yaml")
+
+    def test_verdicts(self):
+        self.assert_equal("verify", "EXAMPLE/five_bar.yaml", EXAMPLES / "tasks" / "pick_and_place.yaml")
+
+    def test_a_pose_in_space(self):
+        self.assert_equal("pose", "EXAMPLE/three_upu.yaml", "--at", "0.05,0.02,0.6")
+        self.assert_equal("pose", "EXAMPLE/three_ruu.yaml", "--at", "0.05,0.02,-0.6")
+
+    def test_the_construction_answers_as_the_drawing(self):
+        for name in ["five_bar", "slider_crank"]:
+            own = self.folder / f"{name}.yaml"
+            self.run_program("normalize", TWINS / f"{name}.yaml", "-o", own)
+            answers = [json.loads(self.run_program("loci", file, "--json").stdout) for file in (TWINS / f"{name}.yaml", own)]
+            for answer in answers:
+                for key in BESIDE:
+                    answer.pop(key, None)
+            self.assertEqual(json.dumps(answers[0]), json.dumps(answers[1]))
+
+
+if __name__ == "__main__":
+    unittest.main()
