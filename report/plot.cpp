@@ -84,8 +84,9 @@ class PlotDrawing {
  public:
   explicit PlotDrawing(const Plot& plot) : plot_(plot) {
     for (const PlotPanel& panel : plot.panels)
-      scales_.push_back(panel.field ? scale_of(panel.field->values, panel.field->is_signed, panel.field->unit)
-                                    : FieldScale{});
+      scales_.push_back(
+          panel.field ? scale_of(panel.field->values, panel.field->is_signed, panel.field->unit, panel.field->radians)
+                      : FieldScale{});
     lay_out();
   }
 
