@@ -58,7 +58,7 @@ ExactValue evaluate_at(const Expression& expression, const Mechanism& mechanism,
     ExactValue result = evaluate(expression, mechanism.parameters);
     if (const auto reason = unusable(result.value))
       throw InputError(value.where, value.what + ": '" + value.node.Scalar() + "' " + *reason,
-                       "write it in m, kg, s, N and rad, of a size that can be built");
+                       "write a size that can be built");
     return result;
   } catch (const std::domain_error& error) {
     throw InputError(value.where, value.what + ": " + error.what() + " in '" + value.node.Scalar() + "'",
@@ -203,18 +203,22 @@ InSi read_instead(const Mechanism& mechanism, const Value& value, const Value& i
   return read;
 }
 
-/// As written, and where that is an expression what it comes to, in the file's units: "-L = -500 mm".
+/// As written, and where that is an expression what it comes to: "-L = -500 mm". A parameter's value stands in its own
+/// unit, what measures no length, angle or force in SI units, as its plain numbers.
 std::string told(const Number& number, const Value& value, const Mechanism& mechanism) {
   const std::string& written = text_of(value);
-  if (symbols(number.expression).empty() && number.expression.kind() == Expression::Kind::number) return written;
+  const Expression& e = number.expression;
+  const bool negated = e.kind() == Expression::Kind::negate && e.arguments()[0].kind() == Expression::Kind::number;
+  if (e.kind() == Expression::Kind::number || negated) return written;
+  for (const Parameter& parameter : mechanism.parameters)
+    if (parameter.name == written && parameter.dimension != Dimension{})
+      return written + " = " + value_words(parameter, mechanism);
   const Dimension d = dimension_of(value.field).value_or(Dimension{});
-  const char* const si = d == Dimension{.length = 1}  ? "m"
-                         : d == Dimension{.angle = 1} ? "rad"
-                         : d == Dimension{.force = 1} ? "N"
-                                                      : "";
-  const double size = core::to_double(number.value);
-  std::string words = core::told(size, si, mechanism.units);
-  if (*si == 0) words.pop_back();
+  const bool simple = d == Dimension{.length = 1} || d == Dimension{.angle = 1} || d == Dimension{.force = 1};
+  const std::string si = d == Dimension{} ? "" : words_of(coherent_unit({}, d));
+  std::string words = core::told(core::to_double(number.value), simple ? si : "", mechanism.units);
+  if (!simple) words += si;
+  if (words.back() == ' ') words.pop_back();
   return written + " = " + words;
 }
 

@@ -418,6 +418,31 @@ InSi in_si(const Expression& written, const Mechanism& mechanism, const std::opt
   return convert(written, file_size(mechanism.units, *field));
 }
 
+namespace {
+
+/// A number with a unit, or a parameter that carries one, by itself: nothing beside it could make up for what is
+/// missing, and an angle alone is no length.
+void check_lone(const Expression& written, const Dimension& d, const Dimension& field, const Value& value,
+                const Mechanism& mechanism) {
+  const auto parameter =
+      std::find_if(mechanism.parameters.begin(), mechanism.parameters.end(),
+                   [&](const Parameter& p) { return written.kind() == Kind::symbol && p.name == written.name(); });
+  const bool by_parameter = parameter != mechanism.parameters.end();
+  const std::set<std::string> names = symbols(written);
+  const bool by_number =
+      has_unit_symbol(written) &&
+      std::all_of(names.begin(), names.end(), [](const std::string& name) { return name.rfind(unit_mark, 0) == 0; });
+  if (d == Dimension{} || (!by_parameter && !by_number)) return;
+  const bool bare_angle = d == angle && field != angle && field != Dimension{};
+  if (alike(d, field) && !bare_angle) return;
+  const std::string text = value.node.Scalar(), unit = coherent_words(mechanism.units, field);
+  throw InputError(value.where, value.what + " is " + words_of(field) + ", but '" + text + "' is " + words_of(d),
+                   by_parameter ? "give parameter " + text + " a unit such as " + unit + ", or none"
+                                : "write it in a unit such as " + unit);
+}
+
+}  // namespace
+
 InSi in_si(const Expression& written, const Mechanism& mechanism, const Value& value) {
   const std::optional<Dimension> field = dimension_of(value.field);
   InSi result = in_si(written, mechanism, field);
@@ -426,6 +451,7 @@ InSi in_si(const Expression& written, const Mechanism& mechanism, const Value& v
   if (result.unlike && result.has_unit)
     throw InputError(value.where, value.what + ": '" + text + "' adds what does not measure the same",
                      "write terms of one kind");
+  if (field) check_lone(written, result.dimension, *field, value, mechanism);
   const bool said = result.has_unit && !alike(result.dimension, {});
   if (!field || !said) return result;
   if (result.certain && !alike(result.dimension, *field))

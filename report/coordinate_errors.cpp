@@ -70,6 +70,7 @@ std::string jumps_text(const core::CoordinateErrors& result, const core::Coordin
   }
   const ShownUnit length = table_unit("m", result.loci.units, lengths), turn = table_unit("rad", result.loci.units);
   const auto size = [](double value, double beside, const ShownUnit& unit) {
+    if (!std::isfinite(value)) return std::string("undefined");
     return engineering_beside(value * unit.per_si, beside * unit.per_si, few_digits);
   };
   std::vector<Column> heading = {{shown_coordinate(result), 0, Alignment::point}};

@@ -24,9 +24,9 @@ class ModePlots {
     const core::Units& units = result.loci.units;
     to_axis_ = angle ? 180 / std::numbers::pi : shown_unit("m", units).per_si;
     axis_ = printable(result.coordinate) + (angle ? " (deg)" : " (" + units.length.name + ")");
+    angle_ = core::told_unit("rad", units);
     if (units.declared) {
       length_ = small_length_ = shown_unit("m", units);
-      angle_ = shown_unit("rad", units);
       force_ = shown_unit("N", units);
     }
     for (const double value : errors.samples.columns.front()) at_.push_back(to_axis_ * value);
@@ -244,7 +244,7 @@ class ModePlots {
   const core::CoordinateModeErrors& errors_;
   double to_axis_ = 1;
   std::string axis_;
-  ShownUnit length_{"mm", 1e3}, small_length_{"µm", 1e6}, angle_{"mrad", 1e3}, force_{"N", 1};
+  ShownUnit length_{"mm", 1e3}, small_length_{"µm", 1e6}, angle_{"deg", 180 / std::numbers::pi}, force_{"N", 1};
   std::vector<double> at_;
 };
 

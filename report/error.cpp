@@ -131,7 +131,7 @@ std::string error_text(const core::ErrorMap& errors) {
         rows.push_back(size_row(map.fields[f].label, map.fields[f].unit, *one.sizes[f], errors.loci.units,
                                 at_words(map, one.sizes[f]->at, errors.loci)));
     text += "\n" + format_rows(size_columns("absolute values"), rows);
-    text += fmt::format("\n{} cells in the workspace, {} on a locus to the last bit\n\n", one.reachable, one.undefined);
+    text += fmt::format("\n{} cells in the workspace, {} of them exactly on a locus\n\n", one.reachable, one.undefined);
     if (!one.zones.empty()) text += zones_text(one, errors.loci);
   }
   for (const std::string& note : errors.notes) text += note + "\n";

@@ -135,7 +135,7 @@ std::string error_volume_text(const core::VolumeErrors& errors) {
             place_words(place(volume, one.sizes[f]->at), std::vector<bool>(volume.angles.begin(), volume.angles.end()),
                         errors.units, few_digits)));
     text += "\n" + format_rows(size_columns("absolute values"), rows);
-    text += fmt::format("\n{} cells in the workspace, {} on a locus to the last bit\n\n", one.reachable, one.undefined);
+    text += fmt::format("\n{} cells in the workspace, {} of them exactly on a locus\n\n", one.reachable, one.undefined);
   }
   for (const std::string& note : errors.notes) text += note + "\n";
   return text;

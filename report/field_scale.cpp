@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "report/colour_map.hpp"
 #include "report/wording.hpp"
@@ -23,8 +24,9 @@ const std::array<Unit, 4> lengths = {{{0.1, 1, "m"}, {1e-4, 1e3, "mm"}, {1e-7, 1
 const std::array<Unit, 4> angles = {{{0.1, 1, "rad"}, {1e-4, 1e3, "mrad"}, {1e-7, 1e6, "µrad"}, {0, 1e9, "nrad"}}};
 
 /// The unit in which a size is told.
-Unit unit_for(double size, const std::string& unit) {
+Unit unit_for(double size, const std::string& unit, bool radians) {
   if (unit != "m" && unit != "rad") return {0, 1, unit};
+  if (unit == "rad" && !radians) return {0, 180 / std::numbers::pi, "deg"};
   const auto& units = unit == "m" ? lengths : angles;
   return *std::find_if(units.begin(), units.end(), [&](const Unit& u) { return size >= u.from; });
 }
@@ -37,7 +39,7 @@ Colour FieldScale::colour(double value) const {
 
 std::string FieldScale::shown(double value) const { return short_number(factor * value, 3); }
 
-FieldScale scale_of(const std::vector<double>& values, bool is_signed, const std::string& unit) {
+FieldScale scale_of(const std::vector<double>& values, bool is_signed, const std::string& unit, bool radians) {
   constexpr double percentile = 0.9, tolerated_excess = 1.5;
   std::vector<double> sizes;
   for (const double value : values)
@@ -53,7 +55,7 @@ FieldScale scale_of(const std::vector<double>& values, bool is_signed, const std
   }
   if (!(scale.high > 0)) scale.high = 1e-9;  // zero everywhere: any range shows that
   scale.low = is_signed ? -scale.high : 0;
-  const Unit shown = unit_for(scale.high, unit), of_largest = unit_for(scale.largest, unit);
+  const Unit shown = unit_for(scale.high, unit, radians), of_largest = unit_for(scale.largest, unit, radians);
   scale.factor = shown.factor;
   scale.unit = shown.name;
   scale.largest_words = short_number(of_largest.factor * scale.largest, 3) + " " + of_largest.name;

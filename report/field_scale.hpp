@@ -17,7 +17,7 @@ struct FieldScale {
   double largest = 0;         ///< largest absolute value
   std::string largest_words;  ///< the same with its own unit
   double factor = 1;          ///< shown = factor · value
-  std::string unit;           ///< "mm", "µrad"
+  std::string unit;           ///< "mm", "deg"
 
   Colour colour(double value) const;
   /// A value in the scale's unit, without the unit.
@@ -25,8 +25,9 @@ struct FieldScale {
 };
 
 /// Signed fields symmetric about zero, magnitudes from zero. Near direct singularities errors grow without bound: the
-/// colours end at the 90th percentile of the absolute values, unless the largest is within half more than it.
-FieldScale scale_of(const std::vector<double>& values, bool is_signed, const std::string& unit);
+/// colours end at the 90th percentile of the absolute values, unless the largest is within half more than it. Angles in
+/// rad are shown in degrees unless `radians`.
+FieldScale scale_of(const std::vector<double>& values, bool is_signed, const std::string& unit, bool radians = false);
 
 /// "colours end at ±0.41 mm, the 90th percentile; the largest is 3.2 m"; empty without saturation.
 std::string saturation_words(const FieldScale& scale);

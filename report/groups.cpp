@@ -81,7 +81,7 @@ void add_curve(Groups& groups, const core::LocusMap& map, const core::LocusCurve
   group->curves.push_back(&curve);
 }
 
-void add_point(Groups& groups, const core::IsolatedPoint& point) {
+void add_point(Groups& groups, const core::LocusMap& map, const core::IsolatedPoint& point) {
   const auto same = [&](const PointGroup& group) {
     return group.kind == point.kind && same_reactions(group.vanishing, point.vanishing);
   };
@@ -89,9 +89,11 @@ void add_point(Groups& groups, const core::IsolatedPoint& point) {
   if (group == groups.points.end()) {
     const std::string what = printable(vanishing_words(point.kind, point.vanishing));
     const auto index = groups.points.size();
+    // Over one coordinate all loci are points.
+    const std::string isolated = map.tower.coordinates.size() > 1 ? "isolated points — " : "";
     PointGroup fresh{.kind = point.kind,
                      .vanishing = point.vanishing,
-                     .label = "isolated points — " + (what.empty() ? kind_words(point.kind) : what),
+                     .label = isolated + (what.empty() ? kind_words(point.kind) : what),
                      .marker = {static_cast<MarkerShape>(index % 4), palette[(index + 1) % palette.size()]},
                      .points = {}};
     group = groups.points.insert(groups.points.end(), std::move(fresh));
@@ -118,27 +120,34 @@ void choose_strokes(Groups& groups) {
 
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// The sentence with "it" in the place of the joint's name.
-std::string of_it(std::string sentence, const std::string& joint) {
+/// The sentence with "the joint" in the place of the joint's name.
+std::string of_the_joint(std::string sentence, const std::string& joint) {
+  const std::string common = "the joint";
   for (std::size_t at = sentence.find(joint); !joint.empty() && at != std::string::npos;
        at = sentence.find(joint, at)) {
     const std::size_t end = at + joint.size();
     const bool word =
         (at == 0 || !is_letter(sentence[at - 1])) && (end == sentence.size() || !is_letter(sentence[end]));
-    if (word) sentence.replace(at, joint.size(), "it");
-    at += word ? 2 : joint.size();
+    if (word) sentence.replace(at, joint.size(), common);
+    at += word ? common.size() : joint.size();
   }
   return sentence;
 }
 
-/// What the reasons of several groups have in common, said once: "the loads do no work in the motion that it alone
-/// drives".
-void tell_common_reasons(Groups& groups) {
+/// The reason of a joint's locus as it is of any joint; empty where it does not name the joint, or is no sentence of
+/// virtual work.
+std::string without_joint(const std::string& why, const std::string& joint) {
+  const std::string common = of_the_joint(why, joint);
+  return common != why && common.starts_with(core::no_work_words) ? common : "";
+}
+
+/// What the reasons of several groups have in common, to be said once.
+void find_shared_reasons(Groups& groups) {
   std::vector<std::pair<std::string, std::vector<CurveGroup*>>> sentences;
   for (CurveGroup& group : groups.curves)
     for (const core::Vanishing& one : group.vanishing) {
-      const std::string common = of_it(group.why, one.joint);
-      if (common == group.why || !common.starts_with(core::no_work_words)) continue;
+      const std::string common = without_joint(group.why, one.joint);
+      if (common.empty()) continue;
       const auto known =
           std::find_if(sentences.begin(), sentences.end(), [&](const auto& own) { return own.first == common; });
       if (known == sentences.end())
@@ -148,14 +157,37 @@ void tell_common_reasons(Groups& groups) {
     }
   for (const auto& [common, members] : sentences) {
     if (members.size() < 2) continue;
-    groups.remarks.push_back("each: " + common);
-    for (CurveGroup* const group : members) group->why.clear();
+    for (CurveGroup* const group : members) {
+      group->why.clear();
+      group->shared_why = common;
+    }
   }
+}
+
+/// "c1, c2: the loads do no work in the motion that the joint alone drives".
+void tell_shared_reasons(Groups& groups) {
+  std::vector<std::pair<std::string, std::string>> remarks;
+  for (const CurveGroup& group : groups.curves) {
+    if (group.shared_why.empty()) continue;
+    const auto known =
+        std::find_if(remarks.begin(), remarks.end(), [&](const auto& own) { return own.first == group.shared_why; });
+    if (known == remarks.end())
+      remarks.emplace_back(group.shared_why, ids_of(group));
+    else
+      known->second += ", " + ids_of(group);
+  }
+  for (const auto& [sentence, ids] : remarks) groups.remarks.push_back(ids + ": " + sentence);
 }
 
 }  // namespace
 
 Colour palette_colour(int number) { return palette[static_cast<std::size_t>(number) % palette.size()]; }
+
+std::string reason_of_any_joint(const std::string& why, const std::vector<core::Vanishing>& vanishing) {
+  for (const core::Vanishing& one : vanishing)
+    if (std::string common = without_joint(why, one.joint); !common.empty()) return common;
+  return "";
+}
 
 std::string ids_of(const CurveGroup& group) {
   constexpr std::size_t told = 4;
@@ -171,17 +203,17 @@ std::string ids_of(const CurveGroup& group) {
 Groups group_loci(const core::LocusMap& map) {
   Groups groups;
   for (const auto& curve : map.curves) add_curve(groups, map, curve);
-  for (const auto& point : map.isolated_points) add_point(groups, point);
+  for (const auto& point : map.isolated_points) add_point(groups, map, point);
   std::stable_sort(groups.curves.begin(), groups.curves.end(),
                    [](const CurveGroup& a, const CurveGroup& b) { return a.kind < b.kind; });
   choose_strokes(groups);
-  tell_common_reasons(groups);
+  find_shared_reasons(groups);
+  tell_shared_reasons(groups);
   return groups;
 }
 
 Groups groups_of_mode(const Groups& groups, const core::WorkingMode& mode) {
   Groups chosen;
-  chosen.remarks = groups.remarks;
   for (CurveGroup group : groups.curves) {
     std::erase_if(group.curves, [&](const auto* curve) { return curve->mode != mode || curve->arcs.empty(); });
     if (!group.curves.empty()) chosen.curves.push_back(std::move(group));
@@ -190,6 +222,7 @@ Groups groups_of_mode(const Groups& groups, const core::WorkingMode& mode) {
     std::erase_if(group.points, [&](const auto* point) { return point->mode != mode; });
     if (!group.points.empty()) chosen.points.push_back(std::move(group));
   }
+  tell_shared_reasons(chosen);
   return chosen;
 }
 

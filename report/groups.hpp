@@ -34,9 +34,10 @@ struct CurveGroup {
   core::LocusKind kind = core::LocusKind::contact_loss;
   bool excited = true;  ///< LocusCurve::excited
   std::vector<core::Vanishing> vanishing;
-  std::string reason;  ///< the cause, or the factor where it has no reading
-  std::string what;    ///< for the legend: what happens there
-  std::string why;     ///< and the reason in words; may be empty
+  std::string reason;           ///< the cause, or the factor where it has no reading
+  std::string what;             ///< for the legend: what happens there
+  std::string why;              ///< and the reason in words; may be empty
+  std::string shared_why = {};  ///< a reason that other groups have too, told by Groups::remarks instead
   Stroke stroke;
   int number = 0;  ///< running number among the groups of reaction loci, which chooses the colour
   std::vector<const core::LocusCurve*> curves;
@@ -54,8 +55,12 @@ struct PointGroup {
 struct Groups {
   std::vector<CurveGroup> curves;
   std::vector<PointGroup> points;
-  std::vector<std::string> remarks = {};  ///< reasons that several groups share
+  std::vector<std::string> remarks = {};  ///< reasons that several groups share, with the ids of their curves
 };
+
+/// "the loads do no work in the motion that the joint alone drives", where a reason says so of one of these joints;
+/// empty where it does not.
+std::string reason_of_any_joint(const std::string& why, const std::vector<core::Vanishing>& vanishing);
 
 /// "c1, c4": the ids of a group's curves; of many the first and the last.
 std::string ids_of(const CurveGroup& group);

@@ -34,13 +34,17 @@ void choose_view(const Subject& subject, Layout& layout) {
   layout.high = layout.search_high;
   if (subject.sketch != nullptr && planar) {
     core::Point2 low = layout.low, high = layout.high;
-    const auto cover = [&](double room) {
-      for (const auto& joint : subject.sketch->joints) {
-        for (int i = 0; i < 2; ++i) {
-          low[i] = std::min(low[i], joint.at[i] - room);
-          high[i] = std::max(high[i], joint.at[i] + room);
-        }
+    const auto cover_point = [&](const core::Point2& at, double room) {
+      for (int i = 0; i < 2; ++i) {
+        low[i] = std::min(low[i], at[i] - room);
+        high[i] = std::max(high[i], at[i] + room);
       }
+    };
+    const auto cover = [&](double room) {
+      for (const auto& joint : subject.sketch->joints) cover_point(joint.at, room);
+      for (const auto& spring : subject.sketch->springs)
+        if (!spring.torsion)
+          for (const core::Point2& end : {spring.from, spring.to}) cover_point(end, room);
     };
     constexpr double room_for_names = 0.04;  // and for the brackets of fixed joints; beside the margin
     cover(0);
@@ -120,10 +124,14 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
     const FieldLayer& layer = *subject.layer;
     add(SampleKind::colour_bar, layer.field->label + " (" + layer.scale.unit + ")", saturation_words(layer.scale));
   }
-  for (const auto& group : subject.groups.curves) {
-    add(SampleKind::curve, group.what + " (" + ids_of(group) + ")", group.why).stroke = group.stroke;
-  }
+  const auto add_groups = [&](bool with_reason) {
+    for (const auto& group : subject.groups.curves)
+      if (group.vanishing.empty() != with_reason)
+        add(SampleKind::curve, group.what + " (" + ids_of(group) + ")", group.why).stroke = group.stroke;
+  };
+  add_groups(true);
   for (const std::string& remark : subject.groups.remarks) add(SampleKind::remark, "", remark);
+  add_groups(false);
   for (const auto& group : subject.groups.points) add(SampleKind::point, group.label).marker = group.marker;
   if (subject.task != nullptr) {
     const TaskMark& task = *subject.task;

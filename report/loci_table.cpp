@@ -224,8 +224,8 @@ std::string single_coordinate_rows(const core::LocusMap& map, const core::Workin
     const std::string why =
         reason_words(point.kind, point.vanishing, point.factor, point.cause, 2 * readable_factor(map, longest_factor));
     const std::string what = what_vanishes(point.vanishing) + (point.excited ? "" : not_excited);
-    rows.push_back({"p" + std::to_string(i + 1), kind_words(point.kind), what + (what.empty() ? "" : "\n") + why,
-                    place(map, point.at.front())});
+    rows.push_back({"p" + std::to_string(i + 1) + (point.certified ? "" : "*"), kind_words(point.kind),
+                    what + (what.empty() ? "" : "\n") + why, place(map, point.at.front())});
   }
   return out + (rows.empty() ? "no points\n" : format_rows(heading, rows));
 }
@@ -237,7 +237,8 @@ std::string notes(const core::LocusMap& map) {
   if (std::any_of(map.curves.begin(), map.curves.end(), uncertain) ||
       std::any_of(map.space_curves.begin(), map.space_curves.end(), uncertain) ||
       std::any_of(map.isolated_points.begin(), map.isolated_points.end(), uncertain)) {
-    sentences.emplace_back("*: traced, but its topology is not certified.");
+    sentences.emplace_back(map.tower.coordinates.size() == 1 ? "*: found, but not certified."
+                                                             : "*: traced, but its topology is not certified.");
   }
   const auto missing = [](const core::LocusSurface& surface) { return !surface.within_resolution; };
   if (std::any_of(map.surfaces.begin(), map.surfaces.end(), missing))

@@ -72,7 +72,7 @@ std::string field_picture(const core::LocusMap& in_si, const core::WorkingMode& 
   std::vector<double> values = coloured_by.empty() ? field.values : coloured_by;
   if (!coloured_by.empty())
     for (double& value : values) value *= shown_unit(si_field.unit, map.units).per_si;
-  const FieldLayer layer{&fields, &field, scale_of(values, field.is_signed, field.unit)};
+  const FieldLayer layer{&fields, &field, scale_of(values, field.is_signed, field.unit, map.units.angle_declared)};
   return drawn({&map, mode, groups_of_mode(group_loci(map), mode), nullptr, &layer, nullptr, nullptr}, format);
 }
 

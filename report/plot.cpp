@@ -84,8 +84,9 @@ class PlotDrawing {
  public:
   explicit PlotDrawing(const Plot& plot) : plot_(plot) {
     for (const PlotPanel& panel : plot.panels)
-      scales_.push_back(panel.field ? scale_of(panel.field->values, panel.field->is_signed, panel.field->unit)
-                                    : FieldScale{});
+      scales_.push_back(
+          panel.field ? scale_of(panel.field->values, panel.field->is_signed, panel.field->unit, panel.field->radians)
+                      : FieldScale{});
     lay_out();
   }
 
@@ -116,16 +117,17 @@ class PlotDrawing {
       const bool single = plot_.panels.size() == 1;
       f.box = {0, y, plot_width, plot_.panel_height > 0 ? plot_.panel_height : single ? 280.0 : 120.0};
       if (plot_.equal_scales) equalise(f);
-      y = f.box.bottom() + gap;
-      for (const Tick& tick : y_ticks(panel, f)) labels = std::max(labels, text_width(tick.label, tick_font));
       frames_.push_back(f);
+      y = std::max(f.box.bottom(), legend(nullptr, frames_.size() - 1)) + gap;
+      for (const Tick& tick : y_ticks(panel, f)) labels = std::max(labels, text_width(tick.label, tick_font));
     }
     for (Frame& f : frames_) f.box.x = page_margin + 18 + labels + 8;
     width_ = std::ceil(frames_.front().box.right() + gap + legend_width + page_margin);
     const double left = frames_.front().box.x;
     head_ = page_head(plot_.title, plot_.subtitle, left, width_ - left - page_margin);
     for (Frame& f : frames_) f.box.y += head_.bottom;
-    height_ = std::ceil(head_.bottom + y - gap + 34 + page_margin);
+    const double below_axis = frames_.back().box.bottom() + 34;
+    height_ = std::ceil(std::max(head_.bottom + y - gap, below_axis) + page_margin);
   }
 
   /// One scale for both axes: the height follows, but a flat plot still gets a height to look at.
@@ -162,7 +164,7 @@ class PlotDrawing {
     }
     context->restore();
     draw_axes(context, panel, f, i + 1 == frames_.size());
-    draw_legend(context, i);
+    legend(&context, i);
   }
 
   static Stroke stroke_of(const PlotSeries& series) {
@@ -332,7 +334,15 @@ class PlotDrawing {
     context->restore();
   }
 
-  void draw_legend(const Context& context, std::size_t i) const {
+  static bool is_drawn(const PlotSeries& series) {
+    return std::any_of(series.lines.begin(), series.lines.end(), [](const core::Polyline& line) {
+      return std::any_of(line.begin(), line.end(),
+                         [](const Point2& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); });
+    });
+  }
+
+  /// Where it ends, down the page. Without a context nothing is drawn.
+  double legend(const Context* context, std::size_t i) const {
     constexpr double sample = 22, indent = sample + 6;
     const Frame& f = frames_[i];
     const double x = f.box.right() + gap;
@@ -340,23 +350,29 @@ class PlotDrawing {
     const Measure measure = measure_in(legend_font);
     const auto write = [&](const std::string& label, double at, const Colour& colour) {
       for (const std::string& piece : wrap(label, legend_width - (at - x), measure)) {
-        set_colour(context, colour);
-        write_text(context, piece, at, y + 0.5 * line_height + 3.1, legend_font);
+        if (context != nullptr) {
+          set_colour(*context, colour);
+          write_text(*context, piece, at, y + 0.5 * line_height + 3.1, legend_font);
+        }
         y += line_height;
       }
+    };
+    const auto draw_sample = [&](const Stroke& s) {
+      if (context == nullptr) return;
+      set_stroke(*context, s);
+      (*context)->move_to(x, y + line_height / 2);
+      (*context)->line_to(x + sample, y + line_height / 2);
+      (*context)->stroke();
     };
     if (const auto& field = plot_.panels[i].field) {
       write(field->label + " (" + scales_[i].unit + ")", x, ink);
       if (scales_[i].saturated) write(saturation_words(scales_[i]), x, faded_ink);
-      draw_colour_bar(context, scales_[i], {x, y, legend_width, colour_bar_room});
+      if (context != nullptr) draw_colour_bar(*context, scales_[i], {x, y, legend_width, colour_bar_room});
       y += colour_bar_room + 6;
     }
     for (const PlotSeries& series : plot_.panels[i].series) {
-      if (series.label.empty()) continue;
-      set_stroke(context, stroke_of(series));
-      context->move_to(x, y + line_height / 2);
-      context->line_to(x + sample, y + line_height / 2);
-      context->stroke();
+      if (series.label.empty() || !is_drawn(series)) continue;
+      draw_sample(stroke_of(series));
       write(printable(series.label), x + indent, ink);
     }
     const std::vector<PlotSeries>& own = plot_.panels[i].series;
@@ -364,17 +380,15 @@ class PlotDrawing {
       return draw_cuts(nullptr, f, series);
     });
     if (cut) write("▲ goes beyond the range shown", x, faded_ink);
-    if (i != 0) return;
+    if (i != 0) return y;
     for (std::size_t style = 0; style < plot_.mark_labels.size(); ++style) {
       const bool used = std::any_of(plot_.marks.begin(), plot_.marks.end(),
                                     [&](const PlotMark& m) { return m.style == static_cast<int>(style); });
       if (!used) continue;
-      set_stroke(context, {faded_ink, 0.7, dashes(static_cast<int>(style)), false});
-      context->move_to(x, y + line_height / 2);
-      context->line_to(x + sample, y + line_height / 2);
-      context->stroke();
+      draw_sample({faded_ink, 0.7, dashes(static_cast<int>(style)), false});
       write(plot_.mark_labels[style], x + indent, ink);
     }
+    return y;
   }
 
   const Plot& plot_;

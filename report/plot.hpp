@@ -30,6 +30,7 @@ struct PlotMark {
 struct PlotField {
   std::string label, unit;
   bool is_signed = true;
+  bool radians = false;        ///< angles are shown in rad, not in degrees
   std::vector<double> values;  ///< all of them, to choose the colours by
   std::function<double(double x, double y)> at;
 };

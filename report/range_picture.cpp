@@ -25,6 +25,7 @@ constexpr int longest_factor = 40;                                      // colum
 struct Row {
   core::LocusKind kind = core::LocusKind::contact_loss;
   std::vector<std::string> lines, reason;
+  std::string words, ids;  ///< "p1, p3", as in the table
   std::vector<double> at;
   double y = 0, height = 0;
 };
@@ -48,7 +49,8 @@ std::string words_of(const core::IsolatedPoint& point) {
 
 std::vector<Row> rows_of(const core::LocusMap& map, const core::WorkingMode& mode) {
   std::vector<std::pair<std::string, Row>> rows;
-  for (const auto& point : map.isolated_points) {
+  for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
+    const core::IsolatedPoint& point = map.isolated_points[i];
     if (point.mode != mode) continue;
     const std::string words = words_of(point), reason = reason_words(point.kind, point.vanishing, point.factor,
                                                                      point.cause, readable_factor(map, longest_factor));
@@ -57,12 +59,15 @@ std::vector<Row> rows_of(const core::LocusMap& map, const core::WorkingMode& mod
     if (row == rows.end()) {
       Row fresh;
       fresh.kind = point.kind;
-      fresh.lines = wrap(words, label_width, measure_in(legend_font));
+      fresh.words = words;
       if (reason != words) fresh.reason = wrap(reason, label_width, measure_in(legend_font));
       row = rows.insert(rows.end(), {words + reason, std::move(fresh)});
     }
+    row->second.ids += (row->second.ids.empty() ? "p" : ", p") + std::to_string(i + 1);
     row->second.at.push_back(point.at.front());
   }
+  for (auto& [key, row] : rows)
+    row.lines = wrap(row.words + " (" + row.ids + ")", label_width, measure_in(legend_font));
   std::vector<Row> sorted;
   for (int kind = 0; kind <= static_cast<int>(core::LocusKind::workspace_boundary); ++kind)
     for (auto& [words, row] : rows)

@@ -1,9 +1,12 @@
 #include "report/space_picture.hpp"
 
 #include <cairomm/surface.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "report/axis.hpp"
@@ -345,16 +348,30 @@ void draw_entry(const Context& context, const Entry& entry) {
   write(entry.reason, grey);
 }
 
+std::string ids_of(const SurfaceGroup& group) {
+  std::string ids;
+  for (const core::LocusSurface* surface : group.surfaces) ids += (ids.empty() ? "" : ", ") + printable(surface->id);
+  return ids;
+}
+
 std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<SurfaceGroup>& groups,
                              const std::vector<LineGroup>& lines) {
   std::vector<Entry> entries;
+  std::map<std::string, std::vector<std::string>> shared;  // reasons that several groups have, with their ids
+  for (const SurfaceGroup& group : groups)
+    if (const std::string reason = reason_of_any_joint(group.why, group.vanishing); !reason.empty())
+      shared[reason].push_back(ids_of(group));
+  std::erase_if(shared, [](const auto& own) { return own.second.size() < 2; });
   for (const SurfaceGroup& group : groups) {
     Entry entry;
     entry.group = &group;
-    entry.lines = {group.what};
-    if (!group.why.empty()) entry.reason = {group.why};
+    entry.lines = {group.what + " (" + ids_of(group) + ")"};
+    if (!group.why.empty() && !shared.contains(reason_of_any_joint(group.why, group.vanishing)))
+      entry.reason = {group.why};
     entries.push_back(std::move(entry));
   }
+  for (const auto& [reason, ids] : shared)
+    entries.push_back({nullptr, {}, {fmt::format("{}: {}", fmt::join(ids, ", "), reason)}});
   for (const LineGroup& own : lines) {
     Entry entry;
     entry.lines = {own.what + (own.curves.empty() ? ", at points" : ", along curves")};

@@ -49,12 +49,19 @@ void draw_task(const Context& context, const TaskMark& task, const Layout& layou
   };
   outline_style(context, task);
   context->unset_dash();
-  set_colour(context, colour_of(task), 0.15);
+  constexpr double tint = 0.15;
   if (task.margin > 0) {
+    // As one shape: the band beside the outline need not reach the middle of the task.
+    context->push_group();
+    set_colour(context, colour_of(task));
     trace();
     context->set_line_width(2 * task.margin * layout.scale[0]);
+    if (task.filled) context->fill_preserve();
     context->stroke();
+    context->pop_group_to_source();
+    context->paint_with_alpha(tint);
   }
+  set_colour(context, colour_of(task), tint);
   if (task.filled) {
     trace();
     context->fill();

@@ -130,11 +130,12 @@ NamedPlot error_plot(const core::TrajectoryResult& result) {
   std::vector<double> distance = c.at("distance");
   for (double& value : distance) value *= shown_scale(result);
   const auto [length, per_length] = small_length(result);
+  const ShownUnit turn = core::told_unit("rad", result.units);
   const auto add = [&, per_length = per_length](const char* column, const char* label, const std::string& y_label,
                                                 int number) {
     PlotPanel panel;
     panel.y_label = y_label;
-    const double factor = y_label == "mrad" ? 1e3 : per_length;
+    const double factor = y_label == turn.name ? turn.per_si : per_length;
     panel.series.push_back({label, {line(distance, c.at(column), factor)}, number});
     plot.panels.push_back(std::move(panel));
   };
@@ -142,11 +143,11 @@ NamedPlot error_plot(const core::TrajectoryResult& result) {
   add("dy", "error in y", length, 1);
   if (c.has("dz")) {
     add("dz", "error in z", length, 2);
-    add("dalphax", "rotation about x", "mrad", 3);
-    add("dalphay", "rotation about y", "mrad", 4);
-    add("dalphaz", "rotation about z", "mrad", 5);
+    add("dalphax", "rotation about x", turn.name, 3);
+    add("dalphay", "rotation about y", turn.name, 4);
+    add("dalphaz", "rotation about z", turn.name, 5);
   } else {
-    add("dalpha", "error in orientation", "mrad", 2);
+    add("dalpha", "error in orientation", turn.name, 2);
   }
   share_ranges(plot);
   add_marks(result, plot, false);
@@ -269,20 +270,29 @@ NamedPlot sweep_plot(const core::TrajectoryResult& result, const std::string& na
   panel.y_label = "period (s)";
   panel.y_range = {lowest, highest};
   const std::size_t rows = sweep.periods.size();
-  panel.field = {label, unit, is_signed, coloured_by, [kept, values, lowest, highest, rows](double x, double y) {
-                   const double place = (y - lowest) / (highest - lowest) * static_cast<double>(rows);
-                   const auto row = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(rows) - 0.5));
-                   return values[kept->index(row, sample_at(*kept, x))];
-                 }};
+  const bool radians = core::told_unit("rad", result.units).name == "rad";
+  panel.field = {
+      label, unit, is_signed, radians, coloured_by, [kept, values, lowest, highest, rows](double x, double y) {
+        const double place = (y - lowest) / (highest - lowest) * static_cast<double>(rows);
+        const auto row = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(rows) - 0.5));
+        return values[kept->index(row, sample_at(*kept, x))];
+      }};
   int number = 0;
+  // All least forces look alike: one entry of the legend names them.
+  PlotSeries faint;
+  faint.faint = true;
   for (const core::LossCurve& curve : result.loss_curves) {
     const std::string what = reaction_name({curve.joint, curve.quantity});
-    const bool is_number = curve.quantity != core::Quantity::f;
-    const std::string words =
-        is_number ? what + " = 0"
-                  : fmt::format("|{}| = {} {}", what, engineering(result.min_force, 3), force_name(result));
-    const auto joint = std::find(result.joints.begin(), result.joints.end(), curve.joint) - result.joints.begin();
-    panel.series.push_back({words, curve.lines, is_number ? number++ : 2 + static_cast<int>(joint), !is_number});
+    if (curve.quantity != core::Quantity::f) {
+      panel.series.push_back({what + " = 0", curve.lines, number++});
+      continue;
+    }
+    faint.label += (faint.label.empty() ? "|" : ", |") + what + "|";
+    faint.lines.insert(faint.lines.end(), curve.lines.begin(), curve.lines.end());
+  }
+  if (!faint.lines.empty()) {
+    faint.label += fmt::format(" = {} {}", engineering(result.min_force, 3), force_name(result));
+    panel.series.push_back(std::move(faint));
   }
   plot.panels.push_back(std::move(panel));
   for (const core::TrajectoryStage& stage : result.stages) plot.marks.push_back({stage.stops_at, stop_mark});

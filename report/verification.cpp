@@ -126,13 +126,23 @@ class Words {
     std::string words;
     for (std::size_t c = 0; c < at.size(); ++c) {
       const ShownUnit unit = core::told_unit(result_.angles[c] ? "rad" : "m", result_.units);
-      words += fmt::format("{}{}{}{}", c == 0 ? "" : ", ", plane_ ? "" : result_.coordinates[c] + " = ",
-                           engineering(at[c] * unit.per_si, digits), plane_ ? "" : " " + unit.name);
+      words +=
+          fmt::format("{}{}{}{}", c == 0 ? "" : ", ", plane_ ? "" : result_.coordinates[c] + " = ",
+                      engineering(without_rounding(at[c], c) * unit.per_si, digits), plane_ ? "" : " " + unit.name);
     }
     return plane_ ? "(" + words + ")" : words;
   }
 
  private:
+  /// 0 for what halving the task's cells left of it.
+  double without_rounding(double value, std::size_t coordinate) const {
+    constexpr double rounding = 1e-12;  // of the task
+    const std::array<core::RationalPose, 2> ends = core::bounds(result_.task.shape);
+    if (coordinate >= ends[0].size()) return value;
+    const double from = core::to_double(ends[0][coordinate]), to = core::to_double(ends[1][coordinate]);
+    return std::abs(value) <= rounding * std::max(std::abs(from), std::abs(to)) ? 0 : value;
+  }
+
   std::string told(double value, const std::string& si) const {
     const ShownUnit unit = core::told_unit(si, result_.units);
     return engineering(value * unit.per_si, size_digits) + " " + unit.name;
@@ -262,7 +272,11 @@ std::string verification_text(const core::Verification& result) {
   const auto many = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
-  if (result.moved_by)
+  const bool stays = result.moved_by && std::all_of(result.moved_by->begin(), result.moved_by->end(),
+                                                    [](const core::Rational& part) { return part == 0; });
+  if (stays)
+    put("moved by", "nothing: this is its place");
+  else if (result.moved_by)
     put("moved by", words.pose(core::rounded(*result.moved_by)) +
                         (words.plane() ? " " + shown_unit("m", result.units).name : std::string()));
   if (result.scaled_by) put("scaled by", engineering(core::to_double(*result.scaled_by), size_digits));

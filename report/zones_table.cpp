@@ -144,7 +144,12 @@ std::string ball_words(const core::LocusMap& map, const Places& places, const co
 std::string end_words(const core::LocusMap& map, const Places& places, const core::ZoneEnd& end) {
   std::string words = fmt::format("{}: {}{}{}", places.value(0, end.at), kind_words(end.kind),
                                   end.vanishing.empty() ? "" : " ", reaction_names(end.vanishing));
-  if (end.jump) {
+  const auto is_known = [](const std::vector<double>& parts) {
+    return std::all_of(parts.begin(), parts.end(), [](double part) { return std::isfinite(part); });
+  };
+  if (end.jump && !(is_known(end.jump->displacement) && is_known(end.jump->rotation))) {
+    words += "; the jump of the end effector is undefined";
+  } else if (end.jump) {
     double most = 0;
     for (const double part : end.jump->displacement) most = std::max(most, std::abs(part));
     const ShownUnit unit = table_unit("m", map.units, most), turn = table_unit("rad", map.units);

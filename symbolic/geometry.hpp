@@ -111,7 +111,7 @@ struct TorsionAngle {
   GiNaC::ex natural = 0;                 ///< a number where the links do not turn
   std::array<GiNaC::ex, 2> way = {};     ///< X, Y
   std::optional<TowerPoint> place = {};  ///< (angle, 0) over the tower; none of a number
-  int root = -1;                         ///< by its place in Geometry::roots
+  int root = -1;                         ///< by its place in Geometry::roots; none where an earlier angle stands for it
 };
 
 /// One a coordinate: the chart of an angle, nothing for a length.
@@ -213,6 +213,8 @@ class Geometry {
   /// The symbol of the arc tangent of a polynomial.
   GiNaC::ex arc_tangent(const core::Expression& tangent) const;
   void place_torsion_angle(TorsionAngle& angle);
+  /// What an earlier angle, or its opposite, stands for over the tower where (x, y) has that angle in every pose.
+  std::optional<TowerPoint> same_angle(const Poly& x, const Poly& y) const;
   /// Over the tower, with one positive denominator for all.
   std::array<Poly, 2> numerators(const std::array<GiNaC::ex, 2>& way) const;
   void place_angles();

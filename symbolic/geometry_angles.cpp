@@ -96,6 +96,25 @@ std::array<GiNaC::ex, 2> Geometry::way_off_rest(const mechanism::Spring& spring)
   return {(along * cosine + across * sine).expand(), (across * cosine - along * sine).expand()};
 }
 
+std::optional<TowerPoint> Geometry::same_angle(const Poly& x, const Poly& y) const {
+  // The angle of (X, Y) is that of (c X, c Y), c > 0, and the opposite of that of (c X, -c Y): of fingers that mirror
+  // each other, say. As elements of their own they would hide that what the springs exert cancels out.
+  if (keep_parameters_ || sheet_.all_sheets || y.is_zero()) return std::nullopt;
+  for (const TorsionAngle& earlier : torsion_angles_) {
+    if (earlier.root < 0 || !earlier.place) continue;
+    const std::vector<Poly>& known = roots_[static_cast<std::size_t>(earlier.root)].cosine_and_sine;
+    const bool opposite = (x * known[1] + y * known[0]).is_zero();
+    if (!opposite && !(x * known[1] - y * known[0]).is_zero()) continue;
+    Poly times(*ring_);
+    if (!y.divides(known[1], times) || !times.is_constant()) continue;
+    if ((times.constant() > 0) == opposite) continue;  // half a turn apart
+    TowerPoint place = *earlier.place;
+    if (opposite) place.x = -place.x;
+    return place;
+  }
+  return std::nullopt;
+}
+
 void Geometry::place_torsion_angle(TorsionAngle& angle) {
   angle.way = angle.tangent ? std::array<GiNaC::ex, 2>{GiNaC::ex(1), expression(*angle.tangent).expand()}
                             : way_off_rest(mechanism_->springs[angle.spring]);
@@ -105,6 +124,10 @@ void Geometry::place_torsion_angle(TorsionAngle& angle) {
     y = y.exact_quotient(common);
   }
   angle.natural = GiNaC::ex(symbol(ring_->name(angle.variable)));
+  if (const std::optional<TowerPoint> known = same_angle(x, y)) {
+    angle.place = known;
+    return;
+  }
   angle.root = static_cast<int>(roots_.size());
   // Not reduced: then it holds every variable that the cosine or the sine holds.
   TowerRoot root{-1, next_root(), core::RootRole::length, x * x + y * y};

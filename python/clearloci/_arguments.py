@@ -102,7 +102,7 @@ def pose(model: Model, at: Any) -> list[float]:
             raise ValueError(f"at has {', '.join(map(str, at))}; the coordinates are {', '.join(coordinates)}")
         at = [at[name] for name in coordinates]
     if isinstance(at, (str, bytes)):
-        raise TypeError(f"at is {at!r}; give numbers, such as {tuple(coordinates)}")
+        raise TypeError(f"at is {at!r}; give a number for each of {', '.join(coordinates)}")
     values = [at] if not hasattr(at, "__iter__") else list(at)
     if len(values) != len(coordinates):
         raise ValueError(f"at has {len(values)} values; the coordinates are {', '.join(coordinates)}")

@@ -307,7 +307,8 @@ class Loci(_Answer):
         return plot_loci(self, ax, working_mode)
 
     def __repr__(self) -> str:
-        return f"<clearloci.Loci of {self.model.name!r}: {len(self.curves) + len(self.surfaces)} loci>"
+        loci = len(self.curves) + len(self.surfaces) + len(self.isolated_points)
+        return f"<clearloci.Loci of {self.model.name!r}: {loci} loci{'' if self.complete else ', incomplete'}>"
 
 
 @dataclass(frozen=True)

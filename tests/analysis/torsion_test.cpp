@@ -7,8 +7,11 @@
 #include <numbers>
 
 #include "analysis/loci.hpp"
+#include "clearloci/error.hpp"
+#include "clearloci/export.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
+#include "clearloci/pose_zones.hpp"
 #include "clearloci/zones.hpp"
 #include "tests/source_dir.hpp"
 
@@ -166,6 +169,27 @@ TEST(Torsion, CurvesBesideTheCutAreCertified) {
     for (const LocusCurve& curve : validation.map.curves)
       EXPECT_TRUE(curve.certified) << curve.id << " " << curve.cause;
   }
+}
+
+// The fingers of a gripper mirror each other: the angles of their springs are opposite, what they exert on the guide
+// cancels out, and the guide bears nothing in any pose. Its ends had zeros of rounding, and no zone was found.
+TEST(Torsion, OfFingersThatMirrorEachOtherCancelsOut) {
+  const auto file = source_dir() + "/tests/corpus/springs/gripper_torsion_and_ends_meet.yaml";
+  const mechanism::Mechanism mechanism = mechanism::read_mechanism(file);
+  const LocusMap map = trace_loci(mechanism, {});
+  std::size_t losses = 0;
+  for (const IsolatedPoint& point : map.isolated_points) {
+    if (point.kind == LocusKind::workspace_boundary) continue;
+    ++losses;
+    EXPECT_NEAR(point.at.front(), -10.1063875e-3, 1e-9);
+    for (const Vanishing& one : point.vanishing) EXPECT_NE(core::to_string(one.quantity).substr(0, 3), "end");
+  }
+  EXPECT_EQ(losses, 3U) << "R1 and K1, R2 and K2, and the motor, at one pose";
+  const Model model = Model::read(file);
+  EXPECT_EQ(find_pose_zones(model).zones.size(), 3U);
+  const std::string errors = to_text(coordinate_errors(model));
+  EXPECT_EQ(errors.find("nan"), std::string::npos);
+  EXPECT_NE(errors.find("undefined"), std::string::npos);
 }
 
 }  // namespace

@@ -56,7 +56,10 @@ TEST(ReadSprings, SaysWhatIsWrong) {
   expect_complaint("springs: [{links: [ground, A1B1], at: [H, B1], stifness: 800}]\n", "did you mean 'stiffness'?");
   expect_complaint("springs: [{links: [ground, A1B1], at: [H, B1]}]\n", "neither a stiffness nor a force");
   expect_complaint("springs: [{links: [ground, A1B1], at: [H, B1], stiffness: 800}]\n", "no free_length");
-  expect_complaint("springs: [{links: [ground, A1B1], at: [H, B1], stiffness: -1, free_length: 0}]\n", "negative");
+  expect_complaint("springs: [{links: [ground, A1B1], at: [H, B1], stiffness: -1, free_length: 0}]\n",
+                   "the stiffness of spring S1 is negative: -1; write");
+  expect_complaint("springs: [{links: [ground, A1B1], at: [H, B1], stiffness: -2*L, free_length: 0}]\n",
+                   "negative: -2*L = -1 N/m");
   expect_complaint("springs: [{links: [ground, A1B1], at: [H, B1], stiffness: x, free_length: 0}]\n",
                    "depends on the free coordinate 'x'");
   expect_complaint("springs: [{links: [ground, A1B1], at: [H, P], force: 3}]\n", "no point of it");

@@ -205,7 +205,7 @@ TEST(Units, WrongOnesAreRefused) {
   const std::vector<std::array<std::string, 3>> mistakes = {
       {"length: mm", "length: deg", "'deg' is no unit of length; write one of m, dm, cm, mm"},
       {"length: mm", "lenght: mm", "did you mean 'length'?"},
-      {"radial: 10 um", "radial: 10 deg", ""},
+      {"radial: 10 um", "radial: 10 deg", "is a length, but '10 deg' is an angle; write it in a unit such as mm"},
       {"radial: 10 um", "radial: 10 N", "is a length, but '10 N' is a force; write it in a unit such as mm"},
       {"mass: 1 kg", "mass: 1 kN", "is a mass, but '1 kN' is a force"},
       {"couple: 3 N mm", "couple: 3 N/mm", "is a couple, but '3 N/mm' is a stiffness"},
@@ -215,13 +215,24 @@ TEST(Units, WrongOnesAreRefused) {
       {"radial: 10 um", "radial: 10 um^9", "a unit to this power"},
   };
   for (const auto& [from, to, says] : mistakes) {
-    if (says.empty()) continue;  // an angle is the ratio of two lengths
     try {
       parse_mechanism(with(in_mm, from, to), "m.yaml");
       ADD_FAILURE() << "accepted: " << to;
     } catch (const core::InputError& error) {
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
     }
+  }
+}
+
+TEST(Units, ParametersOfAnotherKindAreRefusedWhereTheyStandAlone) {
+  const std::string file = with(in_mm, "radial: 10 um", "radial: F");  // a force
+  try {
+    parse_mechanism(file, "m.yaml");
+    ADD_FAILURE() << "accepted";
+  } catch (const core::InputError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("is a length, but 'F' is a force; give parameter F a unit such as mm"), std::string::npos)
+        << said;
   }
 }
 

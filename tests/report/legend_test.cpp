@@ -36,7 +36,8 @@ TEST(Legend, ReasonsThatSeveralCurvesShareAreToldOnce) {
   const Groups groups = group_loci(map);
   ASSERT_EQ(groups.curves.size(), 7U);
   ASSERT_EQ(groups.remarks.size(), 1U);
-  EXPECT_EQ(groups.remarks.front(), "each: the loads do no work in the motion that it alone drives");
+  EXPECT_EQ(groups.remarks.front(),
+            "c1, c2, c3, c4, c5, c6: the loads do no work in the motion that the joint alone drives");
   EXPECT_FALSE(groups.curves.front().why.empty()) << "the contact loss has a reason of its own";
   for (std::size_t i = 1; i < 7; ++i) EXPECT_EQ(groups.curves[i].why, "") << i;
 }

@@ -7,7 +7,6 @@ import { h } from "./dom";
 import type { Workbench } from "./workbench";
 
 const small = { width: 190, height: 150 };
-const alone = { width: 380, height: 320 }; // where there are no loci beside
 
 export class Inset {
   readonly element = h("div", { class: "inset", "aria-hidden": "true" });
@@ -23,7 +22,10 @@ export class Inset {
     const wanted = bench.coordinates.length > 1 && !bench.inPlace && bench.pose !== undefined && !(bench.coordinates.length === 3 && bench.facts?.spatial);
     this.element.hidden = !wanted;
     if (!wanted || !bench.pose) return;
-    const size = bench.traceable ? small : alone;
+    // Where there are no loci beside, it has the stage to itself.
+    const stage = this.element.parentElement?.getBoundingClientRect();
+    const size = bench.traceable || !stage ? small : { width: stage.width - 20, height: stage.height - 60 };
+    this.element.style.top = bench.traceable ? "" : "50px";
     this.element.style.width = `${size.width}px`;
     this.element.style.height = `${size.height}px`;
     this.layer.resize(size);

@@ -3,7 +3,7 @@ import type { Sketch, Zone } from "../data/answers";
 import { roundText } from "../data/exact";
 import { areaWords, lengthWords } from "../data/units";
 import type { Adjustable } from "../data/model_text";
-import { groupKey } from "../draw/loci";
+import { groupKey, idsOf } from "../draw/loci";
 import { drawSketch, placesOf } from "../draw/mechanism";
 import { fit } from "../draw/view";
 import { h, replace, section } from "./dom";
@@ -23,7 +23,9 @@ export function readingPanel(bench: Workbench, stage: Stage): Panel {
   const hint = (): string =>
     bench.coordinates.length === 1
       ? "The marks along the strip below are the loci: what lets go there stands in the legend. Drag the end effector, or along the strip."
-      : `Point at a ${bench.coordinates.length === 3 ? "surface" : "curve"}: what lets go there, why, and its formula stand here. Drag the end effector, the joints on the ground, or the empty plane.`;
+      : !bench.traceable
+        ? "No loci are drawn over more than three coordinates. Set the pose and a task by their numbers."
+        : `Point at a ${bench.coordinates.length === 3 ? "surface" : "curve"}: what lets go there, why, and its formula stand here. Drag the end effector, the joints on the ground, or the empty plane.`;
   const zoneWords = (zone: Zone): string =>
     `${zone.id}: ${areaWords(zone.area, bench.units)}, largest circle of radius ${lengthWords(zone.inscribed_circle.radius, bench.units)}${zone.certified ? ", proven" : ", not proven"}`;
   const show = (): void => {
@@ -62,7 +64,7 @@ export function legendPanel(bench: Workbench): Panel {
       const box = h("input", { type: "checkbox", change: () => toggle(key, box.checked) });
       box.checked = !bench.state.hidden.includes(key);
       const why = "why" in group && group.why ? h("span", { class: "quiet" }, ` ${group.why}`) : undefined;
-      return h("label", { class: "legend-row" }, box, legendSample(group, theme), h("span", {}, group.what, why));
+      return h("label", { class: "legend-row" }, box, legendSample(group, theme), h("span", {}, group.what, idsOf(group) && h("span", { class: "quiet" }, ` (${idsOf(group)})`), why));
     });
     replace(body, ...rows, ...picture.remarks.map((remark) => h("p", { class: "quiet" }, remark)));
     replace(
@@ -75,6 +77,7 @@ export function legendPanel(bench: Workbench): Panel {
   const element = section("Loci", true, body, notes);
   const title = element.querySelector("summary");
   const name = (): void => {
+    element.hidden = !bench.traceable;
     const [only, ...more] = bench.coordinates;
     if (title) title.textContent = only && more.length === 0 ? `Loci: values of ${only.name}` : more.length === 2 ? "Loci: surfaces" : "Loci: curves";
   };

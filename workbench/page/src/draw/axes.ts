@@ -32,12 +32,18 @@ export function drawGrid(context: CanvasRenderingContext2D, view: View, size: Si
   context.stroke();
   context.textAlign = "center";
   context.textBaseline = "bottom";
-  for (const x of xs) context.fillText(tickText(x, axes.units[0]), page(view, [x, 0])[0], size.height - 3);
+  for (const x of xs) {
+    const [at] = page(view, [x, 0]);
+    const text = tickText(x, axes.units[0]);
+    const half = context.measureText(text).width / 2;
+    if (at > half + 2 && at < size.width - half - 2) context.fillText(text, at, size.height - 3); // whole, or not at all
+  }
   context.textAlign = "left";
   context.textBaseline = "middle";
   for (const y of ys) {
     const at = page(view, [0, y])[1];
-    if (at < size.height - 22 && at > 10) context.fillText(tickText(y, axes.units[1]), 4, at);
+    if (at < size.height - 22 && at > 28) // below the name of the axis
+      context.fillText(tickText(y, axes.units[1]), 4, at);
   }
   context.font = "italic 12px system-ui, sans-serif";
   context.fillStyle = theme.ink;

@@ -10,6 +10,12 @@ export function colourOf(theme: Theme, role: ColourRole): string {
   return theme.curves[role % theme.curves.length] ?? theme.ink;
 }
 
+/** "c1, c4": the ids of a group's curves or surfaces; of many the first two and the last. */
+export function idsOf(group: object): string {
+  const ids = "ids" in group ? (group.ids as string[]) : [];
+  return ids.length > 4 ? `${ids[0]}, ${ids[1]}, …, ${ids[ids.length - 1]}` : ids.join(", ");
+}
+
 /** What of a picture belongs to one working mode and is switched on. */
 export interface Shown {
   curves: { curve: Curve; group: CurveGroup }[];

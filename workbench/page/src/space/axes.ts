@@ -49,7 +49,9 @@ export function axesOf(axes: readonly Axis[], low: Vector3, high: Vector3, place
       group.add(sprite);
     }
     const name = label(axis.unit ? `${axis.name} (${axis.unit})` : axis.name, theme.ink, 0.075);
-    name.position.copy(start.clone().setComponent(k, (low.getComponent(k) + high.getComponent(k)) / 2).addScaledVector(out, 0.24));
+    // Beside the upright edge a name stands clear of the numbers, however long it is.
+    const far = k === 2 ? 0.16 + name.scale.x / 2 : 0.24;
+    name.position.copy(start.clone().setComponent(k, (low.getComponent(k) + high.getComponent(k)) / 2).addScaledVector(out, far));
     group.add(name);
   });
   group.add(new LineSegments(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: theme.frame })));

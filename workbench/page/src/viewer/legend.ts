@@ -1,7 +1,7 @@
 // The legend of the viewer: what is drawn, with a switch each.
 import { h } from "../app/dom";
 import { legendSample } from "../app/legend_sample";
-import { groupKey } from "../draw/loci";
+import { groupKey, idsOf } from "../draw/loci";
 import { themeOf, type Settings } from "./view";
 
 /** Under which zones are switched off. */
@@ -17,7 +17,7 @@ export function legend(settings: Settings, refresh: () => void): HTMLElement[] {
       refresh();
     } });
     box.checked = !hidden.has(key);
-    return h("label", { class: "legend-row" }, box, legendSample(group, themeOf(settings)), h("span", {}, group.what, "why" in group && group.why ? h("span", { class: "quiet" }, ` ${group.why}`) : undefined));
+    return h("label", { class: "legend-row" }, box, legendSample(group, themeOf(settings)), h("span", {}, group.what, idsOf(group) && h("span", { class: "quiet" }, ` (${idsOf(group)})`), "why" in group && group.why ? h("span", { class: "quiet" }, ` ${group.why}`) : undefined));
   });
   rows.push(...data.remarks.map((remark) => h("p", { class: "quiet" }, remark)));
   if (data.zones.length === 0) return rows;
