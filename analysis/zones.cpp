@@ -173,9 +173,8 @@ core::ZoneMap find_zones(const mechanism::Mechanism& mechanism, const LociReques
           {mechanism.file},
           "zones lie in the plane of two lengths, and the free coordinate '" + coordinate.name + "' is an angle",
           "make it a parameter and vary it with --set; 'loci' and 'validate' take angles");
-  const bool alone = family == nullptr || mechanism::is_far(mechanism);
-  const std::optional<Framed> own = alone ? framed(mechanism) : std::nullopt;
-  core::ZoneMap map = own ? cut_zones(own->mechanism, in_frame(request, own->frame), certificate, nullptr)
+  const std::optional<Framed> own = framed(mechanism);
+  core::ZoneMap map = own ? cut_zones(own->mechanism, in_frame(request, own->frame), certificate, family)
                           : cut_zones(mechanism, request, certificate, family);
   if (certificate != nullptr) {
     certify(map.loci, own, *certificate);
