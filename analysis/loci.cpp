@@ -373,14 +373,23 @@ symbolic::Selection selection_of(const LociRequest& request) {
           .min_couple = request.min_couple};
 }
 
+namespace {
+
+/// In the frame of the mechanism's own, with a family or without one.
+core::LocusMap trace_in_frame(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                              const TraceMeans& means) {
+  const std::optional<Framed> own = framed(mechanism);
+  core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), means).map
+                           : trace_member(mechanism, request, means).map;
+  if (means.certificate != nullptr) certify(map, own, *means.certificate);
+  return own ? from_frame(std::move(map), mechanism, own->frame) : map;
+}
+
+}  // namespace
+
 core::LocusMap trace_loci(const mechanism::Mechanism& mechanism, const LociRequest& request,
                           core::Certificate* certificate) {
-  const std::optional<Framed> own = framed(mechanism);
-  core::LocusMap map =
-      own ? trace_member(own->mechanism, in_frame(request, own->frame), {.certificate = certificate}).map
-          : trace_member(mechanism, request, {.certificate = certificate}).map;
-  if (certificate != nullptr) certify(map, own, *certificate);
-  return own ? from_frame(std::move(map), mechanism, own->frame) : map;
+  return trace_in_frame(mechanism, request, {.certificate = certificate});
 }
 
 TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request, const TraceMeans& means,
@@ -390,9 +399,7 @@ TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociReq
 
 core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,
                           const LociRequest& request) {
-  // A family is derived in the coordinates of the file: from there it serves as long as its members are near by.
-  if (mechanism::is_far(member)) return trace_loci(member, request);
-  return trace_member(member, request, {.family = &family}).map;
+  return trace_in_frame(member, request, {.family = &family});
 }
 
 core::LocusMap trace_loci(const Model& model, const LociRequest& request) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "analysis/framed.hpp"
 #include "mechanism/read.hpp"
 
 namespace clearloci {
@@ -27,7 +28,10 @@ SharedDesign::SharedDesign(std::string text, std::string file, mechanism::Mechan
 
 const symbolic::LocusFamily& SharedDesign::family() const {
   const std::lock_guard lock(mutex_);
-  if (!family_) family_.emplace(first_);
+  if (!family_) {
+    const std::optional<Framed> inside = framed(first_, Scaling::by_size, mechanism::Parameters::kept);
+    family_.emplace(inside ? inside->mechanism : first_);
+  }
   return *family_;
 }
 

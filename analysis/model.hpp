@@ -11,7 +11,9 @@
 
 namespace clearloci {
 
-/// What the members of a family of designs have in common: the file, and its equations, derived when first asked for.
+/// What the members of a family of designs have in common: the file, and its equations, derived when first asked for in
+/// the frame of the first member, as every member is analysed in its own. They serve members whose equations they are
+/// with values put in, which is looked at entry by entry; others are derived alone.
 class SharedDesign {
  public:
   SharedDesign(std::string text, std::string file, mechanism::Mechanism first);

@@ -175,9 +175,8 @@ core::Zones cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& 
 core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest& request,
                        core::Certificate* certificate, const symbolic::LocusFamily* family) {
   if (request.by_cells || !mechanism::is_plane(mechanism)) return zones_by_cells(mechanism, request);
-  const bool alone = family == nullptr || mechanism::is_far(mechanism);
-  const std::optional<Framed> own = alone ? framed(mechanism) : std::nullopt;
-  core::Zones map = own ? cut_zones(own->mechanism, in_frame(request.loci, own->frame), certificate, nullptr)
+  const std::optional<Framed> own = framed(mechanism);
+  core::Zones map = own ? cut_zones(own->mechanism, in_frame(request.loci, own->frame), certificate, family)
                         : cut_zones(mechanism, request.loci, certificate, family);
   if (certificate != nullptr) {
     certify(map.loci, own, *certificate);

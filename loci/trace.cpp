@@ -66,6 +66,9 @@ LocusMap trace(const LocusProblem& problem, const TraceOptions& options) {
                                "leave --engine exact out");
       Found found = finder_of(options.sketch ? Engine::adaptive : options.engine)(problem, options);
       map = std::move(found.map);
+      map.lower = problem.lower;
+      map.upper = problem.upper;
+      drop_points_on_curves(map);
       if (found.leaves_workspace) add_workspace(problem, map);
       add_points(problem, options, found.withheld, map);
     }

@@ -1,6 +1,7 @@
 #include "loci/curves/adaptive_engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/errors.hpp"
@@ -18,7 +19,8 @@ using core::LocusFactor;
 using core::LocusMap;
 using core::LocusProblem;
 
-/// Beyond this degree the exact arrangement does not end in useful time (docs/performance.md).
+/// Beyond this degree, as degree_of counts it, the exact arrangement does not end in useful time
+/// (docs/performance.md).
 constexpr int bearable_degree = 14;
 
 /// Cells worth their time before the exact engine takes a curve over: it takes about as long as so many times the
@@ -29,9 +31,21 @@ const LocusFactor& factor_of(const LocusProblem& problem, const SheetShare& shar
   return problem.factors[static_cast<std::size_t>(share.factor)];
 }
 
+/// How many crossings two curves have at most, by their degrees in both coordinates together or in each: over half
+/// tangents of angles the latter are fewer.
+double most_crossings(const core::Polynomial& p, const core::Polynomial& q) {
+  const double together = static_cast<double>(core::total_degree(p)) * core::total_degree(q);
+  const double apart = static_cast<double>(core::degree_in(p, 0)) * core::degree_in(q, 1) +
+                       static_cast<double>(core::degree_in(p, 1)) * core::degree_in(q, 0);
+  return std::min(together, apart);
+}
+
+/// The degree of a curve that is as heavy: that which has as many crossings with another one of its kind.
+int degree_of(const core::Polynomial& p) { return static_cast<int>(std::ceil(std::sqrt(most_crossings(p, p)))); }
+
 int highest_degree(const LocusFactor& factor) {
   int degree = -1;
-  for (const core::Polynomial& p : factor.implicit) degree = std::max(degree, core::total_degree(p));
+  for (const core::Polynomial& p : factor.implicit) degree = std::max(degree, degree_of(p));
   return degree;
 }
 
@@ -110,7 +124,7 @@ double cost_of_crossings(const LocusFactor& a, const LocusFactor& b) {
   double cost = 0;
   for (const core::Polynomial& p : a.implicit)
     for (const core::Polynomial& q : b.implicit) {
-      const double number = static_cast<double>(core::total_degree(p)) * core::total_degree(q);
+      const double number = most_crossings(p, q);
       cost += number * number;
     }
   return cost;

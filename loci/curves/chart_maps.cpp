@@ -15,6 +15,7 @@
 #include "loci/curves/arc_check.hpp"
 #include "loci/curves/chart_points.hpp"
 #include "loci/curves/curve_projection.hpp"
+#include "loci/curves/open_regions.hpp"
 #include "loci/curves/place_words.hpp"
 #include "loci/curves/sheet_maps.hpp"
 
@@ -216,7 +217,9 @@ double length_of(const Polyline& points) {
 /// Joins arcs that end in the same place on a seam, where no others do.
 class Joining {
  public:
-  Joining(std::vector<Arc> arcs, const Seams& seams) : arcs_(std::move(arcs)), seams_(seams) {
+  /// `box`: where it begins and ends, by coordinate.
+  Joining(std::vector<Arc> arcs, const Seams& seams, const std::array<std::vector<double>, 2>& box)
+      : arcs_(std::move(arcs)), seams_(seams), box_(box) {
     std::vector<End> loose;
     for (std::size_t a = 0; a < arcs_.size(); ++a)
       for (const int end : {0, 1})
@@ -233,8 +236,16 @@ class Joining {
         if (here.size() == 2) partner_of(one) = other;
       }
       if (here.size() > 2) arcs_[one.arc].ends[static_cast<std::size_t>(one.end)] = ArcEnd::crossing;
+      // In one chart only: the other one lost the arc, or has it elsewhere. The chart ends here, the box may not.
+      if (here.size() == 1 && !on_side(at(one))) {
+        arcs_[one.arc].ends[static_cast<std::size_t>(one.end)] = ArcEnd::none;
+        lost_.push_back(at(one));
+      }
     }
   }
+
+  /// Where arcs end at a seam and nothing goes on.
+  const Polyline& lost() const { return lost_; }
 
   std::vector<Arc> run() {
     std::vector<Arc> result;
@@ -253,6 +264,12 @@ class Joining {
     int end = 0;  ///< 0: the first point, 1: the last
   };
   static constexpr End nobody = {static_cast<std::size_t>(-1), 0};
+
+  bool on_side(const Point2& place) const {
+    for (std::size_t i = 0; i < 2; ++i)
+      if (place[i] < box_[0][i] + same_place || place[i] > box_[1][i] - same_place) return true;
+    return false;
+  }
 
   const Point2& at(const End& end) const {
     return end.end == 0 ? arcs_[end.arc].points.front() : arcs_[end.arc].points.back();
@@ -291,7 +308,9 @@ class Joining {
 
   std::vector<Arc> arcs_;
   const Seams& seams_;
+  const std::array<std::vector<double>, 2>& box_;
   std::vector<std::array<End, 2>> partner_;
+  Polyline lost_;
 };
 
 /// `open`: over the angles.
@@ -329,8 +348,8 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   joined.tolerance = tolerance;
   joined.angles = {charts.front()->charts[0].has_value(), charts.front()->charts[1].has_value()};
 
-  const auto [lower, upper] = joined_box(charts);
-  const double reach = vertex_reach(lower, upper);
+  const std::array<std::vector<double>, 2> box = joined_box(charts);
+  const double reach = vertex_reach(box[0], box[1]);
   std::vector<std::set<std::size_t>> charts_with;  // by curve of the joined map
   for (std::size_t m = 0; m < maps.size(); ++m) {
     Unrolled own(*charts[m], maps[m], tolerance, reach);
@@ -394,7 +413,13 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   }
   for (std::size_t c = 0; c < joined.curves.size(); ++c) {
     LocusCurve& curve = joined.curves[c];
-    curve.arcs = Joining(std::move(curve.arcs), seams).run();
+    Joining joining(std::move(curve.arcs), seams, box);
+    curve.arcs = joining.run();
+    for (const Point2& at : joining.lost()) {
+      curve.certified = false;
+      leave_open(label_of(curve), curve.mode, {at[0], at[0], at[1], at[1]}, joined);
+    }
+    joined.complete = joined.complete && joining.lost().empty();
     if (charts_with[c].size() > 1) {
       curve.implicit = {2, {}};
       curve.variables.clear();

@@ -123,6 +123,23 @@ bool ends_on_singularity(const LocusMap& map, const WorkingMode& mode, const cor
   return false;
 }
 
+bool names_all(const std::vector<core::Vanishing>& list, const std::vector<core::Vanishing>& wanted) {
+  return std::all_of(wanted.begin(), wanted.end(), [&](const core::Vanishing& own) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const core::Vanishing& v) { return v.joint == own.joint && v.quantity == own.quantity; });
+  });
+}
+
+/// Whether one of the map's certified points is this place, and says as much.
+bool is_proven_at(const LocusMap& map, const WorkingMode& mode, const std::string& joint, const core::Point2& at,
+                  double same) {
+  return std::any_of(map.isolated_points.begin(), map.isolated_points.end(), [&](const IsolatedPoint& point) {
+    return point.certified && point.mode == mode && point.kind == LocusKind::contact_loss &&
+           std::hypot(point.at[0] - at[0], point.at[1] - at[1]) <= same &&
+           names_all(point.vanishing, {{joint, Quantity::f, 1}});
+  });
+}
+
 /// Joins a joint to a point already found, or adds the point.
 void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
   for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
@@ -144,6 +161,8 @@ void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, dou
 /// Relative to the box: Newton's method in doubles finds multiple zeros no better, such as the place where the axis of
 /// a guide is undefined and every numerator vanishes.
 constexpr double multiple_zero = 1e-7;
+/// Nearer than this, relative to the box, two points are one.
+constexpr double same_point = 1e-9;
 
 /// A common zero of two sheet polynomials by Newton's method in doubles, within `reach` of the start.
 std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMode& mode, const core::Polynomial& first,
@@ -258,13 +277,13 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
         if (may_be_undirected(problem, mode, joint, at, 1e-12 * size)) return;
         add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
-                  1e-9 * size);
+                  same_point * size);
       };
       // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
       const auto add_without_limit = [&](const core::Point2& at) {
         if (!ends_on_singularity(map, mode, at, 1e-7 * size))
           add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
-                    1e-9 * size);
+                    same_point * size);
       };
       for (const sheet::SheetZero& zero : found.zeros) {
         if (!on_direct_singularity(problem, mode, zero))
@@ -283,7 +302,9 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         const core::Point2 centre = middle_of(cell);
         const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
         const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
-        if (at && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size})) {
+        // That it leads back to a proven point says nothing of the rest of the cell.
+        const bool is_proven = at && is_proven_at(map, mode, joint, *at, same_point * size);
+        if (at && !is_proven && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size})) {
           add(*at, false);
           continue;
         }
@@ -325,6 +346,18 @@ void add_touching_points(const LocusProblem& problem, const WorkingMode& mode, L
     if (singular && !reached)
       add_point(map, 0, {LocusKind::direct_singularity, {}, {at[0], at[1]}, mode, true}, 1e-9 * size);
   }
+}
+
+void drop_points_on_curves(LocusMap& map) {
+  const double size =
+      std::max(core::to_double(map.upper[0] - map.lower[0]), core::to_double(map.upper[1] - map.lower[1]));
+  std::erase_if(map.isolated_points, [&](const IsolatedPoint& point) {
+    return point.kind <= LocusKind::component &&
+           std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
+             return curve.mode == point.mode && names_all(curve.vanishing, point.vanishing) &&
+                    passes(curve, {point.at[0], point.at[1]}, same_point * size);
+           });
+  });
 }
 
 bool reaches(const LocusProblem& problem, const WorkingMode& mode, const core::LocusFactor& factor,

@@ -28,6 +28,10 @@ void add_contact_loss_points(const core::LocusProblem& problem, const core::Work
 /// this mode: both legs are in line with each other there.
 void add_touching_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
 
+/// Leaves out points at which nothing vanishes but what does along a curve of the map that passes through them, as at a
+/// star that a factor reaches along one of its curves and that another of them is: they are none of their own.
+void drop_points_on_curves(core::LocusMap& map);
+
 /// A branch of the factor's zeros on the mode's sheet reaches the star.
 bool reaches(const core::LocusProblem& problem, const core::WorkingMode& mode, const core::LocusFactor& factor,
              const sheet::Star& star);

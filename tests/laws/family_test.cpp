@@ -125,7 +125,8 @@ TEST(Family, LeavesIrrationalValuesToTheUsualWay) {
 
 // With symbols for all parameters the equations of these would have millions of terms: they are given up in time.
 TEST(Family, LeavesWhatIsTooLongWithSymbolsToTheUsualWay) {
-  for (const auto& [name, z] : {std::pair{"hexapod", "470"}}) {
+  for (const auto& [name, z] :
+       {std::pair{"hexapod", "470"}, {"three_ruu_slice", "-11/20"}, {"gough_stewart_slice", "9/20"}}) {
     SCOPED_TRACE(name);
     const Model family = Model::read(source_dir() + "/examples/" + name + ".yaml");
     const Model member = family.with({{"z", z}});

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "analysis/loci.hpp"
+#include "clearloci/mechanism.hpp"
 #include "tests/laws/design_texts.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -59,6 +62,20 @@ TEST(SprungDesigns, HoldAgainstTheWitness) {
     certified += std::ranges::all_of(validation.map.curves, &LocusCurve::certified) ? 1 : 0;
   }
   EXPECT_GE(2 * certified, tried - 1);
+}
+
+// What a search leaves open beside a point that it has proven is an open place, and no point of its own.
+TEST(SprungDesigns, TellAPlaceOnce) {
+  const Model model = Model::read(source_dir() + "/tests/corpus/springs/point_proven_beside_an_open_cell.yaml");
+  const LocusMap loci = trace_loci(model);
+  const auto& points = loci.isolated_points;
+  EXPECT_TRUE(std::ranges::any_of(points, &IsolatedPoint::certified));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_FALSE(points[i].vanishing == points[k].vanishing &&
+                   std::hypot(points[i].at[0] - points[k].at[0], points[i].at[1] - points[k].at[1]) < 1e-9)
+          << points[i].at[0] << " " << points[i].at[1];
+  EXPECT_EQ(loci.complete, loci.open.empty());
 }
 
 }  // namespace
