@@ -1,5 +1,5 @@
 // Boxes of parameters of which the same is proven for every design (method.md section 12).
-// Private to analysis/ and studies/.
+// Used by analysis/ and studies/.
 #pragma once
 
 #include <memory>
