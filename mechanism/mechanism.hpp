@@ -160,7 +160,7 @@ std::string to_string(JointType type);
 /// Of an actuator whose effort is chosen and not determined: the preload (docs/preload.md). It is the value of a
 /// parameter, and there are no forces where none is given.
 struct FreeEffort {
-  std::string parameter;  ///< preload_ and the joint's name, N m or N
+  std::string parameter;                                     ///< preload_ and the joint's name, N m or N
   std::optional<std::pair<Rational, Rational>> within = {};  ///< what the motor can exert
   bool given = false;
 };

@@ -25,7 +25,7 @@ std::string answers(const std::string& name) {
     words << curve.id << " " << to_string(curve.implicit, map.loci.tower.coordinates) << " " << curve.arcs.size()
           << "\n";
   for (const Zone& zone : map.zones) words << zone.id << " " << zone.size << " " << zone.certified << "\n";
-  const Point2 at = map.zones.front().sample;
+  const std::vector<double> at = map.zones.front().sample;
   std::ostringstream task;
   task << "format: 1\npath: [[" << at[0] << ", " << at[1] << "], [" << at[0] + 0.01 << ", " << at[1] << "]]\n";
   words << static_cast<int>(verify(model, parse_task(task.str(), model), {.depth = VerifyDepth::margin}).verdict);
