@@ -20,7 +20,8 @@ TEST_P(OnceRejected, IsAccepted) {
 
 INSTANTIATE_TEST_SUITE_P(Corpus, OnceRejected,
                          testing::Values("end_of_a_guide", "guide_beside_the_boundary",
-                                         "point_where_a_spring_has_no_length", "chord_beside_another"),
+                                         "point_where_a_spring_has_no_length", "chord_beside_another",
+                                         "line_crossed_at_its_middle"),
                          [](const auto& own) { return std::string(own.param); });
 
 TEST(Kinds, FollowFromWhatVanishes) {

@@ -213,11 +213,27 @@ class LocusLaws {
         continue;
       ++vertices_;
       const double off = (std::abs(here.values[k].value) - here.values[k].error) / slope;
-      // The slope is that of a secant.
-      if (off > 10 * slack_)
+      // The slope is that of a secant: where a closure is undefined beside it, it says nothing of the vertex.
+      if (off > 10 * slack_ && !changes_sign_about(at, sides, k))
         Report::Line(s_.report) << core::to_string(unknowns[k].quantity) << " of " << joint << " vanishes " << off
                                 << " beside the vertex (" << at[0] << ", " << at[1] << ") of " << describe(map_, curve);
     }
+  }
+
+  /// Whether a numerator has either sign on the circle round a vertex that it is to be zero in.
+  bool changes_sign_about(const Point2& at, const std::vector<int>& sides, std::size_t unknown) const {
+    constexpr int directions = 32;
+    bool positive = false, negative = false;
+    for (int k = 0; k < directions; ++k) {
+      const double direction = 0.1 + 2 * k * std::numbers::pi / directions;
+      const numeric::BoundedNumerators there = s_.witness.bounded(
+          std::array{at[0] + slack_ * std::cos(direction), at[1] + slack_ * std::sin(direction)}, sides);
+      if (!there.reachable) continue;
+      const numeric::Bounded& value = there.values[unknown];
+      positive = positive || value.value > value.error;
+      negative = negative || value.value < -value.error;
+    }
+    return positive && negative;
   }
 
   /// Of the dyads and sliders the one nearest to stretched out or folded: half the way to where its apex would be in
