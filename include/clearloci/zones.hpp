@@ -55,8 +55,8 @@ struct Zone {
   /// The borders and how they meet are proven; by cells: it is proven to be another zone than all others.
   bool certified = false;
   std::vector<std::string> perhaps_one_with = {};  ///< by cells: zones of the same signs that only doubt parts from it
-  std::vector<double> lower,
-      upper;                   ///< the box around it, by cells around what is proven; over one coordinate the zone
+  /// The box around it, by cells around what is proven; over one coordinate the zone.
+  std::vector<double> lower, upper;
   std::vector<double> sample;  ///< a pose inside
   /// The largest ball inside that was found, over two lengths the largest circle without isolated points. Radius 0: it
   /// is too thin, or over one coordinate.

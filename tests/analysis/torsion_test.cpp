@@ -11,7 +11,6 @@
 #include "clearloci/export.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
-#include "clearloci/pose_zones.hpp"
 #include "clearloci/zones.hpp"
 #include "tests/source_dir.hpp"
 
@@ -186,7 +185,7 @@ TEST(Torsion, OfFingersThatMirrorEachOtherCancelsOut) {
   }
   EXPECT_EQ(losses, 3U) << "R1 and K1, R2 and K2, and the motor, at one pose";
   const Model model = Model::read(file);
-  EXPECT_EQ(find_pose_zones(model).zones.size(), 3U);
+  EXPECT_EQ(find_zones(model).zones.size(), 3U);
   const std::string errors = to_text(coordinate_errors(model));
   EXPECT_EQ(errors.find("nan"), std::string::npos);
   EXPECT_NE(errors.find("undefined"), std::string::npos);

@@ -225,9 +225,9 @@ TEST(PaperZones, AreasAndCirclesAreThoseOfTheCircles) {
   });
   ASSERT_NE(upper, map.zones.end());
   const double overlap = 2 * (0.25 * std::acos(0.5)) - 0.25 * std::sqrt(1 - 0.25);
-  EXPECT_NEAR(upper->area, overlap, 1e-6 * overlap);
-  EXPECT_NEAR(upper->inscribed.radius, 0.25, 1e-9);
-  EXPECT_NEAR(upper->inscribed.centre[1], 0.5, 1e-6);
+  EXPECT_NEAR(upper->size, overlap, 1e-6 * overlap);
+  EXPECT_NEAR(upper->ball.radius, 0.25, 1e-9);
+  EXPECT_NEAR(upper->ball.centre[1], 0.5, 1e-6);
 }
 
 class ZonesOfExamples : public testing::TestWithParam<std::string> {};

@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
+#include "report/zones.hpp"
 #include "tests/report/five_bar_map.hpp"
 #include "tests/report/scratch_folder.hpp"
 
