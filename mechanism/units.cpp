@@ -434,7 +434,7 @@ void check_lone(const Expression& written, const Dimension& d, const Dimension& 
       std::all_of(names.begin(), names.end(), [](const std::string& name) { return name.rfind(unit_mark, 0) == 0; });
   if (d == Dimension{} || (!by_parameter && !by_number)) return;
   const bool bare_angle = d == angle && field != angle && field != Dimension{};
-  if (alike(d, field) && !bare_angle) return;
+  if ((alike(d, field) || alike(d, {})) && !bare_angle) return;  // powers of deg are plain numbers
   const std::string text = value.node.Scalar(), unit = coherent_words(mechanism.units, field);
   throw InputError(value.where, value.what + " is " + words_of(field) + ", but '" + text + "' is " + words_of(d),
                    by_parameter ? "give parameter " + text + " a unit such as " + unit + ", or none"
