@@ -82,7 +82,7 @@ core::Zones two_intervals() {
   map.loci.angles = {true};
   map.loci.lower = {0}, map.loci.upper = {Rational(std::numbers::pi)};
   map.grid = {8};
-  map.modes = {{.labels = {1, 1, 1, 1, 2, 2, 2, 2}}};
+  map.modes.emplace_back().labels = {1, 1, 1, 1, 2, 2, 2, 2};
   core::ZoneEnd end{0.5 * std::numbers::pi, core::LocusKind::backlash, {{"O", core::Quantity::M, 1}}};
   end.jump = core::PoseError{{1e-5, 0}, {0}};
   core::Zone zone;
