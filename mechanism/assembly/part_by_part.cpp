@@ -88,7 +88,7 @@ bool PartByPart::put_by_stroke(PointIndex point) {
     const Amounts unit = (one_ / length(own.axis)) * own.axis;
     const Amounts way = own.origin ? d_.at(point).at - d_.at(*own.origin).at : d_.at(point).at;
     const Amounts beside = way - (dot(way, own.axis) / dot(own.axis, own.axis)) * own.axis;
-    const WrittenVector by = image(own.base, beside) + times(own.coordinate->name, image(own.base, unit));
+    WrittenVector by = image(own.base, beside) + times(own.coordinate->name, image(own.base, unit));
     const std::string comment = "out by " + own.coordinate->name;
     if (own.origin)
       put_from({*own.origin}, point, comment, [&](PointIndex) { return by; });
