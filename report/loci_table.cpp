@@ -105,15 +105,15 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
     identifier = std::max(identifier, std::min(columns(rows.back()[0]), heading[0].widest));
   }
   // What is open of loci of which nothing is drawn.
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (left[i] == nullptr) continue;
+  for (const core::OpenRegion* first : left) {
+    if (first == nullptr) continue;
     core::LocusCurve nothing;
-    nothing.kind = left[i]->kind;
-    nothing.vanishing = left[i]->vanishing;
-    nothing.factor = left[i]->factor;
-    nothing.cause = left[i]->cause;
+    nothing.kind = first->kind;
+    nothing.vanishing = first->vanishing;
+    nothing.factor = first->factor;
+    nothing.cause = first->cause;
     nothing.mode = mode;
-    const bool point = left[i]->point;
+    const bool point = first->point;
     const auto own = take_those([&](const core::OpenRegion& region) {
       return point ? region.point && region.vanishing == nothing.vanishing : is_open_place_of(region, nothing);
     });
