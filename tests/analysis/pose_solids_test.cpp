@@ -1,6 +1,7 @@
 // Tasks that are solids over three lengths, and tasks that are moved or scaled until they verify: held against forces
 // along the legs of a platform, by the tests' own statics.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -61,7 +62,9 @@ using Tetrahedron = std::array<Vector3d, 4>;
 
 /// An STL file in mm, whichever way its triangles turn.
 Task task_of(const Tetrahedron& corners, const Model& model, const std::string& more = "") {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "clearloci_pose_solids";
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) /
+      ("clearloci_pose_solids_" + std::to_string(::getpid()));  // tests run side by side
   std::filesystem::create_directories(folder);
   std::ofstream file(folder / "part.stl");
   file.precision(12);
@@ -76,7 +79,10 @@ Task task_of(const Tetrahedron& corners, const Model& model, const std::string& 
   }
   file << "endsolid part\n";
   file.close();
-  return parse_task("format: 1\nmesh: {file: part.stl, unit: mm}\n" + more, model, (folder / "task.yaml").string());
+  Task task =
+      parse_task("format: 1\nmesh: {file: part.stl, unit: mm}\n" + more, model, (folder / "task.yaml").string());
+  std::filesystem::remove_all(folder);
+  return task;
 }
 
 Vector3d inside(const Tetrahedron& corners, std::mt19937& random) {

@@ -252,7 +252,7 @@ TEST(SpatialMotion, APinLosesContactWhereTheForceAcrossItsAxisVanishes) {
   // Up through the top, q = -90 deg: there l q'^2 = g lets the pin go.
   const mechanism::Trajectory path = mechanism::parse_trajectory(R"(format: 1
 path: {waypoints: [[-150 deg], [-30 deg]]}
-motion: {law: constant, speed: 1 rad}
+motion: {law: constant, speed: 1 rad/s}
 )",
                                                                  "swing.yaml", m);
   const Motion motion = compile_motion(m, path, {});
