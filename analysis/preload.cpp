@@ -30,10 +30,6 @@ const Rational finest(1, 1 << 18);
 /// That are looked at, of one effort and of several.
 constexpr long cells_of_one = 4'000, cells_of_several = 2'000;
 
-const mechanism::Joint& joint_at(const Mechanism& mechanism, mechanism::JointIndex j) {
-  return mechanism.joints[static_cast<std::size_t>(j)];
-}
-
 /// A free effort without a value, and where it is looked for.
 struct Wanted {
   std::string joint, parameter;
@@ -42,20 +38,18 @@ struct Wanted {
   double size_of_one = 1;  ///< what an effort of 1 N or 1 N m counts
 };
 
+Rational nearest_to_none(const Rational& lower, const Rational& upper) {
+  return lower > 0 ? lower : upper < 0 ? upper : Rational();
+}
+
 /// The size of the smallest preload of a box.
 double least_size(const std::vector<Wanted>& wanted, const std::vector<ExactRange>& ranges) {
   double size = 0;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const Rational least = ranges[i].first > 0    ? ranges[i].first
-                           : ranges[i].second < 0 ? -ranges[i].second
-                                                  : Rational();
+    const Rational least = abs(nearest_to_none(ranges[i].first, ranges[i].second));
     size = std::max(size, core::to_double(least) * wanted[i].size_of_one);
   }
   return size;
-}
-
-Rational nearest_to_none(const Wanted& wanted) {
-  return wanted.lower > 0 ? wanted.lower : wanted.upper < 0 ? wanted.upper : Rational();
 }
 
 Model with_efforts(const Model& model, const std::vector<Wanted>& wanted, const std::vector<Rational>& efforts) {
@@ -126,26 +120,22 @@ Rational range_without_bounds(const Model& model, const std::vector<Wanted>& wan
 
 std::vector<Wanted> wanted_efforts(const Model& model, const Task& task, const VerifyRequest& request) {
   const Mechanism& mechanism = model.content().mechanism;
+  std::vector<const mechanism::Joint*> joints;
+  for (const mechanism::JointIndex j : mechanism::joints_without_preload(mechanism))
+    joints.push_back(&mechanism.joints[static_cast<std::size_t>(j)]);
   std::vector<Wanted> wanted;
-  for (const mechanism::JointIndex j : mechanism::joints_without_preload(mechanism)) {
-    const mechanism::Joint& joint = joint_at(mechanism, j);
-    Wanted& own = wanted.emplace_back();
-    own.joint = joint.name;
-    own.parameter = joint.free_effort->parameter;
-    own.force = mechanism::traits(joint).actuator == core::Quantity::F;
-  }
+  for (const mechanism::Joint* joint : joints)
+    wanted.push_back(
+        {joint->name, joint->free_effort->parameter, mechanism::traits(*joint).actuator == core::Quantity::F});
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     Wanted& own = wanted[i];
-    for (const mechanism::Joint& joint : mechanism.joints) {
-      if (joint.name != own.joint) continue;
-      if (const auto& within = joint.free_effort->within) {
-        own.lower = within->first;
-        own.upper = within->second;
-        own.size_of_one = 1 / core::to_double(std::max(abs(own.lower), abs(own.upper)));
-      } else {
-        own.upper = range_without_bounds(model, wanted, i, task, request);
-        own.lower = -own.upper;
-      }
+    if (const auto& within = joints[i]->free_effort->within) {
+      own.lower = within->first;
+      own.upper = within->second;
+      own.size_of_one = 1 / core::to_double(std::max(abs(own.lower), abs(own.upper)));
+    } else {
+      own.upper = range_without_bounds(model, wanted, i, task, request);
+      own.lower = -own.upper;
     }
   }
   return wanted;
@@ -164,7 +154,8 @@ class PreloadSearch {
     std::vector<ExactRange> whole, none;
     for (const Wanted& own : wanted_) {
       whole.emplace_back(own.lower, own.upper);
-      none.emplace_back(nearest_to_none(own), nearest_to_none(own));
+      const Rational least = nearest_to_none(own.lower, own.upper);
+      none.emplace_back(least, least);
     }
     const bool one = wanted_.size() == 1;
     for (std::size_t i = 0; i < wanted_.size() && !one; ++i) {
@@ -342,7 +333,7 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
   core::PreloadAnswer answer = search.run();
   const bool found = answer.value.has_value();
   std::vector<Rational> efforts;
-  for (const Wanted& own : wanted) efforts.push_back(nearest_to_none(own));
+  for (const Wanted& own : wanted) efforts.push_back(nearest_to_none(own.lower, own.upper));
   if (found) efforts = search.smallest();
   Verification result = verify(with_efforts(model, wanted, efforts), task, request);
   if (!found && answer.size[0] < std::numeric_limits<double>::infinity()) {

@@ -57,18 +57,8 @@ class StaticsPreload : public PreloadJudge {
         task_(task),
         request_(request_of(task, request)),
         widened_(mechanism, with_efforts(mechanism, wanted, task)),
+        metric_(widened_.metric(mechanism, task)),
         margin_(core::to_double(task.margin)) {
-    metric_.weights.assign(mechanism.coordinates.size(), 1);
-    metric_.grows.assign(mechanism.coordinates.size(), true);
-    for (std::size_t c = 0; c < mechanism.coordinates.size(); ++c) {
-      const bool angle = mechanism.coordinates[c].angle;
-      if (angle && task.angle_length) metric_.weights[c] = core::to_double(*task.angle_length);
-      any_length_ = any_length_ || !angle;
-    }
-    for (std::size_t c = 0; c < mechanism.coordinates.size(); ++c)
-      metric_.grows[c] = !mechanism.coordinates[c].angle || task.angle_length || !any_length_;
-    metric_.weights.insert(metric_.weights.end(), widened_.beside().lower.size(), 1);
-    metric_.grows.insert(metric_.grows.end(), widened_.beside().lower.size(), false);
     const DyadSides sides = requested_modes(mechanism, request_).front();
     std::vector<numeric::NumericModel> models;
     std::vector<const Mechanism*> loads;
@@ -208,7 +198,6 @@ class StaticsPreload : public PreloadJudge {
   LociRequest request_;
   WidenedTask widened_;
   loci::pose::PoseMetric metric_;
-  bool any_length_ = false;
   double margin_ = 0;
   core::PoseStatics statics_;
   std::optional<PoseCell> cell_;

@@ -45,26 +45,15 @@ struct Metrics {
   bool is_angle = false;             ///< of `asked`: rad
 };
 
-/// `beside`: so many coordinates behind those of the poses, which no margin grows along.
-Metrics metrics_of(const Mechanism& mechanism, const Task& task, std::size_t beside) {
-  Metrics own;
+Metrics metrics_of(const Mechanism& mechanism, const Task& task, const WidenedTask& widened) {
+  Metrics own{widened.metric(mechanism, task), {}, false};
   bool any_angle = false, any_length = false;
   for (const mechanism::Coordinate& c : mechanism.coordinates) (c.angle ? any_angle : any_length) = true;
-  const bool apart = any_angle && any_length && !task.angle_length;
   own.is_angle = !any_length && !task.angle_length;
-  PoseMetric angles;
-  for (const mechanism::Coordinate& c : mechanism.coordinates) {
-    const double weight = c.angle && task.angle_length ? core::to_double(*task.angle_length) : 1.0;
-    own.asked.weights.push_back(weight);
-    own.asked.grows.push_back(!apart || !c.angle);
-    angles.weights.push_back(1.0);
-    angles.grows.push_back(c.angle);
-  }
-  for (PoseMetric* const metric : {&own.asked, &angles}) {
-    metric->weights.insert(metric->weights.end(), beside, 1.0);
-    metric->grows.insert(metric->grows.end(), beside, false);
-  }
-  if (apart) own.angles = std::move(angles);
+  if (!any_angle || !any_length || task.angle_length) return own;
+  own.angles.emplace(PoseMetric{std::vector<double>(own.asked.weights.size(), 1.0), {}});
+  for (const mechanism::Coordinate& c : mechanism.coordinates) own.angles->grows.push_back(c.angle);
+  own.angles->grows.resize(own.asked.grows.size(), false);
   return own;
 }
 
@@ -75,7 +64,7 @@ class Verifier {
         task_(task),
         request_(request_of(task, request)),
         widened_(mechanism, task),
-        metrics_(metrics_of(mechanism, task, widened_.beside().lower.size())),
+        metrics_(metrics_of(mechanism, task, widened_)),
         region_(task.shape, metrics_.asked, widened_.beside()),
         margin_(core::to_double(task.margin)),
         sides_(requested_modes(mechanism, request_).front()) {

@@ -66,6 +66,19 @@ WidenedTask::WidenedTask(const Mechanism& mechanism, const core::Task& task)
                            "verify the task with fewer tolerances and loads at a time");
 }
 
+loci::pose::PoseMetric WidenedTask::metric(const Mechanism& mechanism, const core::Task& task) const {
+  const auto& all = mechanism.coordinates;
+  const bool any_length = std::any_of(all.begin(), all.end(), [](const mechanism::Coordinate& c) { return !c.angle; });
+  loci::pose::PoseMetric metric;
+  for (const mechanism::Coordinate& c : all) {
+    metric.weights.push_back(c.angle && task.angle_length ? core::to_double(*task.angle_length) : 1.0);
+    metric.grows.push_back(!c.angle || task.angle_length || !any_length);
+  }
+  metric.weights.insert(metric.weights.end(), beside_.lower.size(), 1.0);
+  metric.grows.insert(metric.grows.end(), beside_.lower.size(), false);
+  return metric;
+}
+
 loci::pose::PoseBeside WidenedTask::beside_with(const Ranges& parameters) const {
   Ranges values = values_;
   for (const auto& [name, range] : parameters) values[name] = range;

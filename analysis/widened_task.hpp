@@ -26,6 +26,8 @@ class WidenedTask {
   /// Under the first and the last load, over all coordinates.
   const std::vector<mechanism::Mechanism>& loads() const { return loads_; }
   const loci::pose::PoseBeside& beside() const { return beside_; }
+  /// Distances of the task's metric, over all coordinates.
+  loci::pose::PoseMetric metric(const mechanism::Mechanism& mechanism, const core::Task& task) const;
   std::size_t variables() const { return open_.variables.size(); }  ///< of designs: the first of `beside`
   /// With some of the parameters within less than their tolerances.
   loci::pose::PoseBeside beside_with(const Ranges& parameters) const;
