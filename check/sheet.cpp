@@ -36,9 +36,11 @@ Sheet::Sheet(const SheetParts& parts, const std::vector<const StraightLine*>& fu
       used_[j] = used_[j] || (!is_zero(j) && core::depends_on(line, 2 + static_cast<int>(j)));
   };
   for (const StraightLine* function : functions) use(*function);
+  bounds_only_.assign(roots, false);
   for (const auto& [angle, limit] : parts_.slits) {
     const auto end = static_cast<std::size_t>(limit);
-    used_[end] = used_[end] || (used_[static_cast<std::size_t>(angle)] && !is_zero(end));
+    bounds_only_[end] = !used_[end] && used_[static_cast<std::size_t>(angle)] && !is_zero(end);
+    used_[end] = used_[end] || bounds_only_[end];
   }
   for (std::size_t j = roots; j-- > 0;)
     if (used_[j]) use((*parts_.squares)[j]);
@@ -153,7 +155,8 @@ bool Sheet::enter(const Interval& x, const Interval& y, int lift) {
     run(j, values_);
     squares_[j] = values_[square_results_[j]];
     if (squares_[j].below()) return false;
-    set_root(j, static_cast<int>(j) == lift || !(squares_[j].lower() > lift_ratio * squares_[j].upper()));
+    const bool varies = !(squares_[j].lower() > lift_ratio * squares_[j].upper());
+    set_root(j, static_cast<int>(j) == lift || (varies && !bounds_only_[j]));
   }
   run(used_.size(), values_);
   return true;

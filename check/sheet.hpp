@@ -83,6 +83,7 @@ class Sheet {
   std::vector<std::size_t> stage_end_;  // of every root, then of the functions
   std::vector<std::size_t> square_results_, results_;
   std::vector<bool> used_, is_constant_;
+  std::vector<bool> bounds_only_;  // limits of slits that no function depends on: nothing's slope needs them lifted
   std::vector<Interval> values_, middle_values_, squares_, local_, middle_bonds_;
   std::vector<std::vector<Interval>> slopes_, bonds_;  // by local coordinate
   std::vector<int> lifted_;

@@ -274,10 +274,11 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       const auto& [fx, fy] = pair;
       const sheet::ZeroSet& found = zeros.at(pair);
       const auto add = [&](const core::Point2& at, bool certified) {
-        if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return;
-        if (may_be_undirected(problem, mode, joint, at, 1e-12 * size)) return;
+        if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return false;
+        if (may_be_undirected(problem, mode, joint, at, 1e-12 * size)) return false;
         add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
                   same_point * size);
+        return true;
       };
       // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
       const auto add_without_limit = [&](const core::Point2& at) {
@@ -295,7 +296,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         map.out_of_time = true;
         return;
       }
-      // What no proof was had for is a point where Newton finds one, and else an open place.
+      // An undecided cell in which Newton's method finds a point shows that point, and stays an open place besides.
       std::size_t open = 0;
       sheet::PlaneCell hull;
       for (const sheet::PlaneCell& cell : found.undecided) {
@@ -305,7 +306,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         // That it leads back to a proven point says nothing of the rest of the cell.
         const bool is_proven = at && is_proven_at(map, mode, joint, *at, same_point * size);
         if (at && !is_proven && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size})) {
-          add(*at, false);
+          if (add(*at, false)) leave_point_open(joint, mode, box_of(cell), map);
           continue;
         }
         leave_point_open(joint, mode, box_of(cell), map);
