@@ -17,6 +17,7 @@
 #include "mechanism/fits.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/notes.hpp"
+#include "mechanism/written_unit.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/dynamics.hpp"
 #include "numeric/pose_error.hpp"
@@ -332,6 +333,7 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   require_regular(mechanism, sides);
   Pose pose;
   pose.mechanism = mechanism.name;
+  pose.parameters = mechanism::told_parameters(mechanism);
   pose.units = mechanism.units;
   pose.notes = mechanism::fit_notes(mechanism);
   for (std::string& note : mechanism::notes_of(mechanism)) pose.notes.push_back(std::move(note));
@@ -377,7 +379,7 @@ PoseInModes solve_pose_in_modes(const mechanism::Mechanism& mechanism, const std
                                 const PoseRequest& request) {
   require_values(mechanism, at.size());
   require_rates(mechanism, request);
-  PoseInModes all{mechanism.name, {}};
+  PoseInModes all{mechanism.name, mechanism::told_parameters(mechanism), {}};
   PoseRequest own = request;
   for (const DyadSides& sides : requested_modes(mechanism, {.all_working_modes = true})) {
     own.working_mode = sides;

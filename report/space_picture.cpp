@@ -392,7 +392,7 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
                           PictureFormat format) {
   const std::vector<SurfaceGroup> all = group_surfaces(map), groups = groups_of_mode(all, mode);
   const std::vector<LineGroup> lines = lines_of_mode(group_lines(map, all), mode);
-  const std::string words = mode_words(map.tower, mode), parameters = parameter_words(map);
+  const std::string words = mode_words(map.tower, mode), parameters = parameter_words(map.parameters);
   const std::string title = printable(map.mechanism);
   const std::string subtitle = "Discontinuity loci seen from two sides" + (words.empty() ? "" : "; " + words) +
                                (parameters.empty() ? "" : "; " + parameters);

@@ -244,11 +244,15 @@ std::string decimal_words(const std::string& value) {
   return short_number(core::to_double(exact), place_digits) + value.substr(number.size());
 }
 
-std::string parameter_words(const core::LocusMap& map, bool exact) {
+std::string parameter_words(const Parameters& parameters, bool exact) {
   std::vector<std::string> parts;
-  for (const auto& [name, value] : map.parameters)
-    parts.push_back(name + " = " + (exact ? value : decimal_words(value)));
+  for (const auto& [name, value] : parameters) parts.push_back(name + " = " + (exact ? value : decimal_words(value)));
   return joined(parts, ", ");
+}
+
+std::string parameter_line(const Parameters& parameters, bool exact) {
+  const std::string words = printable(parameter_words(parameters, exact));
+  return words.empty() ? words : words + "\n";
 }
 
 std::vector<core::WorkingMode> modes_of(const core::LocusMap& map) {
