@@ -131,13 +131,13 @@ std::string kind_words(core::LocusKind kind) {
 std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing) {
   const bool margin = kind == core::LocusKind::margin;
   const std::vector<std::pair<core::Quantity, std::string>> wordings = {
-      {core::Quantity::f, margin ? "margin of the contact force lost" : "contact lost"},
+      {core::Quantity::f, margin ? "contact margin lost" : "contact lost"},
       {core::Quantity::end_ahead, margin ? "margin of the end ahead lost" : "end ahead lifts"},
       {core::Quantity::end_behind, margin ? "margin of the end behind lost" : "end behind lifts"},
-      {core::Quantity::N, margin ? "margin of the normal force lost" : "normal force zero"},
+      {core::Quantity::N, margin ? "normal force margin lost" : "normal force zero"},
       {core::Quantity::T, "couple zero"},
-      {core::Quantity::M, margin ? "margin of the couple lost" : "backlash"},
-      {core::Quantity::F, margin ? "margin of the axial force lost" : "backlash along the axis"},
+      {core::Quantity::M, margin ? "couple margin lost" : "backlash"},
+      {core::Quantity::F, margin ? "axial force margin lost" : "backlash along the axis"},
       {core::Quantity::fx, "fx = 0"},
       {core::Quantity::fy, "fy = 0"},
       {core::Quantity::fz, "fz = 0"},

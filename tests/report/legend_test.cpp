@@ -65,7 +65,7 @@ TEST(Legend, WhatIsBelowTheLeastForceIsALossOfMarginInRed) {
   core::LocusMap map;
   map.curves = {curve("m1", LocusKind::margin, "A", Quantity::f, unreadable)};
   const Groups groups = group_loci(map);
-  EXPECT_EQ(groups.curves.front().what, "margin of the contact force lost: A");
+  EXPECT_EQ(groups.curves.front().what, "contact margin lost: A");
   EXPECT_EQ(groups.curves.front().stroke.colour.red, light_theme.failed.red);
   EXPECT_EQ(groups.curves.front().stroke.colour.green, light_theme.failed.green);
 }
