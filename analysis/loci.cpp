@@ -325,6 +325,7 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
   core::LocusMap map;
   map.mechanism = mechanism.name;
   map.units = mechanism.units;
+  map.parameters = mechanism::told_parameters(mechanism);
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
     map.tower.coordinates.push_back(coordinate.name);
     map.lower.push_back(coordinate.lower);

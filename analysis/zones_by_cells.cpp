@@ -15,7 +15,6 @@
 #include "loci/zones/zones.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/posture_sample.hpp"
-#include "mechanism/written_unit.hpp"
 #include "numeric/error_samples.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/pose_statics.hpp"
@@ -279,7 +278,6 @@ Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& r
   Zones map;
   map.by_cells = true;
   map.loci = empty_map(mechanism);
-  map.loci.parameters = mechanism::told_parameters(mechanism);
   map.loci.notes = mechanism::notes_of(mechanism);
   std::vector<numeric::NumericModel> models;
   models.push_back(numeric::compile(mechanism));
